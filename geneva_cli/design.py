@@ -142,6 +142,7 @@ class Design:
         limits: Limits | None = None,
         drawing: TitleBlock | None = None,
         title: str = "",
+        drive_before: Drive | None = None,
     ) -> None:
         self.spec = Spec(
             wheel,
@@ -160,6 +161,7 @@ class Design:
             limits or Limits(),
             drawing or TitleBlock(),
             title,
+            drive_before=drive_before,
         )
         self._text: Text | None = None
 
@@ -186,8 +188,10 @@ class Design:
         ]
         for name in [*type(self).__init__.__annotations__][3:-1]:
             value = vars(spec)[name]
+            if not value:
+                continue
             text = f"{value!r}" if isinstance(value, (str, tuple)) else shortly(value)
-            if value and not text.endswith("()"):
+            if not text.endswith("()"):
                 arguments.append(f"{name}={cut(text, SHOWN_MAX)}")
         return f"Design({', '.join(arguments)})"
 
@@ -777,7 +781,7 @@ class Design:
             show(self.part_table(part, tolerance_mm), path, inputs=files)
             return
         model, curves = self.drawn(tolerance_mm, part), usual_curves(path, "")
-        refused = self.judge(model)[0] if self.spec.has_parts and not force else ""
+        refused = self.judge(model)[0] if self.spec.is_turned and not force else ""
         if refused:
             raise GenevaError(f"{cut(path, 300)}: not written: {refused}")
         if sheet:
@@ -827,8 +831,8 @@ class Design:
         from geneva_cli.verdict.advice import judged
         from geneva_cli.verdict.checks import proofs
 
-        # a machine without parts is judged without NumPy
-        if not self.spec.has_parts:
+        # a machine whose parts are not turned is judged without NumPy
+        if not self.spec.is_turned:
             return judged(self.mechanism)
         return [*judged(self.mechanism, self.parts_model), *proofs(self.parts_model, proof_mm)]
 

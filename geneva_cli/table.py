@@ -286,14 +286,24 @@ def flat(table: Table) -> Table:
     """A record with one text or number for each name; ``name.1``, ``name.2`` for lists and tables.
 
     For formats without nesting. An empty list is the word none.
+
+    >>> flat(record_table({"places": ((1.0, 2.0), (3.0, 4.0)), "open": {"from_deg": 5.0}})).names
+    ('places.1.1', 'places.1.2', 'places.2.1', 'places.2.2', 'open.from_deg')
     """
-    values: dict[str, Any] = {}
-    for name, value in zip(table.names, next(table.rows()), strict=True):
-        if isinstance(value, Table):
-            for i, row in enumerate(value.rows(), 1):
-                values |= {f"{name}.{i}.{key}": v for key, v in zip(value.names, row, strict=True)}
-        elif isinstance(value, tuple):
-            values |= {f"{name}.{i}": text for i, text in enumerate(value, 1)} or {name: "none"}
-        else:
-            values[name] = value
-    return record_table(values, table.title, table.prose)
+    (row,) = table.rows()
+    values = _single_values("", dict(zip(table.names, row, strict=True)))
+    return record_table(dict(values), table.title, table.prose)
+
+
+def _single_values(name: str, value: Any) -> Iterator[tuple[str, Any]]:
+    """Yield the texts and numbers within a value, each with its whole name."""
+    if isinstance(value, Table):
+        value = tuple(value.to_rows())
+    parts = dict(enumerate(value, 1)) if isinstance(value, tuple) else value
+    if not isinstance(parts, dict):
+        yield name, value
+    elif name and not parts:
+        yield name, "none"
+    else:
+        for key, part in parts.items():
+            yield from _single_values(f"{name}.{key}" if name else key, part)

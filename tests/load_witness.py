@@ -22,6 +22,9 @@ class Chain(NamedTuple):
     # shaft that carries the crank, and force of what guides the roller's body besides
     shaft: object
     sense: int  # which way the input shaft turns: 1 with the wheel, -1 against it
+    # contact point and force on the roller, input angle -> place of the pin that the input shaft
+    # carries, force on that pin, and force of what guides the roller's body besides
+    pin: object = None
 
 
 class Loads(NamedTuple):
@@ -64,6 +67,17 @@ def cross(a, b):
 
 
 X, Y = mp.mpc(1), mp.mpc(0, 1)
+
+
+def on_shaft(pin):
+    """What the input shaft feels of a force on its pin: torque, force on it, and the guide's."""
+
+    def shaft(x, contact, force):
+        at, on, guide = pin(x, contact, force)
+        p, q, torque = balance((X, 1), (Y, 1), (None, 1), force=on, at=at)
+        return torque, mp.hypot(p, q), guide
+
+    return shaft
 
 
 def crank(g):
@@ -239,14 +253,13 @@ def planet(spec):
     R0 = l + rp
     fixed = R0 * u / (u + 1) if keys.fixed == "sun" else R0 * u / (u - 1)  # pitch radius
 
-    def shaft(x, contact, force):
+    def pin(x, contact, force):
         arm = -mp.expj(-x)
-        pin, mesh = 1 + R0 * arm, 1 + fixed * arm
-        a, b, push = balance((X, pin), (Y, pin), (1j * arm, mesh), force=force, at=contact)
-        p, q, torque = balance((X, 1), (Y, 1), (None, 1), force=-mp.mpc(a, b), at=pin)
-        return torque, mp.hypot(p, q), abs(push)
+        at, mesh = 1 + R0 * arm, 1 + fixed * arm
+        a, b, push = balance((X, at), (Y, at), (1j * arm, mesh), force=force, at=contact)
+        return at, -mp.mpc(a, b), abs(push)
 
-    return Chain(lambda x: -c * x, shaft, -1)
+    return Chain(lambda x: -c * x, on_shaft(pin), -1, pin)
 
 
 def groove(g, pin):
@@ -298,7 +311,7 @@ def link(spec, entry_deg, exit_deg):
     def coupler(x):  # its angle on the path's axes: C is an arm at a fixed angle from A
         return mp.arg((path(middle + x) - joint(x)) / mp.expj(to_radians(keys.point_deg)))
 
-    def shaft(x, contact, force):
+    def held(x, contact, force):
         A = joint(x)
         if kind == "four-bar":  # the rocker pulls along itself
             B = A + mp.mpf(keys.coupler_mm) * mp.expj(coupler(x))
@@ -308,17 +321,43 @@ def link(spec, entry_deg, exit_deg):
         at = world(A)
         hold = way(hold) / abs(way(hold))
         p, q, third = balance((X, at), (Y, at), (hold, world(B)), force=force, at=contact)
-        p, q, torque = balance((X, 1), (Y, 1), (None, 1), force=-mp.mpc(p, q), at=at)
-        return torque, mp.hypot(p, q), abs(third)
+        return at, -mp.mpc(p, q), abs(third)
 
     def angle(x):
         return sense * coupler(x)
 
-    return Chain(angle, shaft, sense), wheel, pin, abs(centre)
+    return Chain(angle, on_shaft(held), sense, held), wheel, pin, abs(centre)
+
+
+def in_series(spec, chain, wheel, pin, distance_mm):
+    """The machine whose input shaft another drive turns: a crank that its own pin loads."""
+    before, none, mirrored = spec.drive_before, mp.mpf(0), chain.sense > 0
+    front = Front(before)
+    kinds = {"elliptical-gears": ellipses, "noncircular-gears": rolling}
+    if before.NAME in kinds:
+        first = kinds[before.NAME](1, front, none, before, distance_mm)
+    else:
+        first = coulisse(1, front.A, none, before.input_crank_mm / distance_mm)
+
+    def shaft(x, contact, force):
+        at, on, guide = chain.pin(front.crank(x), contact, force)
+        if mirrored:  # a shaft that turns with the wheel, seen from its other side
+            at, on = mp.conj(at), mp.conj(on)
+        torque, bearing, _ = first.shaft(x, at, on)
+        return -torque if mirrored else torque, bearing, guide
+
+    def body(x):
+        return chain.body(front.crank(x))
+
+    sense = -first.sense if mirrored else first.sense
+    whole = Chain(body, shaft, sense)
+    return whole, lambda x: wheel(front.crank(x)), lambda x: pin(front.crank(x)), distance_mm
 
 
 def machine(spec, near=None, number=0):
     """The chain, wheel's angle and roller's place of an engagement, and L in millimetres."""
+    if spec.drive_before:
+        return in_series(spec, *machine(spec.replace(drive_before=None), near, number))
     if near:
         return link(spec, *near)
     kind = spec.drive.NAME

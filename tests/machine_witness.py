@@ -119,6 +119,9 @@ class LawMotion(Motion):
 
 def motions(spec):
     """The motions of a machine in the order of its engagements."""
+    if spec.drive_before:
+        front = Front(spec.drive_before)
+        return [retimed(own, front) for own in motions(spec.replace(drive_before=None))]
     kind = spec.drive.NAME
     if kind == "epicyclic":
         return [epicyclic(spec)]
@@ -128,6 +131,32 @@ def motions(spec):
     if spec.motion is not None:
         return [curved(spec, front)]
     return [straight(spec, front, crank, b) for crank, b in rollers(spec)]
+
+
+def retimed(own, front):
+    """A motion whose input shaft another drive turns: every angle of that shaft is the front's."""
+    mid = front.input(own.mid)
+
+    def turned(x):
+        return front.crank(mid + x) - own.mid
+
+    def closed(x):
+        f1, f2, f3 = front.closed(mid + x)
+        G1, G2, G3 = own.closed(turned(x))
+        return G1 * f1, G2 * f1**2 + G1 * f2, G3 * f1**3 + 3 * G2 * f1 * f2 + G1 * f3
+
+    out = Motion(
+        mid,
+        front.input(own.mid + own.entry) - mid,
+        front.input(own.mid + own.exit) - mid,
+        own.b,
+        lambda x: own.wheel(turned(x)),
+        lambda x: own.path(turned(x)),
+        closed if own.closed else None,
+        (lambda x: own.polar(turned(x))) if own.polar else None,
+    )
+    out.offset, out.parallel = own.offset, own.parallel
+    return out
 
 
 def rollers(spec):
@@ -426,6 +455,9 @@ def fitted(path, b, entry, exit_):
 
 def on_path(spec, entry_deg, exit_deg):
     """A machine whose roller is a point of a linkage; the two angles are near the true ones."""
+    if spec.drive_before:
+        own = on_path(spec.replace(drive_before=None), entry_deg, exit_deg)
+        return retimed(own, Front(spec.drive_before))
     b = mp.pi / spec.wheel.z
     path = linkage(spec.drive.NAME, spec.drive)
     entry, exit_, centre = fitted(path, b, to_radians(entry_deg), to_radians(exit_deg))

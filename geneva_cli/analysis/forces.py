@@ -21,14 +21,15 @@ from typing import TYPE_CHECKING, Generic, NamedTuple
 from geneva_cli.analysis.carried import inertia_kgm2, resisting_torque_Nm
 from geneva_cli.analysis.contact import Contact
 from geneva_cli.analysis.pin import pin_diameter_mm
+from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import N, all_true, choose, designs_of, library
 from geneva_cli.numerics.jet import Jet, Number, V
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
+    from geneva_cli.spec.workshops import Stock
 
 NEGLIGIBLE = 1e-12  # fraction of a torque, of a motion, or of a lever over L that is rounding
 
@@ -68,7 +69,7 @@ def load_case(mechanism: Mechanism) -> LoadCase:
     hertz = None
     if size.face_width_mm is not None:
         # p0² = N E* / (pi b R_e)
-        modulus = contact_modulus_GPa(spec) * 1e3
+        modulus = contact_modulus_GPa(wheel_material(spec), roller_material(spec)) * 1e3
         hertz = modulus / (math.pi * size.face_width_mm * mechanism.roller_radius_mm)
     return LoadCase(
         w,
@@ -112,18 +113,18 @@ def rubbing(mechanism: Mechanism) -> float:
     return coefficient
 
 
-def contact_modulus_GPa(spec: Spec) -> float:
-    """E* of roller on wheel, 1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2."""
-    both = (spec.material_wheel, spec.material_roller)
-    return 1.0 / sum((1.0 - m.poisson_ratio**2) / m.youngs_modulus_GPa for m in both)
+def contact_modulus_GPa(one: Stock, other: Stock) -> float:
+    """E* of two materials in contact, 1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2."""
+    each = ((1.0 - m.poisson_ratio**2) / m.youngs_modulus_GPa for m in (one, other))
+    return 1.0 / sum(each)
 
 
-def hertz_MPa(spec: Spec, line_N_mm: N, radius_mm: float) -> N:
-    """Hertz stress of wheel and crank on a line, from the force per length and effective radius.
+def hertz_MPa(modulus_GPa: float, line_N_mm: N, radius_mm: float) -> N:
+    """Hertz stress on a line, from E*, the force per length and the effective radius.
 
     p0² = F E* / (pi b R)
     """
-    modulus = contact_modulus_GPa(spec) * 1e3
+    modulus = modulus_GPa * 1e3
     out: N = library(line_N_mm, radius_mm).sqrt(line_N_mm * modulus / (math.pi * radius_mm))
     return out
 

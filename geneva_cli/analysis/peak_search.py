@@ -109,7 +109,7 @@ def motion_peaks(
 ) -> dict[str, PeakArray]:
     """Greatest sizes over the motions of m designs, ends included, and their input angles, degrees.
 
-    Closed forms are used where a motion has them, and one search where all motions have one shape.
+    Closed forms are used where a motion has them.
     """
     peaks: dict[str, PeakArray] = {}
     for name in quantities:
@@ -118,26 +118,13 @@ def motion_peaks(
             peaks[name] = PeakArray(*(np.ravel(v) for v in np.broadcast_arrays(*known)))
     sought = [name for name in quantities if name not in peaks]
     if sought:
-        unit = motion.unit
-        searched = search_peaks(motion if unit is None else unit, sought)
-        peaks |= {n: p if unit is None else _scaled(motion, n, p) for n, p in searched.items()}
+        peaks |= search_peaks(motion, sought)
     for name, peak in peaks.items():
         open_ = np.flatnonzero(np.isnan(peak.max))
         if len(open_):
             rest = search_peaks(taken(motion, open_), [name])[name]
             peak.max[open_], peak.at_deg[open_] = rest
     return peaks
-
-
-def _scaled(motion: WheelMotion, quantity: str, peak: PeakArray) -> PeakArray:
-    """Peaks of a batch from that of the unit motion, of 1 radian in 2 degrees."""
-    half, middle = (0.5 * (motion.exit_deg + sign * motion.entry_deg) for sign in (-1.0, 1.0))
-    step = 2.0 * motion.half_step
-    size = step * peak.max / half ** ORDERS[quantity]
-    if quantity == "power":  # velocity times acceleration
-        size = size * step / half
-    place = np.clip(middle + half * peak.at_deg, motion.entry_deg, motion.exit_deg)
-    return PeakArray(*(np.ravel(v) for v in np.broadcast_arrays(size, place)))
 
 
 def landmarks(motion: WheelMotion, quantity: str, m: int) -> Stationary:

@@ -20,17 +20,17 @@ import numpy as np
 
 from geneva_cli.analysis.carried import MM, inertia_kgm2
 from geneva_cli.analysis.forces import contact_modulus_GPa
+from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import N, choose, size
 from geneva_cli.numerics.newton import find_roots
-from geneva_cli.spec.tables import Material
+from geneva_cli.spec.workshops import Stock
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Whole
 
 POWER, WIDTH = 0.9, 0.8
-STEEL_GPa = 0.5 * Material().youngs_modulus_GPa / (1.0 - Material().poisson_ratio ** 2)
 
 
 def impulse_Nms(mechanism: Mechanism, jump: N) -> N:
@@ -54,7 +54,9 @@ def forces_N(mechanism: Mechanism, jump: Array) -> Array | None:
         return None
     dw = jump * omega(spec.drive.n_rpm)
     energy = 0.5 * inertia * dw * dw / MM  # N mm
-    soft = STEEL_GPa / contact_modulus_GPa(spec)
+    steel = Stock()  # on steel: half of its plane strain modulus
+    usual = 0.5 * steel.youngs_modulus_GPa / (1.0 - steel.poisson_ratio**2)
+    soft = usual / contact_modulus_GPa(wheel_material(spec), roller_material(spec))
     # Palmgren's constant in mm, for 1 N on a line of 1 mm, steel on steel
     press = 3.84e-5 * soft**POWER / face**WIDTH
     bend = 1.0 / pin_stiffness_N_mm(mechanism, face)
@@ -74,5 +76,5 @@ def pin_stiffness_N_mm(mechanism: Mechanism, face_mm: float) -> float:
     spec = mechanism.spec
     pin, r = spec.size.pin_mm, mechanism.roller_radius_mm
     d = r if pin is None else choose(pin == 0.0, r, pin)
-    modulus = spec.material_roller.youngs_modulus_GPa * 1e3
+    modulus = roller_material(spec).youngs_modulus_GPa * 1e3
     return 3.0 * modulus * math.pi * d**4 / 64.0 / (0.5 * face_mm) ** 3

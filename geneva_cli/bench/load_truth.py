@@ -14,6 +14,7 @@ import numpy as np
 
 from geneva_cli.bench.truth import digits, motion
 from geneva_cli.loads.cycle import Cycle
+from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 
 if TYPE_CHECKING:
@@ -92,7 +93,7 @@ def _loads(machine: Mechanism, A: float, deg: float, drives: float, slides: floa
     assert spec.size.face_width_mm is not None
     modulus = 1 / sum(
         (1 - mp.mpf(m.poisson_ratio) ** 2) / mp.mpf(m.youngs_modulus_GPa)
-        for m in (spec.material_wheel, spec.material_roller)
+        for m in (wheel_material(spec), roller_material(spec))
     )
     flat = modulus * 1000 / (mp.pi * mp.mpf(spec.size.face_width_mm) * machine.roller_radius_mm)
     return force, shaft, mp.sqrt(abs(force) * flat)

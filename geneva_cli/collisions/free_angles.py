@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.collisions.machine_parts import MachineParts, Stop, smallest_clearance
+from geneva_cli.collisions.machine_parts import MachineParts, Stop, rim_lever, smallest_clearance
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -50,4 +50,4 @@ def touching(parts: MachineParts) -> float:
 
     It is the angle at which two circles of the rim's radius overlap by ``close``.
     """
-    return math.sqrt(2.0 * parts.close / parts.sizes.rim)
+    return math.sqrt(2.0 * parts.close / rim_lever(parts))

@@ -138,7 +138,7 @@ def _earlier(parts: MachineParts) -> Earlier:
     the last dwell comes first. A period of several turns is shown from the first entry.
     """
     *_, last = windows(parts)
-    turn, several = parts.assembly.turn_deg, parts.assembly.full.spec.drive.turns > 1
+    turn, several = parts.assembly.turn_deg, parts.assembly.full.spec.turns > 1
     middle = 0.5 * (last.start + last.end) if last.rests and not several else last.end
     return lambda input_deg: input_deg - turn if input_deg > middle else input_deg
 

@@ -5,19 +5,19 @@ from __future__ import annotations
 import copy
 import math
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from geneva_cli.collisions.angular_index import AngularIndex, half_angle
 from geneva_cli.collisions.contacts import candidates, nearest_pieces
 from geneva_cli.collisions.machine_parts import Pose, Stop
+from geneva_cli.collisions.place_index import PlaceIndex
 from geneva_cli.collisions.stops import Stops
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Contour, backwards
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics.plane_motion import turned_points
 from geneva_cli.layout.assembly import Assembly
-from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 
 if TYPE_CHECKING:
@@ -33,11 +33,36 @@ class WorkLimit(GenevaError):
     """Error for a full turn that would take too long."""
 
 
+class Radii(Protocol):
+    """Lengths of wheel and crank from which gaps are sought, mm."""
+
+    @property
+    def roller(self) -> float:
+        """Radius of the roller."""
+
+    @property
+    def rim(self) -> float:
+        """Distance of the rim from the wheel's axis; of a rack's edge from the origin."""
+
+    @property
+    def lock(self) -> float:
+        """Radius of the locking disc."""
+
+
+class FirstStops(Protocol):
+    """Stops of a wheel or rack against rollers and crank."""
+
+    pairs: int  # of pieces that one roller and the crank can form with the wheel
+
+    def first(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
+        """Return the stops back and on from n poses; see ``Clearances.stops``."""
+
+
 class Gaps:
     """The gaps between one machine's wheel, crank and rollers at any positions."""
 
-    def __init__(self, assembly: Assembly, sizes: Sizes, wheel: Contour, crank: list[Contour]):
-        self.assembly, self.sizes = assembly, sizes
+    def __init__(self, assembly: Assembly, sizes: Radii, wheel: Contour, crank: list[Contour]):
+        self.assembly, self.sizes, self.moves = assembly, sizes, assembly.plane_motion
         self.wheel = Polyarc([wheel if assembly.sign > 0.0 else backwards(wheel)])
         self.near = NEAR * assembly.L
         self.left = math.inf
@@ -83,8 +108,8 @@ class Gaps:
         """Return the distance of points in the wheel's frame from its outline, as ``signed``."""
         whole, at = self.wheel, points
         if self.pitch:
-            slot = np.round(np.arctan2(points[:, 1], points[:, 0]) / self.pitch)
-            whole, at = self.around, turned_points(points, -self.pitch * slot)
+            slot = np.round(self.moves.place(points) / self.pitch)
+            whole, at = self.around, self.moves.into(points, self.pitch * slot)
         near = whole.near(at, reach)
         self._work(len(at) * len(near))
         out = near.signed(at)
@@ -107,9 +132,9 @@ class Gaps:
         Gaps wider than ``near``, by default NEAR * L, are returned as ``near``.
         """
         near = self.near if near is None else near
-        turn = -(pose.wheel + lead)
+        turn = pose.wheel + lead
         columns: list[Array] = [
-            self._roller(turned_points(pose.pins[:, i], turn), near)
+            self._roller(self.moves.into(pose.pins[:, i], turn), near)
             for i in range(len(self.assembly.rollers))
         ]
         out: Array = np.column_stack(columns)
@@ -118,7 +143,7 @@ class Gaps:
     def _roller(self, centres: Array, near: float) -> Array:
         """Return the gap of a roller centred at points in the wheel's frame."""
         r, sign = self.sizes.roller, self.assembly.sign
-        far = sign * (np.hypot(*centres.T) - self.sizes.rim) - r
+        far = sign * (self.moves.level(centres) - self.sizes.rim) - r
         out: Array = np.minimum(far, near)
         close = far < near
         if close.any():
@@ -131,7 +156,7 @@ class Gaps:
         return self._stops.first(pose, most, close)
 
     @cached_property
-    def _stops(self) -> Stops:
+    def _stops(self) -> FirstStops:
         each = len(self.wheel) // len(self.assembly.slots)
         one = self.wheel.subset(np.arange(each)) if self.pitch else self.wheel
         return Stops(one, self.pitch or math.tau, self.crank, self.assembly.L, self.sizes.roller)
@@ -146,18 +171,19 @@ class Gaps:
         axis = self._axis(turn)
         self._work(len(axis) * len(self.wheel))
         reach, (places, size) = self.sizes.lock + near, self._pieces
-        nearby = places.within(-turn, half_angle(reach + size, self.assembly.L))
-        angle = pose.crank - turn
+        nearby = places.within(-turn, self.moves.half_span(reach + size, self.assembly.L))
+        angle = pose.crank - self.moves.angle(turn)
         nearby = nearest_pieces(self.wheel, nearby, self.crank, axis, angle, reach)
         owner, points = candidates(self.wheel, nearby, self.crank, axis, angle, reach)
-        seen = turned_points(points - axis[owner], (turn - pose.crank)[owner])
+        seen = turned_points(points - axis[owner], -angle[owner])
         self._work(len(seen) * len(self.crank))
         out = _least(len(turn), owner, self.crank.signed(seen), near)
         # ... and corners of the crank against the wheel.
         x, y = self.crank.x0, self.crank.y0
         c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
         qx, qy = axis[:, :1] + x * c - y * s, axis[:, 1:] + x * s + y * c
-        inward = self.assembly.sign * (np.hypot(qx, qy) - self.sizes.rim)
+        level = self.moves.level(np.stack((qx, qy), axis=-1))
+        inward = self.assembly.sign * (level - self.sizes.rim)
         owner, which = np.nonzero(inward < near)
         points = np.column_stack((qx[owner, which], qy[owner, which]))
         if len(points):
@@ -188,7 +214,7 @@ class Gaps:
         reach = self.sizes.lock * (1.0 - 1e-7)
         # Only points near the direction of the crank's axis can be within reach of it.
         points, places = self._wheel_points
-        owner, which = places.within(-turn, half_angle(reach, self.assembly.L))
+        owner, which = places.within(-turn, self.moves.half_span(reach, self.assembly.L))
         px, py = points.T
         ax, ay = self._axis(turn).T
         x, y = px[which] - ax[owner], py[which] - ay[owner]
@@ -198,24 +224,25 @@ class Gaps:
         return x * c - y * s, x * s + y * c
 
     @cached_property
-    def _wheel_points(self) -> tuple[Array, AngularIndex]:
+    def _wheel_points(self) -> tuple[Array, PlaceIndex]:
         """Points along the wheel's outline that come near the locking disc, (n, 2)."""
         L = self.assembly.L
         # arcs: chords within 2e-6 of the centre distance
         # lines: samples at most 0.02 of it apart
         points = self.wheel.samples(2e-6 * L, 0.02 * L)
         points = points[np.hypot(*points.T) >= L - self.sizes.lock]
-        return points, AngularIndex(np.arctan2(points[:, 1], points[:, 0]))
+        return points, PlaceIndex(self.moves.place(points), self.moves.PERIOD)
 
     @cached_property
-    def _pieces(self) -> tuple[AngularIndex, float]:
-        """Directions of the pieces of the wheel's outline, and the size of the largest."""
-        return AngularIndex(np.arctan2(self.wheel.oy, self.wheel.ox)), float(self.wheel.size.max())
+    def _pieces(self) -> tuple[PlaceIndex, float]:
+        """Places of the pieces of the wheel's outline, and the size of the largest."""
+        middles = np.column_stack((self.wheel.ox, self.wheel.oy))
+        index = PlaceIndex(self.moves.place(middles), self.moves.PERIOD)
+        return index, float(self.wheel.size.max())
 
     def _axis(self, turn: Array) -> Array:
         """Return the crank's axis in the wheel's frame, (n, 2)."""
-        out: Array = self.assembly.L * np.column_stack((np.cos(turn), -np.sin(turn)))
-        return out
+        return self.moves.into(np.tile((self.assembly.L, 0.0), (len(turn), 1)), turn)
 
 
 def swept_deg(assembly: Assembly, number: int, step_deg: float) -> Array:
@@ -235,14 +262,6 @@ def _repeats(outline: Polyarc, count: int, near: float, sense: float = 1.0) -> b
     same = np.abs(turned_points(np.roll(corners, each, axis=0), angle) - corners).max() < near
     bends = np.column_stack((outline.sense, outline.cos_half))
     return bool(same and np.abs(np.roll(bends, each, axis=0) - bends).max() < SAME_LENGTH)
-
-
-def turned_points(points: Array, angle: Array) -> Array:
-    """Return points (n, 2), each turned about the origin by its own angle, radians."""
-    c, s = np.cos(angle), np.sin(angle)
-    return np.column_stack(
-        (points[:, 0] * c - points[:, 1] * s, points[:, 0] * s + points[:, 1] * c)
-    )
 
 
 def _least(count: int, owner: NDArray[np.intp], values: Array, most: float) -> Array:

@@ -82,7 +82,7 @@ class Lengths(Protocol):
 
     @property
     def rim(self) -> float:
-        """Distance of the rim from the wheel's axis."""
+        """Distance of the rim from the wheel's axis; of a rack's edge from the origin."""
 
     @property
     def outer(self) -> float:
@@ -95,6 +95,11 @@ class Lengths(Protocol):
     @property
     def horn(self) -> float:
         """Thickness of the horn between slot and recess."""
+
+
+def rim_lever(parts: MachineParts) -> float:
+    """Return how far the wheel's rim moves a radian, mm."""
+    return parts.assembly.plane_motion.lever(parts.sizes.rim)
 
 
 class MachineParts(Protocol):

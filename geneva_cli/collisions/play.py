@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.collisions.free_angles import search_deg, touching, wheel_stops
-from geneva_cli.collisions.machine_parts import MachineParts
+from geneva_cli.collisions.machine_parts import MachineParts, rim_lever
 from geneva_cli.collisions.pairs import Window
 from geneva_cli.numerics.arrays import rising
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
@@ -112,7 +112,7 @@ def push_deg(parts: MachineParts, play: Play) -> Array:
     free = ~(play.guided[:-1] | play.guided[1:])
     pushes = np.zeros(len(step))
     for edge, push in ((play.back, play.back_push), (play.on, play.on_push)):
-        closing = parts.sizes.rim * np.radians(-np.diff(edge))
+        closing = rim_lever(parts) * np.radians(-np.diff(edge))
         # a rim that moves more than 30 times the roller's travel is not pushed by the roller
         angle = np.where(closing > 30.0 * moved, 90.0, push[1:])
         known = np.radians(edge[:-1]) > touching(parts)
@@ -219,7 +219,7 @@ def _changes(parts: MachineParts, play: Play) -> Iterator[Array]:
 def _held_deg(parts: MachineParts) -> float:
     """Return the largest play between the walls of a slot that their tolerance alone may give."""
     # walls hold up to a pressure angle of 84 degrees, whose cosine is 1/10
-    return math.degrees(10.0 * parts.close / parts.sizes.rim)
+    return math.degrees(10.0 * parts.close / rim_lever(parts))
 
 
 def _closing(parts: MachineParts, play: Play) -> Iterator[Array]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.collisions.gaps import WorkLimit
-from geneva_cli.collisions.machine_parts import MachineParts
+from geneva_cli.collisions.machine_parts import MachineParts, rim_lever
 from geneva_cli.numerics.arrays import rising
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 
@@ -83,7 +83,8 @@ def positions(parts: MachineParts) -> Array:
     assembly, sizes = parts.assembly, parts.sizes
     grid = np.linspace(assembly.start_deg, assembly.start_deg + assembly.span_deg, 721)
     crank = np.unwrap(assembly.crank(grid))
-    travel = sizes.arm * np.abs(np.diff(crank)) + sizes.rim * np.abs(np.diff(assembly.wheel(grid)))
+    wheel, rim = np.abs(np.diff(assembly.wheel(grid))), rim_lever(parts)
+    travel = sizes.arm * np.abs(np.diff(crank)) + rim * wheel
     # between two positions parts move a quarter of the thinnest feature
     feature = min(sizes.roller, max(sizes.horn, 0.2 * sizes.roller)) * 0.25
     total = np.concatenate(([0.0], np.cumsum(travel)))

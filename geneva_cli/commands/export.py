@@ -61,7 +61,7 @@ def run(
     if not output:
         raise GenevaError("the files need a folder: give -o FOLDER")
     model = design.drawn(0.001, "assembly")
-    if design.spec.has_parts:
+    if design.spec.is_turned:
         require_written(design, design.judge(model), force)
     files, missing = export_files(design, needed, model)
     entries = [Entry(file.name, file.content) for file in files]

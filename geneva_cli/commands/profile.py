@@ -161,7 +161,7 @@ def run(
     if samples is not None:
         raise GenevaError("--samples is for tables of points; drawings take --tolerance")
     model = design.drawn(tolerance, part)
-    if design.spec.has_parts:
+    if design.spec.is_turned:
         require_written(design, design.judge(model), force)
     if sheet:
         _refuse(kerf, cutter, center_marks)

@@ -16,6 +16,7 @@ from geneva_cli.curves.shapes import Circle, Shape, as_contour
 from geneva_cli.errors import GenevaError
 
 if TYPE_CHECKING:
+    from geneva_cli.curves.edges import Edge
     from geneva_cli.curves.plates import Plate
 
 FINE, LONGEST = 1e-4, 0.5  # mm: sagitta and length of samples of a hole that is not a circle
@@ -62,14 +63,20 @@ def _boundary(shapes: Iterable[Shape]) -> Polyarc:
 
 
 def require_faces(plate: Plate) -> None:
-    """Raise GenevaError, naming the key, where the plate's chamfer cuts off a piece of a face."""
-    depth = plate.chamfer
-    for i, shape in enumerate((plate.outline, *plate.holes)):
-        inset(lines_and_arcs(with_material_left(as_contour(shape), i == 0)), "", depth)
+    """Raise GenevaError, naming the key, where the plate's edge cuts off a piece of a face."""
+    edge = plate.edge
+    if not edge.size:
+        return
+    try:
+        for i, shape in enumerate((plate.outline, *plate.holes)):
+            inset(lines_and_arcs(with_material_left(as_contour(shape), i == 0)), "", edge.size)
+    except GenevaError as error:
+        raise _no_edge(edge, str(error)) from None
     wall = least_wall(plate.holes, [plate.outline])
-    if wall <= 2.0 * depth:
-        raise GenevaError(
-            f"edge_chamfer_mm = {depth:g}: the {plate.name} has a wall of {wall:.4g} mm; it must "
-            f"be below {0.5 * wall:.4g}",
-            ("size", "edge_chamfer_mm"),
-        )
+    if wall <= 2.0 * edge.size:
+        says = f"the {plate.name} has a wall of {wall:.4g} mm; it must be below {0.5 * wall:.4g}"
+        raise _no_edge(edge, says)
+
+
+def _no_edge(edge: Edge, says: str) -> GenevaError:
+    return GenevaError(f"{edge.key} = {edge.size:g}: {says}", ("size", edge.key))

@@ -1,4 +1,4 @@
-"""Contours at a distance inside the material: the edges of chamfered faces.
+"""Contours at a distance inside the material: the sections of chamfered and rounded edges.
 
 Lines and arcs have parallel lines and arcs. At a corner both parallels are carried on until they
 meet. A cubic has no parallel cubic.
@@ -19,9 +19,8 @@ def lines_and_arcs(shape: Shape) -> list[Line | Arc]:
     plain = [piece for piece in pieces if isinstance(piece, Line | Arc)]
     if len(plain) < len(pieces):
         raise GenevaError(
-            "edge_chamfer_mm: a spline has no parallel spline, so its edge has no chamfer; use "
-            "--curves arcs, or remove edge_chamfer_mm",
-            ("size", "edge_chamfer_mm"),
+            "a spline has no parallel spline, so its edges are sharp; use --curves arcs, or remove "
+            "the key"
         )
     return plain
 
@@ -35,7 +34,7 @@ def corner(before: Line | Arc, after: Line | Arc, depth: float) -> Point:
     (ax, ay), (bx, by) = _left(directions(before)[1]), _left(directions(after)[0])
     both = 1.0 + ax * bx + ay * by
     if both < 0.1:  # an angle of 26 degrees or less: the point is four depths away
-        raise _no_chamfer(depth)
+        raise _too_wide()
     x, y = at[0] + depth * (ax + bx) / both, at[1] + depth * (ay + by) / both
     if abs(ax * by - ay * bx) < 1e-6:  # radians: tangent pieces meet in the common normal
         return x, y
@@ -73,15 +72,15 @@ def _parallel(piece: Line | Arc, start: Point, end: Point, depth: float) -> Line
         (x0, y0), (x1, y1) = piece.start, piece.end
         ahead = (end[0] - start[0]) * (x1 - x0) + (end[1] - start[1]) * (y1 - y0)
         if ahead <= 0.0:
-            raise _no_chamfer(depth)
+            raise _too_wide()
         return Line(start, end)
     (cx, cy), sweep = piece.centre, piece.sweep
     if sweep > 0.0 and piece.radius <= depth:
-        raise _no_chamfer(depth)
+        raise _too_wide()
     turn = math.atan2(end[1] - cy, end[0] - cx) - math.atan2(start[1] - cy, start[0] - cx)
     turn = sweep + math.remainder(turn - sweep, math.tau)
     if turn * sweep <= 0.0:
-        raise _no_chamfer(depth)
+        raise _too_wide()
     return Arc(start, end, math.tan(0.25 * turn))
 
 
@@ -100,9 +99,7 @@ def _left(direction: float) -> Point:
     return -math.sin(direction), math.cos(direction)
 
 
-def _no_chamfer(depth: float) -> GenevaError:
+def _too_wide() -> GenevaError:
     return GenevaError(
-        f"edge_chamfer_mm = {depth:g}: it is wider than a rounding, or cuts off a face of a part; "
-        "use a smaller chamfer",
-        ("size", "edge_chamfer_mm"),
+        "it is wider than a rounding, or cuts off a face of a part; use a smaller value"
     )

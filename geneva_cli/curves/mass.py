@@ -10,7 +10,7 @@ from typing import NamedTuple
 from geneva_cli.curves.cross_holes import CrossHole, drilled
 from geneva_cli.curves.hole_walls import require_faces
 from geneva_cli.curves.inset import inset, lines_and_arcs
-from geneva_cli.curves.measure import GAUSS, with_material_left
+from geneva_cli.curves.measure import with_material_left
 from geneva_cli.curves.moments import Moments, moments, total
 from geneva_cli.curves.plates import Plate, Stack
 from geneva_cli.curves.shapes import Circle, Contour, Point, Shape, as_contour
@@ -35,9 +35,9 @@ def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
     >>> round(steel.inertia_kgm2 / steel.mass_kg / 0.05**2, 12)  # m r²/2
     0.5
     """
-    within = plate.thickness - 2.0 * plate.chamfer
+    within = plate.thickness - 2.0 * plate.edge.size
     whole = face_properties(face(plate), within, density_kgm3)
-    if plate.chamfer:
+    if plate.edge.size:
         edges = _between(plate)
         whole = added(whole, face_properties(edges, 2.0, density_kgm3))  # moments of 1 mm, twice
     if not plate.cross:
@@ -88,7 +88,7 @@ def _counterclockwise(shape: Contour | Circle) -> Moments:
 
 
 def _between(plate: Plate) -> Moments:
-    """Return the moments of the layer in one chamfer, added up along the axis, by Gauss's points.
+    """Return the moments of the layer in one edge, added up along the axis, by Gauss's points.
 
     The moments of an inset are polynomials of the depth, but for the corners, whose share is small.
     """
@@ -97,11 +97,9 @@ def _between(plate: Plate) -> Moments:
         (lines_and_arcs(with_material_left(as_contour(shape), i == 0)), 1.0 if i == 0 else -1.0)
         for i, shape in enumerate((plate.outline, *plate.holes))
     ]
-    half = 0.5 * plate.chamfer
     return total(
-        _counterclockwise(inset(pieces, "", half * (1.0 + sign * node))).times(weight * half * side)
-        for node, weight in GAUSS
-        for sign in (-1.0, 1.0)
+        _counterclockwise(inset(pieces, "", depth)).times(thickness * side)
+        for depth, thickness in plate.edge.layers()
         for pieces, side in oriented
     )
 

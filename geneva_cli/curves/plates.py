@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
+from geneva_cli.curves.edges import Edge
 from geneva_cli.curves.sphere_arcs import SphereArcs
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 class Plate(NamedTuple):
     """A flat part: the inside of an outline without its holes, from ``low`` to ``high``.
 
-    Cross holes go across its axis. A chamfer, at 45 degrees, is around both faces.
+    Cross holes go across its axis. The edge is around both faces.
     """
 
     name: str
@@ -33,7 +34,7 @@ class Plate(NamedTuple):
     low: float
     high: float
     cross: tuple[CrossHole, ...] = ()
-    chamfer: float = 0.0
+    edge: Edge = Edge()
 
     @property
     def thickness(self) -> float:
@@ -142,18 +143,14 @@ Solid: TypeAlias = Plate | Stack | Shell
 Part: TypeAlias = Solid | Group
 
 
-def chamfered(part: Part, chamfer: float) -> Part:
-    """A part with a chamfer on all its flat solids."""
+def edged(member: Member, edge: Edge) -> Member:
+    """A member with an edge around the faces of all its flat solids."""
+    part = member.part
     if isinstance(part, Plate):
-        return part._replace(chamfer=chamfer)
-    if isinstance(part, Group):
-        return part._replace(members=tuple(on_edges(one, chamfer) for one in part.members))
-    return part
-
-
-def on_edges(member: Member, chamfer: float) -> Member:
-    """A member with a chamfer on all flat solids of its part."""
-    return member._replace(part=chamfered(member.part, chamfer))
+        part = part._replace(edge=edge)
+    elif isinstance(part, Group):
+        part = part._replace(members=tuple(edged(one, edge) for one in part.members))
+    return member._replace(part=part)
 
 
 def solids(part: Part) -> list[Solid]:
@@ -166,6 +163,32 @@ def solids(part: Part) -> list[Solid]:
 def plates(part: Part) -> list[Plate]:
     """The flat solids of a part; turned ones are left out."""
     return [one for one in solids(part) if isinstance(one, Plate)]
+
+
+def between(part: Plate | Stack, low: float, high: float) -> Plate | Stack:
+    """The length of a flat or turned part that lies between two heights."""
+    if isinstance(part, Plate):
+        return part._replace(low=max(low, part.low), high=min(high, part.high))
+    steps = [one for one in part.plates if one.low < high and one.high > low]
+    return part._replace(
+        plates=tuple(p._replace(low=max(low, p.low), high=min(high, p.high)) for p in steps)
+    )
+
+
+def inwards(part: Part, outside: float) -> Plate | Stack:
+    """A flat or turned part whose heights count inwards from ``outside``, by distances instead."""
+    assert isinstance(part, Plate | Stack)
+    if isinstance(part, Plate):
+        return part._replace(low=outside - part.high, high=outside - part.low)
+    plates = (p._replace(low=outside - p.high, high=outside - p.low) for p in part.plates[::-1])
+    return part._replace(plates=tuple(plates))
+
+
+def steps_of(part: Part) -> list[Plate]:
+    """A flat part, or the steps of a turned one, under the part's name."""
+    assert isinstance(part, Plate | Stack)
+    steps = (part,) if isinstance(part, Plate) else part.plates
+    return [step._replace(name=part.name) for step in steps]
 
 
 def lowered(part: Plate | Stack) -> Plate | Stack:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from geneva_cli.layout.plain_sizes import Sizes
     from geneva_cli.layout.roller_paths import RollerPaths
     from geneva_cli.outlines.outlines import Outlines
+    from geneva_cli.outlines.rack_outlines import RackOutlines
     from geneva_cli.parts.flat_parts import FlatParts
     from geneva_cli.parts.sphere.shells import Shells
     from geneva_cli.parts.sphere.sphere_parts import SphereParts
@@ -41,8 +42,8 @@ class PartsModel:
 
     def over(self, mechanism: Mechanism) -> PartsModel:
         """Return the model of a machine whose parts have the same outlines and positions."""
-        drive = mechanism.spec.drive
-        assembly = self.parts.assembly._replace(full=mechanism, to_input=drive.input_deg)
+        to_input = mechanism.spec.input_deg
+        assembly = self.parts.assembly._replace(full=mechanism, to_input=to_input)
         if mechanism.spec.wheel.FLAT:
             return PartsModel(mechanism, self.outlines.over(assembly), self.advice)
         return PartsModel(mechanism, None, self.advice, self.shells.over(assembly))
@@ -101,10 +102,20 @@ class PartsModel:
         """The parts that the checks at rest measure."""
         return self.flat if self.mechanism.spec.wheel.FLAT else self.ball
 
+    @cached_property
+    def rack_outlines(self) -> RackOutlines:
+        """The rack and its crank; raises GenevaError where the sizes leave none."""
+        from geneva_cli.outlines.rack_outlines import rack_outlines
+
+        return rack_outlines(self.mechanism)
+
     @property
     def parts(self) -> MachineParts:
-        """The parts that are turned: outlines or shells."""
-        return self.outlines if self.mechanism.spec.wheel.FLAT else self.shells
+        """The parts that are turned: outlines, shells, or a rack and its crank."""
+        wheel = self.mechanism.spec.wheel
+        if wheel.FLAT:
+            return self.outlines
+        return self.shells if wheel.SHELLS else self.rack_outlines
 
     @property
     def turn(self) -> FullTurn:

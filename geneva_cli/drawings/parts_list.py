@@ -23,13 +23,13 @@ from geneva_cli.kinematics.layout import Dimension, Pivot
 from geneva_cli.layout.alike import alike
 from geneva_cli.layout.missing import Missing, built_of, or_missing
 from geneva_cli.layout.projection import outlines_of
+from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
 from geneva_cli.outlines.sphere_wheel import POLE
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.spec.tables import Size
-from geneva_cli.spec.workshops import density_kgm3
 from geneva_cli.table import Reading, Table, rows_table
 
 # columns of a row of each kind
@@ -99,12 +99,9 @@ def part_rows(spec: Spec, parts: Iterable[Part], outside: float | None = None) -
     """
     for kind in alike(parts):
         solid = kind[-1]
-        name, material = (
-            ("roller", spec.material_roller)
-            if solid.layer == "ROLLER"
-            else ("wheel", spec.material_wheel)
-        )
-        density = density_kgm3(material.density_kgm3, spec.size.process)
+        is_rod = solid.layer in ("ROLLER", "SHAFT")
+        name, material = ("roller", roller_material) if is_rod else ("wheel", wheel_material)
+        density = material(spec).density_kgm3
         yield {
             "row": "part",
             "name": solid.name,
@@ -151,7 +148,7 @@ def _properties(solid: Solid, density: float, outside: float | None) -> Row:
 
 def _pivots(mechanism: Mechanism) -> Iterator[Row]:
     L = mechanism.center_distance_mm
-    own = mechanism.spec.drive.layout(mechanism.plan, mechanism.spec.wheel.SIGN)
+    own = mechanism.layout
     pivots = [p for p in own if isinstance(p, Pivot)]
     if mechanism.spec.wheel.FLAT:
         pivots = [Pivot("wheel axis", 0.0, 0.0), Pivot("crank axis", L, 0.0), *pivots]
@@ -166,6 +163,7 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
     entries: list[Dimension | Missing] = [
         Dimension("wheel", spec.wheel.NAME),
         Dimension("drive", spec.drive.NAME),
+        *([Dimension("drive before it", spec.drive_before.NAME)] if spec.drive_before else []),
         Dimension("slots", spec.wheel.z),
         Dimension("centre distance" if spec.wheel.FLAT else "sphere's radius", L, "mm"),
         Dimension("roller radius", r, "mm"),
@@ -183,7 +181,7 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
     elif spec.drive.rollers > 1:
         entries.append(Dimension("rollers, evenly", spec.drive.rollers))
     entries += _motions(mechanism)
-    own = spec.drive.layout(mechanism.plan, spec.wheel.SIGN)
+    own = mechanism.layout
     entries += [d for d in own if isinstance(d, Dimension)]
     if spec.size.gear_module_mm is not None:
         entries += or_missing("teeth of the gears", lambda: model.flat.tooth_dimensions)

@@ -82,6 +82,10 @@ class Drive(SpecTable, kw_only=True):
     GEARED: ClassVar[bool] = False
     # True if it has other gears, with pitch circles
     TOOTHED: ClassVar[bool] = False
+    # what turns the input shaft of another drive, in [drive.before]; empty if it cannot
+    IN_FRONT: ClassVar[str] = ""
+    # reason why no drive may stand before it; empty if one may
+    FIRST: ClassVar[str] = ""
     # True if a first Geneva wheel turns its crank
     IN_SERIES: ClassVar[bool] = False
     # key of [drive] that its link reactions need; empty if none

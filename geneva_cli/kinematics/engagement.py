@@ -14,7 +14,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import all_true, array, blocks, library
+from geneva_cli.numerics.arrays import N, all_true, array, blocks, library
 from geneva_cli.numerics.batchable import Batchable
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 from geneva_cli.numerics.memory import keep_freed_memory
@@ -90,9 +90,8 @@ class Reactions(Protocol):
 
         A load is a force at the pin's centre and a couple, both on the roller's body. ``path`` is
         the pin's path, one order higher than the loads. The guide is a rocker, slider, groove or
-        fixed gear. Forces are in any unit, couples in that unit times L. The axes are arbitrary,
-        since callers use only the sizes of the reactions. Meshing gears push along the common
-        tangent of their pitch circles.
+        fixed gear. Forces are in any unit, couples in that unit times L. Meshing gears push along
+        the common tangent of their pitch circles.
         """
 
 
@@ -243,11 +242,6 @@ class WheelMotion(Batchable, ABC):
         """
         return None
 
-    @property
-    def unit(self) -> WheelMotion | None:
-        """One design's motion that each of a batch is in another scale of angles; else None."""
-        return None
-
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
         """Wheel angle and its derivatives at many ascending input angles (k,).
 
@@ -372,6 +366,15 @@ class Engagement(Batchable):
             return self.body(radians(input_deg), order)
         x, y = self.path(input_deg, order + 1)
         return turning(x - 1.0, y)
+
+    def own_deg(self, input_deg: N) -> N:
+        """Angle of the drive's own input shaft at input angles from mid-motion, degrees."""
+        return input_deg
+
+    @property
+    def own(self) -> Engagement:
+        """The engagement by the angle of the drive's own input shaft; itself without another."""
+        return self
 
     @property
     def through(self) -> Engagement:

@@ -53,8 +53,8 @@ class LawMotion(WheelMotion):
         return (self.entry_deg, *[self.entry_deg + u * whole for u in inner], self.exit_deg)
 
     def closed_peak(self, quantity: str) -> Peak[float] | None:
-        """Peak of a quantity, scaled from the law's own; None for a spline or a batch of laws."""
-        if self.law.varies or not self.law.ANALYTIC:
+        """Peak of a quantity, scaled from the law's own; None for a batch of laws."""
+        if self.law.varies:
             return None
         size, u = greatest(self.law)[quantity]
         whole, step = self.exit_deg - self.entry_deg, 2.0 * self.half_step
@@ -63,11 +63,6 @@ class LawMotion(WheelMotion):
             size = size * step
         times = {"velocity": 1, "acceleration": 2, "jerk": 3, "power": 3}[quantity]
         return Peak(size * step / radians(whole) ** times, at_deg)
-
-    @property
-    def unit(self) -> LawMotion | None:
-        """The law over a step of 1 radian in a motion of 2 degrees, if all designs have one law."""
-        return None if self.law.varies else LawMotion(-1.0, 1.0, 0.5, self.law)
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         """Wheel angle with its derivatives; each half of the law is computed from its own end."""

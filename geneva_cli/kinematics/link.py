@@ -51,5 +51,9 @@ class LinkReactions(NamedTuple):
             F = (force[0] * self.x - across * self.y, force[0] * self.y + across * self.x)
             push = (cross(place, F) + moment * (self.sense * self.L)) / lever * -1.0  # about A
             third = h[0] * push, h[1] * push
-            out.append(((F[0] + third[0], F[1] + third[1]), third))
+            out.append((self._turned(F[0] + third[0], F[1] + third[1]), self._turned(*third)))
         return out
+
+    def _turned(self, x: Jet, y: Jet) -> Vector:
+        """Transform a vector from the path's axes to the machine's."""
+        return x * self.x + y * self.y, (y * self.x - x * self.y) * self.sense

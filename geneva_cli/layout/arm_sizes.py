@@ -113,6 +113,15 @@ def eye_about(hole: float, wall: float, most: float = math.inf) -> float:
     return max(min(2.0 * hole, most), hole + wall)
 
 
+def wall_of_bolts(size: Size, wall: float) -> float:
+    """Return the wall about the bolts of the lock that is left between chamfered or round edges.
+
+    >>> wall_of_bolts(Size(edge_chamfer_mm=1.0), 0.5)
+    2.5
+    """
+    return wall + 2.0 * size.edge_mm
+
+
 def lock_bolt_directions(sectors: Iterable[tuple[float, float]], count: int) -> list[list[float]]:
     """Return the directions of the bolts that fix locking sectors to the arm.
 

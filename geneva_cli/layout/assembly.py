@@ -23,6 +23,7 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.spec.tables import Z_DRAWN
 
 if TYPE_CHECKING:
+    from geneva_cli.kinematics.plane_motion import PlaneMotion
     from geneva_cli.numerics.arrays import Mask
     from geneva_cli.numerics.jet import Array
 
@@ -50,6 +51,7 @@ class Assembly(NamedTuple):
     rests: tuple[float, ...]
     full: Mechanism  # the machine of the spec, with the drive of its crank
     to_input: Callable[[float], float]  # input angle of the plain crank -> of ``full``, degrees
+    plane_motion: PlaneMotion  # of the wheel
 
     def shown_deg(self, input_deg: float) -> float:
         """Return the input angle as commands show it, for an input angle of the assembly."""
@@ -58,7 +60,7 @@ class Assembly(NamedTuple):
     def place_deg(self, shown_deg: float) -> float:
         """Return the inverse of ``shown_deg``, to a hundredth of a degree."""
         low, high = self.start_deg, self.start_deg + self.turn_deg
-        period = 360.0 * self.full.spec.drive.turns
+        period = 360.0 * self.full.spec.turns
         best = low
         for _ in range(3):
             grid = np.linspace(low, high, 361)
@@ -78,6 +80,10 @@ class Assembly(NamedTuple):
         While gears drive the wheel, it is the roller that drove it before or will drive it after.
         """
         return self._path(*self.motions[number], input_deg)
+
+    def in_wheel(self, motion: int, input_deg: Array) -> Array:
+        """Return the centre of a motion's roller in the wheel's frame, mm, (n, 2)."""
+        return self.plane_motion.into(self.driving(motion, input_deg), self.wheel(input_deg))
 
     def geared(self, input_deg: Array) -> Mask:
         """Return a mask (n,) of the input angles at which gears drive the wheel, not a roller."""
@@ -172,14 +178,18 @@ def assembled(mechanism: Mechanism) -> Assembly:
     """Return the assembly of any machine; on a sphere ``pin`` is seen along the wheel's axis."""
     full, spec = mechanism, mechanism.spec
     to_input: Callable[[float], float] = _same
-    if mechanism.law is None and spec.drive.CRANKED:
-        to_input = spec.drive.input_deg
+    if spec.drive_before and not spec.drive.CRANKED:
+        to_input = spec.input_deg
+        mechanism = build(spec.replace(drive_before=None))
+    elif mechanism.law is None and spec.drive.CRANKED:
+        to_input = spec.input_deg
         keep = spec.drive
         crank = Crank(
             n_rpm=keep.n_rpm, rollers=keep.rollers, roller_angles_deg=keep.roller_angles_deg
         )
-        mechanism = build(spec.replace(drive=crank))
-    turn = 360.0 * mechanism.spec.drive.turns
+        no_gears = spec.size.replace(gear_module_mm=None, gear_teeth=None, gear_shift=None)
+        mechanism = build(spec.replace(drive=crank, drive_before=None, size=no_gears))
+    turn = 360.0 * mechanism.spec.turns
     periods = round(turn / mechanism.period_deg)
     motions = tuple(
         (engagement, engagement.mid_deg + k * mechanism.period_deg)
@@ -194,7 +204,10 @@ def assembled(mechanism: Mechanism) -> Assembly:
     L = mechanism.center_distance_mm
     sign = spec.wheel.SIGN
     around = _around(mechanism)
-    return Assembly(mechanism, L, sign, turn, turn, motions, rollers, *around, full, to_input)
+    moves = spec.wheel.plane_motion(L)
+    return Assembly(
+        mechanism, L, sign, turn, turn, motions, rollers, *around, full, to_input, moves
+    )
 
 
 def _same(input_deg: float) -> float:

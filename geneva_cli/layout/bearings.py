@@ -118,19 +118,19 @@ DIN_471 = [
 ]
 
 
-def bearing_up_to(diameter: float, part: str) -> Bearing:
-    """Return the largest bearing whose bore is no wider than a part's shaft, mm.
+def bearing_up_to(diameter: float, shaft: str, key: str) -> Bearing:
+    """Return the largest bearing whose bore is no wider than a shaft, mm.
 
-    Raises GenevaError for a shaft below the smallest one.
+    Raises GenevaError, naming the key of its bore, for a shaft below the smallest one.
 
-    >>> bearing_up_to(16.0, "wheel").name
+    >>> bearing_up_to(16.0, "wheel's shaft", "wheel_bore_mm").name
     '6002'
     """
     fitting = [one for one in SERIES_60 if one.bore <= diameter]
     if not fitting:
         raise GenevaError(
-            f'shafts = "turned": the {part}\'s shaft of {diameter:g} mm is too thin for a ball '
-            f"bearing; set {part}_bore_mm to at least {SERIES_60[0].bore:g}",
+            f'shafts = "turned": the {shaft} of {diameter:.4g} mm is too thin for a ball bearing; '
+            f"set {key} to at least {SERIES_60[0].bore:g}",
             ("size", "shafts"),
         )
     return fitting[-1]

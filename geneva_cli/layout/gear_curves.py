@@ -84,8 +84,10 @@ def gears_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) 
 
 def required_gears(mechanism: Mechanism) -> Gears:
     """Return the noncircular gears of a machine; raises GenevaError if it has none."""
-    drive = mechanism.spec.drive
-    if drive.gears is None:
+    drive, gears = mechanism.spec.drive, mechanism.spec.gears
+    if gears is None and mechanism.spec.drive_before:
+        raise GenevaError(f"--part gears: {mechanism.spec.no_parts}")
+    if gears is None:
         geared = [kind for kind in registry.DRIVES if registry.drive(kind).GEARED]
         if drive.TOOTHED:
             raise GenevaError(
@@ -96,7 +98,7 @@ def required_gears(mechanism: Mechanism) -> Gears:
         raise GenevaError(
             f'--part gears: kind = "{drive.NAME}" has no gears; {", ".join(geared)} have some'
         )
-    return drive.gears
+    return gears
 
 
 class CurveLength(NamedTuple):

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.pin import pin
-from geneva_cli.loads.strength.allowed import allowed_MPa, shear_allowed_MPa
+from geneva_cli.loads.strength.allowed import shear_allowed_MPa
 from geneva_cli.loads.strength.arm import arm_stress_MPa
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress
 from geneva_cli.loads.strength.shafts import shear_MPa
+from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.numerics.preferred import rounded_from
+from geneva_cli.spec.default_sizes import value_or
 
 if TYPE_CHECKING:
     from geneva_cli.layout.stressed import Stressed
@@ -23,10 +25,29 @@ if TYPE_CHECKING:
     from geneva_cli.spec.tables import Size
 
 
-def pin_that_holds(spec: Spec, contact: float, least: float, most: float, force_N: float) -> float:
-    """Return the radius of the first pin from ``least`` to ``most`` that holds, or the largest."""
-    allowed = float(allowed_MPa(spec.material_roller))
-    for d in rounded_from(2.0 * least, 2.0 * most):
+class PinSpace(NamedTuple):
+    """The dimensions that limit a roller's pin, mm."""
+
+    thickness: float  # of the wheel
+    roller: float  # radius of the roller, of a cone where it is thinnest
+    eye: float  # the largest radius of the arm about the pin
+
+
+def pin_that_holds(spec: Spec, usual: float, space: PinSpace, force_N: float) -> float:
+    """Return the radius of the first pin from the usual one on that holds, or the largest.
+
+    The largest leaves a wall of the roller about its hole, and one of the arm. With friction on the
+    pin it stays the usual one, on which the loads depend.
+    """
+    size = spec.size
+    rubs = spec.load.friction and not spec.load.rubs_in_slot
+    if size.pin_mm is not None or rubs or not usual:
+        return usual
+    contact = value_or(size.face_width_mm, space.thickness)
+    # the roller keeps three tenths of its radius as a wall about the hole for its pin
+    most = min(0.7 * space.roller - 0.5 * size.allowances.shaft_fit_mm, space.eye)
+    allowed = roller_material(spec).allowed_MPa
+    for d in rounded_from(2.0 * usual, 2.0 * most):
         stress = float(pin(spec.size, contact, d).under(force_N).equivalent)
         if keeps(stress, "at most", allowed):
             break
@@ -42,7 +63,7 @@ def shaft_holds(spec: Spec, part: str, diameter: float, moment_Nm: float) -> boo
 
 def key_holds(spec: Spec, key: KeyDimensions, torque_Nm: float) -> bool:
     """Return True if a key holds a torque, or where there is none."""
-    sides, shear = allowed_MPa(spec.material_wheel), shear_allowed_MPa(spec.shaft)
+    sides, shear = wheel_material(spec).allowed_MPa, shear_allowed_MPa(spec.shaft)
     turned = np.asarray(spec.shaft.torsion_factor * torque_Nm)
     stress = key_stress(key, turned, np.asarray(sides), np.asarray(shear))
     least = float(stress.least_length_mm)
@@ -63,4 +84,4 @@ def arm_holds(spec: Spec, parts: Stressed, loads: PartLoads) -> bool:
     """Return True if the arm and its key hold; a shaft that does not needs no thicker arm."""
     stress = float(arm_stress_MPa(parts.arm, np.asarray(loads.crank_N)))
     key = key_holds(spec, parts.crank_key, loads.crank_Nm)
-    return key and keeps(stress, "at most", float(allowed_MPa(spec.material_wheel)))
+    return key and keeps(stress, "at most", wheel_material(spec).allowed_MPa)

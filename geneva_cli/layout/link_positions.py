@@ -20,7 +20,8 @@ def links_at(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
     They are the drive's own links and, for a cam-Geneva, the crank along which its rollers slide.
     The drive cannot describe that crank: in the dwell the rollers follow the groove as it is cut.
     """
-    own = mechanism.spec.drive.links(mechanism.plan, mechanism.spec.wheel.SIGN, input_deg)
+    sign, own_deg = mechanism.spec.wheel.SIGN, mechanism.own_deg(input_deg)
+    own = mechanism.spec.drive.links(mechanism.plan, sign, own_deg)
     groove = mechanism.engagements[0].groove
     if groove is None:
         return own
@@ -30,6 +31,13 @@ def links_at(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
         x, y = L * roller_in_groove(groove, input_deg - 360.0 * k / m).T
         joints.append((x, y))
     return (*own, Link("crank", tuple(joints), (Joint.SHAFT, *[Joint.CARRIED] * m), 1))
+
+
+def gear_plane(mechanism: Mechanism) -> int:
+    """Return the number of the plane of noncircular gears: below the arm and all links."""
+    import numpy as np
+
+    return 1 + max((link.plane for link in links_at(mechanism, np.zeros(1))), default=1)
 
 
 def same(p: Point, q: Point, L: float) -> bool:

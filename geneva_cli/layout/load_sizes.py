@@ -22,16 +22,23 @@ from geneva_cli.layout.arm_sizes import (
     within_hub,
 )
 from geneva_cli.layout.assembly import Assembly
-from geneva_cli.layout.holds import arm_holds, arm_trials, key_holds, pin_that_holds, shaft_holds
+from geneva_cli.layout.holds import (
+    PinSpace,
+    arm_holds,
+    arm_trials,
+    key_holds,
+    pin_that_holds,
+    shaft_holds,
+)
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.layout.plain_sizes import Sizes, drawn_thicknesses
 from geneva_cli.layout.roller_paths import roller_reaches
 from geneva_cli.layout.stressed import ShaftSize, lock_of, stressed
 from geneva_cli.loads.strength import lock
-from geneva_cli.loads.strength.allowed import allowed_MPa
 from geneva_cli.loads.strength.horn import horn_stresses
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.machine.both_ways import every_way
+from geneva_cli.machine.materials import wheel_material
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.numerics.preferred import bores_from, rounded_from
 
@@ -90,31 +97,19 @@ def _wheel_thickness(assembly: Assembly, sizes: Sizes) -> float:
     for way in every_way(machine):
         per_mm.append(horn_stresses(way, sizes.half_width, sizes.recess, 1.0).stress_MPa)
     most = float(np.nanmax(np.hstack([np.ravel(0.0), *map(np.ravel, per_mm)])))
-    allowed = float(allowed_MPa(machine.spec.material_wheel))
+    allowed = wheel_material(machine.spec).allowed_MPa
     trials = rounded_from(usual, 2.0 * usual)  # a thicker wheel bends its pins more than its horns
     return next((b for b in trials if keeps(most / b, "at most", allowed)), trials[-1])
 
 
 def _pin(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> float:
-    """Return the radius of a pin that holds; the largest leaves a wall of the roller and the arm.
-
-    With friction on the pin it stays the usual one, on which the loads depend.
-    """
-    machine = assembly.full
-    spec = machine.spec
-    rubs = spec.load.friction and not spec.load.rubs_in_slot
-    if spec.size.pin_mm is not None or rubs or not sizes.pin:
-        return sizes.pin
-    # the roller keeps three tenths of its radius as a wall about the hole for its pin; the eye
-    # passes the largest wheel's hub
-    most = 0.7 * sizes.roller - 0.5 * spec.size.allowances.shaft_fit_mm
+    """Return the radius of a pin that holds; the arm's eye about it passes the largest hub."""
+    eye = math.inf
     if assembly.sign > 0.0 and sizes.arm_bore:
-        passing = (
-            assembly.L - max(roller_reaches(assembly)) - max(sizes.wheel_hub, 0.75 * sizes.slot_end)
-        )
-        most = min(most, passing - sizes.wall_min)
-    contact = stressed(assembly, sizes).contact
-    return pin_that_holds(spec, contact, sizes.pin, most, loads.pin_N)
+        hub = max(sizes.wheel_hub, 0.75 * sizes.slot_end)
+        eye = assembly.L - max(roller_reaches(assembly)) - hub - sizes.wall_min
+    space = PinSpace(sizes.wheel_thickness, sizes.roller, eye)
+    return pin_that_holds(assembly.full.spec, sizes.pin, space, loads.pin_N)
 
 
 def _bored(
@@ -175,7 +170,7 @@ def _crank_bored(
             if _crank_holds(assembly, trial, loads, keyed):
                 return trial
     # past links and gears the shaft may have no other way out
-    if not sizes.arm_bore or links_at(assembly.full, np.zeros(1)) or spec.drive.gears:
+    if not sizes.arm_bore or links_at(assembly.full, np.zeros(1)) or spec.gears:
         return trial
     space = min(roller_reaches(assembly)) - hole_radius(size, sizes.pin)
     for d in bores_from(2.0 * sizes.arm_bore, space):  # half of it is left as a wall

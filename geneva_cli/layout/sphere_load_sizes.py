@@ -14,7 +14,14 @@ from geneva_cli.layout.arm_sizes import arm_hub, hole_radius, within_hub
 from geneva_cli.layout.axles import hub_about
 from geneva_cli.layout.ball import Ball, inner_edge
 from geneva_cli.layout.bores import reach_or_bore
-from geneva_cli.layout.holds import arm_holds, arm_trials, key_holds, pin_that_holds, shaft_holds
+from geneva_cli.layout.holds import (
+    PinSpace,
+    arm_holds,
+    arm_trials,
+    key_holds,
+    pin_that_holds,
+    shaft_holds,
+)
 from geneva_cli.layout.plain_sizes import wall_min
 from geneva_cli.layout.sphere_stressed import sphere_stressed
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
@@ -49,22 +56,17 @@ def sphere_load_sizes(mechanism: Mechanism, usual: Ball) -> Ball:
 
 
 def _pin(mechanism: Mechanism, ball: Ball, loads: PartLoads) -> float:
-    """Return the radius of a pin that holds; the largest leaves a wall of the roller and the arm.
+    """Return the radius of a pin that holds; the arm's eye about it passes the largest hub.
 
-    With friction on the pin it stays the usual one, on which the loads depend.
+    The arm covers less than half of the sphere.
     """
     spec, L = mechanism.spec, ball.radius_mm
-    rubs = spec.load.friction and not spec.load.rubs_in_slot
-    if spec.size.pin_mm is not None or rubs or not ball.pin_mm:
-        return ball.pin_mm
-    inside = ball.span_mm[0]
-    # the eye passes the largest wheel's hub, and the arm covers less than half of the sphere
+    inside, outside = ball.span_mm
     hub = max(ball.opening_mm, 0.75 * inside * math.sin(min(ball.slot_end, 0.5 * math.pi)))
     eye = min(ball.passing_mm(hub), 0.99 * L * (0.5 * math.pi - ball.arm))
-    # the roller keeps three tenths of its radius as a wall, where its cone is thinnest
-    most = min(0.7 * inside * math.sin(ball.roller), eye - wall_min(spec.size, L))
-    contact = sphere_stressed(spec, ball).contact
-    return pin_that_holds(spec, contact, ball.pin_mm, most, loads.pin_N)
+    thinnest = inside * math.sin(ball.roller)
+    space = PinSpace(outside - inside, thinnest, eye - wall_min(spec.size, L))
+    return pin_that_holds(spec, ball.pin_mm, space, loads.pin_N)
 
 
 def _bored(mechanism: Mechanism, ball: Ball, loads: PartLoads, keyed: bool = True) -> Ball:

@@ -17,7 +17,7 @@ from geneva_cli.layout.arm_sizes import arm_hub, arm_passing, eye_about, hole_ra
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.bores import reach_or_bore
 from geneva_cli.layout.keyways import key
-from geneva_cli.layout.link_positions import links_at
+from geneva_cli.layout.link_positions import gear_plane, links_at
 from geneva_cli.layout.plain_sizes import Sizes, half_or
 from geneva_cli.layout.reliefs import is_whole, sectors
 from geneva_cli.layout.roller_paths import roller_reaches
@@ -80,7 +80,7 @@ def _overhang(assembly: Assembly, sizes: Sizes) -> float:
     """Return the distance of the frame's middle from that of the wheel's thickness."""
     size, machine = assembly.full.spec.size, assembly.full
     planes = [link.plane for link in links_at(machine, np.zeros(1))]
-    planes += [2] if machine.spec.drive.gears else []  # below the arm
+    planes += [gear_plane(machine)] if machine.spec.gears else []
     below = (max(planes, default=1) - 1) * (sizes.link_thickness + size.washer_mm)
     down = size.allowances.pin_gap_mm + sizes.arm_thickness + below
     down = max(down, size.wheel_hub_length_mm or 0.0)

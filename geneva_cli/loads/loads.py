@@ -93,7 +93,7 @@ def greatest(mechanism: Mechanism, name: str) -> Peak[float]:
     if one is None:
         return Peak(0.0, 0.0)
     first = mechanism.engagements[0]
-    turn = 360.0 * mechanism.spec.drive.turns
+    turn = 360.0 * mechanism.spec.turns
     start = first.mid_deg + first.entry_deg - 1e-9  # less the rounding of an input angle
     ends = [(one.max, one.max_at_deg), (-one.min, one.min_at_deg)]
     ends.sort(key=lambda end: (end[1] - start) % turn)

@@ -7,8 +7,9 @@ from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.kinematics.drive import Needs
+from geneva_cli.kinematics.drive import Drive, Needs
 from geneva_cli.spec.rules import is_array
+from geneva_cli.spec.schema import fields
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
@@ -36,7 +37,35 @@ def _table_of_wheels(table: str, spec: Spec) -> bool:
     return not spec.output.turns and bool(own != type(own)())
 
 
+def _set_on(before: Drive) -> list[str]:
+    """Keys of the machine's input that are set on the drive before it."""
+    own = before.as_dict()
+    return [key.key for key in fields(Drive) if own[key.key] != key.default]
+
+
 CONFLICTS = (
+    Conflict(
+        lambda s: s.drive_before and not s.drive_before.IN_FRONT,
+        ("drive", "before", "kind"),
+        'kind = "{before}" cannot turn the shaft of another drive: remove [drive.before]',
+    ),
+    Conflict(
+        lambda s: s.drive_before and s.drive.FIRST,
+        ("drive", "before"),
+        'kind = "{before}" cannot stand before kind = "{drive}": {first}',
+    ),
+    Conflict(
+        lambda s: s.drive_before and _set_on(s.drive_before),
+        ("drive", "before"),
+        "n_rpm, rollers, roller_angles_deg and both_ways belong to the machine: set them in "
+        "[drive], not in [drive.before]",
+    ),
+    Conflict(
+        lambda s: s.drive_before and s.motion is not None,
+        ("motion", "law"),
+        "a law gives the motion by the input's angle, so that [drive.before] would only change "
+        "the slots: remove law or [drive.before]",
+    ),
     Conflict(
         lambda s: s.drive.RADIAL and (s.drive.roller_angles_deg or s.wheel.skewed),
         ("drive", "kind"),
@@ -195,6 +224,11 @@ CONFLICTS = (
         "stop_stress_max_MPa limits a stop: set stop = true in [wheel] of an external wheel",
     ),
     Conflict(
+        lambda s: s.size.gear_module_mm is not None and not (s.drive.TOOTHED or s.drive.GEARED),
+        ("size", "gear_module_mm"),
+        'gear_module_mm cuts the teeth of gears, and kind = "{drive}" has none: remove it',
+    ),
+    Conflict(
         lambda s: s.size.gear_module_mm is None and s.size.gear_shift is not None,
         ("size", "gear_shift"),
         "gear_shift moves the teeth of gears: set gear_module_mm, or remove gear_shift",
@@ -218,6 +252,8 @@ def refuse_conflicts(spec: Spec) -> None:
 def _error(conflict: Conflict, spec: Spec) -> GenevaError:
     text = conflict.text.format(
         drive=spec.drive.NAME,
+        before=spec.drive_before.NAME if spec.drive_before else "",
+        first=spec.drive.FIRST,
         gearing=spec.wheel.NAME,
         gearings=" or ".join(spec.drive.GEARINGS),
         rollers=spec.drive.rollers,

@@ -32,7 +32,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError, marking
 from geneva_cli.kinematics.motion import Motion
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.spec import Spec, attribute
+from geneva_cli.machine.spec import BEFORE, Spec, attribute
 from geneva_cli.numerics.arrays import record_of
 from geneva_cli.numerics.batchable import Batchable
 from geneva_cli.numerics.latest import Latest
@@ -47,7 +47,7 @@ Change: TypeAlias = "Callable[[Array], object]"
 
 # tables whose numbers may vary
 TABLES = (
-    *("wheel", "drive", "motion", "size", "load", "support", "motor", "shaft", "tolerance"),
+    *("wheel", "drive", BEFORE, "motion", "size", "load", "support", "motor", "shaft", "tolerance"),
     *("material.wheel", "material.roller"),
 )
 
@@ -113,7 +113,11 @@ def may_vary(spec: Spec, key: str) -> bool:
     numeric = bool({int, float} & set(_field(spec, key).types))
     of_law = spec.motion is None or spec.motion.law.may_vary(table, name)
     # the number of rollers decides how many engagements a machine has
-    return numeric and name != "rollers" and of_law and spec.drive.may_vary(table, name)
+    # a drive before sees its own table as that of a drive
+    of = "drive" if table == BEFORE else table
+    before = spec.drive_before is None or spec.drive_before.may_vary(of, name)
+    own = spec.drive.may_vary(table, name)
+    return numeric and name != "rollers" and of_law and own and before
 
 
 def changed(spec: Spec, values: Mapping[str, object]) -> Spec:

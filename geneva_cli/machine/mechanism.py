@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from geneva_cli.kinematics.drive import Plan
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.laws.law import Law
-from geneva_cli.kinematics.layout import WheelPlace, wheel_places
+from geneva_cli.kinematics.layout import Layout, WheelPlace, wheel_places
 from geneva_cli.machine import compatible
+from geneva_cli.machine.retimed import retimed
 from geneva_cli.machine.size_rules import refuse_sizes
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.tolerance_rules import refuse_tolerances
@@ -45,8 +46,28 @@ class Mechanism(NamedTuple):
 
     @property
     def plan(self) -> Plan:
-        """Engagements, period, R/L, roller limit and centre distance, as the drive planned them."""
-        return Plan(*self[1:-1])
+        """Engagements, period, R/L, roller limit and centre distance, as the drive planned them.
+
+        The engagements are by the angle of the drive's own input shaft.
+        """
+        plan = Plan(*self[1:-1])
+        return plan._replace(engagements=tuple(one.own for one in self.engagements))
+
+    @property
+    def layout(self) -> Layout:
+        """Pivots and dimensions of the drive, and of the one before it about the crank's axis."""
+        spec, plan = self.spec, self.plan
+        own = spec.drive.layout(plan, spec.wheel.SIGN)
+        if spec.drive_before is None or spec.drive.CRANKED:
+            return own
+        return (*own, *spec.drive_before.layout(plan, spec.wheel.SIGN))
+
+    def own_deg(self, input_deg: N) -> N:
+        """Angle of the drive's own input shaft at input angles within half a period of mid-motion.
+
+        It is the input angle itself, but behind another drive.
+        """
+        return self.engagements[0].own_deg(input_deg)
 
     @property
     def law(self) -> Law | None:
@@ -82,7 +103,7 @@ class Mechanism(NamedTuple):
 
         Over a period of several turns it is counted from the first engagement's entry.
         """
-        whole = 360.0 * self.spec.drive.turns
+        whole = 360.0 * self.spec.turns
         m = library(input_deg, whole)
         entry = self.engagements[0].mid_deg + self.engagements[0].entry_deg
         # Rounding may put an angle just before the entry: count it as the entry.
@@ -142,6 +163,7 @@ def build(spec: Spec) -> Mechanism:
     """
     compatible.refuse_conflicts(spec)
     plan = spec.drive.plan(spec.wheel, spec.motion, spec.given_distance_mm)
+    plan = retimed(plan, spec)
     refuse_sizes(spec, plan.center_distance_mm, plan.ratio)
     refuse_tolerances(spec, plan.center_distance_mm, plan.ratio)
     return Mechanism(spec, *plan)

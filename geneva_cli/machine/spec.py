@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any, Self
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.kinematics.drive import Drive
+from geneva_cli.kinematics.drive import Drive, Gears
 from geneva_cli.kinematics.motion import Motion
 from geneva_cli.kinematics.wheels.gearing import Gearing, Output
 from geneva_cli.machine.drives.crank import Crank
@@ -38,6 +38,7 @@ from geneva_cli.spec.tables import (
     WheelMaterial,
 )
 
+BEFORE = "drive.before"  # table of the drive that turns the input shaft of [drive]
 # limits that need a load
 LOADED = (
     "pin_force_max_N",
@@ -73,6 +74,8 @@ def attribute(table: str) -> str:
 _TABLE_TYPES: tuple[tuple[str, type, str], ...] = (
     ("wheel", Gearing, "External(6)"),
     ("drive", Drive, "Crank(n_rpm=60)"),
+    ("drive_before", Drive, "SideCrank(A=0.6)"),
+    ("motion", Motion, "Motion(Cycloidal())"),
     *(
         (attribute(n), table, f"{table.__name__}(...)")
         for n, table in PLAIN.items()
@@ -92,7 +95,8 @@ def _no_load(key: str, keys: str) -> GenevaError:
 class Spec:
     """All values from which a machine is built, as in the spec's file.
 
-    ``path`` is that file, for messages; ``files`` are the CSV files of its points.
+    ``path`` is that file, for messages; ``files`` are the CSV files of its points. ``drive_before``
+    turns the input shaft of ``drive``.
 
     >>> Spec(External(6)).drive.n_rpm
     60.0
@@ -116,13 +120,13 @@ class Spec:
     title: str = ""
     path: str = ""
     files: tuple[str, ...] = ()
+    drive_before: Drive | None = None
 
     def __post_init__(self) -> None:
-        own = vars(self)
         for name, kind, example in _TABLE_TYPES:
-            refuse_kind(own[name], name, kind, example)
-        if self.motion is not None:
-            refuse_kind(self.motion, "motion", Motion, "Motion(Cycloidal())")
+            value = vars(self)[name]
+            if value is not None or name not in ("drive_before", "motion"):
+                refuse_kind(value, name, kind, example)
         if not isinstance(self.mass, tuple):
             object.__setattr__(self, "mass", tuple(self.mass))
         if not all(isinstance(one, Mass) for one in self.mass):
@@ -158,19 +162,20 @@ class Spec:
     def table(self, name: str) -> dict[str, Any]:
         """Values of a table by key; those of ``motion`` include the keys of its law.
 
+        A table that the spec does not have is empty.
+
         >>> Spec(External(6)).table("drive")
         {'n_rpm': 60.0, 'rollers': 1, 'roller_angles_deg': None, 'both_ways': False}
         """
         if name == "motion":
             return {} if self.motion is None else self.motion.law.as_dict() | self.motion.as_dict()
         part = self._part(name)
-        assert part is not None, name
-        return part.as_dict()
+        return {} if part is None else part.as_dict()
 
     def _part(self, name: str) -> SpecTable | None:
         """Table by its name in the file (``mass.0`` is the first of a list), or None if absent."""
-        if name in ("wheel", "drive", "motion"):
-            part: SpecTable | None = vars(self)[name]
+        if name in ("wheel", "drive", BEFORE, "motion"):
+            part: SpecTable | None = vars(self)[attribute(name)]
             return part
         if name in PLAIN and name not in LISTS:
             plain: SpecTable = vars(self)[attribute(name)]
@@ -198,6 +203,30 @@ class Spec:
             return self.replace(**{attribute(table): changed})
         several, at = vars(self)[one_of], int(number)
         return self.replace(**{one_of: (*several[:at], changed, *several[at + 1 :])})
+
+    @property
+    def turns(self) -> int:
+        """Number of input turns in one turn of the crank.
+
+        >>> Spec(External(4), GenevaPair(first_z=5)).turns
+        5
+        """
+        before = self.drive_before
+        return self.drive.turns * (1 if before is None else before.turns)
+
+    @property
+    def gears(self) -> Gears | None:
+        """Noncircular gears on the crank's shaft; None without, and in front of a second crank."""
+        before = self.drive_before
+        if before is None:
+            return self.drive.gears
+        return None if self.drive.CRANKED else before.gears
+
+    def input_deg(self, crank_deg: float) -> float:
+        """Input angle from mid-motion at a crank angle from mid-motion, degrees."""
+        shaft_deg = self.drive.input_deg(crank_deg)
+        before = self.drive_before
+        return shaft_deg if before is None else before.input_deg(shaft_deg)
 
     @property
     def is_loaded(self) -> bool:
@@ -252,6 +281,16 @@ class Spec:
         return not self.no_parts
 
     @property
+    def is_turned(self) -> bool:
+        """True if wheel and crank can be checked for collisions in a full turn of the crank.
+
+        >>> Spec(Linear(6)).is_turned, Spec(External(400)).is_turned
+        (True, False)
+        """
+        # A rack of any length is checked by the slots that the crank reaches in a turn.
+        return not self.output.turns or self.wheel.z <= Z_DRAWN
+
+    @property
     def no_parts(self) -> str:
         """The reason why wheel and crank have no outlines; empty if they have.
 
@@ -260,6 +299,12 @@ class Spec:
         """
         if not (self.wheel.FLAT or self.wheel.SHELLS):
             return "shafts, frame and guide of a rack's machine are not built"
+        before = self.drive_before
+        if before is not None and (self.drive.CRANKED or not before.GEARED):
+            return (
+                f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '
+                "built: only gears before a drive whose shaft stands at the crank's axis"
+            )
         if self.wheel.z > Z_DRAWN:
             return f"wheels of more than {Z_DRAWN} slots are not drawn"
         return ""

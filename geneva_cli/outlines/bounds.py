@@ -1,10 +1,10 @@
 """Proved lower bounds of the gaps between wheel, crank and rollers on intervals of the input angle.
 
 Parts are rigid. A point at a distance r from an axis moves at most r times the angle by which its
-part turns about it. So a gap is at least the gap in the middle of an interval, less how far the
-parts move from there. Pairs that touch by design have more exact bounds: a roller in its own slot,
-and the locking disc in its recess, in the dwell and beside it. ``geneva help certificates`` derives
-them.
+part turns about it; a rack moves by its pinion's radius a radian. So a gap is at least the gap in
+the middle of an interval, less how far the parts move from there. Pairs that touch by design have
+more exact bounds: a roller in its own slot, and the locking disc in its recess, in the dwell and
+beside it. ``geneva help certificates`` derives them.
 """
 
 from __future__ import annotations
@@ -15,9 +15,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.collisions.gaps import Gaps, turned_points
+from geneva_cli.collisions.gaps import Gaps
 from geneva_cli.collisions.pairs import Bounds, Intervals, Pair, raised
 from geneva_cli.curves.extents import farthest, from_segments, near_segments, short_pieces
+from geneva_cli.kinematics.plane_motion import turned_points
 from geneva_cli.outlines.travel import Travel, path_travel, slot_travel
 
 if TYPE_CHECKING:
@@ -32,14 +33,16 @@ AXIS = np.zeros((1, 2))
 
 
 class FlatPairs:
-    """Pairs of flat parts, and the distances of parts from their axes, mm."""
+    """Pairs of flat parts, and the distances of parts from their axes, mm.
 
-    def __init__(self, gaps: Gaps, crank: Sequence[Contour], target: float) -> None:
-        self.gaps, self.crank, self.target = gaps, crank, target
+    ``rim`` is the level that the wheel reaches: the circle about its axis, or that which an
+    internal wheel leaves, or the edge of a rack.
+    """
+
+    def __init__(self, gaps: Gaps, crank: Sequence[Contour], target: float, rim: float) -> None:
+        self.gaps, self.crank, self.target, self.rim = gaps, crank, target, rim
+        self.moves = gaps.assembly.plane_motion
         self._paths: dict[Engagement, Travel] = {}
-        outside, wheel = gaps.assembly.sign > 0.0, gaps.wheel
-        # The circle about the wheel's axis that the wheel reaches, or an internal wheel leaves.
-        self.rim = float(farthest(wheel, AXIS).max() if outside else wheel.signed(AXIS)[0])
 
     def path(self, engagement: Engagement) -> Travel:
         """Return the travel of an engagement's roller, which several rollers share."""
@@ -73,8 +76,8 @@ class FlatPairs:
         return self.gaps.assembly.L
 
     def beyond(self, points: Array) -> Array:
-        """Return the distance of points (n, 2) from the circle of the wheel, mm."""
-        out: Array = self.gaps.assembly.sign * (np.hypot(*points.T) - self.rim)
+        """Return the distance of points (n, 2) from the level that the wheel reaches, mm."""
+        out: Array = self.gaps.assembly.sign * (self.moves.level(points) - self.rim)
         return out
 
 
@@ -104,11 +107,13 @@ class Roller:
     def centre(self, input_deg: Array) -> Array:
         """Return the centre in the wheel's frame at input angles, (n, 2)."""
         assembly = self.gaps.assembly
-        return turned_points(assembly.pin(self.number, input_deg), -assembly.wheel(input_deg))
+        pin = assembly.pin(self.number, input_deg)
+        return self.reach.moves.into(pin, assembly.wheel(input_deg))
 
     def travel(self, on: Intervals, centre: Array) -> Array:
         """Return how far the centre is at most from its place in the middle, ``centre``."""
-        out: Array = self.path.most(*self.own(on)) + np.hypot(*centre.T) * on.wheel
+        moves = self.reach.moves
+        out: Array = self.path.most(*self.own(on)) + moves.lever(moves.level(centre)) * on.wheel
         return out
 
     def gap(self, on: Intervals) -> Array:
@@ -215,7 +220,8 @@ class Lock:
         pose = gaps.pose(on.middle)
         gap = gaps.locking(pose)
         far = reach.rim if gaps.assembly.sign > 0.0 else reach.L + self.disc + reach.apart
-        least = gap - far * on.wheel - (self.disc + reach.apart) * on.crank
+        wheel = reach.moves.lever(far) * on.wheel
+        least = gap - wheel - (self.disc + reach.apart) * on.crank
 
         def in_recess(which: NDArray[np.intp]) -> Array:
             return self._in_recess(on.at(which), pose.wheel[which], pose.crank[which])
@@ -225,15 +231,16 @@ class Lock:
 
     def _in_recess(self, on: Intervals, wheel: Array, crank: Array) -> Array:
         """Return how far the crank stays within the circle of the nearer recess, mm."""
-        gaps, L = self.reach.gaps, self.reach.L
+        gaps, moves, L = self.reach.gaps, self.reach.moves, self.reach.L
         start, end = self.window.start, self.window.end
         nearer = np.where(on.middle - start < end - on.middle, start, end)
         axis = np.repeat([[L, 0.0]], len(wheel), axis=0)
-        middle = turned_points(axis, -gaps.assembly.wheel(nearer))
+        middle = moves.into(axis, gaps.assembly.wheel(nearer))
         free = gaps.wheel.signed(middle)
-        offset = turned_points(turned_points(middle, wheel) - axis, -crank)
+        offset = turned_points(moves.into(middle, -wheel) - axis, -crank)
         far = np.where(self._within_rim(crank, on), farthest(self.pieces, offset), 0.0)
-        out: Array = free - far.max(axis=1) - L * on.wheel - np.hypot(*offset.T) * on.crank
+        moved = moves.lever(L) * on.wheel + np.hypot(*offset.T) * on.crank
+        out: Array = free - far.max(axis=1) - moved
         return out
 
     def _within_rim(self, crank: Array, on: Intervals) -> NDArray[np.bool_]:
@@ -241,7 +248,8 @@ class Lock:
         pieces = self.pieces
         c, s = np.cos(crank)[:, None], np.sin(crank)[:, None]
         x, y = self.reach.L + c * pieces.ox - s * pieces.oy, s * pieces.ox + c * pieces.oy
-        beyond = self.reach.gaps.assembly.sign * (np.hypot(x, y) - self.reach.rim)
+        level = self.reach.moves.level(np.stack((x, y), axis=-1))
+        beyond = self.reach.gaps.assembly.sign * (level - self.reach.rim)
         moved = self.disc * on.crank[:, None] + self.reach.apart
         out: NDArray[np.bool_] = beyond - pieces.size <= moved
         return out

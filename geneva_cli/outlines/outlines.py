@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.collisions.gaps import Gaps, turned_points
+from geneva_cli.collisions.gaps import Gaps
 from geneva_cli.collisions.machine_parts import Pose
 from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.extents import farthest
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly, assembly
@@ -19,7 +20,7 @@ from geneva_cli.layout.reliefs import has_arcs, without_lock
 from geneva_cli.layout.sizes import sizes
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.outlines.bounds import FlatPairs
+from geneva_cli.outlines.bounds import AXIS, FlatPairs
 from geneva_cli.outlines.crank import crank_contours, is_whole
 from geneva_cli.outlines.walls.curved import curved_walls
 from geneva_cli.outlines.walls.straight import straight_walls
@@ -67,7 +68,7 @@ class Outlines(NamedTuple):
 
         It is an array (n, 2).
         """
-        return turned_points(self.assembly.driving(motion, at), -self.assembly.wheel(at))
+        return self.assembly.in_wheel(motion, at)
 
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
@@ -79,7 +80,9 @@ class Outlines(NamedTuple):
 
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
-        return FlatPairs(self.gaps, self.crank, target)
+        outside, wheel = self.assembly.sign > 0.0, self.gaps.wheel
+        rim = float(farthest(wheel, AXIS).max() if outside else wheel.signed(AXIS)[0])
+        return FlatPairs(self.gaps, self.crank, target, rim)
 
     @property
     def relief_depth(self) -> float:
@@ -104,7 +107,7 @@ def drawn(assembly: Assembly, sizes: Sizes, tolerance: float = 0.0) -> Outlines:
     walls = {engagement: slot_walls(assembly, sizes, engagement, fine) for engagement in kinds}
     close = (CURVED if any(engagement.slot.curved for engagement in kinds) else SAME_LENGTH) * L
     wheel = wheel_contour(assembly, sizes, walls)
-    crank, relief, gaps = _relieved(Gaps(assembly, sizes, wheel, []), close)
+    crank, relief, gaps = _relieved(Gaps(assembly, sizes, wheel, []), sizes, close)
     if assembly.full.spec.wheel.stopped:
         wheel = wheel_contour(assembly, sizes, walls, convex=True)
     return Outlines(assembly, sizes, walls, wheel, crank, relief, gaps, close, fine)
@@ -119,13 +122,13 @@ def slot_walls(
     return straight_walls(assembly, sizes, engagement)
 
 
-def _relieved(bare: Gaps, close: float) -> tuple[list[Contour], str, Gaps]:
+def _relieved(bare: Gaps, sizes: Sizes, close: float) -> tuple[list[Contour], str, Gaps]:
     """Return the crank with the relief of the spec, or else the first kind that clears the wheel.
 
     An arc leaves the most of the disc and is one cut. If it collides, as with many slots, the whole
     sector is cut down to where the wheel never comes.
     """
-    assembly, sizes = bare.assembly, bare.sizes
+    assembly = bare.assembly
     if not sizes.lock:
         return [], "none", bare
     requested = assembly.mechanism.spec.size.relief

@@ -18,20 +18,13 @@ covers all but R - rho to R + rho. After it the next recess mirrors the first.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-import numpy as np
-
-from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Contour, Line, Segment, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.sizes import lock_between, require_lock_between
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.spec.default_sizes import value_or
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 class RackSizes(NamedTuple):
@@ -46,6 +39,16 @@ class RackSizes(NamedTuple):
     floor: float  # its inner radius
     recess: float
     back: float  # wall between the slots' ends and the rack's back
+
+    @property
+    def rim(self) -> float:
+        """The edge, for the full turn."""
+        return self.edge
+
+    @property
+    def outer(self) -> float:
+        """0: no part of the rack lies beyond its edge."""
+        return 0.0
 
     @property
     def horn(self) -> float:
@@ -147,49 +150,3 @@ def locking_sector(sizes: RackSizes) -> Contour | None:
     inner = about((0.0, 0.0), sizes.floor, 1.5 * math.pi, -math.pi)
     inwards, outwards = Line(outer.end, inner.start), Line(inner.end, outer.start)
     return closed("CRANK", [outer, inwards, inner, outwards])
-
-
-class RackGap(NamedTuple):
-    """The smallest gap of a turn, mm, negative where parts overlap, and its crank angle."""
-
-    mm: float
-    crank_deg: float
-
-
-def smallest_gap(sizes: RackSizes) -> RackGap:
-    """Return the smallest gap between rack, locking sector and roller in a turn of the crank.
-
-    The second half of a turn mirrors the first. There the crank is placed at every half degree, and
-    closer at mid-motion, where the ring's end passes a horn: of a ring that is f away at mid-motion
-    within an angle of some f/R. At each place the gap is that of points on both outlines, which lie
-    a hundredth of R apart or nearer.
-    """
-    R, ring = sizes.arm, locking_sector(sizes)
-    rack = Polyarc([rack_contour(sizes, 3)])  # no part reaches more slots in one turn
-    sector = Polyarc([ring]) if ring else None
-    spacing = 1e-4 * R, 0.01 * R
-    on_rack, on_ring = rack.samples(*spacing), sector.samples(*spacing) if sector else None
-    on_rack = on_rack[(on_rack[:, 0] >= 0.0) & (abs(on_rack[:, 1]) <= 3.0 * R)]
-    passing = max(2.0 * (sizes.floor - (R - sizes.recess)) / R / DEGREE, 0.0)
-    places = {*np.linspace(-180.0, 0.0, 361), *np.linspace(-passing, 0.0, 101)}
-    best = RackGap(math.inf, 0.0)
-    for crank_deg in sorted(map(float, places)):
-        a = crank_deg * DEGREE
-        travel = R * math.sin(max(-0.5 * math.pi, min(0.5 * math.pi, a)))
-        axis = np.array([R, -travel])
-        gap = float(rack.signed(axis + R * _unit(math.pi - a)[None])[0]) - sizes.roller
-        if sector is not None and on_ring is not None:
-            c, s = _unit(math.pi - a)
-            turn = np.array([[c, s], [-s, c]])  # of rows, from the crank's frame
-            gap = min(
-                gap,
-                float(rack.signed(axis + on_ring @ turn).min()),
-                float(sector.signed((on_rack - axis) @ turn.T).min()),
-            )
-        if gap < best.mm - 1e-9 * R:  # of gaps that are equal but for rounding the first
-            best = RackGap(gap, crank_deg)
-    return best
-
-
-def _unit(angle: float) -> Array:
-    return np.array([math.cos(angle), math.sin(angle)])

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.collisions.angular_index import half_angle
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.reliefs import Relief, followed, reliefs
@@ -63,7 +62,7 @@ def corners(assembly: Assembly, sizes: Sizes, at: Array) -> tuple[Array, Array]:
     turn = corner + assembly.wheel(at)[:, None]
     # only in directions near that of the crank's axis can a corner be inside the disc
     off = np.abs(np.remainder(turn + math.pi, math.tau) - math.pi)
-    place, which = np.nonzero(off <= half_angle(sizes.lock, assembly.L))
+    place, which = np.nonzero(off <= assembly.plane_motion.half_span(sizes.lock, assembly.L))
     turn, pose = turn[place, which], assembly.crank(at)[place]
     x, y = sizes.rim * np.cos(turn) - assembly.L, sizes.rim * np.sin(turn)
     c, s = np.cos(pose), np.sin(pose)

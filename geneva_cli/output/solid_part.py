@@ -37,15 +37,15 @@ def plate_contours(plate: Plate) -> tuple[Contour | Circle, ...]:
         raise GenevaError(
             f"{plate.name}: a solid of {plate.thickness:g} mm; it must be thicker than 0"
         )
-    if 2.0 * plate.chamfer >= plate.thickness:
+    if 2.0 * plate.edge.size >= plate.thickness:
         raise GenevaError(
-            f"edge_chamfer_mm = {plate.chamfer:g}: the {plate.name} is {plate.thickness:g} mm "
+            f"{plate.edge.key} = {plate.edge.size:g}: the {plate.name} is {plate.thickness:g} mm "
             f"thick; it must be below {0.5 * plate.thickness:g}",
-            ("size", "edge_chamfer_mm"),
+            ("size", plate.edge.key),
         )
     shapes = prepared(Drawing(plate.name, (plate.outline, *plate.holes))).shapes
     shapes = drilled(shapes, plate.cross) if plate.cross else shapes
-    if not plate.chamfer:
+    if not plate.edge.size:
         return shapes
     outline, *holes = shapes
     require_faces(plate._replace(outline=outline, holes=tuple(holes)))

@@ -25,6 +25,7 @@ from geneva_cli.layout.arm_sizes import (
     hub_and_eye,
     lock_bolt_directions,
     pin_hole,
+    wall_of_bolts,
 )
 from geneva_cli.layout.bolt_holes import bolt_radius
 from geneva_cli.layout.bores import bore_of, has_shape
@@ -82,7 +83,8 @@ def crank_arm(parts: Outlines) -> CrankArm:
         )
     pins, screwed = [Circle(HOLES, c, hole) for c in centres], bolts(parts)
     about = [Circle(LAYER, (0.0, 0.0), hub), *(Circle(LAYER, c, eye) for c in centres)]
-    about += [Circle(LAYER, c.centre, eye_about(c.radius, wall)) for c in screwed]
+    bolted = wall_of_bolts(spec.size, wall)
+    about += [Circle(LAYER, c.centre, eye_about(c.radius, bolted)) for c in screwed]
     bored = form.shape(HOLES, keyway_direction(assembly))
     return CrankArm(convex_hull(LAYER, about), bored, pins, screwed, hub, eye, passing - eye)
 
@@ -125,7 +127,8 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
 def _leave_walls(parts: Outlines, screwed: list[Circle]) -> bool:
     """Return True if bolts leave walls in disc and arm, and the arm passes the wheel's hub."""
     assembly, sizes = parts.assembly, parts.sizes
-    size, wall = assembly.mechanism.spec.size, sizes.wall_min
+    size = assembly.mechanism.spec.size
+    wall = wall_of_bolts(size, sizes.wall_min)
     pins = [Circle(HOLES, c, pin_hole(size, sizes.pin)) for c in roller_centres(assembly)]
     shaft = Circle(HOLES, (0.0, 0.0), bore_of(size, "crank", shaft_bore(parts)).reach)
     eye = max(math.hypot(*c.centre) + eye_about(c.radius, wall) for c in screwed)

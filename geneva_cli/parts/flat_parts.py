@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.curves import fit
+from geneva_cli.curves.edges import Edge
 from geneva_cli.curves.hole_walls import require_faces
-from geneva_cli.curves.plates import Group, Member, Plate, on_edges, plates
+from geneva_cli.curves.plates import Group, Member, Plate, edged, plates
 from geneva_cli.curves.shapes import Contour, Point
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.layout import Dimension, Joint
@@ -101,14 +102,19 @@ class FlatParts:
         turn = float(parts.assembly.wheel(np.zeros(1))[0])
         return self._edged([Member(wheel_part(parts, contour), turn=turn)])[0]
 
+    @property
+    def _edge(self) -> Edge:
+        """The edges of all plates but gears, whose edges are teeth."""
+        size = self.mechanism.spec.size
+        return Edge(size.edge_mm, rounded=size.edge_chamfer_mm is None)
+
     def _plate(self, plate: Plate) -> Plate:
-        """Return a plate with the spec's chamfer."""
-        return plate._replace(chamfer=self.mechanism.spec.size.edge_chamfer_mm or 0.0)
+        """Return a plate with the spec's edges."""
+        return plate._replace(edge=self._edge)
 
     def _edged(self, members: Iterable[Member]) -> tuple[Member, ...]:
-        """Return members with the spec's chamfer; gears have none, as their edges are teeth."""
-        chamfer = self.mechanism.spec.size.edge_chamfer_mm or 0.0
-        return tuple(on_edges(one, chamfer) for one in members)
+        """Return members with the spec's edges."""
+        return tuple(edged(one, self._edge) for one in members)
 
     @cached_property
     def orbiting(self) -> tuple[Member, ...]:
@@ -221,9 +227,9 @@ class FlatParts:
     @property
     def tooth_dimensions(self) -> tuple[Dimension, ...]:
         """Dimensions of the gears' teeth; none without teeth."""
-        teeth = pair_teeth(self.mechanism.spec.drive.gears, self.mechanism.spec.size)
-        mesh = teeth or self.links.mesh
-        return mesh.layout if mesh else ()
+        teeth = pair_teeth(self.mechanism.spec.gears, self.mechanism.spec.size)
+        meshes = (teeth, self.links.mesh)
+        return tuple(one for mesh in meshes if mesh for one in mesh.layout)
 
     @cached_property
     def round_gears(self) -> tuple[Member, ...]:
@@ -240,7 +246,7 @@ class FlatParts:
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
         """The noncircular gears in front of a crank, with teeth or up to their pitch curves."""
-        pair, size = self.mechanism.spec.drive.gears, self.mechanism.spec.size
+        pair, size = self.mechanism.spec.gears, self.mechanism.spec.size
         if pair is None:
             return ()
         # teeth are spaced along the pitch curves, whose lengths must agree better than the teeth
@@ -290,8 +296,7 @@ class FlatParts:
         turning = (self.wheel, self.crank) if self.drawn else ()
         for member in (*turning, *self.links.cut, self.frame):
             for plate in plates(member.part):
-                if plate.chamfer:
-                    require_faces(plate)
+                require_faces(plate)
         pair_with_teeth(self.mechanism)
 
     @property

@@ -11,14 +11,14 @@ as thick.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate, Stack
 from geneva_cli.curves.shapes import Circle, Point
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.bearings import Bearing, bearing_up_to
+from geneva_cli.layout.bearings import SERIES_60
 from geneva_cli.layout.bores import around
 from geneva_cli.layout.link_positions import same
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, wall_min
@@ -27,11 +27,14 @@ from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import wheel_hub
 from geneva_cli.parts.arm import has_arm
-from geneva_cli.parts.gear_pair import gear_shafts, gear_span
-from geneva_cli.parts.link_shafts import Ends, link_shafts, outside_links
+from geneva_cli.parts.gear_pair import NAMES, gear_shafts, gear_span
+from geneva_cli.parts.link_shafts import Ends, carried, link_shafts, outside_links
 from geneva_cli.parts.links import Links, placed_holes
 from geneva_cli.parts.planes import crank_stop
+from geneva_cli.parts.shaft import Seat, Shaft
 from geneva_cli.parts.shafts import crank_shaft_radius, shafts, wheel_shaft_radius
+from geneva_cli.parts.turned_shafts import bearing_of, turned_shaft
+from geneva_cli.spec.tables import Size
 
 NAME, LAYER, HOLES = "frame", "FRAME", "BORE"
 
@@ -63,17 +66,25 @@ def framed(
         )
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     lows = [base.low] if base else []
-    if mechanism.spec.drive.gears:
+    if mechanism.spec.gears:
         lows.append(gear_span(mechanism, outlines)[0])
     top = min([_lowest(mechanism, outlines, bars), *lows]) - size.washer_mm
     drawn = outlines.sizes if outlines else None
     thick = drawn_thicknesses(size, L, drawn).arm
-    if size.shafts == "turned":
-        _refuse_turned(mechanism, bars)
-        top -= L / 50.0  # the least length of a shoulder
-        thick = max([thick, *(bearing.width for bearing in _bearings(outlines))])
+    collar = L / 50.0  # the least length of a shoulder
+    top -= collar if size.shafts == "turned" else 0.0
     bottom = top - thick
-    axles = list(_shafts(mechanism, outlines, bars, (bottom, top), first))
+    own = list(_shafts(mechanism, outlines, bars, bottom, first))
+    turned = [one for one in own if _in_bearing(one, size, bottom)]
+    bottom = min([bottom, *(top - bearing_of(one).width for one in turned)])
+    moving = [*_moving(mechanism, outlines, bars), *map(_span, first)]
+    axles = []
+    for one in own:
+        if one in turned:
+            passed = _is_passed(one, moving)
+            axles.append(turned_shaft(size, one, top, collar if passed else None))
+        else:
+            axles.append(one.plain(size))
     places = list(_standing(mechanism, bars))
     mounts = _mounted(base, L) if base else ()
     holes = [*_drilled(mechanism, axles, places, top), *_fixed(bars), *mounts]
@@ -102,47 +113,59 @@ def _shafts(
     mechanism: Mechanism,
     outlines: Outlines | None,
     bars: Links,
-    frame: tuple[float, float],
+    lowest: float,
     first: Sequence[Member],
-) -> Iterator[Member]:
-    """Yield all shafts at their positions; ``frame`` has the frame's lower and upper face."""
-    stop, own = None, (False, False)
+) -> Iterator[Shaft]:
+    """Yield all shafts and pivots; ``lowest`` is the frame's lower face."""
+    stop, has_one = None, (False, False)
+    L = mechanism.center_distance_mm
     if outlines:
+
+        def below(at: Point) -> list[Seat]:
+            """Return what a shaft carries below wheel or crank."""
+            here = (axis for axis in bars.axes if same(axis.at, at, L))
+            seats = [seat for axis in here for seat in carried(bars, axis, first, L)]
+            if mechanism.spec.gears and same(at, (L, 0.0), L):
+                seats.append(Seat("driven gear", *gear_span(mechanism, outlines)))
+            return seats
+
         stop = crank_stop(outlines, bars)
-        own = crank_shaft_radius(outlines) > 0.0, wheel_shaft_radius(outlines) > 0.0
+        has_one = crank_shaft_radius(outlines) > 0.0, wheel_shaft_radius(outlines) > 0.0
         _, *others = mechanism.wheel_places
         half = mechanism.engagements[0].half_step
-        for one in shafts(outlines, frame, stop):
+        for one in shafts(outlines, lowest, stop, below):
             yield one
-            if same(one.at, (0.0, 0.0), mechanism.center_distance_mm):
+            if same(one.at, (0.0, 0.0), L):
                 yield from (one._replace(at=it.at, turn=one.turn + it.turn - half) for it in others)
     size, drawn = mechanism.spec.size, outlines.sizes if outlines else None
-    top = drawn_thicknesses(size, mechanism.center_distance_mm, drawn).wheel
-    ends = Ends(frame[0], top, stop, *own)
+    top = drawn_thicknesses(size, L, drawn).wheel
+    ends = Ends(lowest, top, stop, *has_one)
     yield from link_shafts(mechanism, bars, ends, first)
     yield from gear_shafts(mechanism, outlines, ends)
 
 
-def _refuse_turned(mechanism: Mechanism, bars: Links) -> None:
-    """Raise GenevaError for turned shafts that would carry links or gears too."""
-    if bars.sizes or mechanism.spec.drive.gears:
-        raise GenevaError(
-            f'shafts = "turned": kind = "{mechanism.spec.drive.NAME}" has links or gears on its '
-            "shafts, which leave no space for a shoulder; remove it",
-            ("size", "shafts"),
-        )
+def _in_bearing(shaft: Shaft, size: Size, lowest: float) -> bool:
+    """Return True for a turned shaft: it turns in the frame, whose lower face it reaches."""
+    return size.shafts == "turned" and shaft.turns and shaft.low <= lowest
 
 
-def _bearings(outlines: Outlines | None) -> Iterator[Bearing]:
-    """Yield the bearings of the turned shafts of wheel and crank."""
-    if outlines is None:
-        return
-    for part, radius in (
-        ("wheel", outlines.sizes.wheel_bore),
-        ("crank", crank_shaft_radius(outlines)),
-    ):
-        if radius:
-            yield bearing_up_to(2.0 * radius, part)
+def _moving(mechanism: Mechanism, outlines: Outlines | None, bars: Links) -> Iterator[Seat]:
+    """Yield links and gears: their names, lower and upper faces."""
+    yield from map(_span, (*bars.cut, *bars.joined, *(gear.member for gear in bars.gears)))
+    if mechanism.spec.gears:
+        yield from (Seat(name, *gear_span(mechanism, outlines)) for name in NAMES)
+
+
+def _span(member: Member) -> Seat:
+    assert isinstance(member.part, Plate)
+    return Seat(member.part.name, member.part.low, member.part.high)
+
+
+def _is_passed(shaft: Shaft, moving: Iterable[Seat]) -> bool:
+    """Return True if parts on other axes are lower than what a shaft carries."""
+    low = shaft.seats[0].low if shaft.seats else shaft.high
+    own = {seat.part for seat in shaft.seats}
+    return any(one.low < low and one.part not in own for one in moving)
 
 
 def _drilled(
@@ -160,7 +183,8 @@ def _drilled(
         for one in here:
             if isinstance(one, Stack):
                 seat = next(step for step in one.plates if step.high == top)
-                yield Circle(HOLES, at, 0.5 * bearing_up_to(2.0 * around(seat.outline), "").outside)
+                bearing = next(b for b in SERIES_60 if b.bore == 2.0 * around(seat.outline))
+                yield Circle(HOLES, at, 0.5 * bearing.outside)
             elif isinstance(one, Plate) and one.low < top:
                 wider = 0.5 * mechanism.spec.size.allowances.shaft_fit_mm
                 yield Circle(HOLES, at, around(one.outline) + wider)
@@ -177,8 +201,8 @@ def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
     L = mechanism.center_distance_mm
     wheels = [one.at for one in mechanism.wheel_places]
     seen = [*(wheels if mechanism.spec.wheel.SIGN > 0.0 else []), (L, 0.0)]
-    if mechanism.spec.drive.gears:
-        seen.append((L + mechanism.spec.drive.gears.distance_mm, 0.0))
+    if mechanism.spec.gears:
+        seen.append((L + mechanism.spec.gears.distance_mm, 0.0))
     yield from seen
     for axis in bars.axes:
         if axis.stands and not any(same(axis.at, one, L) for one in seen):

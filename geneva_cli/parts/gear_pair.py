@@ -15,15 +15,18 @@ from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Point, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.drive import Gears
+from geneva_cli.layout.bores import RoundBore
 from geneva_cli.layout.gear_curves import SAMPLES, radii, ratio_and_turn, required_gears
+from geneva_cli.layout.link_positions import gear_plane
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.link_shafts import Ends
 from geneva_cli.parts.link_sizes import link_sizes
+from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.pair_teeth import ToothedCurve, pair_teeth, toothed_curve
-from geneva_cli.parts.shafts import round_section, shaft, shaft_ends
+from geneva_cli.parts.shaft import Seat, Shaft, shaft_ends
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -40,13 +43,13 @@ FINE = {"arcs": 8e-9, "cubics": 2e-9}
 
 
 def crank_sense(mechanism: Mechanism) -> float:
-    """Return 1 if the crank turns counterclockwise (internal wheel), -1 if not (external)."""
-    return -mechanism.spec.wheel.SIGN
+    """Return 1 if the crank turns counterclockwise (as in an internal wheel), -1 if not."""
+    return -(mechanism.engagements[0].crank_sense or mechanism.spec.wheel.SIGN)
 
 
 def gear_span(mechanism: Mechanism, parts: Outlines | None) -> tuple[float, float]:
-    """Return lower and upper end of the gears along the axis: the plane below the arm is theirs."""
-    return link_sizes(mechanism, [], parts).span(2)
+    """Return lower and upper end of the gears along the axis, in a plane below all links."""
+    return link_sizes(mechanism, [], parts).span(gear_plane(mechanism))
 
 
 def gear_pair(mechanism: Mechanism, parts: Outlines | None, write: Writer) -> tuple[Member, ...]:
@@ -55,7 +58,7 @@ def gear_pair(mechanism: Mechanism, parts: Outlines | None, write: Writer) -> tu
     ``parts`` are the outlines of wheel and crank, if they are drawn; ``write`` fits curves. Raises
     GenevaError for a bore larger than its gear, and for teeth that do not fit.
     """
-    pair = mechanism.spec.drive.gears
+    pair = mechanism.spec.gears
     if pair is None:
         return ()
     low, high = gear_span(mechanism, parts)
@@ -78,7 +81,7 @@ def pair_with_teeth(mechanism: Mechanism) -> list[ToothedCurve]:
 
     Raises GenevaError, naming the key, for teeth that do not fit.
     """
-    pair, sense = mechanism.spec.drive.gears, crank_sense(mechanism)
+    pair, sense = mechanism.spec.gears, crank_sense(mechanism)
     teeth = pair_teeth(pair, mechanism.spec.size)
     if pair is None or teeth is None:
         return []
@@ -108,21 +111,24 @@ def pitch_radii(pair: Gears) -> tuple[tuple[float, float], tuple[float, float]]:
     )
 
 
-def gear_shafts(mechanism: Mechanism, parts: Outlines | None, ends: Ends) -> Iterator[Member]:
+def gear_shafts(mechanism: Mechanism, parts: Outlines | None, ends: Ends) -> Iterator[Shaft]:
     """Yield the shafts that carry only gears, from the frame's lower face up; none without gears.
 
     The driver's shaft goes through it, or ends below one that is too small for a bore. The crank's
-    is included if neither arm nor locking disc has one.
+    is included if neither arm, locking disc nor links have one.
     """
-    if mechanism.spec.drive.gears is None:
+    if mechanism.spec.gears is None:
         return
     size, ((on_crank, wide), (at, radius)) = mechanism.spec.size, _shafts(mechanism, parts)
     low, high = gear_span(mechanism, parts)
-    if not ends.crank_has_one:
+    if not (ends.crank_has_one or _on_links(mechanism, parts)):
         reach = shaft_ends(size, "crank", ends.lowest, high)
-        yield Member(shaft("crank", round_section(size, wide), reach), on_crank)
-    top = high if _driver_bore(mechanism, parts) else low
-    yield Member(shaft("driver gear", round_section(size, radius), (ends.lowest, top)), at)
+        driven = (Seat(NAMES[0], low, high),)
+        yield Shaft("crank's shaft", "crank", RoundBore(wide), driven, *reach, on_crank)
+    bored = _driver_bore(mechanism, parts) > 0.0
+    top = high if bored else low  # one piece with the gear above it
+    seats = (Seat(NAMES[1], low, high),) if bored else ()
+    yield Shaft(f"{NAMES[1]}'s shaft", NAMES[1], RoundBore(radius), seats, ends.lowest, top, at)
 
 
 def _shafts(mechanism: Mechanism, parts: Outlines | None) -> list[tuple[Point, float]]:
@@ -133,9 +139,15 @@ def _shafts(mechanism: Mechanism, parts: Outlines | None) -> list[tuple[Point, f
     pair, L = required_gears(mechanism), mechanism.center_distance_mm
     sizes, ((driven, _), _) = link_sizes(mechanism, [], parts), pitch_radii(pair)
     usual = bore_radius(L / 20.0)
-    on_crank = sizes.crank_shaft or sizes.bore(driven, L) or usual
+    on_crank = _on_links(mechanism, parts) or sizes.crank_shaft or sizes.bore(driven, L) or usual
     ends = (L, 0.0), (L + pair.distance_mm, 0.0)
     return list(zip(ends, (on_crank, _driver_bore(mechanism, parts) or usual), strict=True))
+
+
+def _on_links(mechanism: Mechanism, parts: Outlines | None) -> float:
+    """Return the radius of the crank's shaft where links are on it; 0 without links."""
+    L = mechanism.center_distance_mm
+    return drawn_links(mechanism, parts).shaft((L, 0.0), L)
 
 
 def _driver_bore(mechanism: Mechanism, parts: Outlines | None) -> float:

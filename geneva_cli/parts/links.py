@@ -90,7 +90,7 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
 
     Raises GenevaError, naming the key, for sizes that leave no plate around a hole.
     """
-    turns = mechanism.spec.drive.turns
+    turns = mechanism.spec.turns
     # a quarter of a degree apart; 0 is one of them
     turn = np.linspace(-180.0 * turns, 180.0 * turns, 1440 * turns + 1)
     links = links_at(mechanism, turn)

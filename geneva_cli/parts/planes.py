@@ -18,7 +18,7 @@ import numpy as np
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.kinematics.layout import Joint, Link
-from geneva_cli.layout.link_positions import links_at
+from geneva_cli.layout.link_positions import gear_plane, links_at
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import wheel_hub_length
@@ -65,7 +65,7 @@ def planes(parts: Outlines, bars: Links) -> Planes:
     ``bars`` are the links of the machine with the outlines ``parts``.
     """
     mechanism = parts.assembly.full
-    turns = mechanism.spec.drive.turns
+    turns = mechanism.spec.turns
     turn = np.linspace(-180.0 * turns, 180.0 * turns, LOOKS * turns + 1)
     links_and_gears = links_at(mechanism, turn)
     links = [link for link in links_and_gears if not link.radius_mm]
@@ -117,7 +117,7 @@ def _gears(parts: Outlines, bars: Links, links: tuple[Link, ...], turn: Array) -
 def crank_stop(parts: Outlines, bars: Links) -> float | None:
     """Return the height at which a link stops the crank's shaft downwards; None if none does."""
     mechanism = parts.assembly.full
-    turn = np.linspace(-180.0, 180.0, LOOKS + 1) * mechanism.spec.drive.turns
+    turn = np.linspace(-180.0, 180.0, LOOKS + 1) * mechanism.spec.turns
     links = [link for link in links_at(mechanism, turn) if not link.radius_mm]
     if not links or bars.sizes is None:
         return None
@@ -179,6 +179,8 @@ class _Shaft:
                 self.carries.add(link.plane)
         if has_arm(parts):
             self.carries.add(1)
+        if parts.assembly.full.spec.gears:
+            self.carries.add(gear_plane(parts.assembly.full))
         self.through = parts.sizes.crank_bore > 0.0  # through the locking disc
         if self.through:
             self.carries.add(0)

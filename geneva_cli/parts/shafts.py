@@ -10,14 +10,14 @@ shaft only above it, unless that carries a gear below.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from geneva_cli.curves.plates import Member, Plate, Stack
-from geneva_cli.curves.shapes import ORIGIN, Circle, Shape
+from geneva_cli.curves.plates import Plate
+from geneva_cli.curves.shapes import ORIGIN, Circle, Point
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.bores import RoundBore, bore_of, fitted
+from geneva_cli.layout.bores import bore_of
 from geneva_cli.layout.held_hubs import held_hub
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.layout.reliefs import keyway_direction
@@ -26,10 +26,7 @@ from geneva_cli.outlines.crank import crank_circles, is_whole
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import HUB, about_axis, wheel_hub
 from geneva_cli.parts.arm import has_arm, shaft_bore
-from geneva_cli.parts.turned_shafts import Seat, turned_shaft
-from geneva_cli.spec.tables import Size
-
-SHAFT = "SHAFT"
+from geneva_cli.parts.shaft import Seat, Shaft, shaft_ends
 
 
 def crank_hub(parts: Outlines) -> Plate | None:
@@ -68,39 +65,34 @@ def _crank_hub(parts: Outlines) -> Plate | None:
 
 
 def shafts(
-    parts: Outlines, frame: tuple[float, float], stop: float | None = None
-) -> Iterator[Member]:
-    """Yield the shafts of wheel and crank at their positions.
+    parts: Outlines,
+    lowest: float,
+    stop: float | None = None,
+    carried: Callable[[Point], list[Seat]] = lambda at: [],
+) -> Iterator[Shaft]:
+    """Yield the shafts of wheel and crank.
 
-    ``frame`` has the frame's lower and upper face. The crank's shaft ends at ``stop`` if links
-    block it (``turn.planes``). Raises GenevaError where a shaft's lower end is not below its upper
-    one.
+    ``lowest`` is the frame's lower face, and ``carried`` returns what sits on a shaft below wheel
+    or crank. The crank's shaft ends at ``stop`` if links block it (``turn.planes``).
     """
     assembly, still = parts.assembly, np.zeros(1)
-    size, lowest = assembly.mechanism.spec.size, frame[0]
+    size = assembly.mechanism.spec.size
     if parts.sizes.wheel_bore:
-        bore = bore_of(size, "wheel", parts.sizes.wheel_bore)
-        ends = wheel_shaft_ends(parts, lowest)
-        one = Seat("wheel", bore, assembly.rests[0], *_on_wheel(parts), False, frame[1])
-        turn = float(assembly.wheel(still)[0])
-        yield Member(_shaft(size, one, ends, lowest), turn=0.0 if bore.is_plain else turn)
+        bore, at = bore_of(size, "wheel", parts.sizes.wheel_bore), (0.0, 0.0)
+        low, high = wheel_shaft_ends(parts, lowest)
+        turn = 0.0 if bore.is_plain else float(assembly.wheel(still)[0])
+        seats = (*carried(at), Seat("wheel", *_on_wheel(parts)))
+        one = Shaft("wheel's shaft", "wheel", bore, seats, low, high, at, assembly.rests[0], turn)
+        yield one._replace(ends_here=False)
     radius = crank_shaft_radius(parts)
     if radius:
-        bore = bore_of(size, "crank", radius)
-        ends = crank_shaft_ends(parts, lowest if stop is None else stop)
-        at = _on_crank(parts)
-        through = parts.sizes.crank_bore > 0.0
-        one = Seat("crank", bore, keyway_direction(assembly), *at, not through, frame[1])
-        turn = float(assembly.crank(still)[0])
-        plate = _shaft(size, one, ends, lowest)
-        yield Member(plate, (assembly.L, 0.0), 0.0 if bore.is_plain else turn)
-
-
-def _shaft(size: Size, seat: Seat, ends: tuple[float, float], lowest: float) -> Plate | Stack:
-    """Return a shaft of wheel or crank; one that ends above the frame is always plain."""
-    if size.shafts == "turned" and ends[0] <= lowest:
-        return turned_shaft(size, seat, SHAFT)
-    return shaft(seat.part, fitted(size, seat.bore).section(SHAFT, seat.direction), ends)
+        bore, at = bore_of(size, "crank", radius), (assembly.L, 0.0)
+        low, high = crank_shaft_ends(parts, lowest if stop is None else stop)
+        turn = 0.0 if bore.is_plain else float(assembly.crank(still)[0])
+        seats = (*carried(at), Seat("crank", *_on_crank(parts)))
+        direction = keyway_direction(assembly)
+        one = Shaft("crank's shaft", "crank", bore, seats, low, high, at, direction, turn)
+        yield one._replace(ends_here=parts.sizes.crank_bore == 0.0)
 
 
 def _on_wheel(parts: Outlines) -> tuple[float, float]:
@@ -151,34 +143,3 @@ def crank_shaft_radius(parts: Outlines) -> float:
 def crank_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
     """Return the ends of the crank's shaft: upper end in the arm, or in a bored locking disc."""
     return shaft_ends(parts.assembly.mechanism.spec.size, "crank", lowest, _on_crank(parts)[1])
-
-
-def shaft_ends(size: Size, part: str, low: float, high: float) -> tuple[float, float]:
-    """Return the ends of a part's shaft: those of the spec, or else the heights low and high."""
-    values = vars(size)
-    ends = values.get(f"{part}_shaft_low_mm"), values.get(f"{part}_shaft_high_mm")
-    return low if ends[0] is None else ends[0], high if ends[1] is None else ends[1]
-
-
-def round_section(size: Size, radius: float) -> Shape:
-    """Return the section of a round shaft for bores of a radius.
-
-    Raises GenevaError where ``shaft_fit_mm`` leaves nothing of it.
-    """
-    return fitted(size, RoundBore(radius)).section(SHAFT, 0.0)
-
-
-def shaft(part: str, section: Shape, ends: tuple[float, float], what: str = "shaft") -> Plate:
-    """Return the shaft of a part about the origin; ``what`` is the last word of its name.
-
-    Raises GenevaError, naming the key, where its lower end is not below its upper one.
-    """
-    low, high = ends
-    if not low < high:
-        raise GenevaError(
-            f"{part}_shaft_low_mm: the {part}'s shaft would reach from {low:g} up to {high:g} mm "
-            f"(0 is the wheel's lower face); reduce {part}_shaft_low_mm or increase "
-            f"{part}_shaft_high_mm",
-            ("size", f"{part}_shaft_low_mm"),
-        )
-    return Plate(f"{part}'s {what}", SHAFT, section, (), low, high)

@@ -1,7 +1,9 @@
-"""Shafts with steps, as a lathe turns them: circlip, bearing, shoulder, seat of the part, circlip.
+"""Shafts with steps, as a lathe turns them: circlip, bearing, shoulder, seats of parts, circlip.
 
 The bearing is in the frame, flush with its upper face. It lies between the shoulder above and a
-circlip below. The part stands on the shoulder, with a circlip above it where there is space.
+circlip below. The lowest part stands on the shoulder. Where other parts pass below that part, the
+shoulder is a collar just above the frame. Above the highest part there is a circlip if there is
+space.
 """
 
 from __future__ import annotations
@@ -11,80 +13,94 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import NamedTuple
 
-from geneva_cli.curves.plates import Plate, Stack
+from geneva_cli.curves.plates import Member, Plate, Stack
 from geneva_cli.curves.shapes import ORIGIN, Circle, Shape
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.bearings import Circlip, bearing_up_to, circlip_up_to
+from geneva_cli.layout.bearings import Bearing, Circlip, bearing_up_to, circlip_up_to
 from geneva_cli.layout.bores import Bore, fitted, rounded
+from geneva_cli.parts.shaft import SHAFT, Seat, Shaft
 from geneva_cli.spec.tables import Size
 
 
-class Seat(NamedTuple):
-    """Where a part sits on its shaft."""
-
-    part: str  # "wheel" or "crank"
-    bore: Bore
-    direction: float  # of the bore's keyway or flat, radians
-    low: float
-    high: float
-    ends_here: bool  # True where nothing may stand above the part
-    frame: float  # the frame's upper face
-
-
 class Step(NamedTuple):
-    """One step of a shaft: what it is, its section, and the length that it needs."""
+    """One step of a shaft: what it is, its section, and its upper end."""
 
     name: str
     section: Shape
-    length: float
+    high: float
 
 
-def turned_shaft(size: Size, seat: Seat, layer: str) -> Stack:
+def bearing_of(shaft: Shaft) -> Bearing:
+    """Return the bearing of a shaft. Raises GenevaError for a shaft that is too thin for one."""
+    return bearing_up_to(2.0 * shaft.bore.radius, shaft.name, shaft.bore_key)
+
+
+def turned_shaft(size: Size, shaft: Shaft, frame: float, collar: float | None) -> Member:
     """Return a shaft with its steps.
 
-    Raises GenevaError, naming the key, for a shaft that is too thin for a bearing, and for ends
-    that leave no space for the circlips.
+    ``frame`` is the frame's upper face, and ``collar`` the length of a shoulder below which nothing
+    passes; None where the shoulder reaches the lowest part. Raises GenevaError, naming the key, for
+    a shaft that is too thin for a bearing, and for ends that leave no space for the circlips.
     """
-    bearing = bearing_up_to(2.0 * seat.bore.radius, seat.part)
-    own = fitted(size, seat.bore)
-    # rounded up to half a millimetre; the last term drops rounding errors
-    shoulder = 0.5 * math.ceil(2.0 * max(bearing.shoulder, 2.5 * seat.bore.around) - 1e-9)
-    below = [
-        *_retained(layer, circlip_up_to(bearing.bore))[::-1],
-        Step(f"seat of bearing {bearing.name}", _circle(layer, bearing.bore), bearing.width),
-    ]
-    above = list(_on_part(layer, own, seat))
+    bearing, own = bearing_of(shaft), fitted(size, shaft.bore)
+    under = frame - bearing.width
+    ring = circlip_up_to(bearing.bore)
+    groove = under - ring.width
     values = vars(size)
-    keys = f"{seat.part}_shaft_low_mm", f"{seat.part}_shaft_high_mm"
-    low = _end(keys[0], values[keys[0]], seat.frame - _long(below), -1.0)
-    high = _end(keys[1], values[keys[1]], seat.low + _long(above), 1.0)
-    heights = [low, *(seat.frame - _long(below[k:]) for k in range(1, len(below))), seat.frame]
-    heights += [seat.low, *(seat.low + _long(above[:k]) for k in range(1, len(above))), high]
-    steps = [*below, Step("shoulder", _circle(layer, shoulder), 0.0), *above]
-    spans = zip(steps, pairwise(heights), strict=True)
-    plates = (Plate(step.name, layer, step.section, (), *ends) for step, ends in spans)
-    return Stack(f"{seat.part}'s shaft", layer, tuple(plates))
+    low_key, high_key = f"{shaft.part}_shaft_low_mm", f"{shaft.part}_shaft_high_mm"
+    low = _end(low_key, values.get(low_key), groove - ring.edge, -1.0)
+    steps = [
+        Step("end", _circle(ring.shaft), groove),
+        Step("circlip groove, DIN 471", _circle(ring.groove), under),
+        Step(f"seat of bearing {bearing.name}", _circle(bearing.bore), frame),
+        *_above(shaft, own, bearing, frame, collar),
+    ]
+    *others, last = steps
+    high = _end(high_key, values.get(high_key), last.high, 1.0)
+    steps = [*others, last._replace(high=high)]
+    heights = pairwise([low, *(step.high for step in steps)])
+    plates = (
+        Plate(step.name, SHAFT, step.section, (), *ends)
+        for step, ends in zip(steps, heights, strict=True)
+    )
+    return Member(Stack(shaft.name, SHAFT, tuple(plates)), shaft.at, shaft.turn)
 
 
-def _on_part(layer: str, own: Bore, seat: Seat) -> Iterator[Step]:
-    """Yield the steps from the shoulder up: the part's seat, and a circlip where there is space."""
-    section, name = own.section(layer, seat.direction), f"seat of {seat.part}"
-    long = seat.high - seat.low
+def _above(
+    shaft: Shaft, own: Bore, bearing: Bearing, frame: float, collar: float | None
+) -> Iterator[Step]:
+    """Yield the steps from the frame's upper face up."""
+    # rounded up to half a millimetre; the last term drops rounding errors
+    wide = 0.5 * math.ceil(2.0 * max(bearing.shoulder, 2.5 * shaft.bore.around) - 1e-9)
+    section = own.section(SHAFT, shaft.direction)
+    below = rounded(section) if own.is_round else _circle(2.0 * own.radius)
+    first = shaft.seats[0].low if shaft.seats else shaft.high
+    top = first if collar is None else min(first, frame + collar)
+    yield Step("shoulder", _circle(wide), top)
+    if top < first:
+        yield Step("shaft", below, first)
+    for seat, after in pairwise(shaft.seats):
+        yield Step(f"seat of {seat.part}", below, seat.high)
+        if seat.high < after.low:
+            yield Step("shaft", below, after.low)
+    if shaft.seats:
+        yield from _on_part(own, shaft.seats[-1], section, shaft.ends_here)
+
+
+def _on_part(own: Bore, seat: Seat, section: Shape, ends_here: bool) -> Iterator[Step]:
+    """Yield the steps of the highest part's seat, and a circlip where there is space."""
+    name, long = f"seat of {seat.part}", seat.high - seat.low
     if own.keyed:
         # a keyway that ends before both faces leaves a round seat on each side
-        end = Step(name, rounded(section), 0.1 * long)
-        yield from (end, Step(f"{name}, {own.shaft_note}", section, 0.8 * long), end)
+        yield Step(name, rounded(section), seat.low + 0.1 * long)
+        yield Step(f"{name}, {own.shaft_note}", section, seat.high - 0.1 * long)
+        yield Step(name, rounded(section), seat.high)
     else:
-        yield Step(f"{name}, {own.shaft_note}".removesuffix(", "), section, long)
-    if own.end_diameter and not seat.ends_here:
-        yield from _retained(layer, circlip_up_to(own.end_diameter))
-
-
-def _retained(layer: str, ring: Circlip) -> list[Step]:
-    """Return a circlip's groove and the shaft's end beyond it."""
-    name = "circlip groove, DIN 471"
-    groove = Step(name, _circle(layer, ring.groove), ring.width)
-    return [groove, Step("end", _circle(layer, ring.shaft), ring.edge)]
+        yield Step(f"{name}, {own.shaft_note}".removesuffix(", "), section, seat.high)
+    if own.end_diameter and not ends_here:
+        ring: Circlip = circlip_up_to(own.end_diameter)
+        yield Step("circlip groove, DIN 471", _circle(ring.groove), seat.high + ring.width)
+        yield Step("end", _circle(ring.shaft), seat.high + ring.width + ring.edge)
 
 
 def _end(key: str, own: float | None, needed: float, outwards: float) -> float:
@@ -98,9 +114,5 @@ def _end(key: str, own: float | None, needed: float, outwards: float) -> float:
     return needed if own is None else own
 
 
-def _long(steps: list[Step]) -> float:
-    return sum(step.length for step in steps)
-
-
-def _circle(layer: str, diameter: float) -> Circle:
-    return Circle(layer, ORIGIN, 0.5 * diameter)
+def _circle(diameter: float) -> Circle:
+    return Circle(SHAFT, ORIGIN, 0.5 * diameter)

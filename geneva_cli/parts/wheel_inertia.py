@@ -12,11 +12,11 @@ from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly, assembly
 from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.sizes import sizes
+from geneva_cli.machine.materials import wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.walls.straight import straight_walls
 from geneva_cli.outlines.wheel import LAYER, wheel_circles, wheel_contour
 from geneva_cli.outlines.wheel_hub import wheel_hub
-from geneva_cli.spec.workshops import density_kgm3
 
 
 def wheel_body(mechanism: Mechanism) -> MassProperties | None:
@@ -42,7 +42,7 @@ def wheel_body(mechanism: Mechanism) -> MassProperties | None:
     contour = _contour(where, size)
     # an internal wheel's contour is its opening, inside its outline
     face = outer.less(contour) if outer.area else contour
-    density = density_kgm3(spec.material_wheel.density_kgm3, spec.size.process)
+    density = wheel_material(spec).density_kgm3
     wheel = face_properties(face.less(bores), size.wheel_thickness, density)
     hub = wheel_hub(where, size)
     return added(wheel, mass_properties(hub, density)) if hub else wheel

@@ -252,9 +252,7 @@ class Size(SpecTable):
     ] = None
     washer_mm: Annotated[float, NOT_NEGATIVE, "thickness of washers between stacked links"] = 0.0
     edge_chamfer_mm: Annotated[float | None, POSITIVE, "chamfer of all edges, at 45 degrees"] = None
-    edge_fillet_mm: Annotated[
-        float | None, POSITIVE, "rounding radius of all edges: a note on the sheet"
-    ] = None
+    edge_fillet_mm: Annotated[float | None, POSITIVE, "rounding radius of all edges"] = None
 
     @property
     def edge_mm(self) -> float:
@@ -498,24 +496,32 @@ class Shaft(SpecTable):
 
 
 class Material(SpecTable):
-    """Material of a part, by default steel."""
+    """Material of a part; without its keys steel, or PLA for a printed plate."""
 
-    youngs_modulus_GPa: Annotated[float, POSITIVE, "Young's modulus E"] = 210.0
-    poisson_ratio: Annotated[float, Range(0.0, 0.5), "Poisson's ratio nu"] = 0.3
+    youngs_modulus_GPa: Annotated[
+        float | None, POSITIVE, "Young's modulus E; default of steel 210, of prints 2.4 (PLA)"
+    ] = None
+    poisson_ratio: Annotated[
+        float | None,
+        Range(0.0, 0.5),
+        "Poisson's ratio nu; default of steel 0.3, of prints 0.36 (PLA)",
+    ] = None
     density_kgm3: Annotated[
         float | None, POSITIVE, "density; default of steel 7850, of prints 1240 (PLA)"
     ] = None
     stress_max_MPa: Annotated[
-        float | None, POSITIVE, "allowable stress; default of steel 165 (C45+N, 0.6 yield)"
+        float | None,
+        POSITIVE,
+        "allowable stress; default of steel 165 (C45+N, 0.6 yield), of prints 8.2 (PLA)",
     ] = None
     grade: Annotated[str | None, None, "grade, as drawings name it"] = None
 
 
 class WheelMaterial(Material):
-    """``[material.wheel]``: material of the wheel.
+    """``[material.wheel]``: material of wheel, arm, locking disc and other plates.
 
-    >>> WheelMaterial().youngs_modulus_GPa  # steel
-    210.0
+    >>> WheelMaterial(grade="POM", youngs_modulus_GPa=2.8).stress_max_MPa is None
+    True
     """
 
     TABLE: ClassVar[str] = "material.wheel"
@@ -526,10 +532,10 @@ class WheelMaterial(Material):
 
 
 class RollerMaterial(Material):
-    """``[material.roller]``: material of the roller and its pin.
+    """``[material.roller]``: material of rollers, their pins, and shafts.
 
-    >>> RollerMaterial(stress_max_MPa=1500.0).poisson_ratio
-    0.3
+    >>> RollerMaterial(stress_max_MPa=1500.0).stress_max_MPa
+    1500.0
     """
 
     TABLE: ClassVar[str] = "material.roller"

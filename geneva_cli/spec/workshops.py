@@ -8,6 +8,22 @@ from typing import NamedTuple
 from geneva_cli.spec.iso_9013 import deviation_mm
 
 
+class Stock(NamedTuple):
+    """A material of parts; by default C45+N (1.0503, normalised), a steel.
+
+    Its least yield strength is 275 MPa, that of pieces of 100 to 250 mm (EN 10083-2); thinner ones
+    have more. 0.6 of it is allowed in tension, bending and pressure: twice what the ASME code of
+    shafts allows in shear. The code's other bound, 0.36 of the tensile strength of 560 MPa, is
+    higher.
+    """
+
+    grade: str = "steel"
+    youngs_modulus_GPa: float = 210.0
+    poisson_ratio: float = 0.3
+    density_kgm3: float = 7850.0
+    allowed_MPa: float = 165.0  # 0.6 of 275 MPa
+
+
 class Workshop(NamedTuple):
     """What a process can hold. Limits that it does not have are 0 or infinite."""
 
@@ -16,8 +32,7 @@ class Workshop(NamedTuple):
     # deviation of a size that it cuts, by thickness and size in mm; None: by fits, or not known
     cut_mm: Callable[[float, float], float] | None = None
     roughness: str = ""
-    material: str = "steel"  # of the default density and stiffness
-    density_kgm3: float = 7850.0  # of steel
+    stock: Stock = Stock()  # of plates: wheel, arm and locking disc
     wall_mm: float = 0.0  # thinnest wall
     hole: float = 0.0  # smallest hole, over the plate's thickness
     plate_mm: float = float("inf")  # thickest plate
@@ -39,8 +54,14 @@ WORKSHOPS = {
     "mill": Workshop("ISO 2768-m", roughness="Ra 3.2"),
     # A wall needs two lines of a 0.4 mm nozzle (rigidprints.co.uk/design-guide/wall-thickness);
     # sizes are within 0.2 mm (printparams.com/docs/real-world-fit). PLA has 1.24 g/cm³ (ASTM D792,
-    # data sheet of Ingeo 2003D, NatureWorks); parts that are not printed solid are lighter.
-    "print": Workshop("±0.2 mm", fits=False, material="", density_kgm3=1240.0, wall_mm=0.8),
+    # data sheet of Ingeo 2003D, NatureWorks); parts that are not printed solid are lighter. Across
+    # its layers it has 2.4 GPa and breaks at 22.8 MPa (3D Print. Addit. Manuf. 2021,
+    # doi 10.1089/3dp.2020.0109); another data sheet has 2.5 GPa and 26 MPa
+    # (pro3dcomposites.com/materials/pla). Poisson's ratio: doi 10.1016/j.addr.2016.06.012.
+    # It breaks before it yields, so that 0.36 of 22.8 MPa is allowed.
+    "print": Workshop(
+        "±0.2 mm", fits=False, stock=Stock("PLA", 2.4, 0.36, 1240.0, 8.2), wall_mm=0.8
+    ),
 }
 
 
@@ -51,12 +72,3 @@ def workshop(process: str | None) -> Workshop:
     ('ISO 2768-m', False)
     """
     return WORKSHOPS[process] if process else Workshop("ISO 2768-m")
-
-
-def density_kgm3(own: float | None, process: str | None) -> float:
-    """Return the density of a part: its ``own`` of the spec, or that of the process.
-
-    >>> density_kgm3(None, None), density_kgm3(None, "print"), density_kgm3(2700.0, "print")
-    (7850.0, 1240.0, 2700.0)
-    """
-    return workshop(process).density_kgm3 if own is None else own

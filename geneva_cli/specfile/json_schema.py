@@ -13,12 +13,13 @@ from collections.abc import Mapping
 from typing import Any
 
 from geneva_cli.kinematics import registry
+from geneva_cli.kinematics.drive import Drive
 from geneva_cli.kinematics.motion import Motion
 from geneva_cli.spec.rules import Csv, OneOf, Range, Words
 from geneva_cli.spec.schema import LIST, LIST_MAX, REQUIRED, Field, SpecTable, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
 from geneva_cli.spec.units import pattern, unit_key
-from geneva_cli.specfile.writer import GEARING, KIND, LAW
+from geneva_cli.specfile.writer import BEFORE_KIND, GEARING, KIND, LAW, own_fields
 
 FILE = "geneva.schema.json"  # the file that the first line of a new spec names
 Schema = dict[str, Any]
@@ -36,7 +37,7 @@ def schema() -> Schema:
     properties = {
         "title": {"type": "string", "description": "free text"},
         "wheel": _of_kinds(GEARING, gearings),
-        "drive": _of_kinds(KIND, drives),
+        "drive": _drive(drives),
         "motion": _motion(),
     }
     for name, table in PLAIN.items():
@@ -69,6 +70,15 @@ def _of_kinds(word: Field, kinds: Mapping[str, type[SpecTable]]) -> Schema:
     """A table whose keys depend on a word in it; without the word it has the default kind."""
     keys = {name: fields(kind) for name, kind in kinds.items()}
     return _cases(word, keys, (), keys[word.default], has_default=True)
+
+
+def _drive(kinds: Mapping[str, type[Drive]]) -> Schema:
+    """A drive, and in it the drive that turns its input shaft."""
+    drive = _of_kinds(KIND, kinds)
+    keys = {name: tuple(own_fields(kind)) for name, kind in kinds.items() if kind.IN_FRONT}
+    before = _cases(BEFORE_KIND, keys, (), (), has_default=False)
+    drive["properties"]["before"] = {**before, "required": [BEFORE_KIND.key]}
+    return drive
 
 
 def _motion() -> Schema:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.motion import Motion
+from geneva_cli.machine.spec import BEFORE
 from geneva_cli.names import unit_of
 from geneva_cli.spec.rules import Csv, OneOf, Words
 from geneva_cli.spec.schema import LIST, REQUIRED, Field, SpecTable, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
-from geneva_cli.specfile.writer import GEARING, KIND, LAW, quoted
+from geneva_cli.specfile.writer import BEFORE_KIND, GEARING, KIND, LAW, own_fields, quoted
 
 TYPES = {int: "whole number", float: "number", str: "word", bool: "true or false", LIST: "list"}
 
@@ -74,6 +75,7 @@ def words_of(name: str) -> tuple[str, ...]:
     words = {
         "wheel.gearing": registry.GEARINGS,
         "drive.kind": registry.DRIVES,
+        f"{BEFORE}.kind": tuple(n for n in registry.DRIVES if registry.drive(n).IN_FRONT),
         "motion.law": registry.LAWS,
     }
     if name in words:
@@ -119,6 +121,9 @@ def _drive() -> Iterator[Key]:
     yield _key("drive", KIND)
     kinds = {name: registry.drive(name) for name in registry.DRIVES}
     yield from _of_kinds("drive", "kind", kinds)
+    yield _key(BEFORE, BEFORE_KIND)
+    before = {name: own_fields(kind) for name, kind in kinds.items() if kind.IN_FRONT}
+    yield from _of_fields(BEFORE, "kind", before)
 
 
 def _motion() -> Iterator[Key]:
@@ -137,9 +142,14 @@ def _plain() -> Iterator[Key]:
 
 def _of_kinds(table: str, word: str, kinds: Mapping[str, type[SpecTable]]) -> Iterator[Key]:
     """Keys of several kinds; a key that not all kinds have names its kinds."""
+    yield from _of_fields(table, word, {name: fields(kind) for name, kind in kinds.items()})
+
+
+def _of_fields(table: str, word: str, kinds: Mapping[str, Sequence[Field]]) -> Iterator[Key]:
+    """Keys of several kinds, from the fields of each."""
     having: dict[Field, list[str]] = {}
-    for name, kind in kinds.items():
-        for field in fields(kind):
+    for name, own in kinds.items():
+        for field in own:
             having.setdefault(field, []).append(name)
     for field, names in having.items():
         of = None if len(names) == len(kinds) else f"{word} = {', '.join(names)}"

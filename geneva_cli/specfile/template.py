@@ -8,6 +8,7 @@ from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.spec import BEFORE
 from geneva_cli.spec.example import Example
 from geneva_cli.spec.schema import REQUIRED, Field, fields
 from geneva_cli.spec.tables import LISTS
@@ -49,6 +50,15 @@ EXAMPLES = {
         {
             "wheel": {"z": 6, "gearing": "internal"},
             "drive": {"kind": "elliptical-gears", "eccentricity": 0.25, "phase": "quick"},
+        },
+    ),
+    "behind-gears": Example(
+        "a planet behind elliptical gears: no jump at entry, and a low peak",
+        {
+            "wheel": {"z": 4},
+            "drive": {"kind": "epicyclic", "planet_ratio": "shockless"},
+            BEFORE: {"kind": "elliptical-gears", "eccentricity": 0.2, "gear_distance_mm": 50.0},
+            "size": {"roller_radius_mm": 4.0},
         },
     ),
     "turret": Example(
@@ -93,7 +103,8 @@ def template(kind: str, schema: bool = True, whole: bool = True) -> str:
     gearing = registry.gearing(str(own["wheel"].get("gearing", External.NAME)))
     # any law may be set: a template shows the keys of all
     law_keys = [key for name in registry.LAWS for key in fields(registry.law(name))]
-    keys = keys_of(gearing, drive, law_keys)
+    before = registry.drive(own[BEFORE]["kind"]) if BEFORE in own else None
+    keys = keys_of(gearing, drive, law_keys, before)
     for name, table in keys.items():
         values = own.get(name, {})
         # An empty table of a list would be one more body, without any of its keys.

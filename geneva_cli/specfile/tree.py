@@ -8,8 +8,9 @@ from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, clean, cut, few, nearest
 from geneva_cli.kinematics import registry
+from geneva_cli.kinematics.drive import Drive
 from geneva_cli.kinematics.motion import Motion
-from geneva_cli.machine.spec import Spec, attribute
+from geneva_cli.machine.spec import BEFORE, Spec, attribute
 from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import REQUIRED, Points, SpecTable, fields, require, shown, unknown
 from geneva_cli.spec.tables import LISTS, PLAIN
@@ -76,9 +77,12 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
     files = _Files(name)
     gearings = _Kinds("wheel", "gearing", "external", registry.GEARINGS, registry.gearing)
     drives = _Kinds("drive", "kind", "crank", registry.DRIVES, registry.drive)
+    drive = dict(tree.get("drive", {}))
+    before = drive.pop("before", None)
     return Spec(
         wheel=_kind(tree["wheel"], gearings, files),
-        drive=_kind(tree.get("drive", {}), drives, files),
+        drive=_kind(drive, drives, files),
+        drive_before=None if before is None else _before(before, drives, files),
         motion=_motion(tree["motion"], files) if "motion" in tree else None,
         **_plain(tree, files),
         title=clean(title),
@@ -142,6 +146,24 @@ def _kind(values: dict[str, Any], kinds: _Kinds, files: _Files) -> Any:
     of = f'{word} = "{name}"'
     _refuse_foreign(values, cls, kinds.table, of, kinds.all)
     return cls(**_values(cls, values, files, f" for {of}", (word,)))
+
+
+def _before(values: Any, drives: _Kinds, files: _Files) -> Any:
+    """The drive before another one; an error names its table."""
+    place = tuple(BEFORE.split("."))
+    if not isinstance(values, dict):
+        raise GenevaError(f"before must be a table: write [{BEFORE}] above its keys", place)
+    if "kind" not in values:
+        raise GenevaError(f"[{BEFORE}] needs kind: the drive that turns the shaft", place)
+    shared = {field.key for field in fields(Drive)} & set(values)
+    if shared:
+        raise GenevaError(
+            f"{min(shared)} belongs to the machine: set it in [drive]", (*place, min(shared))
+        )
+    try:
+        return _kind(values, drives, files)
+    except GenevaError as error:
+        raise GenevaError(f"[{BEFORE}]: {error}", (*place, *error.key[1:])) from None
 
 
 def _motion(values: dict[str, Any], files: _Files) -> Motion | None:

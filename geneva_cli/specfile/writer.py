@@ -9,7 +9,7 @@ from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.drive import Drive
 from geneva_cli.kinematics.motion import Motion
 from geneva_cli.kinematics.wheels.gearing import Gearing
-from geneva_cli.machine.spec import Spec, attribute
+from geneva_cli.machine.spec import BEFORE, Spec, attribute
 from geneva_cli.spec.rules import OneOf
 from geneva_cli.spec.schema import Field, Points, SpecTable, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
@@ -19,28 +19,46 @@ GEARING = Field(
     "gearing", "", (str,), OneOf(registry.GEARINGS), "external", "gearing of wheel and crank"
 )
 KIND = Field("kind", "", (str,), None, "crank", "kind of drive")
+BEFORE_KIND = KIND._replace(default=None, meaning="drive that turns the input shaft of [drive]")
 LAW = Field("law", "", (str,), None, None, "motion law of curved slots (`geneva laws`)")
 
 
 def keys_of(
-    gearing: type[Gearing], drive: type[Drive], law_keys: Iterable[Field]
+    gearing: type[Gearing],
+    drive: type[Drive],
+    law_keys: Iterable[Field],
+    before: type[Drive] | None = None,
 ) -> dict[str, list[Field]]:
     """Every key of a spec of these kinds, by table, in the order of a file."""
     slots, *wheel = fields(gearing)
     return {
         "wheel": [slots, GEARING, *wheel],
         "drive": [KIND, *fields(drive)],
+        **({BEFORE: [BEFORE_KIND, *own_fields(before)]} if before else {}),
         "motion": [LAW, *law_keys, *fields(Motion)],
         **{name: [*fields(table)] for name, table in PLAIN.items()},
     }
 
 
+def own_fields(drive: type[Drive]) -> list[Field]:
+    """Keys of a kind of drive that others do not have, as in [drive.before]."""
+    shared = fields(Drive)
+    return [field for field in fields(drive) if field not in shared]
+
+
+def keys_in(spec: Spec) -> dict[str, list[Field]]:
+    """Every key of a spec's kinds, by table, in the order of a file."""
+    law_keys = fields(type(spec.motion.law)) if spec.motion else ()
+    before = type(spec.drive_before) if spec.drive_before else None
+    return keys_of(type(spec.wheel), type(spec.drive), law_keys, before)
+
+
 def spec_lines(spec: Spec) -> list[str]:
     """Lines of a spec's tables: keys that differ from their defaults, or are changed first."""
-    first = {("wheel", "gearing"), ("drive", "kind"), ("drive", "n_rpm"), ("drive", "rollers")}
-    law_keys = fields(type(spec.motion.law)) if spec.motion else ()
+    first = {("wheel", "gearing"), (BEFORE, "kind")}
+    first |= {("drive", key) for key in ("kind", "n_rpm", "rollers")}
     lines: list[str] = []
-    for name, keys in keys_of(type(spec.wheel), type(spec.drive), law_keys).items():
+    for name, keys in keys_in(spec).items():
         head = f"[[{name}]]" if name in LISTS else f"[{name}]"
         for values in values_of(spec, name):
             block = [
@@ -64,6 +82,8 @@ def values_of(spec: Spec, table: str) -> list[dict[str, Any]]:
     if table in LISTS:
         return [_own(one) for one in vars(spec)[table]]
     words = {"wheel": {"gearing": spec.wheel.NAME}, "drive": {"kind": spec.drive.NAME}}
+    if spec.drive_before:
+        words[BEFORE] = {"kind": spec.drive_before.NAME}
     return [{**words.get(table, {}), **_own(vars(spec)[attribute(table)])}]
 
 

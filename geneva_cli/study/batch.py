@@ -67,16 +67,24 @@ def verdicts(
 
 
 def checks_table(verdicts: Sequence[Verdict]) -> Table:
-    """A table with one row for each check of each spec."""
+    """A table with one row for each check of each spec.
+
+    It has the column ``direction`` if a machine turns both ways.
+    """
+    return _checks(verdicts, any(v.both_ways for v in verdicts))
+
+
+def _checks(verdicts: Sequence[Verdict], directed: bool) -> Table:
+    names = NAMES if directed else NAMES[:-1]
     rows = [
         (
             *(v.path, c.name, c.value, c.at_deg, c.must_be, c.limit, c.passes, c.nearest, c.why),
-            c.direction,
+            *([c.direction] if directed else []),
         )
         for v in verdicts
         for c in v.checks
     ]
-    return rows_table(NAMES, rows)
+    return rows_table(names, rows)
 
 
 def checks_record(verdicts: Sequence[Verdict]) -> Table:
@@ -84,7 +92,7 @@ def checks_record(verdicts: Sequence[Verdict]) -> Table:
     warnings = [(v.path, w.name, str(w)) for v in verdicts for w in v.warnings]
     return record_table(
         {
-            "rows": checks_table(verdicts),
+            "rows": _checks(verdicts, True),  # keys are those of every machine
             "passes": all(v.passes for v in verdicts),
             "warnings": rows_table(("spec", "name", "text"), warnings),
         }

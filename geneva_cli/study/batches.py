@@ -9,7 +9,8 @@ import numpy as np
 
 from geneva_cli.machine.many import many, may_vary
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.machine.spec import Spec
+from geneva_cli.machine.spec import BEFORE, Spec
+from geneva_cli.machine.spec import attribute as attribute_of
 from geneva_cli.spec.schema import SpecTable, fields
 from geneva_cli.study.law_columns import law_columns
 
@@ -63,14 +64,15 @@ def _split(spec: Spec, keys: dict[Any, list[BatchKey]]) -> tuple[Any, dict[str, 
 
     ``keys`` caches the keys of each kind.
     """
-    kinds = (type(spec.wheel), type(spec.drive), spec.motion and spec.motion.law)
+    before = type(spec.drive_before)
+    kinds = (type(spec.wheel), type(spec.drive), before, spec.motion and spec.motion.law)
     if kinds not in keys:
         keys[kinds] = [*_keys(spec)]
     shape: list[Any] = [kinds]
     own = {}
     tables = vars(spec)
     for table, attribute, name, varies in keys[kinds]:
-        value = vars(tables[table])[attribute]
+        value = vars(tables[attribute_of(table)])[attribute]
         if varies and isinstance(value, (int, float)) and not isinstance(value, bool):
             own[name] = value
         else:
@@ -80,8 +82,9 @@ def _split(spec: Spec, keys: dict[Any, list[BatchKey]]) -> tuple[Any, dict[str, 
 
 def _keys(spec: Spec) -> Iterator[BatchKey]:
     """The keys in which machines of one kind may differ; a law includes its own keys."""
-    for table in ("wheel", "drive", "motion"):  # where the machines of a requirement differ
-        part: SpecTable | None = vars(spec)[table]
+    # where the machines of a requirement differ
+    for table in ("wheel", "drive", BEFORE, "motion"):
+        part: SpecTable | None = vars(spec)[attribute_of(table)]
         for field in fields(type(part)) if part else ():
             name = f"{table}.{field.key}"
             yield BatchKey(table, field.attribute, name, may_vary(spec, name))

@@ -22,7 +22,7 @@ def compare(
     ratio: bool = False,
     reverse: bool = False,
 ) -> Table:
-    """Return the comparison: ``quantity``, one column for each design, and ``differs``.
+    """Return the comparison: ``quantity``, one column for each design, and ``differs`` for several.
 
     Either one design is varied through values of keys (``vary``, texts ``KEY=VALUES``), or several
     specs are compared. ``picks`` are the quantities to show; without them all that need no parts
@@ -47,13 +47,16 @@ def compare(
         differs = not all(_same(c, cells[0]) for c in cells[1:])
         if any(c is not None for c in cells):
             rows.append((quantity, *(_ratios(cells) if ratio else cells), differs))
-    table = rows_table(("quantity", *designs, "differs"), rows, mixed=True)
+    names = ("quantity", *designs, "differs")
+    if len(designs) == 1:  # nothing to differ from
+        names, rows = names[:-1], [row[:-1] for row in rows]
+    table = rows_table(names, rows, mixed=True)
     return table.replaced(reading=Reading(designs=True))
 
 
 def differing(table: Table) -> Table:
-    """The rows of a comparison whose cells differ."""
-    rows = [row for row in table.rows() if row[-1]]
+    """The rows of a comparison whose cells differ; none of a single design."""
+    rows = [row for row in table.rows() if len(row) > 2 and row[-1]]
     return rows_table(table.names, rows, mixed=True).replaced(reading=table.reading)
 
 

@@ -161,6 +161,8 @@ def _spec_files(design: Design, taken: set[str]) -> Iterator[ExportFile]:
     spec, taken = design.spec, {*taken, "spec.toml", LIST}
     points: dict[str, Points] = {}
     spec = spec.replace(drive=_named_here(spec.drive, points, taken))
+    if spec.drive_before:
+        spec = spec.replace(drive_before=_named_here(spec.drive_before, points, taken))
     if spec.motion:
         law = _named_here(spec.motion.law, points, taken)
         spec = spec.replace(motion=spec.motion.replace(law=law))

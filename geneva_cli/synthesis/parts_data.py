@@ -141,7 +141,7 @@ def _places_at_rest(machine: Mechanism) -> tuple[Array, Array]:
     """The roller's places at rest of the wheel, mm along the nearest slot and across, (n, m)."""
     (engagement,) = machine.engagements
     entry, wide = (np.atleast_2d(x) for x in (engagement.entry_deg, engagement.motion_deg))
-    rest = 360.0 * machine.spec.drive.turns - wide
+    rest = 360.0 * machine.spec.turns - wide
     at = entry + wide + rest * (np.arange(SLOT_SAMPLES) / SLOT_SAMPLES)
     x, y = (c.c[0] for c in engagement.path(at, 0))
     away, b = machine.center_distance_mm * np.hypot(x, y), np.atleast_2d(engagement.half_step)
@@ -153,7 +153,7 @@ def _places_at_rest(machine: Mechanism) -> tuple[Array, Array]:
 def _arm(machine: Mechanism) -> Array:
     """Least distance of the roller from the crank's axis over its turn, mm, (n,) or (1,)."""
     (engagement,) = machine.engagements
-    turn = 360.0 * machine.spec.drive.turns
+    turn = 360.0 * machine.spec.turns
     at = turn * (np.arange(SLOT_SAMPLES) / SLOT_SAMPLES - 0.5)
     x, y = (c.c[0] for c in engagement.path(np.atleast_2d(at), 0))
     away = np.hypot(x - 1.0, y)

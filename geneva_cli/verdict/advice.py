@@ -49,9 +49,12 @@ APART = (
 )
 # checks that a few positions can decide
 GAPS = ("gap_mm", "idle_roller_mm")
-NEAR = (*GAPS, "hand_over_play_deg")
+NEAR = (*GAPS, "hand_over_play_deg", "hand_over_play_mm")
 # Checks that only a whole turn can answer.
-TURNED = (*JAMS, *GAPS, "dwell_hold", "dwell_play_deg", "motion_play_deg", "full_turn")
+TURNED = (
+    *(*JAMS, *GAPS, "dwell_hold", "full_turn"),
+    *("dwell_play_deg", "dwell_play_mm", "motion_play_deg", "motion_play_mm"),
+)
 
 
 class OutOfTrials(Exception):
@@ -93,7 +96,10 @@ class Adviser:
         The reason may name a change with which this check passes.
         """
         if found:
-            return check._replace(nearest=found)
+            # where the same key passes, the other sizes may have changed with it
+            is_, but, _ = check.why.partition(", but ")
+            own = but and is_.startswith(f"{found.partition(' ')[0]} is ")
+            return check._replace(nearest=found, why=is_ if own else check.why)
         partly, _ = self.advice([check]) if self.failing[1:] else ("", "")
         says = (check.why, why, partly and f"{partly} passes this one")
         return check._replace(why="; ".join(text for text in says if text))
@@ -245,8 +251,8 @@ class _Search:
     def _holds_one_way(self, machine: Mechanism, turn: bool) -> bool:
         from geneva_cli.drawings.model import PartsModel
 
-        has_parts = self.parts and machine.spec.has_parts
-        model = PartsModel(machine, advice=False) if has_parts else None
+        is_turned = self.parts and machine.spec.is_turned
+        model = PartsModel(machine, advice=False) if is_turned else None
         if not self._pass(checks_at_rest(machine, model)):
             return False
         if model is None or not turn:
@@ -278,7 +284,8 @@ def _left(model: PartsModel, check: Check) -> float:
             parts = model.parts
             if check.name in GAPS:
                 return gap_about(parts, check.at_deg) + parts.contact
-            return finds_slot(parts) - play_about(parts, check.at_deg)
+            output = parts.assembly.full.output
+            return output.from_deg(finds_slot(parts) - play_about(parts, check.at_deg))
         row = None if check.name in TURNED else single_check(model.mechanism, check.name, model)
         return row.spare if row else math.inf
     except GenevaError:

@@ -97,12 +97,12 @@ def _unlikely_materials(spec: Spec) -> Iterator[Notice]:
     diamond_GPa, osmium_kgm3, foam_kgm3 = 1220.0, 22590.0, 25.0
     parts = {"[material.wheel]": spec.material_wheel, "[material.roller]": spec.material_roller}
     for table, part in parts.items():
-        if part.youngs_modulus_GPa > diamond_GPa:
-            E = part.youngs_modulus_GPa
+        modulus = part.youngs_modulus_GPa
+        if modulus is not None and modulus > diamond_GPa:
             yield Notice(
                 "unlikely-material",
-                f"youngs_modulus_GPa = {E:g} in {table} is stiffer than diamond "
-                f"({diamond_GPa:g} GPa): if it is in MPa, write {1e-3 * E:g}",
+                f"youngs_modulus_GPa = {modulus:g} in {table} is stiffer than diamond "
+                f"({diamond_GPa:g} GPa): if it is in MPa, write {1e-3 * modulus:g}",
             )
     dense = [("[[mass]]", mass.density_kgm3) for mass in spec.mass]
     for table, density in (*dense, *[(k, part.density_kgm3) for k, part in parts.items()]):

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from geneva_cli.drawings.model import PartsModel
 
 # A roller that does not find its slot, or meets the rim next to it, jams.
-JAMS = ("hand_over_play_deg", "hand_over_pressure_deg")
+JAMS = ("hand_over_play_deg", "hand_over_play_mm", "hand_over_pressure_deg")
 
 
 def failures(rows: list[Check], model: PartsModel) -> tuple[str, list[str]]:
@@ -68,19 +68,21 @@ def meaning(c: Check, parts: str = "parts") -> str:
         return f"{NO_WALL[c.name]} by {-value:.4g} mm"
     if c.name == "dwell_hold":
         return "nothing holds the wheel in its dwell"
-    if c.name == "hand_over_play_deg":
+    moves = "rack can move" if c.name.endswith("_mm") else "wheel can turn"
+    unit = c.name.rpartition("_")[2]
+    if c.name in ("hand_over_play_deg", "hand_over_play_mm"):
         return (
-            f"between lock and slot the wheel can turn by {value:.4g} deg{where}, more than the "
-            f"{limit:.4g} deg at which the roller still finds its slot"
+            f"between lock and slot the {moves} by {value:.4g} {unit}{where}, more than the "
+            f"{limit:.4g} {unit} at which the roller still finds its slot"
         )
     if c.name == "hand_over_pressure_deg":
         return (
             f"the roller meets the wheel{where} at a pressure angle of {value:.4g} deg, above "
             f"{limit:g} deg"
         )
-    if c.name == "motion_play_deg":
+    if c.name in ("motion_play_deg", "motion_play_mm"):
         return (
-            f"in its slot the wheel can turn by {value:.4g} deg either way{where}, more than "
-            f"{limit:.4g} deg"
+            f"in its slot the {moves} by {value:.4g} {unit} either way{where}, more than "
+            f"{limit:.4g} {unit}"
         )
     return ""

@@ -79,7 +79,8 @@ def _failure(check: Check) -> SummaryLine:
     explained = f"geneva explain {check.name}"
     if check.value is None or check.limit is None:
         return SummaryLine(label, check.why, explained, FAILS)
-    advice = f"passes with {check.nearest}" if check.nearest else ""
+    how = "with" if "=" in check.nearest else "by"  # a value, or leaving out a key
+    advice = f"passes {how} {check.nearest}" if check.nearest else ""
     refused = check.nearest and check.name in ("parts", "full_turn")  # the reason is the text
     change = "; ".join(words for words in ("" if refused else check.why, advice) if words)
     note = f"{change} ({explained})" if change else explained

@@ -129,7 +129,8 @@ def _rounded_points(mechanism: Mechanism) -> list[Notice]:
     engagement, law = mechanism.engagements[0], mechanism.law
     # the place where the jerk of a ratio has the greatest effect
     top = peak(engagement.motion, "velocity")
-    ratio = mechanism.spec.drive.doubt(engagement.mid_deg + top.at_deg)
+    spec = mechanism.spec
+    ratio = (spec.drive_before or spec.drive).doubt(engagement.mid_deg + top.at_deg)
     points = law.doubt() if law else None
     if ratio:
         decimals, move = ratio.decimals, ratio.move * top.max

@@ -18,21 +18,11 @@ from geneva_cli.spec.workshops import workshop
 
 
 def process_warnings(model: PartsModel) -> Iterator[Notice]:
-    """Warnings about holes, clearances, shells to be cut from a plate, and weaker materials."""
+    """Warnings about holes, clearances, and shells to be cut from a plate."""
     spec = model.mechanism.spec
     if not (spec.has_parts and spec.size.process):
         return
     shop = workshop(spec.size.process)
-    own = spec.material_wheel
-    is_steel = (
-        own.stress_max_MPa is None and own.youngs_modulus_GPa == type(own)().youngs_modulus_GPa
-    )
-    if spec.is_loaded and is_steel and not shop.material:
-        yield Notice(
-            "printed-as-steel",
-            f"strength, stiffness and wear of parts by {spec.size.process} are those of steel: set "
-            "stress_max_MPa and youngs_modulus_GPa in [material.wheel], such as 8 and 2.4 for PLA",
-        )
     try:
         named = list(model.built.by_name())
     except GenevaError:  # the check of the parts has the reason

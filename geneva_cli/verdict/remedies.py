@@ -266,7 +266,11 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         ),
     ),
     "gear_gap_mm": (
-        *(scaled("drive", key, 0.3) for key in ("gear_distance_mm", "eccentricity", "A")),
+        *(
+            scaled(table, key, 0.3)
+            for table in ("drive", "drive.before")
+            for key in ("gear_distance_mm", "eccentricity", "A")
+        ),
         set_to("size", "wheel_hub_mm", 0.0),
         scaled("size", "arm_bore_mm", 0.3),
     ),

@@ -10,7 +10,7 @@ from geneva_cli.verdict.checks.play import motion_play_max
 
 def turn_warnings(model: PartsModel) -> list[Notice]:
     """Warnings about the parts' whole turn; none without such a turn."""
-    if not model.mechanism.spec.has_parts:
+    if not model.mechanism.spec.is_turned:
         return []
     try:
         ahead, behind, limit = model.turn.ahead, model.turn.behind, motion_play_max(model.parts)

@@ -6,6 +6,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import repo
+from machine_witness import mp as exact_digits
+from machine_witness import on_path
 from swings import greatest_acceleration, residuals, shares
 from words import law as load_law
 from words import load, points
@@ -21,6 +23,7 @@ from geneva_cli.analysis.vibration.vibration import (
 from geneva_cli.bench import truth
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.laws.table import TableLaw
+from geneva_cli.machine.drives.four_bar import FourBar
 from geneva_cli.machine.drives.noncircular_gears import NoncircularGears
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
@@ -110,6 +113,37 @@ def test_straight_slots_at_large_ratios(z):
         exact = abs(total / p) / (2 * mp.pi / z)
         found = shares(shape(engagement), np.array([ratio]), 0.0)[0]
         assert abs(found - exact) <= 2.0**-52 * abs(ends).sum() / (2.0 * math.pi * ratio) ** 2
+
+
+def test_rounding_is_no_burden():
+    """A motion of 0.9 deg, at angles that are rounded to 1e-14 of it: no more panels help.
+
+    The wheel's angle in 50 digits, by parts twice, gives the residual p² integral of s e^(p (1-u)),
+    plus p. The terms of the series that rounding fills are 5e-13 of the greatest derivative.
+    """
+    drive = FourBar(
+        crank_mm=35.0, ground_mm=91.0, coupler_mm=79.5, rocker_mm=94.76896748337387,
+        point_mm=121.4652374962513, point_deg=25.0, entry_deg=81.61205802280841,
+    )  # fmt: skip
+    spec = Spec(External(16, held_by="detent"), drive)
+    (engagement,) = build(spec).engagements
+    middle = math.degrees(engagement.reactions.middle)
+    exact = on_path(spec, middle + engagement.entry_deg, middle + engagement.exit_deg)
+    panels = shape(engagement)
+    assert len(panels.half) < 200
+    mp, whole = exact_digits, exact.exit - exact.entry
+    for ratio, damping in ((0.7, 0.0), (8.0, 0.05), (40.0, 0.0)):
+        z_ = mp.mpf(damping)
+        p = 2 * mp.pi * mp.mpf(ratio) * mp.mpc(-z_, mp.sqrt(1 - z_ * z_))
+
+        def swing(u, p=p):
+            s = (exact.wheel(exact.entry + u * whole) / exact.b + 1) / 2
+            return s * mp.exp(p * (1 - u))
+
+        cuts = [mp.mpf(k) / 32 for k in range(33)]
+        expected = abs((mp.quad(swing, cuts, maxdegree=4) * p + 1) * p) / p.imag
+        found = shares(panels, [ratio], damping)[0]
+        assert abs(found - expected) <= 1e-14
 
 
 def test_many_points_are_no_burden():

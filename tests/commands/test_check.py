@@ -76,8 +76,10 @@ def test_a_warning_is_printed_once(format: str) -> None:
 
 def test_csv_is_the_rows_alone() -> None:
     found = run(TURRET, "--format", "csv").stdout.splitlines()
-    assert found[0] == "spec,check,value,at_deg,must_be,limit,passes,nearest,why,direction"
+    assert found[0] == "spec,check,value,at_deg,must_be,limit,passes,nearest,why"
     assert len(found) == 22
+    both = run(TURRET, "--set", "drive.both_ways=true", "--format", "csv").stdout.splitlines()
+    assert both[0] == found[0] + ",direction"
 
 
 def test_what_fails_says_what_to_change(fails: str) -> None:

@@ -163,6 +163,18 @@ def test_bolts_join_disc_and_arm_by_default(z, gearing, rollers):
         assert away <= found.assembly.L - found.sizes.wheel_hub + 1e-6
 
 
+@pytest.mark.parametrize("edge", ["edge_chamfer_mm", "edge_fillet_mm"])
+def test_bolts_leave_walls_between_their_edges(edge):
+    """By shapely: two edges of 1 mm and the least wall stay around each bolt, in both parts."""
+    parts = of(Wheel(6), **{edge: 1.0}).parts
+    arm, (disc,) = crank_arm(parts), parts.crank
+    assert len(arm.bolts) == 2
+    for bolt in map(polygon, arm.bolts):
+        for outline in (arm.outline, disc):
+            left = bolt.distance(polygon(outline).exterior)
+            assert left > 2.0 + 0.999 * parts.sizes.wall_min
+
+
 def test_a_key_needs_no_bolts():
     """A key, a flat or a hexagon in both bores holds the disc; sectors have no bore."""
     for size in ({"crank_keyway": "DIN 6885-1"}, {"crank_bore": "D"}, {"crank_bore": "hex"}):

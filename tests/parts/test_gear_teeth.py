@@ -9,7 +9,16 @@ import pytest
 import shapely
 from shapely.affinity import rotate, translate
 
-from geneva_cli import Design, EllipticalGears, Epicyclic, External, GearSector, NoncircularGears
+from geneva_cli import (
+    Crank,
+    Design,
+    EllipticalGears,
+    Epicyclic,
+    External,
+    GearSector,
+    NoncircularGears,
+    SideCrank,
+)
 from geneva_cli.curves import fit
 from geneva_cli.curves.gear_teeth import Rack, RoundTeeth, circle
 from geneva_cli.curves.measure import at, turned
@@ -356,6 +365,13 @@ def test_refusals(drive, z, keys, said):
 def test_teeth_without_a_module_are_refused(key, value):
     with pytest.raises(GenevaError, match="set gear_module_mm, or remove"):
         _ = Design(External(4), SOFT, size=Size(**{key: value})).mechanism
+
+
+@pytest.mark.parametrize("drive", [Crank(), SideCrank(A=0.3)])
+def test_a_module_without_gears_is_refused(drive):
+    with pytest.raises(GenevaError, match="gear_module_mm cuts the teeth of gears") as caught:
+        _ = Design(External(4), drive, size=Size(gear_module_mm=2.0)).mechanism
+    assert caught.value.key == ("size", "gear_module_mm")
 
 
 def test_sectors_whose_last_tooth_is_lower_do_not_serve_both_ways():

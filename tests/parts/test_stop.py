@@ -12,7 +12,7 @@ from shapely import Polygon
 from shapely.affinity import rotate, translate
 from typer.testing import CliRunner
 
-from geneva_cli import Crank, Design, External, Limits, Load, Size, WheelMaterial
+from geneva_cli import Crank, Design, External, Limits, Load, Size
 from geneva_cli.app import app
 from geneva_cli.collisions.gaps import Gaps
 from geneva_cli.errors import GenevaError
@@ -97,9 +97,8 @@ def test_force_and_stress_by_hand():
     values = d.report.table.to_dict()
     force = 2000.0 / stops_of(d).lever_mm
     assert values["stop.force_N"] == pytest.approx(force, rel=1e-12)
-    steel = WheelMaterial()
     radius = 1.0 / (1.0 + 1.0 / d.parts.sizes.rim)
-    usual = 0.418 * math.sqrt(force * 1e3 * steel.youngs_modulus_GPa / (10.0 * radius))
+    usual = 0.418 * math.sqrt(force * 210e3 / (10.0 * radius))
     assert values["stop.contact_stress_MPa"] == pytest.approx(usual, rel=2e-3)  # 0.418 has 3 digits
 
 

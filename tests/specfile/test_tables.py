@@ -3,6 +3,7 @@
 import pytest
 
 from geneva_cli import Design, External, GenevaError, Mass, design
+from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.specfile.writer import spec_lines
 
 TURRET = """\
@@ -43,10 +44,7 @@ def test_lists_and_tables_in_tables_are_read(turret):
     spec = turret("", "").spec
     assert [one.shape for one in spec.mass] == ["disc", "block"]
     assert spec.mass[1].count == 6
-    assert (spec.material_wheel.youngs_modulus_GPa, spec.material_roller.youngs_modulus_GPa) == (
-        3.2,
-        210.0,
-    )
+    assert [of(spec).youngs_modulus_GPa for of in (wheel_material, roller_material)] == [3.2, 210.0]
 
 
 def test_what_is_written_is_read_back(turret, tmp_path):

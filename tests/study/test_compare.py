@@ -64,6 +64,12 @@ def test_each_column_is_the_designs_own_report():
         assert all(column[q] == report[q] for q in shared)
 
 
+def test_a_single_design_differs_from_none():
+    table = compare([path("turret.toml")], picks=["k", "tau"])
+    assert table.names == ("quantity", "turret")
+    assert len(differing(table)) == 0
+
+
 def test_every_machine_has_the_same_rows():
     """A third of the designs at once; what a machine does not have is None."""
     some = NAMES[::3]

@@ -18,7 +18,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.keyways import DIN_6885_1
 from geneva_cli.layout.sizes import sized
 from geneva_cli.layout.stressed import stressed
-from geneva_cli.loads.strength.allowed import allowed_MPa, shear_allowed_MPa
+from geneva_cli.loads.strength.allowed import shear_allowed_MPa
 from geneva_cli.loads.strength.arm import (
     ArmDimensions,
     arm_stress_MPa,
@@ -28,6 +28,7 @@ from geneva_cli.loads.strength.arm import (
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress
 from geneva_cli.loads.strength.part_loads import part_loads
 from geneva_cli.machine.many import many
+from geneva_cli.machine.materials import wheel_material
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.tables import Load, Shaft, Size, WheelMaterial
@@ -45,15 +46,18 @@ def sizes_of(spec):
 
 def test_the_default_steel():
     """C45+N, 275 MPa up to 250 mm (EN 10083-2); 0.6 and 0.3 of it, 3/4 of that at a keyway."""
-    assert allowed_MPa(WheelMaterial()) == pytest.approx(0.6 * 275.0, rel=1e-15)
+    steel = wheel_material(Spec(External(6)))
+    assert steel.allowed_MPa == pytest.approx(0.6 * 275.0, rel=1e-15)
     assert shear_allowed_MPa(Shaft()) == pytest.approx(0.3 * 275.0, rel=1e-15)
     assert shear_allowed_MPa(Shaft(), True) == pytest.approx(0.75 * 0.3 * 275.0, rel=1e-15)
     # the code's other bound: 0.36 and 0.18 of at least 560 MPa of tensile strength
-    assert allowed_MPa(WheelMaterial()) < 0.36 * 560.0
+    assert steel.allowed_MPa < 0.36 * 560.0
     assert shear_allowed_MPa(Shaft()) < 0.18 * 560.0
     # acrylic has no default; a value of the spec is always taken
-    assert math.isinf(allowed_MPa(WheelMaterial(youngs_modulus_GPa=3.2)))
-    assert allowed_MPa(WheelMaterial(youngs_modulus_GPa=3.2, stress_max_MPa=9.0)) == 9.0
+    acrylic = WheelMaterial(youngs_modulus_GPa=3.2)
+    assert math.isinf(wheel_material(Spec(External(6), material_wheel=acrylic)).allowed_MPa)
+    own = acrylic.replace(stress_max_MPa=9.0)
+    assert wheel_material(Spec(External(6), material_wheel=own)).allowed_MPa == 9.0
 
 
 @pytest.mark.parametrize(("a", "T"), [(45.0, 30.0), (0.0, 30.0)])

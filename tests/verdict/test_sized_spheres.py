@@ -251,6 +251,18 @@ def test_the_spec_s_sizes_on_a_sphere_stay():
     ]
 
 
+def test_the_largest_pin_leaves_a_wall_about_its_hole():
+    """Three tenths of the roller's radius at its thin end, with and without a fit."""
+    for fit in (0.0, 0.8):
+        size = Size(center_distance_mm=150.0, shaft_fit_mm=fit)
+        design = build(Spec(Spherical(6), size=size, load=Load(torque_Nm=3000.0)))
+        sizes = ball(design)
+        thin = sizes.span_mm[0] * math.sin(sizes.roller)
+        wall = thin - sizes.pin_mm - 0.5 * fit
+        # the next of the preferred diameters is at most a tenth of the roller's radius larger
+        assert 0.3 * thin <= wall < 0.4 * thin
+
+
 def test_sizes_grow_with_the_load():
     """No default shrinks under a greater load."""
     spec = Spec(Spherical(6), size=Size(center_distance_mm=150.0))

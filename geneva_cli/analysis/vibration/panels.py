@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Whole
+    from geneva_cli.numerics.arrays import Array, Mask, Whole
 
     # Places u (p, k) of the motions (p,), and the highest order -> derivatives 1, 2, ...: (n, p,
     # k).
@@ -123,33 +123,38 @@ def _refined(
 ) -> tuple[_Refined, Whole]:
     """Panels of some motions for derivatives up to an order; and the motions that need too many.
 
-    Panels are halved until the series of each derivative has ended.
+    Panels are halved until the series of each derivative has ended, or holds only rounding.
     """
     m = len(breaks)
     open_ = np.stack((breaks[which, :-1].ravel(), breaks[which, 1:].ravel()), 1)
     motion = np.repeat(which, breaks.shape[1] - 1)
     wide = open_[:, 1] > open_[:, 0]
     open_, motion = open_[wide], motion[wide]
+    before = np.full((order, len(open_)), np.inf)  # last terms of the panels that were halved
     closed: list[_Refined] = []
     greatest, count, many = np.zeros((order, m)), np.zeros(m, dtype=int), np.zeros(m, dtype=bool)
     most = 20_000  # panels: with more, a higher derivative does not pay
     while len(open_):
         np.add.at(count, motion, 1)
-        if order > LOWEST and (count > most).any():
-            many = count > most
-            open_, motion = open_[~many[motion]], motion[~many[motion]]
         left, width = open_[:, :1], open_[:, 1:] - open_[:, :1]
         rates = derivatives(left + width * (0.5 * (1.0 + X)), motion, order)
         for row, values in zip(greatest, np.abs(rates).max(axis=2), strict=True):
             np.maximum.at(row, motion, values)
         # the last six terms show whether the series has ended
         tail = np.abs(rates @ SERIES[TERMS - 6 :].T).max(axis=2)
+        size = greatest[:, motion]
+        rounding = (tail < 1e-6 * size) & _stays(tail, before)  # larger terms are of the motion
         # 1e-13 is some hundred roundings; panels narrower than 1e-12 of the motion are not halved
-        ended = (tail <= 1e-13 * greatest[:, motion]).all(axis=0) | (width[:, 0] < 1e-12)
-        if order == LOWEST:  # what ten times as many panels show is the rounding of the motion
-            ended |= (count > 10 * most)[motion]
+        ended = ((tail <= 1e-13 * size) | rounding).all(axis=0) | (width[:, 0] < 1e-12)
+        if order > LOWEST:
+            # rounding above 1e-11 spoils this derivative: a lower one has less
+            many[motion[(rounding & (tail > 1e-11 * size)).any(axis=0)]] = True
+            many |= count > most
+        else:
+            ended |= (count > most)[motion]
         closed.append(_Refined(motion[ended], open_[ended], rates[:, ended]))
-        rest, of = open_[~ended], motion[~ended]
+        halved = ~(ended | many[motion])
+        rest, of, before = open_[halved], motion[halved], np.tile(tail[:, halved], 2)
         middle = rest.mean(axis=1)
         halves = (np.stack((rest[:, 0], middle), 1), np.stack((middle, rest[:, 1]), 1))
         open_, motion = np.concatenate(halves), np.concatenate((of, of))
@@ -163,6 +168,17 @@ def _refined(
         _Refined(every.motion[kept], every.edges[kept], every.values[:, kept]),
         np.flatnonzero(many),
     )
+
+
+def _stays(tail: Array, before: Array) -> Mask:
+    """True for panels whose last terms did not shrink in either half when a panel was halved.
+
+    Such terms are rounding. Terms of a smooth motion shrink to 2^-14 in both halves. Near a jump or
+    a pole they shrink in one half. All left halves come before all right halves.
+    """
+    stays = tail > 0.25 * before  # random terms vary
+    both: Mask = stays & np.roll(stays, stays.shape[1] // 2, axis=1)
+    return both
 
 
 def _jumps(motion: Whole, values: Array, series: Array, m: int) -> tuple[Array, Array]:

@@ -27,10 +27,11 @@ from geneva_cli.drawings.sheet.sized import edge_note
 from geneva_cli.drawings.sheet.view import Block
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.written import is_metric, length, number
+from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.machine.spec import Spec
 from geneva_cli.output.inches import value_in_inches
 from geneva_cli.spec.tables import Material, TitleBlock
-from geneva_cli.spec.workshops import Workshop, workshop
+from geneva_cli.spec.workshops import Stock, workshop
 
 
 def on_paper(
@@ -72,7 +73,10 @@ def _composed(
 ) -> Sheet | None:
     """Return all blocks on one sheet; None where they do not fit."""
     own, shop = spec.drawing, workshop(spec.size.process)
-    materials = [_material(one, shop) for one in (spec.material_wheel, spec.material_roller)]
+    materials = [
+        _material(spec.material_wheel, wheel_material(spec), shop.stock),
+        _material(spec.material_roller, roller_material(spec), Stock()),
+    ]
     rows_of_fields = (
         {
             "scale": scale_name(scale),
@@ -151,19 +155,11 @@ def _items(rows: list[dict[str, Any]], materials: list[str]) -> Block:
     return table((), [heading, *lines], columns)
 
 
-def _material(of: Material, shop: Workshop) -> str:
-    """Return the grade, or the workshop's for the default material, otherwise the density."""
-    if of.grade:
+def _material(own: Material, of: Stock, usual: Stock) -> str:
+    """Return the grade of a material, or else its density if it is not the usual one."""
+    if own.grade or of == usual._replace(allowed_MPa=of.allowed_MPa):
         return of.grade
-    usual = type(of)()
-    same = (of.youngs_modulus_GPa, of.poisson_ratio, of.density_kgm3) == (
-        usual.youngs_modulus_GPa,
-        usual.poisson_ratio,
-        usual.density_kgm3,
-    )
-    if same and shop.material:
-        return shop.material
-    density = shop.density_kgm3 if of.density_kgm3 is None else of.density_kgm3
+    density = of.density_kgm3
     if is_metric():
         return f"{density:g} kg/m³"
     return f"{value_in_inches(density, 'kg/m³')[0]:.4g} lb/in³"

@@ -59,7 +59,7 @@ def geared(begin: Begin, parts: FlatParts) -> Iterator[View]:
     if parts.gear_pair:
         view = begin(*(member.part.name for member in parts.gear_pair))
         driven, driver = parts.gear_pair
-        teeth = pair_teeth(parts.mechanism.spec.drive.gears, parts.mechanism.spec.size)
+        teeth = pair_teeth(parts.mechanism.spec.gears, parts.mechanism.spec.size)
         shapes = outlines_of(Group("", parts.gear_pair))
         draw_gears(view, shapes, (driven.at, driver.at), teeth)
         yield view

@@ -61,7 +61,7 @@ def tables(parts: Outlines, tolerance: float) -> list[Block]:
 
 def gear_tables(mechanism: Mechanism, tolerance: float) -> list[Block]:
     """Return a table for each noncircular gear; none without them."""
-    pair, L = mechanism.spec.drive.gears, mechanism.center_distance_mm
+    pair, L = mechanism.spec.gears, mechanism.center_distance_mm
     if pair is None:
         return []
     close, blocks = max(tolerance, COARSE * L), []

@@ -45,7 +45,7 @@ def sheet(parts: FlatParts) -> Sheet:
 
 def layout(mechanism: Mechanism) -> list[Block]:
     """Return a table of pivots and lengths of the drive in front of the crank, if any."""
-    own = mechanism.spec.drive.layout(mechanism.plan, mechanism.spec.wheel.SIGN)
+    own = mechanism.layout
     rows = [("drive", "x or value", "y or unit")]
     rows += [(p.name, length(p.x_mm), length(p.y_mm)) for p in own if isinstance(p, Pivot)]
     rows += [

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import TypeAlias
 
 from geneva_cli.curves.measure import at
-from geneva_cli.curves.plates import Plate, plates
+from geneva_cli.curves.plates import Plate, plates, steps_of
 from geneva_cli.curves.shapes import Arc, Contour, Line, Point, about, closed
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE, polar
 from geneva_cli.drawings.sheet import sized
@@ -131,8 +131,8 @@ def _plates(parts: SphereParts) -> Iterator[tuple[Plate, float]]:
         angles = _rollers(parts.ball) if plate.layer == ROLLER else [axes]
         yield from ((plate, angle) for angle in angles)
     for member in parts.shafts:
-        assert isinstance(member.part, Plate)
-        yield member.part, axes if member.frame else 0.0
+        for step in steps_of(member.part):
+            yield step, axes if member.frame else 0.0
 
 
 def _along(plate: Plate, angle: float) -> Iterator[Contour]:
@@ -148,7 +148,7 @@ def _along(plate: Plate, angle: float) -> Iterator[Contour]:
 
 def _far(parts: SphereParts) -> float:
     """Return the distance of the shafts' farthest end from the centre."""
-    return max((m.part.high for m in parts.shafts if isinstance(m.part, Plate)), default=0.0)
+    return max((step.high for m in parts.shafts for step in steps_of(m.part)), default=0.0)
 
 
 def _reach(parts: SphereParts) -> tuple[float, ...]:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.curves.plates import Plate, plates
+from geneva_cli.curves.plates import Plate, plates, steps_of
 from geneva_cli.drawings.shaft_gap import ShaftGap, ring_gap
 from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.bores import around
@@ -60,10 +60,10 @@ def shaft_gap(parts: SphereParts) -> ShaftGap | None:
     None where no two of them share a distance from the centre.
     """
     ball = parts.ball
-    shafts = [(member.part, member.frame is not None) for member in parts.shafts]
+    shafts = [(step, m.frame is not None) for m in parts.shafts for step in steps_of(m.part)]
     on_wheel, on_crank = (
         [p for p in plates(one.part) if p.layer != ROLLER]
-        + [p for p, of_crank in shafts if isinstance(p, Plate) and of_crank is crank]
+        + [p for p, of_crank in shafts if of_crank is crank]
         for crank, one in ((False, parts.wheel), (True, parts.crank))
     )
     wheel, crank = ([s for p in some for s in _round(p)] for some in (on_wheel, on_crank))

@@ -22,10 +22,10 @@ from geneva_cli.drawings.parts_list import part_rows
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bored
 from geneva_cli.drawings.sheet.composed import on_paper
-from geneva_cli.drawings.sheet.linked import flat_plates
+from geneva_cli.drawings.sheet.linked import shafted
 from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.points import COARSE, MIRRORED, point_table, polyline
-from geneva_cli.drawings.sheet.standing import draw_hub, draw_shaft
+from geneva_cli.drawings.sheet.standing import draw_hub
 from geneva_cli.drawings.sheet.view import Block, View, times
 from geneva_cli.drawings.sphere.arm_drawing import arm_cone, arm_flat
 from geneva_cli.drawings.sphere.dimensions import dimensions
@@ -117,10 +117,11 @@ def _axles(parts: SphereParts, scale: float) -> Iterator[View]:
             draw_hub(view, hub, hub_note(size, whose) if hub.layer == HUB else "")
             view.remark(f"{length(hub.thickness)} long")
             yield view
-    for shaft in flat_plates(parts.shafts):
-        view = View(shaft.name, scale, Fits(size.process))
-        draw_shaft(view, shaft)
-        yield view
+
+    def begin(name: str, thick: bool) -> View:
+        return View(name, scale, Fits(size.process))
+
+    yield from shafted(begin, parts.shafts)
 
 
 def _flat(whose: str, ball: Ball, cone: Cone, shapes: Sequence[Shape], scale: float) -> View:

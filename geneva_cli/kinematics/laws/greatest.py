@@ -1,6 +1,7 @@
-"""The greatest derivatives of a law, searched on floats: a law is one design, and needs no NumPy.
+"""The greatest derivatives of a law, from which those of every motion by this law follow.
 
-A greatest size is at a root of the next derivative, at an end, or where a derivative jumps.
+A greatest size is at a root of the next derivative, at an end, or where a derivative jumps. A law
+is one design: it is searched on floats, without NumPy. Only a spline has too many pieces for that.
 """
 
 from __future__ import annotations
@@ -9,11 +10,15 @@ import math
 from collections.abc import Callable, Iterator
 from functools import lru_cache
 from itertools import pairwise
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.kinematics.laws.law import Law
+from geneva_cli.numerics.arrays import N
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.roots import greatest_at, root
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.extrema import BatchFunction
 
 Curves: TypeAlias = dict[str, tuple[float, float, float]]  # values with two derivatives
 
@@ -22,18 +27,36 @@ Curves: TypeAlias = dict[str, tuple[float, float, float]]  # values with two der
 def greatest(law: Law) -> dict[str, tuple[float, float]]:
     """Greatest size of each derivative of s(u) and of ds/du d²s/du² (power), and its first u.
 
-    For a law that is analytic between its breaks, and whose keys are numbers.
+    For a law whose keys are numbers.
 
     >>> from geneva_cli import Cycloidal
     >>> greatest(Cycloidal())["velocity"]
     (2.0, 0.5)
     """
+    if not law.ANALYTIC:
+        return _of_spline(law)
     places = _half(law.first, [*(u for u in law.breaks if u < 0.5), 0.5])
     if not law.symmetric:
         after = [*(1.0 - u for u in reversed(law.breaks) if u > 0.5), 0.5]
         for name, later in _half(law.second, after).items():
             places[name] += [(size, 1.0 - w) for size, w in reversed(later)]
     return {name: greatest_at(sizes) for name, sizes in places.items()}
+
+
+def _of_spline(law: Law) -> dict[str, tuple[float, float]]:
+    """Greatest sizes of a law that is analytic only between its many knots, and their places."""
+    import numpy as np
+
+    from geneva_cli.numerics.extrema import greatest_sizes
+
+    ends = [np.array([[u]]) for u in sorted({0.0, 0.5, 1.0, *law.breaks})]
+
+    def curve(name: str) -> BatchFunction:
+        return lambda u, _, order: _curves(law(u, 5).arrays())[name][: order + 1]
+
+    names = _curves((0.0,) * 6)
+    each = {name: greatest_sizes(curve(name), *ends) for name in names}
+    return {name: (size.item(), u.item()) for name, (size, u) in each.items()}
 
 
 def _half(
@@ -56,7 +79,7 @@ def _half(
     return sizes
 
 
-def _curves(d: tuple[float, ...]) -> Curves:
+def _curves(d: tuple[N, ...]) -> dict[str, tuple[N, N, N]]:
     """Each quantity with its first two derivatives, from the derivatives of s."""
     return {
         "velocity": (d[1], d[2], d[3]),

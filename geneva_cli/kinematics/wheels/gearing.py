@@ -20,6 +20,7 @@ from geneva_cli.spec.schema import SpecTable
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.engagement import CarrierVelocity, Displacement, Slot
+    from geneva_cli.kinematics.plane_motion import PlaneMotion
 
 
 # The wheel's rate from sin d and 1 - cos d of the crank's rotation d since mid-motion.
@@ -47,6 +48,10 @@ class Output(NamedTuple):
     def turns(self) -> bool:
         """True if it is an angle."""
         return self.unit == "deg"
+
+    def from_deg(self, wheel_deg: float) -> float:
+        """Return an angle of the wheel, or of a rack's pinion, in the unit of the output."""
+        return wheel_deg if self.turns else math.radians(wheel_deg) * self.per_radian
 
 
 class RollerPlace(NamedTuple):
@@ -181,6 +186,13 @@ class Gearing(SpecTable):
         ``turn`` is the crank's rotation from mid-motion, as its sine and versine.
         """
         return RadialSlot(path), StraightSlotMotion(path, place.step.b)
+
+    def plane_motion(self, center_distance_mm: float) -> PlaneMotion:
+        """How the wheel moves in its plane, for lengths in millimetres."""
+        # imported here, as `table` starts without NumPy
+        from geneva_cli.kinematics.plane_motion import Turning
+
+        return Turning()
 
     def body(self, place: RollerPlace, turn: Displacement) -> CarrierVelocity | None:
         """Angular velocity of the roller's carrier; None for a crank arm in the plane."""

@@ -21,6 +21,7 @@ from geneva_cli.spec.example import Example
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.engagement import Anchor, Displacement
+    from geneva_cli.kinematics.plane_motion import PlaneMotion
     from geneva_cli.numerics.jet import Array
 
 
@@ -67,6 +68,12 @@ class Linear(Gearing):
             loads=loads,
             lacks=lacks,
         )
+
+    def plane_motion(self, center_distance_mm: float) -> PlaneMotion:
+        """How the rack slides: by the crank's radius a radian."""
+        from geneva_cli.kinematics.plane_motion import Sliding
+
+        return Sliding(center_distance_mm)
 
     def words(self, slots: str) -> str:
         """The rack in words, whose slots are parallel."""

@@ -1,11 +1,8 @@
-"""The stresses that the materials allow: those of the spec, or those of the default steel.
+"""The shear stresses that shafts and keys allow: those of the spec, or those of the default steel.
 
-The default steel is C45+N (1.0503, normalised). Its least yield strength is 275 MPa, that of pieces
-of 100 to 250 mm (EN 10083-2); thinner ones have more. The ASME code of ``shafts`` allows 0.3 of it
-in shear, and 0.6 in tension, bending and pressure. Its other bound, 0.18 and 0.36 of the tensile
-strength of 560 MPa, is higher. A keyway leaves three quarters for the shaft.
-
-Another material, known by its modulus, has no default: it is infinite.
+The ASME code of ``shafts`` allows 0.3 of the yield strength of the default steel (see ``Stock``).
+Its other bound, 0.18 of the tensile strength, is higher. A keyway leaves three quarters for the
+shaft. Another steel, known by its modulus, has no default: it is infinite.
 """
 
 from __future__ import annotations
@@ -14,23 +11,10 @@ import math
 from typing import TYPE_CHECKING
 
 from geneva_cli.numerics.arrays import choose
-from geneva_cli.spec.tables import Shaft, WheelMaterial
+from geneva_cli.spec.tables import Shaft
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number
-    from geneva_cli.spec.tables import Material
-
-
-def allowed_MPa(material: Material) -> Number:
-    """The allowable stress of a wheel, an arm or a pin.
-
-    >>> round(allowed_MPa(WheelMaterial()), 6)
-    165.0
-    """
-    if material.stress_max_MPa is not None:
-        return material.stress_max_MPa
-    is_steel = material.youngs_modulus_GPa == WheelMaterial().youngs_modulus_GPa
-    return choose(is_steel, 165.0, math.inf)  # 0.6 of 275 MPa
 
 
 def shear_allowed_MPa(shaft: Shaft, keyway: bool = False) -> Number:

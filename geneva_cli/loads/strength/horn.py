@@ -20,7 +20,6 @@ higher if h < R/6, and 5 % lower to 7 % higher at R/2.
 
 from __future__ import annotations
 
-import math
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -28,33 +27,20 @@ import numpy as np
 
 from geneva_cli.analysis.contact import NEAR_CUSP
 from geneva_cli.kinematics.pitch_curve import pitch
-from geneva_cli.loads.loads import state
+from geneva_cli.loads.strength.horn_search import HornStress, UnitStress, alike, greatest_stress
 from geneva_cli.machine.many import taken
-from geneva_cli.numerics.arrays import array, blocks, joined, parameter
-from geneva_cli.numerics.tolerances import TIE
+from geneva_cli.numerics.arrays import blocks, joined
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from geneva_cli.kinematics.engagement import Engagement
     from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.numerics.arrays import Number, Whole
+    from geneva_cli.numerics.arrays import Number
     from geneva_cli.numerics.jet import Array
 
 STOUT = 0.5  # thickness at the mouth over the recess's radius, beyond which a horn is no beam
 SHEAR = 1.2  # of a rectangular section: energy of its shear stress over that of the mean stress
-
-
-class HornStress(NamedTuple):
-    """The greatest stress in a horn, with the roller's place and the section.
-
-    (m,) each for m designs, NaN for those without a horn or a load.
-    """
-
-    stress_MPa: float
-    at_deg: float  # input angle from the engagement's mid-motion
-    inwards_mm: float  # of the section, from the mouth
-    thickness_mm: float
 
 
 class Horn(NamedTuple):
@@ -88,7 +74,7 @@ class Horn(NamedTuple):
 
         At angles (m, k) both are (2, m, k). The origin is the recess's centre.
         """
-        x, y = self.engagement.slot(_alike(input_deg), 1)
+        x, y = self.engagement.slot(alike(input_deg), 1)
         place = self._turned(self.L * vector(x.c[0], y.c[0]) - self.centre)
         normal = self._turned(vector(-np.asarray(y.c[1]), x.c[1]))
         normal *= np.where(normal[1] > 0.0, -1.0, 1.0) / np.hypot(*normal)
@@ -122,6 +108,37 @@ class Horn(NamedTuple):
         half: Array = np.arctan2(sense * away, sense * up)
         return half
 
+    @property
+    def runs_from_deg(self) -> Sequence[float]:
+        """Input angles of the ends from which the roller runs along this horn's wall.
+
+        It is the horn's own end for curved slots, and also if another roller leaves by another
+        slot. Else both.
+        """
+        if not self.whole.slot.walls_flat:
+            return [self.mouth_deg]
+        return [self.engagement.entry_deg, self.engagement.exit_deg]
+
+    def unit_stress(self, roller: Array, sections: Array, width_mm: float) -> UnitStress:
+        """Bending and tension at sections under 1 N, as ``HornSide`` describes."""
+        places, normals = self.wall(np.hstack((roller, sections)))
+        count = roller.shape[1]
+        (contact, wall), (push, normal) = (
+            np.split(of, [count], axis=2) for of in (places, normals)
+        )
+        thick = self.thickness(wall, normal)
+        contact, push = contact[..., None], push[..., None]
+        with np.errstate(all="ignore"):
+            # from the contact to the middle of the section, (2, m, places, sections)
+            arm = (wall + 0.5 * thick * normal)[:, :, None] - contact
+            moment = abs(arm[0] * push[1] - arm[1] * push[0])
+            along, deep = normal[:, :, None], thick[:, None]
+            pull = push[1] * along[0] - push[0] * along[1]  # along the beam
+            bent = (moment * (6.0 / deep**2) - pull / deep) / np.asarray(width_mm)[..., None]
+            further = wall[0][:, None] > contact[0]
+            stress = np.where(further & np.isfinite(bent), bent, 0.0)
+        return UnitStress(stress, wall[0], thick)
+
     def places(self, count: int) -> Array:
         """Input angles from the mouth inwards."""
         return self.mouth_deg * np.linspace(1.0, NEAR_CUSP, count)
@@ -138,12 +155,6 @@ def vector(x: Number, y: Number) -> Array:
     if both[0].shape != both[1].shape:
         return np.stack(np.broadcast_arrays(*both))
     return np.array(both)
-
-
-def _alike(input_deg: Number) -> Array:
-    """Input angles (m, k); as (k,) for one row, which takes half the time."""
-    x = np.atleast_2d(input_deg)
-    return x[0] if len(x) == 1 else x
 
 
 def product(a: Array, b: Array) -> Array:
@@ -189,9 +200,7 @@ def horn(
     """
     if not recess_mm:
         return None
-    rows = _horns(1, mechanism, half_width_mm, recess_mm, width_mm)
-    one = HornStress(*(float(array(row)[0]) for row in rows))
-    return None if math.isnan(one.stress_MPa) else one
+    return horn_stresses(mechanism, half_width_mm, recess_mm, width_mm).single
 
 
 def horn_stresses(
@@ -204,129 +213,6 @@ def horn_stresses(
     every = (mechanism, half_width_mm, recess_mm, width_mm)
     m = mechanism.designs
     if m == 1:
-        return _horns(1, *every)
+        return greatest_stress(horns, *every)
     # the stresses of 16 designs stay in the cache
-    return joined([_horns(b.stop - b.start, *taken(every, b)) for b in blocks(m, 16)])
-
-
-class _SamplePlaces(NamedTuple):
-    """Input angles of each design at which roller and section are sampled."""
-
-    roller: Array  # (m, halves of the motion, places)
-    section: Array  # (m, sections)
-
-
-def _horns(
-    m: int, mechanism: Mechanism, half_width: float, recess: float, width: float
-) -> HornStress:
-    """Greatest bending stress of m designs that are searched together."""
-    best, which = np.full((4, m), np.nan), np.zeros(m, dtype=int)
-    next_, count = [], 61  # places and sections of the first sampling
-    for number, side in enumerate(horns(mechanism, half_width, recess)):
-        start = _SamplePlaces(_from(_halves(side), count), _from([side.mouth_deg], count)[:, 0])
-        sample, around = _sampled(mechanism, side, start, width)
-        better = ~(sample[0] <= best[0] * (1.0 + TIE)) & ~np.isnan(sample[0])
-        best, which = np.where(better, sample, best), np.where(better, number, which)
-        next_.append((side, around))
-    for number, (side, around) in enumerate(next_):
-        own = np.flatnonzero((which == number) & ~np.isnan(best[0]))
-        if not len(own):
-            continue
-        some, one = (mechanism, half_width, recess, width), side
-        if len(own) < m:
-            some = taken(some, own)
-            one = horns(*some[:3])[number]
-            around = _SamplePlaces(*(places[own] for places in around))
-        for _ in range(3):  # the middle of the remaining places is the best so far
-            sample, around = _sampled(some[0], one, around, some[3])
-            best[:, own] = np.where(np.isnan(sample[0]), best[:, own], sample)
-        best[1, own] += np.ravel(one.whole.mid_deg - one.ahead_deg)
-    at_deg = np.ravel(mechanism.shown_deg(parameter(best[1][:, None])))
-    return HornStress(*map(parameter, (best[0], at_deg, *best[2:])))
-
-
-def _halves(side: Horn) -> list[float]:
-    """Input angles of the ends from which the roller runs along this horn's wall.
-
-    It is the horn's own end for curved slots, and also if another roller leaves by another slot.
-    Else both.
-    """
-    engagement = side.engagement
-    if not side.whole.slot.walls_flat:
-        return [side.mouth_deg]
-    return [engagement.entry_deg, engagement.exit_deg]
-
-
-def _from(ends: Sequence[float], count: int) -> Array:
-    """Input angles from each of some ends to mid-motion: (m, ends, count)."""
-    whole = np.hstack([np.atleast_2d(end) for end in ends])
-    return whole[..., None] * np.linspace(1.0, NEAR_CUSP, count)
-
-
-def _sampled(
-    mechanism: Mechanism, side: Horn, within: _SamplePlaces, width: float
-) -> tuple[Array, _SamplePlaces]:
-    """Greatest stress at these places, (4, m), and places around it for the next step.
-
-    The rows are those of ``HornStress``, NaN if there is no stress.
-    """
-    roller, u = within
-    x = roller.reshape(len(roller), -1)
-    places, normals = side.wall(np.hstack((x, u)))
-    wall, square = (of[..., x.shape[1] :] for of in (places, normals))
-    thick = side.thickness(wall, square)
-    stress = _stress(mechanism, side, width, x, (places, normals), thick)
-    m, _, count = stress.shape
-    stress = stress.reshape(m, -1)
-    most, every = stress.max(axis=1), np.arange(m)
-    first = np.argmax(stress >= most[:, None] * (1.0 - TIE), axis=1)
-    i, j = np.divmod(first, count)
-    half, k = np.divmod(i, roller.shape[2])
-    if m > len(u):  # their loads differ, their slots do not
-        roller, u, thick = (np.repeat(of, m, axis=0) for of in (roller, u, thick))
-        wall = np.repeat(wall, m, axis=1)
-    runs = roller[every, half]
-    rows = (stress[every, first], runs[every, k], wall[0, every, j], thick[every, j])
-    sample = np.where(most > 0.0, rows, np.nan)
-    return sample, _SamplePlaces(_around(runs, k)[:, None], _around(u, j))
-
-
-def _around(places: Array, i: Whole) -> Array:
-    """Places between the neighbours of one of them, in each row."""
-    every, last = np.arange(len(places)), places.shape[1] - 1
-    before = places[every, np.maximum(i - 1, 0), None]
-    after = places[every, np.minimum(i + 1, last), None]
-    refined: Array = before + (after - before) * np.linspace(0.0, 1.0, 33)
-    return refined
-
-
-def _stress(
-    mechanism: Mechanism,
-    side: Horn,
-    width: float,
-    x: Array,
-    walls: tuple[Array, Array],
-    thick: Array,
-) -> Array:
-    """Stress in MPa: for each design a row per place of the roller, a column per section.
-
-    ``walls`` are points and normals of the wall, at the roller and at the sections.
-    """
-    loads = state(mechanism, side.whole, _alike(x - side.ahead_deg))
-    bears = np.asarray(loads.torque_Nm) * side.end < 0.0
-    line = np.atleast_2d(np.where(bears, loads.pin_force_N, 0.0) / width)
-    (contact, wall), (push, normal) = (np.split(of, [x.shape[1]], axis=2) for of in walls)
-    m = max(len(line), len(thick))
-    stress = np.zeros((m, x.shape[1], thick.shape[1]))
-    own = np.flatnonzero(bears.any(axis=0) if bears.ndim > 1 else bears)  # elsewhere it is 0
-    contact, push, line = contact[..., own, None], push[..., own, None], line[:, own, None]
-    with np.errstate(all="ignore"):
-        # from the contact to the middle of the section, (2, m, places, sections)
-        arm = (wall + 0.5 * thick * normal)[:, :, None] - contact
-        moment = abs(arm[0] * push[1] - arm[1] * push[0])
-        along, thick = normal[:, :, None], thick[:, None]
-        pull = push[1] * along[0] - push[0] * along[1]  # along the beam
-        bent = line * (moment * (6.0 / thick**2) - pull / thick)
-        further = wall[0][:, None] > contact[0]
-        stress[:, own] = np.where(further & np.isfinite(bent), bent, 0.0)
-    return stress
+    return joined([greatest_stress(horns, *taken(every, b)) for b in blocks(m, 16)])

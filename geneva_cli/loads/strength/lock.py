@@ -9,7 +9,7 @@ The play is exact: the rotation that uses up the clearance.
 The approach of the two bodies (Johnson, Contact Mechanics, 5.6: a cylinder of radius R1, and a body
 as thick as the horn) is
 
-    F/(pi b) [(1 - nu1²)/E1 (2 ln(4 R1/a) - 1) + (1 - nu2²)/E2 (2 ln(2 h/a) - nu2/(1 - nu2))]
+    F (1 - nu²)/(pi b E) [2 ln(4 R1/a) - 1 + 2 ln(2 h/a) - nu/(1 - nu)]
 
 with Hertz's half width a. If a is more than a quarter of the horn, both yield as columns under the
 pressure below.
@@ -35,6 +35,7 @@ from geneva_cli.analysis.forces import contact_modulus_GPa, hertz_MPa
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.loads.strength.horn import SHEAR, horns, product
 from geneva_cli.machine.many import taken
+from geneva_cli.machine.materials import wheel_material
 from geneva_cli.numerics.arrays import all_true, blocks, choose_record, only_of, parameter
 
 if TYPE_CHECKING:
@@ -136,19 +137,17 @@ def _contact(
     mechanism: Mechanism, line: Array, radius: float, lock: float, thick: Array, pressure: Array
 ) -> tuple[Array, Array]:
     """Hertz's stress, MPa, and the approach, mm, for a force per mm; NaN for a sharp edge."""
-    modulus = contact_modulus_GPa(mechanism.spec) * 1e3
+    material = wheel_material(mechanism.spec)
+    nu, modulus = material.poisson_ratio, contact_modulus_GPa(material, material)
+    gives = 0.5 / (1e3 * modulus)  # (1 - nu²)/E of each body, mm²/N
     sharp, loose = np.equal(radius, 0.0), np.isfinite(radius)
     with np.errstate(all="ignore"):
-        stress = hertz_MPa(mechanism.spec, line, radius)
-        half = np.sqrt(4.0 * line * radius / (math.pi * modulus))
-        wheel, disc = mechanism.spec.material_wheel, mechanism.spec.material_roller
-        nu, mu = disc.poisson_ratio, wheel.poisson_ratio
-        soft = (1.0 - nu * nu) / (1e3 * disc.youngs_modulus_GPa)
-        yields = (1.0 - mu * mu) / (1e3 * wheel.youngs_modulus_GPa)
-        round_ = soft * (2.0 * np.log(4.0 * lock / half) - 1.0)
-        flat = yields * (2.0 * np.log(2.0 * thick / half) - mu / (1.0 - mu))
-        local = line / math.pi * (round_ + flat)
-        columns = pressure * (soft * lock + yields * thick)
+        stress = hertz_MPa(modulus, line, radius)
+        half = np.sqrt(8.0 * gives * line * radius / math.pi)
+        round_ = 2.0 * np.log(4.0 * lock / half) - 1.0
+        flat = 2.0 * np.log(2.0 * thick / half) - nu / (1.0 - nu)
+        local = gives * line / math.pi * (round_ + flat)
+        columns = gives * pressure * (lock + thick)
     approach = np.where(half > 0.25 * thick, columns, local)
     return np.where(loose & ~sharp, stress, np.nan), np.where(sharp, np.nan, approach)
 
@@ -166,7 +165,7 @@ def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) 
 
 def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> HornBending:
     """The weakest horn of designs that are computed together."""
-    material = mechanism.spec.material_wheel
+    material = wheel_material(mechanism.spec)
     E = 1e3 * material.youngs_modulus_GPa
     G = E / (2.0 * (1.0 + material.poisson_ratio))
     every = []

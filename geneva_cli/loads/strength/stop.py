@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from geneva_cli.analysis.forces import hertz_MPa
+from geneva_cli.analysis.forces import contact_modulus_GPa, hertz_MPa
+from geneva_cli.machine.materials import wheel_material
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
@@ -31,5 +32,7 @@ def stop_contact(mechanism: Mechanism, lever_mm: float, face_radius_mm: float) -
     force = 1e3 * torque / lever_mm
     if size.face_width_mm is None or size.lock_edge_mm is None:
         return StopContact(force, None)
+    material = wheel_material(mechanism.spec)
+    modulus = contact_modulus_GPa(material, material)
     radius = 1.0 / (1.0 / size.lock_edge_mm + 1.0 / face_radius_mm)
-    return StopContact(force, hertz_MPa(mechanism.spec, force / size.face_width_mm, radius))
+    return StopContact(force, hertz_MPa(modulus, force / size.face_width_mm, radius))

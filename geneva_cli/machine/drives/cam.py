@@ -45,6 +45,7 @@ class Cam(PinPath, kw_only=True):
             "motion": {"law": "cycloidal"},
         },
     )
+    FIRST: ClassVar[str] = "its groove gives any law without gears"
     GEARINGS: ClassVar[tuple[str, ...]] = ("external", "internal")
     LAW: ClassVar[Needs] = Needs.LAW
     ONE_ROLLER: ClassVar[bool] = False

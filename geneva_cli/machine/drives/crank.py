@@ -19,3 +19,4 @@ class Crank(Direct, kw_only=True):
 
     NAME: ClassVar[str] = "crank"
     WORDS: ClassVar[str] = "a crank"
+    FIRST: ClassVar[str] = "its crank is on the shaft: set that kind in [drive] instead"

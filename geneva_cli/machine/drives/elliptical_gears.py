@@ -14,10 +14,10 @@ from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Gears, Plan
-from geneva_cli.kinematics.engagement import Displacement, Path, Reactions
+from geneva_cli.kinematics.engagement import Displacement, Path
 from geneva_cli.kinematics.layout import Dimension, Layout, Pivot
 from geneva_cli.kinematics.wheels.gearing import Gearing
-from geneva_cli.machine.drives.pushed import Mesh
+from geneva_cli.machine.drives.pushed import Mesh, PushedCrank
 from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import library
@@ -37,6 +37,7 @@ class EllipticalGears(Transmission, kw_only=True):
 
     NAME: ClassVar[str] = "elliptical-gears"
     WORDS: ClassVar[str] = "a crank behind elliptical gears"
+    IN_FRONT: ClassVar[str] = "elliptical gears"
     EXAMPLE: ClassVar[Example] = Example(
         "equal elliptical gears in front: a slower, softer index",
         {
@@ -77,7 +78,7 @@ class EllipticalGears(Transmission, kw_only=True):
             Dimension("index in the gears' phase", self.phase),
         )
 
-    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Reactions | None:
+    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
         """Reactions of the crank, whose gear is pushed by the driver's teeth."""
         return Mesh(path, self.gear_distance_mm / L)
 

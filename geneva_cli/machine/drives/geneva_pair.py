@@ -11,7 +11,7 @@ import math
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.kinematics.drive import FirstWheel, Plan
-from geneva_cli.kinematics.engagement import Path, Reactions, Vector
+from geneva_cli.kinematics.engagement import Path, Vector
 from geneva_cli.kinematics.layout import Dimension, Joint, Layout, Link, Pivot
 from geneva_cli.kinematics.wheels import poses
 from geneva_cli.kinematics.wheels.gearing import Gearing
@@ -98,7 +98,7 @@ class GenevaPair(Transmission, kw_only=True):
     def _distance_mm(self, L: float) -> float:
         return L if self.first_distance_mm is None else self.first_distance_mm
 
-    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Reactions | None:
+    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
         """Reactions to the first crank's roller, which pushes across the first wheel's slot."""
         if self.first_distance_mm is None:
             return None

@@ -15,11 +15,11 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.drive import Gears, Plan
-from geneva_cli.kinematics.engagement import CarrierVelocity, ClosedPeaks, Path, Reactions
+from geneva_cli.kinematics.engagement import CarrierVelocity, ClosedPeaks, Path
 from geneva_cli.kinematics.layout import Dimension, Layout, Pivot
 from geneva_cli.kinematics.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.machine.drives import whitworth
-from geneva_cli.machine.drives.pushed import Mesh
+from geneva_cli.machine.drives.pushed import Mesh, PushedCrank
 from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number, sine_versine_of
@@ -44,6 +44,7 @@ class NoncircularGears(Transmission, kw_only=True):
 
     NAME: ClassVar[str] = "noncircular-gears"
     WORDS: ClassVar[str] = "a crank behind noncircular gears"
+    IN_FRONT: ClassVar[str] = "noncircular gears"
     EXAMPLE: ClassVar[Example] = Example(
         "noncircular gears in front, with the ratio of a side-crank",
         {
@@ -102,7 +103,7 @@ class NoncircularGears(Transmission, kw_only=True):
             law,
         )
 
-    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Reactions | None:
+    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
         """Reactions of the crank, whose gear is pushed by the driver's teeth."""
         return Mesh(path, self.gear_distance_mm / L)
 

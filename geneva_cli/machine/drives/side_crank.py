@@ -15,11 +15,11 @@ from geneva_cli.kinematics.engagement import (
     ClosedPeaks,
     Displacement,
     Path,
-    Reactions,
 )
 from geneva_cli.kinematics.layout import Dimension, Joint, Layout, Link, Pivot
 from geneva_cli.kinematics.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.machine.drives import whitworth
+from geneva_cli.machine.drives.pushed import PushedCrank
 from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library
@@ -42,6 +42,7 @@ class SideCrank(Transmission, kw_only=True):
 
     NAME: ClassVar[str] = "side-crank"
     WORDS: ClassVar[str] = "a side-crank"
+    IN_FRONT: ClassVar[str] = "a side-crank"
     EXAMPLE: ClassVar[Example] = Example(
         "a side-crank drive: a slower, softer index",
         {
@@ -101,7 +102,7 @@ class SideCrank(Transmission, kw_only=True):
         own = plan.ratio * plan.center_distance_mm
         return own if self.input_crank_mm is None else self.input_crank_mm
 
-    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Reactions | None:
+    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
         """Reactions to the block on the input crank, which pushes across the coulisse."""
         if self.input_crank_mm is None:
             return None

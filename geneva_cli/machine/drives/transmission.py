@@ -18,7 +18,6 @@ from geneva_cli.kinematics.engagement import (
     Displacement,
     Engagement,
     Path,
-    Reactions,
 )
 from geneva_cli.kinematics.law_motion import refuse_alpha0
 from geneva_cli.kinematics.path_and_motion import MiddlePath
@@ -34,6 +33,7 @@ from geneva_cli.numerics.jet import Jet, Number, sine_versine
 if TYPE_CHECKING:
     from geneva_cli.kinematics.laws.law import Law
     from geneva_cli.kinematics.motion import Motion
+    from geneva_cli.machine.drives.pushed import PushedCrank
 
 
 class LocalTransmission(NamedTuple):
@@ -108,7 +108,7 @@ class Transmission(Drive, kw_only=True):
         most = rollers_max(2.0 * rollers[0].half_motion_deg)
         return Plan(engagements, period, rollers[0].ratio, most, L)
 
-    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Reactions | None:
+    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
         """Reactions on crank and transmission; None if a length is not known.
 
         ``mid_deg`` is the input angle at which the roller crosses the line of centres.

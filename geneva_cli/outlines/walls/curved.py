@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.curves import fit
 from geneva_cli.curves.shapes import Contour, Cubic, Point, Segment, about, joined
+from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.plain_sizes import Sizes
@@ -74,6 +75,14 @@ def _segments(piece: WallPiece, tolerance: float, curves: str) -> list[Segment]:
     if wall.centre is not None:
         return [about(wall.centre, wall.radius, a, b - a)]
     fitted = fit.KINDS[curves]
+    if a == b:
+        start, end = points_at(wall, *ends)
+        if math.dist(start, end) > tolerance:
+            raise GenevaError(
+                "walls of the slot change within the last digits of the input angle: make the "
+                "drive more even"
+            )
+        return []
     if a < b:
         return [*fitted(wall.curve, a, b, tolerance)]
 

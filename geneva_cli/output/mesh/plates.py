@@ -2,13 +2,14 @@
 
 A hole's corners are at some y of its frame, on both of its halves. The walls that it opens, and
 both faces, have corners at these y too. So a wall is two strips beside the hole, below and above.
-A chamfer is a strip from the wall to a face that is smaller all round.
+A chamfer is a strip from the wall to a face that is smaller all round, a rounding some of them.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 from geneva_cli.curves.cross_holes import CrossHole, Opening
@@ -29,10 +30,13 @@ from geneva_cli.output.solid_part import plate_contours
 
 
 class Corner(NamedTuple):
-    """A corner of a contour, that of the face, and the heights of a hole's edge over it, if any."""
+    """A corner of a contour, those of an edge's sections up to the face, and of a hole over it.
+
+    The hole's are heights; there are none without an edge, or without a hole.
+    """
 
     at: Point
-    inner: Point
+    inner: tuple[Point, ...] = ()
     heights: tuple[float, ...] = ()
 
 
@@ -79,7 +83,13 @@ class _PlateMesh:
         self.bores = [self._bore(hole) for hole in plate.cross]
         self.corners: dict[tuple[float, float, float], int] = {}
         self.triangles: list[Triangle] = []
-        self.low, self.high = plate.low + plate.chamfer, plate.high - plate.chamfer  # of walls
+        taken = plate.edge.size
+        self.low, self.high = plate.low + taken, plate.high - taken  # of walls
+        count = 0
+        if taken:
+            count = arc_chords(taken, 0.5 * math.pi, tolerance) if plate.edge.rounded else 1
+        # depths and heights of an edge's sections, from the wall to the face
+        self.sections = [plate.edge.at(k / count) for k in range(1, count + 1)]
 
     def _bore(self, hole: CrossHole) -> Bore:
         ends = hole.openings(self.contours)
@@ -105,15 +115,18 @@ class _PlateMesh:
         return surface(list(self.corners), self.triangles)
 
     def _inset(self, loop: list[Corner]) -> list[Point]:
-        """Return the corners of a face; around it are the strips of its chamfer, if it has one."""
-        low, high = self.plate.low, self.plate.high
-        if not self.plate.chamfer:
-            return [one.at for one in loop]
-        for a, b in zip(loop, [*loop[1:], loop[0]], strict=True):
-            outer, inner = (a.at, b.at), (a.inner, b.inner)
-            self._face([*((*p, low) for p in inner), *((*p, self.low) for p in outer[::-1])])
-            self._face([*((*p, self.high) for p in outer), *((*p, high) for p in inner[::-1])])
-        return [one.inner for k, one in enumerate(loop) if one.inner != loop[k - 1].inner]
+        """Return the corners of a face; around it are the strips of its edge, if it has one."""
+        rings = list(zip(*((one.at, *one.inner) for one in loop), strict=True))
+        steps = [height for _, height in self.sections[:-1]]
+        low = [self.low, *(self.low - height for height in steps), self.plate.low]
+        high = [self.high, *(self.high + height for height in steps), self.plate.high]
+        for i, (outer, inner) in enumerate(pairwise(rings)):
+            for k in range(len(loop)):
+                a, b, c, d = outer[k - 1], outer[k], inner[k], inner[k - 1]
+                self._face([(*a, high[i]), (*b, high[i]), (*c, high[i + 1]), (*d, high[i + 1])])
+                self._face([(*d, low[i + 1]), (*c, low[i + 1]), (*b, low[i]), (*a, low[i])])
+        face = rings[-1]
+        return [one for k, one in enumerate(face) if one != face[k - 1]]
 
     def _loop(self, contour: Contour) -> list[Corner]:
         """Return the corners of a contour without those that are too near to the one before.
@@ -135,18 +148,17 @@ class _PlateMesh:
     def _around(self, contour: Contour) -> Iterator[Corner]:
         """Yield all corners along a contour."""
         pieces = contour.segments
-        if not self.plate.chamfer:
-            for piece in pieces:
-                yield self._corner(piece, piece.start)
-                yield from self._along(piece, piece)
-            return
-        own = lines_and_arcs(contour)
-        inner = lines_and_arcs(inset(own, "", self.plate.chamfer))
-        for piece, within in zip(own, inner, strict=True):
-            yield Corner(rounded_point(piece.start), rounded_point(within.start))
+        sections = list[tuple[Segment, ...]]()
+        if self.sections:
+            own = lines_and_arcs(contour)
+            sections = [inset(own, "", depth).segments for depth, _ in self.sections]
+        for k, piece in enumerate(pieces):
+            within = [section[k] for section in sections]
+            starts = tuple(rounded_point(one.start) for one in within)
+            yield Corner(rounded_point(piece.start), starts)
             yield from self._along(piece, within)
 
-    def _along(self, piece: Segment, within: Segment) -> Iterator[Corner]:
+    def _along(self, piece: Segment, within: Sequence[Segment]) -> Iterator[Corner]:
         """Yield the corners along a piece without its ends, with those of the holes in it."""
         own = [
             (bore, opening)
@@ -171,20 +183,27 @@ class _PlateMesh:
         yield from drilled[:: 1 if rises else -1]
         yield from beyond[len(before) :]
 
-    def _corner(self, within: Segment, at: Point) -> Corner:
-        """Return the corner at a place; ``within`` is the piece of the face there.
+    def _corner(self, within: Sequence[Segment], at: Point) -> Corner:
+        """Return the corner at a place; ``within`` are the pieces of the edge's sections there."""
+        pieces = (one for one in within if isinstance(one, Line | Arc))
+        inner = (
+            self._within(piece, at, depth)
+            for piece, (depth, _) in zip(pieces, self.sections, strict=True)
+        )
+        return Corner(rounded_point(at), tuple(map(rounded_point, inner)))
 
-        Beside a corner of the contour the face's piece is shorter: there its end counts.
+    def _within(self, piece: Line | Arc, at: Point, depth: float) -> Point:
+        """Return the point of a section's piece that is nearest to a place of the contour.
+
+        Beside a corner of the contour the section's piece is shorter: there its end counts.
         """
-        inner, chamfer = at, self.plate.chamfer
-        if chamfer and isinstance(within, Line | Arc):
-            _, (x, y) = away(within, at)
-            inner = at[0] + chamfer * x, at[1] + chamfer * y
-            fraction = fraction_at(within, inner)
-            for end, beyond in ((within.start, fraction <= 0.0), (within.end, fraction >= 1.0)):
-                if beyond or math.dist(inner, end) <= 0.1 * self.tolerance:
-                    inner = end
-        return Corner(rounded_point(at), rounded_point(inner))
+        _, (x, y) = away(piece, at)
+        inner = at[0] + depth * x, at[1] + depth * y
+        fraction = fraction_at(piece, inner)
+        for end, beyond in ((piece.start, fraction <= 0.0), (piece.end, fraction >= 1.0)):
+            if beyond or math.dist(inner, end) <= 0.1 * self.tolerance:
+                inner = end
+        return inner
 
     def _wall(self, start: Corner, end: Corner) -> None:
         """Add the wall over a chord: one strip, or two beside a hole."""

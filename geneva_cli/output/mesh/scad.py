@@ -1,8 +1,8 @@
 """OpenSCAD: a module for each kind of solid, and a line for each position, in mm.
 
 A plate is an outline without its holes, extruded; circles stay circles, so that a person can change
-them. A turned part is one on another. A shell of a sphere, or a plate with a chamfer, is a
-polyhedron.
+them. A turned part is one on another. A shell of a sphere, or a plate whose edges are
+not sharp, is a polyhedron.
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ def _solid(solid: Solid, tolerance: float) -> str:
 
 
 def _plate(plate: Plate, tolerance: float) -> str:
-    if plate.chamfer:
+    if plate.edge.size:
         return _polyhedron(plate_mesh(plate, tolerance))
     outline, *holes = plate_contours(plate)
     flat = _flat(outline, True, tolerance)

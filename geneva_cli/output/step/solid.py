@@ -10,9 +10,9 @@ from geneva_cli.curves.measure import with_material_left
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point
 from geneva_cli.output.solid_part import plate_contours
-from geneva_cli.output.step.chamfers import chamfers
 from geneva_cli.output.step.cross_holes import bored_walls
 from geneva_cli.output.step.curves import circle_at, curve, knots_of, level, unit_of
+from geneva_cli.output.step.edges import edge_faces
 from geneva_cli.output.step.entities import (
     Entities,
     SolidCorner,
@@ -36,7 +36,8 @@ def solid(file: Entities, plate: Plate) -> str:
     outside = True
     shapes = plate_contours(plate)
     bored = bored_walls(file, plate, shapes)
-    walled = plate._replace(low=plate.low + plate.chamfer, high=plate.high - plate.chamfer)
+    taken = plate.edge.size
+    walled = plate._replace(low=plate.low + taken, high=plate.high - taken)
     for shape in shapes:
         if isinstance(shape, Circle):
             walls = [_round(file, walled, shape, outside)]
@@ -44,12 +45,12 @@ def solid(file: Entities, plate: Plate) -> str:
             contour = with_material_left(shape, outside)
             ends = [_place(file, walled, piece.start) for piece in pieces(contour.segments)]
             walls = _walls(file, walled, contour, ends, bored.loops)
-            if plate.chamfer:
-                sloped = chamfers(file, plate, contour, ends, walls)
-                faces += sloped.faces
+            if taken:
+                edges = edge_faces(file, plate, contour, ends, walls)
+                faces += edges.faces
                 walls = [
                     WallFace(wall.face, low, high, True)
-                    for wall, low, high in zip(walls, sloped.low, sloped.high, strict=True)
+                    for wall, low, high in zip(walls, edges.low, edges.high, strict=True)
                 ]
         faces += [wall.face for wall in walls]
         lower.append(loop(file, [(wall.low, not wall.along) for wall in reversed(walls)]))

@@ -15,7 +15,13 @@ from geneva_cli.curves.round_holes import RoundHole, least_wall
 from geneva_cli.curves.sphere import Region, dot, place
 from geneva_cli.curves.sphere_hull import Cap, convex_hull
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.arm_sizes import eye_about, hub_and_eye, lock_bolt_directions, pin_hole
+from geneva_cli.layout.arm_sizes import (
+    eye_about,
+    hub_and_eye,
+    lock_bolt_directions,
+    pin_hole,
+    wall_of_bolts,
+)
 from geneva_cli.layout.axles import refuse_wide
 from geneva_cli.layout.bolt_holes import bolt_radius
 from geneva_cli.layout.bores import Bore, bore_of
@@ -65,7 +71,8 @@ def crank_arm(parts: Shells) -> CapArm:
     own = parts.assembly.full.spec.size.lock_bolts
     arm = _arm(parts, own or 0)
     if own is None and parts.crank:
-        least = min(arm.wall, parts.sizes.wall_min)
+        size = parts.assembly.full.spec.size
+        least = min(arm.wall, wall_of_bolts(size, parts.sizes.wall_min))
         bolted = (_arm(parts, count) for count in (2, 1))
         arm = next((one for one in bolted if one.wall >= least), arm)
     if arm.wall <= 0.0:
@@ -95,7 +102,8 @@ def _arm(parts: Shells, bolts_each: int) -> CapArm:
     cap, eye = ball.cap(hub, form.reach, wall), eye / ball.radius_mm
     caps = [Cap(POLE, cap)]
     caps += [Cap(pin.axis, eye) for pin in pins]
-    caps += [Cap(b.axis, eye_about(b.radius, wall) / under) for b in screwed]
+    bolted = wall_of_bolts(spec.size, wall)
+    caps += [Cap(b.axis, eye_about(b.radius, bolted) / under) for b in screwed]
     middle = next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi)
     arm = CapArm(
         boundary=convex_hull(caps),

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from geneva_cli.curves.plates import Group, Member, Plate, Shell
+from geneva_cli.curves.plates import Group, Member, Plate, Shell, inwards
 from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.curves.shapes import ORIGIN, Circle, Shape
 from geneva_cli.curves.sphere import axis_frame, place
@@ -19,18 +19,20 @@ from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.axles import crank_hub, refuse_wide
 from geneva_cli.layout.ball import Ball
-from geneva_cli.layout.bores import bore_of, fitted, has_shape
+from geneva_cli.layout.bores import bore_of, has_shape
 from geneva_cli.layout.held_hubs import held_hub
 from geneva_cli.layout.missing import NamedParts
 from geneva_cli.outlines.sphere_wheel import POLE, web_angle, web_region, wheel_regions
 from geneva_cli.outlines.wheel_hub import HUB
-from geneva_cli.parts.shafts import SHAFT
+from geneva_cli.parts.shaft import Seat, Shaft, shaft_ends
 from geneva_cli.parts.sphere.arm import CapArm, crank_arm, has_arm
 from geneva_cli.parts.sphere.crank import at_mid_motion
 from geneva_cli.parts.sphere.dial import dial_holes
+from geneva_cli.parts.turned_shafts import turned_shaft
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
+    from geneva_cli.curves.sphere import Rotation
     from geneva_cli.parts.sphere.shells import Shells
 
 ARM, CRANK, ROLLER = "ARM", "CRANK", "ROLLER"
@@ -194,39 +196,42 @@ def _inner_hub(size: Size, ball: Ball, arm: CapArm | None) -> Plate | None:
 def _shafts(parts: Shells, arm: CapArm | None) -> Iterator[Member]:
     """Yield the shafts of wheel and crank: as wide as the bores, and as long as on a plane.
 
-    There is no frame, so the shafts end the arm's thickness beyond the parts that they carry.
+    There is no frame. Shafts end the arm's thickness beyond the parts that they carry, turned ones
+    at the circlip of a bearing there.
     """
     ball, size = parts.ball, parts.assembly.full.spec.size
-    under, over = ball.arm_span_mm
-    if size.shafts == "turned":
-        raise GenevaError(
-            'shafts = "turned": a machine on a sphere has no frame for bearings; remove it',
-            ("size", "shafts"),
-        )
-    lowest = ball.out(ball.shafts_end_mm(size) + over - under)
+    outside, (under, over) = ball.span_mm[1], ball.arm_span_mm
+    face = outside - ball.shafts_end_mm(size)
+    lowest = face - (over - under)
+    for one, frame in _axles(parts, arm, lowest):
+        turned = size.shafts == "turned" and one.low <= lowest
+        # the least length of a shoulder
+        at_face = face - ball.radius_mm / 50.0
+        part = (turned_shaft(size, one, at_face, None) if turned else one.plain(size)).part
+        yield Member(inwards(part, outside), frame=frame)
+
+
+def _axles(
+    parts: Shells, arm: CapArm | None, lowest: float
+) -> Iterator[tuple[Shaft, Rotation | None]]:
+    """Yield the shafts and the frames of their axes; heights count inwards from the outer sphere.
+
+    ``lowest`` is the height of their outer ends.
+    """
+    ball, size = parts.ball, parts.assembly.full.spec.size
+    (inside, outside), (under, over), at = ball.span_mm, ball.arm_span_mm, (0.0, 0.0)
     if ball.bore_mm:
-        low, high = size.wheel_shaft_low_mm, size.wheel_shaft_high_mm
-        low = (lowest if ball.hub_mm > ball.bore_mm else 0.0) if low is None else low
-        section = fitted(size, bore_of(size, "wheel", ball.bore_mm)).section(SHAFT, ball.half_step)
-        yield Member(_shaft("wheel", ball, section, low, ball.span_mm[0], high))
+        hub = ball.hub_mm > ball.bore_mm
+        bore, high = bore_of(size, "wheel", ball.bore_mm), outside - inside
+        seat = Seat("wheel", outside - inside - ball.hub_length_mm(size) if hub else 0.0, high)
+        low, high = shaft_ends(size, "wheel", lowest if hub else 0.0, high)
+        one = Shaft("wheel's shaft", "wheel", bore, (seat,), low, high, at, ball.half_step)
+        yield one._replace(ends_here=False), None
     if arm:
-        low = lowest if size.crank_shaft_low_mm is None else size.crank_shaft_low_mm
-        hub = _inner_hub(size, ball, arm)
-        end = (hub.low if hub else ball.lock_span_mm[0]) if size.crank_bore_mm else under
-        section = fitted(size, arm.bore).section(SHAFT, arm.keyway)
-        shaft = _shaft("crank", ball, section, low, end, size.crank_shaft_high_mm)
-        yield Member(shaft, frame=at_mid_motion(ball))
-
-
-def _shaft(
-    part: str, ball: Ball, section: Shape, low: float, end: float, high: float | None
-) -> Plate:
-    """Return a shaft from height ``low`` to ``high``, or inwards to ``end`` if that is None."""
-    inner, outer = end if high is None else ball.out(high), ball.out(low)
-    if not inner < outer:
-        raise GenevaError(
-            f"{part}_shaft_low_mm: the {part}'s shaft would reach from {outer:g} to {inner:g} mm "
-            f"from the sphere's centre; lower {part}_shaft_low_mm or raise {part}_shaft_high_mm",
-            ("size", f"{part}_shaft_low_mm"),
-        )
-    return Plate(f"{part}'s shaft", SHAFT, section, (), inner, outer)
+        inner = _inner_hub(size, ball, arm)
+        through = bool(size.crank_bore_mm)
+        end = (inner.low if inner else ball.lock_span_mm[0]) if through else under
+        seat = Seat("crank", outside - over, outside - end)
+        low, high = shaft_ends(size, "crank", lowest, outside - end)
+        one = Shaft("crank's shaft", "crank", arm.bore, (seat,), low, high, at, arm.keyway)
+        yield one._replace(ends_here=not through), at_mid_motion(ball)

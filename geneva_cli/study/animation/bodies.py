@@ -13,6 +13,7 @@ from geneva_cli.curves.shapes import Circle, Contour, Line, Shape, closed
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.gear_curves import gears_table
+from geneva_cli.parts.gear_pair import crank_sense
 from geneva_cli.scene import Body, Track
 from geneva_cli.study.animation.rack import rack
 from geneva_cli.study.animation.tracks import still
@@ -41,7 +42,7 @@ def bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
         yield Body("groove", _shapes(design, "groove"), (L, 0.0), still(0.0))
         if turn.mechanism.frame > 0.0:
             yield Body("carrier", _shapes(design, "frame"), (0.0, 0.0), still(0.0))
-    if design.spec.drive.gears:
+    if design.spec.gears:
         yield from _gears(design, turn)
 
 
@@ -96,8 +97,8 @@ def _mark(shapes: tuple[Shape, ...], turn: MachineTurn) -> Shape:
 def _gears(design: Design, turn: MachineTurn) -> Iterator[Body]:
     """The pitch curves of both gears: the driven one is fixed to the crank."""
     table = gears_table(turn.mechanism, 0.001, 241).to_dict()
-    sign = turn.mechanism.spec.wheel.SIGN
-    gears = turn.mechanism.spec.drive.gears
+    sign = -crank_sense(turn.mechanism)
+    gears = turn.mechanism.spec.gears
     assert gears
     # the table puts the driver first, and turns as an external wheel does
     driver = _closed(-table["driver_x_mm"], -sign * table["driver_y_mm"])
@@ -108,7 +109,7 @@ def _gears(design: Design, turn: MachineTurn) -> Iterator[Body]:
     angle = Track((0.0, turn.whole), (begin, begin + gain), (rate, rate), gain)
     yield Body("driver gear", (driver,), (turn.L + gears.distance_mm, 0.0), angle)
     crank = turn.crank()
-    ahead = math.pi if sign > 0.0 else 0.0
+    ahead = math.pi if turn.mechanism.spec.wheel.SIGN > 0.0 else 0.0
     level = crank._replace(value=tuple(v - ahead for v in crank.value))
     yield Body("driven gear", (driven,), (turn.L, 0.0), level)
 

@@ -51,7 +51,7 @@ class MachineTurn:
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
         self.L = mechanism.center_distance_mm
-        self.whole = 360.0 * mechanism.spec.drive.turns
+        self.whole = 360.0 * mechanism.spec.turns
         periods = round(self.whole / mechanism.period_deg)
         each = mechanism.engagements
         self.passages = tuple(
@@ -98,12 +98,17 @@ class MachineTurn:
         def even(x: Array) -> Array:
             return ahead + rate * (x - one.mid)
 
+        def shaft(x: Array) -> Array:
+            half = 0.5 * self.whole
+            at = (x - one.mid + half) % self.whole - half
+            return even(x) + rate * (one.engagement.own_deg(at) - at)
+
         def angle(x: Array) -> Array:
             u, v = (self.centre(0, x) - (self.L, 0.0)).T
             off: Array = (np.arctan2(v, u) - even(x) + math.pi) % math.tau - math.pi
             return even(x) + off
 
-        return self._sampled(even if sense else angle, ANGLE_ERROR, gain)
+        return self._sampled(shaft if sense else angle, ANGLE_ERROR, gain)
 
     def pin(self, one: RollerPassage, input_deg: Array) -> Array:
         """The centre of the roller that moves the wheel in a passage, mm, (n, 2)."""

@@ -8,8 +8,8 @@ from typing import Any
 from geneva_cli.document import Block, Fact, Facts, Grid, Heading, Prose, TextList
 from geneva_cli.machine.spec import Spec
 from geneva_cli.names import described
-from geneva_cli.spec.schema import Field, fields
-from geneva_cli.specfile.writer import keys_of, values_of
+from geneva_cli.spec.schema import Field
+from geneva_cli.specfile.writer import keys_in, values_of
 
 
 def inputs(spec: Spec, with_units: Sequence[str]) -> Iterator[Block]:
@@ -40,8 +40,7 @@ def defaults(spec: Spec) -> Iterator[Block]:
 
 def _known(spec: Spec) -> Iterator[tuple[str, Field, Any]]:
     """Table, key and value of each key that has a value, in the order of a file."""
-    law_keys = fields(type(spec.motion.law)) if spec.motion else ()
-    for table, keys in keys_of(type(spec.wheel), type(spec.drive), law_keys).items():
+    for table, keys in keys_in(spec).items():
         several = values_of(spec, table)
         for number, values in enumerate(several):
             name = table if len(several) < 2 else f"{table}.{number}"

@@ -8,7 +8,9 @@ from geneva_cli.manual.explained import entries
 
 def sources(spec: Spec) -> tuple[str, ...]:
     """The sources of the machine's kinds and its law, and those that all share."""
-    names = [spec.wheel.NAME, spec.drive.NAME, *([spec.motion.law.NAME] if spec.motion else [])]
+    before = [spec.drive_before.NAME] if spec.drive_before else []
+    laws = [spec.motion.law.NAME] if spec.motion else []
+    names = [spec.wheel.NAME, spec.drive.NAME, *before, *laws]
     known = {n: e.source for e in entries() if e.group in ("kind", "law") for n in e.names}
     own = [f"{name[0].upper()}{name[1:]}: {known[name]}." for name in names if known.get(name)]
     return (

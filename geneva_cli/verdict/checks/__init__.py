@@ -62,7 +62,7 @@ def checks_at_rest(mechanism: Mechanism, model: PartsModel | None) -> Iterator[C
     """
     yield from motion_checks(MOTION, mechanism)
     yield from motion_checks(LIMITS, mechanism)
-    if model is not None:
+    if model is not None and mechanism.spec.has_parts:
         yield from standing_checks(model.built)
 
 
@@ -112,16 +112,21 @@ def _model(mechanism: Mechanism) -> PartsModel:
 def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iterator[Check]:
     """Walls, shafts and, if ``turned``, the full turn of a machine whose parts are drawn.
 
-    If wheel or crank cannot be built, or turned, a single check says so instead.
+    If wheel or crank cannot be built, or turned, a single check says so instead. A rack can be
+    turned although some of its machine's parts are not built.
     """
-    if not mechanism.spec.has_parts:
-        yield Check("parts", None, "proved", None, None, mechanism.spec.no_parts)
+    spec, none = mechanism.spec, list[Check]()
+    if not spec.has_parts:
+        none = [Check("parts", None, "proved", None, None, spec.no_parts)]
+    if not spec.is_turned:
+        yield from none
         return
     from geneva_cli.collisions.gaps import WorkLimit
 
     model = model or _model(mechanism)
     try:
-        rows = list(standing_checks(model.built))
+        rows = none or list(standing_checks(model.built))
+        parts = model.parts
     except GenevaError as error:
         yield refused("parts", error)
         return
@@ -133,4 +138,4 @@ def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iter
     except WorkLimit as error:
         yield refused("full_turn", error)
         return
-    yield from turn_checks(model.parts, turn)
+    yield from turn_checks(parts, turn)

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from geneva_cli.drawings.shaft_gap import ShaftGap
 
 # The reason why a failing check has no advice.
-NONE = "none of the changes of one value that were tried passes all checks"
-STOPPED = "no change found within the number of trials"
+NONE = "no single change that was tried passes all checks"
+STOPPED = "no single change passed all checks within the limit of trials"
 
 
 class Check(NamedTuple):

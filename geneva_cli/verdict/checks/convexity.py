@@ -8,7 +8,7 @@ from geneva_cli.verdict.checks.check import Check, compared
 
 def gear_convexity(name: str, mechanism: Mechanism) -> Check | None:
     """The least curvature of the driving or the driven gear."""
-    gears = mechanism.spec.drive.gears
+    gears = mechanism.spec.gears
     if not gears:
         return None
     from geneva_cli.layout.gear_curves import convexity

@@ -1,4 +1,7 @@
-"""The wheel's play in its dwell, between lock and slot, and in its motion."""
+"""The wheel's play in its dwell, between lock and slot, and in its motion.
+
+It is an angle, or the travel of a rack: each check has a name for either unit.
+"""
 
 from __future__ import annotations
 
@@ -17,12 +20,12 @@ def dwell_hold(name: str, parts: MachineParts, turn: FullTurn) -> Check:
 
 def dwell(name: str, parts: MachineParts, turn: FullTurn) -> Check | None:
     """The play in the dwell, with which the next roller must still enter its slot."""
-    return _at_most(name, turn.dwell, finds_slot(parts)) if parts.crank else None
+    return _play(name, turn.dwell, finds_slot(parts), parts) if parts.crank else None
 
 
 def hand_over(name: str, parts: MachineParts, turn: FullTurn) -> Check | None:
     """The play between lock and slot."""
-    return _at_most(name, turn.hand_over, finds_slot(parts)) if parts.crank else None
+    return _play(name, turn.hand_over, finds_slot(parts), parts) if parts.crank else None
 
 
 def hand_over_pressure(name: str, parts: MachineParts, turn: FullTurn) -> Check | None:
@@ -31,9 +34,9 @@ def hand_over_pressure(name: str, parts: MachineParts, turn: FullTurn) -> Check 
     return _at_most(name, turn.push, 60.0) if parts.crank else None
 
 
-def motion(name: str, parts: MachineParts, turn: FullTurn) -> Check:
+def motion(name: str, parts: MachineParts, turn: FullTurn) -> Check | None:
     """The play of the roller in its slot."""
-    return _at_most(name, turn.motion, motion_play_max(parts))
+    return _play(name, turn.motion, motion_play_max(parts), parts)
 
 
 def motion_play_max(parts: MachineParts) -> float:
@@ -44,10 +47,19 @@ def motion_play_max(parts: MachineParts) -> float:
     return 0.05 * step
 
 
+def _play(name: str, play: Most, limit_deg: float, parts: MachineParts) -> Check | None:
+    """Return the check of a play; None if its name is of another unit than the machine's output."""
+    output = parts.assembly.full.output
+    if not name.endswith(f"_{output.unit}"):
+        return None
+    return _at_most(name, play._replace(deg=output.from_deg(play.deg)), output.from_deg(limit_deg))
+
+
 def _at_most(name: str, play: Most, limit: float) -> Check:
     return compared(name, play.deg, "at most", limit, play.at_deg if play.deg else None)
 
 
 def finds_slot(parts: MachineParts) -> float:
     """The play, degrees, with which the roller would just meet the mouth of its slot."""
-    return math.degrees(math.asin(min(1.0, parts.sizes.half_width / parts.sizes.rim)))
+    sizes, moves = parts.sizes, parts.assembly.plane_motion
+    return math.degrees(moves.half_span(sizes.half_width, sizes.rim))

@@ -1,11 +1,11 @@
-"""Checks of a rack and its locking sector."""
+"""The check of a rack's horns."""
 
 from __future__ import annotations
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.plain_sizes import wall_min
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.verdict.checks.check import Check, compared, refused
+from geneva_cli.verdict.checks.check import Check, compared
 
 
 def rack_horn(name: str, mechanism: Mechanism) -> Check | None:
@@ -16,25 +16,9 @@ def rack_horn(name: str, mechanism: Mechanism) -> Check | None:
 
     try:
         sizes = rack_sizes(mechanism)
-    except GenevaError as error:
-        return refused(name, error)
+    except GenevaError:
+        return None  # the check of the parts reports the error
     if not sizes.lock:
         return None
     least = wall_min(mechanism.spec.size, mechanism.center_distance_mm)
     return compared(name, sizes.horn, "at least", least)
-
-
-def rack_gap(name: str, mechanism: Mechanism) -> Check | None:
-    """The smallest gap between rack and crank in a turn, mm, negative where they overlap."""
-    if mechanism.output.turns:
-        return None
-    from geneva_cli.outlines.rack import rack_sizes, smallest_gap
-
-    try:
-        gap = smallest_gap(rack_sizes(mechanism))
-    except GenevaError:
-        return None  # the check of the horn reports the error
-    touch = 2e-6 * mechanism.center_distance_mm  # parts that overlap by less count as touching
-    value = 0.0 if abs(gap.mm) <= touch else gap.mm
-    at_deg = mechanism.shown_deg(mechanism.spec.drive.input_deg(gap.crank_deg))
-    return compared(name, value, "at least", 0.0, at_deg, touch)

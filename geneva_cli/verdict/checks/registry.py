@@ -35,7 +35,6 @@ MOTION: Checks = {
     "reversal_shock_N": "shocks:reversal_shock",
     "stopping_torque_Nm": "arrival:stopping_torque",
     "rack_horn_mm": "rack:rack_horn",
-    "rack_gap_mm": "rack:rack_gap",
 }
 # Checks of limits that the spec sets.
 LIMITS: Checks = {
@@ -114,9 +113,12 @@ TURNING: Checks = {
     "gap_mm": "touching:smallest_gap",
     "idle_roller_mm": "touching:idle_roller",
     "dwell_play_deg": "play:dwell",
+    "dwell_play_mm": "play:dwell",
     "hand_over_play_deg": "play:hand_over",
+    "hand_over_play_mm": "play:hand_over",
     "hand_over_pressure_deg": "play:hand_over_pressure",
     "motion_play_deg": "play:motion",
+    "motion_play_mm": "play:motion",
 }
 # Of flat parts at every angle of the turn, made for a design's own answer.
 PROOFS: Checks = {

@@ -16,8 +16,9 @@ class Bound(NamedTuple):
     """A limit of the spec, and the whole names of quantities: the limited one, and others.
 
     ``allowed`` is the limit of the default steel, ``size`` and ``least`` the size on which the
-    stress depends, and its least value. A stress that ``spreads`` is in inverse proportion to the
-    contact's width. One that ``shears`` is limited by its allowable shear, too.
+    stress depends, and its least value while all other sizes stay. A stress that ``spreads`` is in
+    inverse proportion to the contact's width. One that ``shears`` is limited by its allowable
+    shear, too.
     """
 
     limit: str  # table.key
@@ -28,6 +29,7 @@ class Bound(NamedTuple):
     what: str = ""  # the size, in words
     size: str = ""
     least: str = ""
+    held: str = ""  # what the least value depends on and a default may change, in words
     spreads: bool = False
     shears: bool = False
 
@@ -77,7 +79,7 @@ BOUNDS = {
     ),
     "arm_stress_MPa": _part(
         "material.wheel.stress_max_MPa", "arm", "arm_thickness_mm", "thickness_mm"
-    ),
+    )._replace(held="with these bores"),
     # on a key's sides
     **{
         f"{key}_pressure_MPa": _part(
@@ -124,7 +126,7 @@ def _needed(bound: Bound, of: Strength, check: Check) -> str:
     if size is None:
         return ""
     needs = "no value is enough" if least is None else f"this load needs {least:.4g}"
-    return f"{bound.what} is {size:.4g} mm, but {needs}"
+    return f"{bound.what} is {size:.4g} mm, but {needs} {bound.held}".rstrip()
 
 
 def _needed_width(of: Strength, check: Check) -> str:

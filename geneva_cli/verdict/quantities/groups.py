@@ -238,7 +238,7 @@ REPORT = (
     ),
     _group(
         "parts",
-        "smallest_gap_mm smallest_gap_at_deg dwell_play_deg",
+        "smallest_gap_mm smallest_gap_at_deg dwell_play_deg dwell_play_mm",
         "report.parts:turned",
         makes_parts=True,
     ),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -9,16 +10,19 @@ import numpy as np
 from geneva_cli.analysis import pin as pins
 from geneva_cli.loads.strength import arm as arms
 from geneva_cli.loads.strength import roller, shafts
-from geneva_cli.loads.strength.allowed import allowed_MPa, shear_allowed_MPa
+from geneva_cli.loads.strength.allowed import shear_allowed_MPa
 from geneva_cli.loads.strength.horn import horn_stresses
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress
+from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.numerics.arrays import array, parameter
 from geneva_cli.verdict.quantities.under_load import under_load
 
 if TYPE_CHECKING:
+    from geneva_cli.machine.spec import Spec
     from geneva_cli.numerics.arrays import Number
     from geneva_cli.numerics.jet import Array
     from geneva_cli.spec.tables import Material
+    from geneva_cli.spec.workshops import Stock
     from geneva_cli.verdict.quantities.designs import Columns, Designs
 
 
@@ -40,7 +44,7 @@ def margin(stress: Number, allowed: Number | None) -> Array | None:
 
 def pin(of: Designs) -> Columns:
     """The roller's pin under the greatest force; it needs a width of the contact."""
-    load, allowed = under_load(of), _allowed(of, of.spec.material_roller)
+    load, allowed = under_load(of), _allowed(of, of.spec.material_roller, roller_material)
     width, out = load.contact_mm, {"allowed_MPa": allowed}
     if width is None:
         return out
@@ -68,21 +72,21 @@ def _pin_mm(of: Designs, width: float, force: Array) -> Number:
         return usual
     stress = pins.pin(of.spec.size, width, usual).under(force).equivalent
     # where the usual pin holds, it is drawn
-    holds = ~(stress > allowed_MPa(of.spec.material_roller))
+    holds = ~(stress > roller_material(of.spec).allowed_MPa)
     parts = None if np.all(holds) else under_load(of).parts
     if parts is None:
         return usual
     return np.where(np.isnan(parts.pin), np.ravel(usual), parts.pin)[:, None]
 
 
-def _allowed(of: Designs, material: Material) -> Number | None:
-    """The allowable stress of a material; without a load only that of the spec."""
-    return allowed_MPa(material) if of.spec.is_loaded else material.stress_max_MPa
+def _allowed(of: Designs, own: Material, material: Callable[[Spec], Stock]) -> Number | None:
+    """The allowable stress of a part's material; without a load only that of the spec."""
+    return material(of.spec).allowed_MPa if of.spec.is_loaded else own.stress_max_MPa
 
 
 def horn(of: Designs) -> Columns:
     """The horn at the place where the roller bends it most; it needs a width of the contact."""
-    width, allowed = under_load(of).contact_mm, _allowed(of, of.spec.material_wheel)
+    width, allowed = under_load(of).contact_mm, _allowed(of, of.spec.material_wheel, wheel_material)
     out: dict[str, Number | None] = {"allowed_MPa": allowed}
     sizes = None if width is None else under_load(of).lock_sizes
     if width is None or sizes is None:
@@ -181,7 +185,7 @@ def _shaft(of: Designs, ends: shafts.ShaftDimensions, on: shafts.ShaftForces) ->
 
 def arm(of: Designs) -> Columns:
     """The crank arm under the greatest force on the crank."""
-    parts, allowed = under_load(of).parts, _allowed(of, of.spec.material_wheel)
+    parts, allowed = under_load(of).parts, _allowed(of, of.spec.material_wheel, wheel_material)
     out: dict[str, Number | None] = {"allowed_MPa": allowed}
     if parts is None or np.isnan(parts.arm.length).all():
         return out
@@ -196,7 +200,7 @@ def arm(of: Designs) -> Columns:
 
 def arm_thickness(of: Designs) -> Columns:
     """The thickness at which the crank arm just holds."""
-    parts, steel = under_load(of).parts, array(allowed_MPa(of.spec.material_wheel))
+    parts, steel = under_load(of).parts, array(wheel_material(of.spec).allowed_MPa)
     if parts is None or np.isnan(parts.arm.length).all():
         return {}
     force = under_load(of).part_loads.crank_N * of.loaded
@@ -222,7 +226,7 @@ def _key(of: Designs, key: KeyDimensions | None, torque: str) -> Columns:
         return {}
     most = getattr(under_load(of).part_loads, torque) * of.loaded
     most = most * np.ravel(of.spec.shaft.torsion_factor)
-    sides = np.ravel(allowed_MPa(of.spec.material_wheel))
+    sides = np.ravel(wheel_material(of.spec).allowed_MPa)
     shear = np.ravel(shear_allowed_MPa(of.spec.shaft))
     stress = key_stress(key, most, sides, shear)
     allowed = np.minimum(sides, shear * key.width / key.bearing)

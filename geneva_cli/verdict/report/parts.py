@@ -16,18 +16,16 @@ def parts(model: PartsModel) -> Values:
     A sphere has the horn; its other sizes are angles, in the list of parts.
     """
     values: Values = dict.fromkeys(own_names("parts", "report.parts:parts"))
-    return values | _or_reason(model, _sizes)
+    return values | (_or_reason(model, _sizes) if model.mechanism.spec.has_parts else {})
 
 
 def turned(model: PartsModel) -> Values:
     """Results of the parts' whole turn; None without it, with the reason in ``parts.none``."""
     values: Values = dict.fromkeys(own_names("parts", "report.parts:turned"))
-    return values | _or_reason(model, _turned)
+    return values | (_or_reason(model, _turned) if model.mechanism.spec.is_turned else {})
 
 
 def _or_reason(model: PartsModel, compute: Callable[[PartsModel], Values]) -> Values:
-    if not model.mechanism.spec.has_parts:
-        return {}
     try:
         return compute(model)
     except GenevaError as error:
@@ -41,12 +39,14 @@ def _sizes(model: PartsModel) -> Values:
 
 
 def _turned(model: PartsModel) -> Values:
-    parts, turn = model.parts, model.turn
-    gap, locked = turn.smallest, bool(parts.crank)
+    parts, turn, output = model.parts, model.turn, model.mechanism.output
+    gap = turn.smallest
+    # the lock's play, in the unit of what the machine gives out
+    play = {f"parts.dwell_play_{output.unit}": output.from_deg(turn.dwell.deg)}
     return {
         "parts.smallest_gap_mm": gap.mm if abs(gap.mm) > parts.contact else 0.0,
         "parts.smallest_gap_at_deg": gap.at_deg,
-        "parts.dwell_play_deg": turn.dwell.deg if locked else None,
+        **(play if parts.crank else {}),
     }
 
 

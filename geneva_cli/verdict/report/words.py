@@ -18,8 +18,10 @@ def words(mechanism: Mechanism) -> str:
     slots = f"pairs of {slots}" if each_step > 1 else slots
     rollers = "one roller" if count == 1 else f"{count} rollers"
     named = wheel.words(slots)
+    behind = f", behind {spec.drive_before.IN_FRONT}," if spec.drive_before else ""
     article = "An" if named[0] in "aeiou" else "A"
-    text = f"{article} {named}, driven by {drive.WORDS} with {rollers} at {drive.n_rpm:g} rpm."
+    driven = f"{drive.WORDS}{behind} with {rollers} at {drive.n_rpm:g} rpm"
+    text = f"{article} {named}, driven by {driven}."
     if spec.motion:
         text += f' The wheel follows the law "{spec.motion.law.NAME}"'
         if spec.motion.alpha0_deg:

@@ -1,0 +1,138 @@
+"""The motion of a wheel in its plane: it turns about its axis, or slides as a rack does.
+
+A body has two coordinates, of which its motion changes one: the place. That is the polar angle of a
+wheel's points, and of a rack's points their position along the travel. The other coordinate is the
+level: the distance from a wheel's axis, or the position across a rack. Places are radians: a rack
+slides by its pinion's radius a radian. Lengths are in the unit of the points.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, TypeVar
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+Level = TypeVar("Level", float, "Array")
+
+
+class PlaneMotion(ABC):
+    """The motion of a body in its plane, for angles in radians; arrays of points are (n, 2)."""
+
+    # change of the place after which a body meets itself, radians; infinite for a rack
+    PERIOD: float
+
+    @abstractmethod
+    def into(self, points: Array, turn: Array) -> Array:
+        """Return points in the frame of the body, which has moved by n angles.
+
+        With the angles negated it is the way back into the fixed frame.
+        """
+
+    @abstractmethod
+    def angle(self, turn: Array) -> Array:
+        """Return the direction of the body's x axis."""
+
+    @abstractmethod
+    def level(self, points: Array) -> Array:
+        """Return the coordinate of points that the motion leaves as it is, (n,)."""
+
+    @abstractmethod
+    def place(self, points: Array) -> Array:
+        """Return the coordinate of points that the motion changes, radians (n,)."""
+
+    @abstractmethod
+    def lever(self, level: Level) -> Level:
+        """Return how far points at a level move a radian."""
+
+    @abstractmethod
+    def half_span(self, reach: float, level: float) -> float:
+        """Return half of the range of places that a disc of radius ``reach`` covers."""
+
+
+class Turning(PlaneMotion):
+    """The rotation of a wheel about the origin.
+
+    >>> Turning().into(np.array([[0.0, 2.0]]), np.array([0.5 * math.pi])).round(9)
+    array([[2., 0.]])
+    """
+
+    PERIOD = math.tau
+
+    def into(self, points: Array, turn: Array) -> Array:
+        """Return points, turned back about the origin."""
+        return turned_points(points, -turn)
+
+    def angle(self, turn: Array) -> Array:
+        """Return the angle itself."""
+        return turn
+
+    def level(self, points: Array) -> Array:
+        """Return the distance of points from the axis."""
+        out: Array = np.hypot(points[..., 0], points[..., 1])
+        return out
+
+    def place(self, points: Array) -> Array:
+        """Return the polar angle of points."""
+        out: Array = np.arctan2(points[..., 1], points[..., 0])
+        return out
+
+    def lever(self, level: Level) -> Level:
+        """Return the distance from the axis."""
+        return level
+
+    def half_span(self, reach: float, level: float) -> float:
+        """Return half the angle that a disc spans, seen from the axis."""
+        return math.asin(reach / level) if reach < level else math.pi
+
+
+class Sliding(PlaneMotion):
+    """The travel of a rack along y, by ``radius`` a radian.
+
+    >>> Sliding(50.0).into(np.array([[0.0, 2.0]]), np.array([0.04]))
+    array([[0., 0.]])
+    """
+
+    PERIOD = math.inf
+
+    def __init__(self, radius: float) -> None:
+        self.radius = radius
+
+    def into(self, points: Array, turn: Array) -> Array:
+        """Return points, moved back along y."""
+        out = np.array(points)
+        out[:, 1] -= self.radius * turn
+        return out
+
+    def angle(self, turn: Array) -> Array:
+        """Return 0: a rack does not turn."""
+        return 0.0 * turn
+
+    def level(self, points: Array) -> Array:
+        """Return the position across the rack, x."""
+        return points[..., 0]
+
+    def place(self, points: Array) -> Array:
+        """Return the position along the rack, over the radius."""
+        out: Array = points[..., 1] / self.radius
+        return out
+
+    def lever(self, level: Level) -> Level:
+        """Return the radius, at any level."""
+        return 0.0 * level + self.radius
+
+    def half_span(self, reach: float, level: float) -> float:
+        """Return the disc's radius over the rack's."""
+        return reach / self.radius
+
+
+def turned_points(points: Array, angle: Array) -> Array:
+    """Return points (n, 2), each turned about the origin by its own angle, radians."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.column_stack(
+        (points[:, 0] * c - points[:, 1] * s, points[:, 0] * s + points[:, 1] * c)
+    )

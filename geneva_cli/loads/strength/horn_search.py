@@ -1,0 +1,181 @@
+"""The search for the greatest stress in a wheel's horns: over the roller's places and sections.
+
+Each horn is sampled at 61 places of the roller along 61 sections. The best sample is refined three
+times, between its neighbours.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
+
+import numpy as np
+
+from geneva_cli.analysis.contact import NEAR_CUSP
+from geneva_cli.loads.loads import state
+from geneva_cli.machine.many import taken
+from geneva_cli.numerics.arrays import array, parameter
+from geneva_cli.numerics.tolerances import TIE
+
+if TYPE_CHECKING:
+    from geneva_cli.kinematics.engagement import Engagement
+    from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.numerics.arrays import Number, Whole
+    from geneva_cli.numerics.jet import Array
+
+
+class HornStress(NamedTuple):
+    """The greatest stress in a horn, with the roller's place and the section.
+
+    (m,) each for m designs, NaN for those without a horn or a load.
+    """
+
+    stress_MPa: float
+    at_deg: float  # input angle from the engagement's mid-motion
+    inwards_mm: float  # of the section, from the mouth
+    thickness_mm: float
+
+    @property
+    def single(self) -> HornStress | None:
+        """The stress of a single design as numbers; None without a horn or a load."""
+        one = HornStress(*(float(array(row)[0]) for row in self))
+        return None if math.isnan(one.stress_MPa) else one
+
+
+class UnitStress(NamedTuple):
+    """Stresses under a force of 1 N, a row per place of the roller and a column per section."""
+
+    stress: Array  # MPa, (m, places, sections)
+    inwards: Array  # mm from the mouth, (m, sections)
+    thickness: Array  # mm, (m, sections); infinite beyond the horn
+
+
+class HornSide(Protocol):
+    """A horn: the wall on one side of a slot."""
+
+    @property
+    def end(self) -> float:
+        """-1: between the slot and where the crank's axis is before the motion; 1: after it."""
+
+    @property
+    def whole(self) -> Engagement:
+        """Engagement of the motion, which has the load."""
+
+    @property
+    def ahead_deg(self) -> float:
+        """Angle by which the input of ``whole`` is smaller."""
+
+    @property
+    def mouth_deg(self) -> float:
+        """Input angle at which the roller is at this horn's mouth."""
+
+    @property
+    def runs_from_deg(self) -> Sequence[float]:
+        """Input angles from which the roller runs along this horn's wall up to mid-motion."""
+
+    def unit_stress(self, roller: Array, sections: Array, width_mm: float) -> UnitStress:
+        """Stresses at sections with the roller at some places, both as its input angles (m, k)."""
+
+
+Sides: TypeAlias = Callable[["Mechanism", float, float], Sequence[HornSide]]
+
+
+class _SamplePlaces(NamedTuple):
+    """Input angles of each design at which roller and section are sampled."""
+
+    roller: Array  # (m, halves of the motion, places)
+    section: Array  # (m, sections)
+
+
+def alike(input_deg: Number) -> Array:
+    """Input angles (m, k); as (k,) for one row, which takes half the time."""
+    x = np.atleast_2d(input_deg)
+    return x[0] if len(x) == 1 else x
+
+
+def greatest_stress(
+    sides: Sides, mechanism: Mechanism, half_width: float, recess: float, width: float
+) -> HornStress:
+    """Greatest stress of m designs that are searched together."""
+    m = mechanism.designs
+    best, which = np.full((4, m), np.nan), np.zeros(m, dtype=int)
+    next_, count = [], 61  # places and sections of the first sampling
+    for number, side in enumerate(sides(mechanism, half_width, recess)):
+        start = _SamplePlaces(
+            _from(side.runs_from_deg, count), _from([side.mouth_deg], count)[:, 0]
+        )
+        sample, around = _sampled(mechanism, side, start, width)
+        better = ~(sample[0] <= best[0] * (1.0 + TIE)) & ~np.isnan(sample[0])
+        best, which = np.where(better, sample, best), np.where(better, number, which)
+        next_.append((side, around))
+    for number, (side, around) in enumerate(next_):
+        own = np.flatnonzero((which == number) & ~np.isnan(best[0]))
+        if not len(own):
+            continue
+        some, one = (mechanism, half_width, recess, width), side
+        if len(own) < m:
+            some = taken(some, own)
+            one = sides(*some[:3])[number]
+            around = _SamplePlaces(*(places[own] for places in around))
+        for _ in range(3):  # the middle of the remaining places is the best so far
+            sample, around = _sampled(some[0], one, around, some[3])
+            best[:, own] = np.where(np.isnan(sample[0]), best[:, own], sample)
+        best[1, own] += np.ravel(one.whole.mid_deg - one.ahead_deg)
+    at_deg = np.ravel(mechanism.shown_deg(parameter(best[1][:, None])))
+    return HornStress(*map(parameter, (best[0], at_deg, *best[2:])))
+
+
+def _from(ends: Sequence[float], count: int) -> Array:
+    """Input angles from each of some ends to mid-motion: (m, ends, count)."""
+    whole = np.hstack([np.atleast_2d(end) for end in ends])
+    return whole[..., None] * np.linspace(1.0, NEAR_CUSP, count)
+
+
+def _sampled(
+    mechanism: Mechanism, side: HornSide, within: _SamplePlaces, width: float
+) -> tuple[Array, _SamplePlaces]:
+    """Greatest stress at these places, (4, m), and places around it for the next step.
+
+    The rows are those of ``HornStress``, NaN if there is no stress.
+    """
+    roller, u = within
+    stress, inwards, thick = _stress(mechanism, side, width, roller.reshape(len(roller), -1), u)
+    m, _, count = stress.shape
+    stress = stress.reshape(m, -1)
+    most, every = stress.max(axis=1), np.arange(m)
+    first = np.argmax(stress >= most[:, None] * (1.0 - TIE), axis=1)
+    i, j = np.divmod(first, count)
+    half, k = np.divmod(i, roller.shape[2])
+    if m > len(u):  # their loads differ, their slots do not
+        roller, u, thick, inwards = (np.repeat(of, m, axis=0) for of in (roller, u, thick, inwards))
+    runs = roller[every, half]
+    rows = (stress[every, first], runs[every, k], inwards[every, j], thick[every, j])
+    sample = np.where(most > 0.0, rows, np.nan)
+    return sample, _SamplePlaces(_around(runs, k)[:, None], _around(u, j))
+
+
+def _around(places: Array, i: Whole) -> Array:
+    """Places between the neighbours of one of them, in each row."""
+    every, last = np.arange(len(places)), places.shape[1] - 1
+    before = places[every, np.maximum(i - 1, 0), None]
+    after = places[every, np.minimum(i + 1, last), None]
+    refined: Array = before + (after - before) * np.linspace(0.0, 1.0, 33)
+    return refined
+
+
+def _stress(
+    mechanism: Mechanism, side: HornSide, width: float, x: Array, sections: Array
+) -> UnitStress:
+    """Stresses under the machine's load: 0 where the other horn bears."""
+    loads = state(mechanism, side.whole, alike(x - side.ahead_deg))
+    bears = np.asarray(loads.torque_Nm) * side.end < 0.0
+    force = np.atleast_2d(np.where(bears, loads.pin_force_N, 0.0))
+    own = np.flatnonzero(bears.any(axis=0) if bears.ndim > 1 else bears)  # elsewhere it is 0
+    unit = side.unit_stress(x[:, own], sections, width)
+    m = max(len(force), len(unit.stress))
+    stress = np.zeros((m, x.shape[1], sections.shape[1]))
+    with np.errstate(invalid="ignore"):  # of a force without a bound
+        loaded = force[:, own, None] * unit.stress
+    stress[:, own] = np.where(np.isfinite(loaded), loaded, 0.0)
+    return unit._replace(stress=stress)

@@ -1,0 +1,312 @@
+"""A machine whose input shaft another drive turns: gears or a side-crank in front.
+
+The drive of the spec has engagements by the angle theta of its own input shaft. The drive before it
+turns that shaft by theta = g(phi), where phi is the machine's input. So path, slot and motion are
+p(g(phi)), M(g(phi)) and psi(g(phi)), and their derivatives follow by the chain rule: the wheel's
+speed is psi'(theta) g', its acceleration psi''(theta) g'² + psi'(theta) g''.
+
+The angle g is written about entry, mid-motion and exit, so that it is exact at each of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple, cast
+
+from geneva_cli.kinematics.anchors import cuts
+from geneva_cli.kinematics.drive import Plan
+from geneva_cli.kinematics.engagement import (
+    Anchor,
+    Carrier,
+    Displacement,
+    Engagement,
+    Level,
+    Path,
+    PinDisplacement,
+    Slot,
+    SlotAxis,
+    WheelMotion,
+)
+from geneva_cli.machine.driven_shaft import DrivenShaft, ShaftPath
+from geneva_cli.numerics.angles import DEGREE, radians
+from geneva_cli.numerics.arrays import N, library
+from geneva_cli.numerics.batchable import Batchable
+from geneva_cli.numerics.jet import Jet, Number, atan2, composed, piecewise
+from geneva_cli.numerics.latest import Latest
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.drives.transmission import Transmission
+    from geneva_cli.machine.spec import Spec
+
+
+def retimed(plan: Plan, spec: Spec) -> Plan:
+    """Return the plan of a spec's drive behind the drive before it; unchanged without one."""
+    if spec.drive_before is None:
+        return plan
+    before = cast("Transmission", spec.drive_before)  # ``compatible`` requires one
+    turn = 360.0 * spec.turns
+    each = tuple(
+        _engagement(own, Timing(before, own, k * plan.period_deg), spec, plan.center_distance_mm)
+        for k in range(round(turn / plan.period_deg))
+        for own in plan.engagements
+    )
+    return plan._replace(engagements=each, period_deg=turn * before.turns)
+
+
+def _engagement(own: Engagement, timing: Timing, spec: Spec, L: float) -> RetimedEngagement:
+    """Return an engagement behind the drive before, with the reactions of the shaft between."""
+    wheel, reactions = spec.wheel, own.reactions
+    if not spec.drive.CRANKED:
+        path = ShaftPath(timing)
+        push = timing.before.reactions(wheel, path, timing.within_deg, L) if wheel.FLAT else None
+        sense = own.crank_sense or wheel.SIGN
+        reactions = DrivenShaft(own, timing, push, sense) if own.reactions or push else None
+    elif reactions is not None:
+        reactions = DrivenShaft(own, timing, None, 1.0)
+    body = RetimedRate(own, timing)
+    carrier = Carrier(own.crank_sense, body, reactions, own.groove, own.hub)
+    return RetimedEngagement(own, timing, carrier)
+
+
+class Rotation(NamedTuple):
+    """Rotation of the driven shaft about one of its angles."""
+
+    input_deg: float  # machine's input, from mid-motion
+    own_deg: float  # driven shaft, from mid-motion
+    advance: Displacement
+
+    def at(self, input_deg: Number, order: int) -> Jet:
+        """Angle of the driven shaft at input angles in degrees: its value in degrees, too.
+
+        Derivatives are by the input angle, both in radians.
+        """
+        sine, versine = self.advance(radians(input_deg - self.input_deg), order)
+        turned = atan2(sine, 1.0 - versine)
+        return Jet((self.own_deg + turned.c[0] / DEGREE, *turned.c[1:]))
+
+
+class Timing(Batchable):
+    """Angle of a drive's own input shaft over one engagement, by the machine's input angle.
+
+    ``late_deg`` is the own angle by which the engagement follows the one that it repeats.
+    """
+
+    def __init__(self, before: Transmission, own: Engagement, late_deg: float) -> None:
+        mid = own.mid_deg + late_deg
+        turns = library(mid).floor(mid / 360.0 + 0.5)
+        self.before = before
+        self.rest_deg = mid - 360.0 * turns  # ``about`` covers one turn of the shaft
+        ends = (own.entry_deg, 0.0, own.exit_deg)
+        local = [before.about(self.rest_deg + end) for end in ends]
+        self.within_deg = local[1].input_deg  # input angle of mid-motion in that turn
+        self.mid_deg = 360.0 * before.turns * turns + self.within_deg
+        self.even = local[1].even
+        self.each = tuple(
+            Rotation(one.input_deg - self.within_deg, end, one.advance)
+            for one, end in zip(local, ends, strict=True)
+        )
+        self.changes_deg = tuple(
+            one.input_deg - self.within_deg + cut / DEGREE for one in local for cut in one.cuts
+        )
+        self._latest = Latest()
+
+    @property
+    def cuts(self) -> list[float]:
+        """Input angles at which the formula about another place takes over, degrees."""
+        return cuts([one.input_deg for one in self.each])
+
+    def input_deg(self, own_deg: float) -> float:
+        """Machine's input angle at an angle of the driven shaft, both from mid-motion, degrees."""
+        return self.before.about(self.rest_deg + own_deg).input_deg - self.within_deg
+
+    def __call__(self, input_deg: Number, order: int) -> Jet:
+        """Angle of the driven shaft in radians from mid-motion, at input angles in degrees."""
+        return self.at(input_deg, order)[1]
+
+    def at(self, input_deg: Number, order: int) -> tuple[Number, Jet]:
+        """Angle of the driven shaft in degrees, and in radians with its derivatives."""
+        own, turned = self._latest(self._turned, input_deg, order)
+        return own.c[0], turned
+
+    def _turned(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
+        pieces = [partial(one.at, order=order) for one in self.each]
+        own = piecewise(input_deg, self.cuts, pieces)
+        return own, Jet((radians(own.c[0]), *own.c[1:]))
+
+
+class Composed(NamedTuple):
+    """A pin's displacement by the input's rotation, through the driven shaft's."""
+
+    displacement: PinDisplacement
+    advance: Displacement
+    cuts: Sequence[float] = ()
+
+    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
+        """Displacement along the anchor's ray and across it, ``tau`` input radians later."""
+        sine, versine = self.advance(tau, order)
+        turned = atan2(sine, 1.0 - versine)
+        along, across = self.displacement(turned.c[0], order)
+        return composed(along, turned), composed(across, turned)
+
+
+class RetimedPath(Batchable):
+    """A pin's path by the machine's input angle."""
+
+    def __init__(self, own: Path, timing: Timing) -> None:
+        self.own, self.timing = own, timing
+
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+        """Pin (x, y) in the fixed frame."""
+        at, turned = self.timing.at(input_deg, order)
+        x, y = self.own(at, order)
+        return composed(x, turned), composed(y, turned)
+
+
+class RetimedMotion(WheelMotion):
+    """The wheel's angle by the machine's input angle."""
+
+    def __init__(self, own: WheelMotion, timing: Timing) -> None:
+        first, _, last = (one.input_deg for one in timing.each)
+        super().__init__(first, last, own.half_step)
+        self.own, self.timing = own, timing
+
+    @property
+    def symmetric(self) -> bool:
+        """True if both the own motion and the drive before are symmetric about mid-motion."""
+        return self.timing.even and self.own.symmetric and super().symmetric
+
+    @property
+    def entry(self) -> Anchor | None:
+        """Pin at entry, by the machine's input angle."""
+        own, first = self.own.entry, self.timing.each[0]
+        if own is None:
+            return None
+        displacement = Composed(own.displacement, first.advance)
+        return Anchor(self.entry_deg, own.wheel, own.along, displacement)
+
+    @property
+    def breaks_deg(self) -> tuple[float, ...]:
+        """Those of the own motion, as input angles."""
+        return self._from_own(self.own.breaks_deg)
+
+    @property
+    def seams_deg(self) -> tuple[float, ...]:
+        """Those of the own motion, and those of the drive before."""
+        own = self._from_own(self.own.seams_deg)
+        places = {*own, *self.timing.cuts, *self.timing.changes_deg}
+        inside = sorted(at for at in places if self.entry_deg < at < self.exit_deg)
+        return (self.entry_deg, *inside, self.exit_deg)
+
+    def _from_own(self, own_deg: Sequence[float]) -> tuple[float, ...]:
+        inner = (self.timing.input_deg(at) for at in own_deg[1:-1])
+        return (self.entry_deg, *inner, self.exit_deg)
+
+    def __call__(self, input_deg: Number, order: int = 3) -> Jet:
+        """Wheel angle with its derivatives by the machine's input angle in radians."""
+        at, turned = self.timing.at(input_deg, order)
+        return composed(self.own(at, order), turned)
+
+    def rate(self, input_deg: Number, order: int = 2) -> Jet:
+        """Wheel speed over the machine's input speed: psi'(theta) g'."""
+        at, turned = self.timing.at(input_deg, order + 1)
+        return _of_rate(self.own.rate(at, order), turned)
+
+
+class RetimedSlot(Slot):
+    """A slot whose pin runs along it by the machine's input angle."""
+
+    def __init__(self, own: Slot, timing: Timing) -> None:
+        self.own, self.timing = own, timing
+        self.mirrored, self.relieved, self.offset = own.mirrored, own.relieved, own.offset
+        self.height = None if own.height is None else RetimedLevel(own.height, timing)
+
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+        """Pin (x, y) in the wheel's frame."""
+        at, turned = self.timing.at(input_deg, order)
+        x, y = self.own(at, order)
+        return composed(x, turned), composed(y, turned)
+
+    @property
+    def seams_deg(self) -> tuple[float, ...]:
+        """Those of the own slot, as input angles."""
+        return tuple(self.timing.input_deg(at) for at in self.own.seams_deg)
+
+    def axis(self, input_deg: Number, order: int = 0) -> SlotAxis | None:
+        """The slot's lever, and the pin's speed along it by the machine's input angle."""
+        at, turned = self.timing.at(input_deg, order + 1)
+        axis = self.own.axis(at, order)
+        if axis is None:
+            return None
+        return SlotAxis(composed(axis.lever, _lower(turned)), _of_rate(axis.along, turned))
+
+    def upright(self, input_deg: Number, order: int = 0) -> Jet | float:
+        """Cosine of the angle between the roller's axis and the wheel's."""
+        at, turned = self.timing.at(input_deg, order)
+        upright = self.own.upright(at, order)
+        return composed(upright, turned) if isinstance(upright, Jet) else upright
+
+    def play(self, clearance: Number) -> Number:
+        """Free angle of the wheel, radians, for a clearance per side over the lever."""
+        return self.own.play(clearance)
+
+    def touches(self, input_deg: Number) -> Number:
+        """1 where the roller drives the wheel, 0 where something else does."""
+        return self.own.touches(self.timing.at(input_deg, 0)[0])
+
+
+class RetimedLevel(NamedTuple):
+    """A pin's position along a spherical wheel's axis, by the machine's input angle."""
+
+    own: Level
+    timing: Timing
+
+    @property
+    def hub(self) -> float:
+        """Position of the centre of the pin's circle."""
+        return self.own.hub
+
+    def __call__(self, tau: Number, order: int) -> Jet:
+        """Position ``tau`` input radians after mid-motion."""
+        turned = self.timing(tau / DEGREE, order)
+        return composed(self.own(turned.c[0], order), turned)
+
+
+class RetimedRate(NamedTuple):
+    """Angular velocity of the body that carries the roller, by the machine's input."""
+
+    own: Engagement
+    timing: Timing
+
+    def __call__(self, tau: Number, order: int) -> Jet:
+        """Rate in radians per input radian, positive with the wheel, ``tau`` after mid-motion."""
+        at, turned = self.timing.at(tau / DEGREE, order + 1)
+        return _of_rate(self.own.carrier(at, order), turned)
+
+
+class RetimedEngagement(Engagement):
+    """An engagement of a drive's own, behind another drive."""
+
+    def __init__(self, own: Engagement, timing: Timing, carrier: Carrier) -> None:
+        path, slot = RetimedPath(own.path, timing), RetimedSlot(own.slot, timing)
+        super().__init__(timing.mid_deg, path, slot, RetimedMotion(own.motion, timing), carrier)
+        self._own, self.timing = own, timing
+
+    def own_deg(self, input_deg: N) -> N:
+        """Angle of the drive's own input shaft at input angles from mid-motion, degrees."""
+        return cast("N", self.timing.at(input_deg, 0)[0])
+
+    @property
+    def own(self) -> Engagement:
+        """The engagement by the angle of the drive's own input shaft."""
+        return self._own
+
+
+def _of_rate(rate: Jet, turned: Jet) -> Jet:
+    """A rate per radian of the driven shaft, as one per radian of the input."""
+    return composed(rate, _lower(turned)) * turned.derivative()
+
+
+def _lower(jet: Jet) -> Jet:
+    """The jet without its highest derivative."""
+    return Jet(jet.c[:-1])

@@ -1,0 +1,66 @@
+"""One shaft or pivot before it is built: where it stands, its bore, and what it carries."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from geneva_cli.curves.plates import Member, Plate
+from geneva_cli.curves.shapes import Point
+from geneva_cli.errors import GenevaError
+from geneva_cli.layout.bores import Bore, fitted
+from geneva_cli.spec.tables import Size
+
+SHAFT = "SHAFT"
+
+
+class Seat(NamedTuple):
+    """Where a part sits on its shaft: its name, its lower and its upper face."""
+
+    part: str
+    low: float
+    high: float
+
+
+class Shaft(NamedTuple):
+    """A shaft or pivot; heights are along its axis, and angles in radians."""
+
+    name: str
+    part: str  # whose keys of [size] set its ends
+    bore: Bore  # of the parts on it
+    seats: tuple[Seat, ...]  # from the lowest up; the bore's shape is that of the last
+    low: float
+    high: float
+    at: Point
+    direction: float = 0.0  # of the bore's keyway or flat
+    turn: float = 0.0
+    turns: bool = True  # in a bearing of the frame
+    ends_here: bool = True  # nothing may stand above the last seat
+
+    @property
+    def bore_key(self) -> str:
+        """The key of ``[size]`` that sets the bore."""
+        return f"{self.part}_bore_mm" if self.part in ("wheel", "crank") else "link_bore_mm"
+
+    def plain(self, size: Size) -> Member:
+        """Return the shaft with one section all along: that of its bore, less the fit.
+
+        Raises GenevaError, naming the key, where its lower end is not below its upper one, and
+        where ``shaft_fit_mm`` leaves nothing of it.
+        """
+        if not self.low < self.high:
+            key = f"{self.part}_shaft_low_mm"
+            raise GenevaError(
+                f"{key}: the {self.part}'s shaft would reach from {self.low:g} up to {self.high:g} "
+                f"mm (0 is the wheel's lower face); reduce {key} or increase "
+                f"{self.part}_shaft_high_mm",
+                ("size", key),
+            )
+        section = fitted(size, self.bore).section(SHAFT, self.direction)
+        return Member(Plate(self.name, SHAFT, section, (), self.low, self.high), self.at, self.turn)
+
+
+def shaft_ends(size: Size, part: str, low: float, high: float) -> tuple[float, float]:
+    """Return the ends of a part's shaft: those of the spec, or else the heights low and high."""
+    values = vars(size)
+    ends = values.get(f"{part}_shaft_low_mm"), values.get(f"{part}_shaft_high_mm")
+    return low if ends[0] is None else ends[0], high if ends[1] is None else ends[1]
