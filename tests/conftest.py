@@ -118,7 +118,7 @@ MOTION_WARNINGS = kept(motion_warnings.motion_warnings, lambda mechanism: mechan
 
 @pytest.fixture(scope="module")
 def made_once():
-    """Walls, outlines, turn, proof and warnings of a design, which take seconds, made once for a file.
+    """Walls, outlines, turn, its proof and warnings of a design, made once for a file: seconds.
 
     The same spec has the same ones. Not for tests of how they are made, or of how long it takes.
     """
