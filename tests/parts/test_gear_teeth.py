@@ -377,6 +377,7 @@ def test_a_module_without_gears_is_refused(drive):
     assert caught.value.key == ("size", "gear_module_mm")
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_sectors_whose_last_tooth_is_lower_do_not_serve_both_ways():
     """Backwards the lower tooth would be the first, and the last one would jam."""
     sector = GearSector(sector_deg=60.0, both_ways=True)
