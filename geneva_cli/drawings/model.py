@@ -51,7 +51,8 @@ class PartsModel:
         assembly = self.parts.assembly._replace(full=mechanism, to_input=to_input)
         if mechanism.spec.wheel.FLAT:
             return PartsModel(mechanism, self.outlines.over(assembly), self.advice)
-        return PartsModel(mechanism, None, self.advice, self.shells.over(assembly))
+        shells = self.shells.over(assembly) if mechanism.spec.wheel.SHELLS else None
+        return PartsModel(mechanism, None, self.advice, shells)
 
     @cached_property
     def assembly(self) -> Assembly:

@@ -263,6 +263,15 @@ class Spec:
         return nothing & (self.support.own_torque_Nm == 0.0) & (not self.mass)
 
     @property
+    def unbalanced(self) -> bool:
+        """True if a single body stands off the wheel's axis.
+
+        >>> Spec(External(6), mass=(Mass("point", mass_kg=1.0, radius_mm=50.0),)).unbalanced
+        True
+        """
+        return any(one.count < 2 and one.radius_mm > 0.0 for one in self.mass)
+
+    @property
     def is_flat(self) -> bool:
         """True if wheel and crank are flat outlines and the wheel has few enough slots to be drawn.
 

@@ -20,7 +20,7 @@ from geneva_cli.curves.shapes import Circle
 from geneva_cli.curves.sheet import rectangle
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Dimension
-from geneva_cli.layout.bearings import bearing_up_to
+from geneva_cli.layout.bearings import bearing_up_to, shoulder_length
 from geneva_cli.layout.bolt_holes import bolt_radius
 from geneva_cli.layout.bores import bore_of
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
@@ -57,7 +57,7 @@ def rack_frame(mechanism: Mechanism) -> RackFrame:
     arm, thickness = -gap - thick.arm, thick.arm
     top = arm - size.washer_mm
     if size.shafts == "turned" and has_arm(mechanism):
-        top -= R / 25.0  # the least length of a shoulder, as a wheel's of 6 slots has
+        top -= shoulder_length(size, 2.0 * R)  # as on a wheel of 6 slots, whose L is 2 R
         bearing = bearing_up_to(2.0 * rack_bore(mechanism), "crank's shaft", "arm_bore_mm")
         thickness = max(thickness, bearing.width)
     return RackFrame(top - thickness, top, arm, 0.0 - gap, thick.wheel, thick.arm)

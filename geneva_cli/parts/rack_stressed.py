@@ -1,7 +1,7 @@
 """The dimensions of the parts of a rack's machine that their strength depends on.
 
-The rack has no shaft and no key. The crank's shaft has its bearing in the middle of the frame, and
-its overhang is the distance of that from the middle of the rack's thickness.
+The rack has no shaft and no key. The crank's shaft is borne in the frame, and its overhang is the
+distance of that bearing from the middle of the rack's thickness.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import numpy as np
 
 from geneva_cli.layout.bores import reach_or_bore
 from geneva_cli.layout.plain_sizes import pin_radius
-from geneva_cli.layout.stressed import ShaftSize, Stressed, key_of, shaft_of
+from geneva_cli.layout.stressed import ShaftEnd, ShaftSize, Stressed, key_of, shaft_of
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
 from geneva_cli.machine.mechanism import Mechanism
@@ -26,15 +26,17 @@ def rack_stressed(mechanism: Mechanism) -> Stressed:
     size, heights = mechanism.spec.size, rack_frame(mechanism)
     contact = value_or(size.face_width_mm, heights.rack)
     bore = rack_bore(mechanism) if has_arm(mechanism) else 0.0
-    overhang = 0.5 * (heights.rack - heights.top - heights.bottom)
+    thick = heights.stands - heights.arm
+    to_frame = 0.5 * heights.rack - (heights.arm - size.washer_mm)
+    end = ShaftEnd(to_frame, thick, 2.0 * mechanism.center_distance_mm)  # shoulders as on L = 2 R
     return Stressed(
         contact,
         2.0 * pin_radius(size, mechanism.roller_radius_mm),
         ShaftSize(math.nan, math.nan),
-        shaft_of(None, bore, None, overhang),
+        shaft_of(mechanism.spec, "crank", bore, end),
         _arm(mechanism, contact),
         KeyDimensions(*[np.asarray(math.nan)] * len(KeyDimensions._fields)),
-        key_of(size.crank_keyway, bore, heights.stands - heights.arm),
+        key_of(size.crank_keyway, bore, thick),
     )
 
 

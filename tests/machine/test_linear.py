@@ -221,13 +221,13 @@ def test_what_a_rack_cannot_have_is_refused(spec, text):
 
 
 def test_what_needs_a_wheel_is_refused_with_the_reason(tmp_path):
-    """Angles of a cam, a cam indexer's step, and a search for a wheel."""
+    """Angles of a cam, a cam indexer's step, and a search for a wheel among racks."""
     path = tmp_path / "rack.toml"
     path.write_text('[wheel]\nz = 6\ngearing = "linear"\n')
     for words, text in (
         (["motion", str(path), "--format", "cam"], "this machine moves a rack"),
         (["compare", str(path), "--against", "cam"], "this machine moves a rack"),
-        (["synth", "--tau", "0.4", "--from", str(path)], "its step is twice center_distance_mm"),
+        (["synth", "--tau", "0.4", "--external", "--from", str(path)], "searched alone"),
         (["profile", str(path), "--part", "links", "-o", str(tmp_path / "a.dxf")], "not available"),
         (
             ["profile", str(path), "--set", "size.wheel_radius_mm=1000"],

@@ -157,9 +157,14 @@ def roller(p, d, i):
     if "carrier R0" in d:
         ratio = d["fixed teeth / planet teeth"]
         c = 1.0 + ratio if d["fixed gear"] == "sun" else 1.0 - ratio
-        return lambda phi: L - d["carrier R0"] * turn(-phi) - d["planet crank rp"] * turn(-c * phi)
+
+        def on_planet(phi):
+            return L - d["carrier R0"] * turn(-phi) - d["planet crank rp"] * turn(-c * phi)
+
+        return lambda phi: on_planet(math.degrees(crank_angle(p, d, phi)))
     if "crank pin A" in p:
-        return linkage(p, d)
+        own = linkage(p, d)
+        return lambda phi: own(math.degrees(crank_angle(p, d, phi)))
     R = d[f"roller {i}: crank radius"]
     behind = math.radians(d[f"roller {i}: behind the first"])
 
@@ -284,6 +289,11 @@ SPECS = {
     "side-crank inside": 'z = 6\ngearing = "internal"\n[drive]\nkind = "side-crank"\nA = 0.4',
     "gears inside": 'z = 8\ngearing = "internal"\n[drive]\nkind = "noncircular-gears"\nA = -0.3',
     "ring": 'z = 6\n[drive]\nkind = "epicyclic"\nplanet_ratio = 0.02\nfixed = "ring"',
+    "planet behind gears": 'z = 6\n[drive]\nkind = "epicyclic"\nplanet_ratio = 0.01\n'
+    '[drive.before]\nkind = "noncircular-gears"\nA = 0.3',
+    "slider behind gears": 'z = 8\n[drive]\nkind = "slider-crank"\ncrank_mm = 40\nrod_mm = 100\n'
+    "point_mm = 80\npoint_deg = 90\n"
+    '[drive.before]\nkind = "elliptical-gears"\neccentricity = 0.2\nphase = "quick"',
     "sector": 'z = 3\n[drive]\nkind = "gear-sector"\nsector_deg = 150\ngear_ratio = 0.6',
     "pair": 'z = 6\n[drive]\nkind = "geneva-pair"\nfirst_z = 3',
     "cam inside": 'z = 6\ngearing = "internal"\n[drive]\nkind = "cam"\n[motion]\nlaw = "3-4-5"',

@@ -217,7 +217,7 @@ REPORT = (
     ),
     _group(
         "carousel",
-        "turn_deg velocity moving_fraction behind_deg centrifugal_N",
+        "turn_deg velocity moving_fraction behind_deg centrifugal_N held_Nm",
         batch="carousel:carousel",
     ),
     _group("", "", "report.carousel:wheels"),
