@@ -134,10 +134,9 @@ class PartsModel:
     @property
     def parts(self) -> MachineParts:
         """The parts that are turned: outlines, shells, or a rack and its crank."""
-        wheel = self.mechanism.spec.wheel
-        if wheel.FLAT:
-            return self.outlines
-        return self.shells if wheel.SHELLS else self.rack_outlines
+        named = {"flat": "outlines", "ball": "shells", "rack": "rack_outlines"}
+        parts: MachineParts = getattr(self, named[self.mechanism.spec.wheel.PARTS])
+        return parts
 
     @property
     def turn(self) -> FullTurn:
