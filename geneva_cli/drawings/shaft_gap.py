@@ -15,7 +15,7 @@ import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.measure import at, with_material_left
-from geneva_cli.curves.plates import Group, Member, Part, Plate, Stack
+from geneva_cli.curves.plates import Group, Member, Part, Plate, Stack, plates
 from geneva_cli.curves.shapes import Arc, Point, Segment, as_contour
 from geneva_cli.layout.projection import placed
 from geneva_cli.numerics.jet import Array
@@ -86,7 +86,8 @@ def gear_gap(parts: FlatParts) -> ShaftGap | None:
 
 def _bolts(parts: FlatParts) -> Iterator[Ring]:
     """Yield the bolts of fixed gears and guides, from the frame up."""
-    links, low = parts.links, parts.frame.part.low
+    links, frame = parts.links, plates(parts.frame.part)
+    low = min(plate.low for plate in frame)
     for gear in links.gears:
         for hole in gear.bolts:
             at = gear.at[0] + hole.centre[0], gear.at[1] + hole.centre[1]

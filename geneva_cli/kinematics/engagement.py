@@ -15,7 +15,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import N, all_true, array, blocks, library
+from geneva_cli.numerics.arrays import all_true, array, blocks, library
 from geneva_cli.numerics.batchable import Batchable
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 from geneva_cli.numerics.memory import keep_freed_memory
@@ -377,7 +377,7 @@ class Engagement(Batchable):
         x, y = self.path(input_deg, order + 1)
         return turning(x - 1.0, y)
 
-    def own_deg(self, input_deg: N) -> N:
+    def own_deg(self, input_deg: Array) -> Array:
         """Angle of the drive's own input shaft at input angles from mid-motion, degrees."""
         return input_deg
 

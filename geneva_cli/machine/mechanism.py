@@ -20,6 +20,7 @@ from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 if TYPE_CHECKING:
     from geneva_cli.kinematics.wheels.gearing import Output
     from geneva_cli.numerics.arrays import Whole
+    from geneva_cli.numerics.jet import Array
 
 
 class Mechanism(NamedTuple):
@@ -62,7 +63,7 @@ class Mechanism(NamedTuple):
             return own
         return (*own, *spec.drive_before.layout(plan, spec.wheel.SIGN))
 
-    def own_deg(self, input_deg: N) -> N:
+    def own_deg(self, input_deg: Array) -> Array:
         """Angle of the drive's own input shaft at input angles within half a period of mid-motion.
 
         It is the input angle itself, but behind another drive.

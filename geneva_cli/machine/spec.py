@@ -306,14 +306,16 @@ class Spec:
         >>> Spec(External(400)).no_parts
         'wheels of more than 360 slots are not drawn'
         """
-        if not (self.wheel.FLAT or self.wheel.SHELLS):
-            return "shafts, frame and guide of a rack's machine are not built"
+        if not self.wheel.PARTS:
+            return f'the parts of gearing = "{self.wheel.NAME}" are not built'
         before = self.drive_before
         if before is not None and (self.drive.CRANKED or not before.GEARED):
             return (
                 f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '
                 "built: only gears before a drive whose shaft stands at the crank's axis"
             )
+        if not (self.output.turns or self.drive.direct):
+            return f"frame and guide of a rack behind {self.drive.WORDS} are not built"
         if self.wheel.z > Z_DRAWN:
             return f"wheels of more than {Z_DRAWN} slots are not drawn"
         return ""
