@@ -159,12 +159,10 @@ def assembly(mechanism: Mechanism) -> Assembly:
     Raises GenevaError for a machine whose parts are not flat outlines.
     """
     spec = mechanism.spec
-    if not (spec.wheel.FLAT or spec.wheel.SHELLS):
-        raise GenevaError(spec.no_parts, ("wheel", "gearing"))
     if not spec.wheel.FLAT:
         raise GenevaError(
-            f'gearing = "{spec.wheel.NAME}": its parts are not flat; write `--part wheel`, `crank` '
-            "or `assembly` as .dxf, .svg or .step, or `wheel` or `slot` by -o FILE.csv",
+            f'gearing = "{spec.wheel.NAME}": its parts are not flat outlines about two axes; write '
+            "`--part wheel`, `crank` or `assembly` as .dxf, .svg or .step",
             ("wheel", "gearing"),
         )
     if spec.wheel.z > Z_DRAWN:

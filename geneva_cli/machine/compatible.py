@@ -106,7 +106,7 @@ CONFLICTS = (
     Conflict(
         lambda s: s.motion is not None and not s.wheel.FLAT,
         ("motion", "law"),
-        "a {gearing} wheel has straight slots only: remove law",
+        'gearing = "{gearing}" has straight slots only: remove law',
     ),
     Conflict(
         lambda s: s.drive.ONE_ROLLER and s.drive.rollers > 1,
@@ -140,12 +140,10 @@ CONFLICTS = (
         "serve them all; use rollers = 1, or straight slots (no law)",
     ),
     Conflict(
-        lambda s: (
-            s.drive.wheels_on_carrier and any(one.count == 1 and one.radius_mm for one in s.mass)
-        ),
+        lambda s: s.drive.wheels_on_carrier and s.motion is not None and s.unbalanced,
         ("mass", "radius_mm"),
-        'kind = "{drive}" needs balanced wheels, as its centrifugal force would turn them: set '
-        "count to 2 or more evenly spaced bodies, or radius_mm = 0",
+        'kind = "{drive}" with a law needs balanced wheels: set count to 2 or more evenly spaced '
+        "bodies, or radius_mm = 0, or remove law",
     ),
     Conflict(
         lambda s: s.drive.wheels_on_carrier > 1 and (s.drive.rollers > 1 or _several(s)),

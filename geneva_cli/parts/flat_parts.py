@@ -179,6 +179,16 @@ class FlatParts:
         hub = crank_hub(self.outlines)
         return self._plate(hub) if hub else None
 
+    @property
+    def outside_mm(self) -> float | None:
+        """None: heights count from the wheel's lower face."""
+        return None
+
+    @property
+    def horn_mm(self) -> float | None:
+        """Thickness of the horns between slots and recesses; None without a lock."""
+        return self.outlines.sizes.horn if self.outlines.crank else None
+
     def hub_radii(self, part: str) -> tuple[float, float]:
         """Return the radii of the bore and the hub of a part, "wheel" or "crank", mm."""
         sizes = self.outlines.sizes

@@ -19,12 +19,10 @@ from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate, Stack
 from geneva_cli.curves.shapes import ORIGIN, Circle, Point
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.bearings import SERIES_60, shoulder_length
-from geneva_cli.layout.bores import around
+from geneva_cli.layout.bearings import shoulder_length
 from geneva_cli.layout.link_positions import same
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, wall_min
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import wheel_hub
@@ -33,8 +31,14 @@ from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.gear_pair import gear_span
 from geneva_cli.parts.link_shafts import outside_links
 from geneva_cli.parts.links import Links, placed_holes
-
-NAME, LAYER, HOLES = "frame", "FRAME", "BORE"
+from geneva_cli.parts.mounted_plate import (
+    HOLES,
+    LAYER,
+    corner_radius,
+    hole_without_shaft,
+    mounted_plate,
+    shaft_hole,
+)
 
 
 class FrameAndShafts(NamedTuple):
@@ -87,31 +91,20 @@ def framed(
     axles, bottom = built_shafts(size, own, beside, (top - thick, top, free))
     places = list(_standing(mechanism, bars))
     drilled = list(_drilled(mechanism, axles, places, top))
-    wall = wall_min(size, L)
-    _require_walls(drilled, wall, axles)
+    _require_walls(drilled, wall_min(size, L), axles)
     fixed = [*_fixed(bars), *(_mounted(base, L) if base else ())]
     holes = [*drilled, *(one.hole for one in fixed)]
     spacers = [_spacer(one, top) for one in fixed if one.low - top > SAME_LENGTH * L]
-    eye = max(L / 20.0, 3.0 * wall)
     # The frame contains every axis, drilled or not.
     within = [*holes, *(Circle(HOLES, at, 0.0) for at in ((0.0, 0.0), *places))]
+    eye = corner_radius(size, L)
     if mechanism.frame > 0.0:
         reach = max(c.radius for c in holes) + eye
         eyes = [Circle(LAYER, at, reach) for at in places]
         plate = Plate("carrier", LAYER, convex_hull(LAYER, eyes), tuple(holes), bottom, top)
         return FrameAndShafts(plate, tuple(outside_links(axles, bars, L)))
-    low, high = (
-        [pick(c.centre[k] + sense * c.radius for c in within) + 3.0 * sense * eye for k in (0, 1)]
-        for sense, pick in ((-1.0, min), (1.0, max))
-    )
-    corners = [(x, y) for x in (low[0], high[0]) for y in (low[1], high[1])]
-    outline = convex_hull(LAYER, [Circle(LAYER, corner, eye) for corner in corners])
-    holes += [Circle(HOLES, corner, rounded_radius(0.4 * eye)) for corner in corners]
-    return FrameAndShafts(
-        Plate(NAME, LAYER, outline, tuple(holes), bottom, top),
-        tuple(outside_links(axles, bars, L)),
-        tuple(spacers),
-    )
+    plate = mounted_plate(holes, within, eye, (bottom, top))
+    return FrameAndShafts(plate, tuple(outside_links(axles, bars, L)), tuple(spacers))
 
 
 def _drilled(
@@ -127,16 +120,11 @@ def _drilled(
     for at in places:
         here = [one.part for one in shafts_ if same(one.at, at, L)]
         for one in here:
-            if isinstance(one, Stack):
-                seat = next(step for step in one.plates if step.high == top)
-                bearing = next(b for b in SERIES_60 if b.bore == 2.0 * around(seat.outline))
-                yield Circle(HOLES, at, 0.5 * bearing.outside)
-            elif isinstance(one, Plate) and one.low < top:
-                wider = 0.5 * mechanism.spec.size.allowances.shaft_fit_mm
-                yield Circle(HOLES, at, around(one.outline) + wider)
+            if isinstance(one, Plate | Stack) and one.low < top:
+                yield shaft_hole(one, at, top, mechanism.spec.size.allowances.shaft_fit_mm)
         if not here:
             diameter = diameters.get(at[0], shaft.wheel_diameter_mm)
-            yield Circle(HOLES, at, bore_radius(L / 20.0) if diameter is None else 0.5 * diameter)
+            yield hole_without_shaft(diameter, at, L)
 
 
 def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:

@@ -368,6 +368,11 @@ class Mass(SpecTable):
     thickness_mm: Annotated[float | None, POSITIVE, "thickness; required with a density"] = None
     count: Annotated[int, Range(1, 1000), "number of equal bodies"] = 1
     radius_mm: Annotated[float, NOT_NEGATIVE, "distance from the wheel's axis to the body's"] = 0.0
+    angle_deg: Annotated[
+        float,
+        Range(-360.0, 360.0),
+        "carousel: direction of a single body from the first slot, positive as the wheel turns",
+    ] = 0.0
     name: Annotated[str, None, "name of the body"] = ""
 
     # sizes of each shape, from which its mass or inertia follows

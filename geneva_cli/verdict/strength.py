@@ -158,15 +158,13 @@ class Strength:
             yield [(not np.isnan(lock_load.approach_deg), rounds)]
 
     def _wheel_shaft(self) -> Keys:
+        yield [(self.spec.output.turns, "a wheel that turns on a shaft")]
         yield from self._shaft("wheel", shafts.wheel_shaft(self.spec.shaft))
 
     def _crank_shaft(self) -> Keys:
         yield from self._shaft("crank", shafts.crank_shaft(self.spec.shaft))
 
     def _shaft(self, which: str, ends: shafts.ShaftDimensions) -> Keys:
-        wheel = self.spec.wheel
-        words = "a wheel on a shaft: the shafts of a rack's machine are not computed"
-        yield [(wheel.FLAT or wheel.SHELLS, words)]
         if self.spec.is_loaded:
             yield [self._has_bound]
         drawn = self.load.parts and getattr(self.load.parts, f"{which}_shaft")

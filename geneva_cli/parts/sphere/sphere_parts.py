@@ -75,6 +75,16 @@ class SphereParts:
         """The shafts of wheel and crank."""
         return tuple(_shafts(self.shells, self.arm))
 
+    @property
+    def outside_mm(self) -> float | None:
+        """Radius of the wheel's outer face, from which heights count inwards."""
+        return self.ball.span_mm[1]
+
+    @property
+    def horn_mm(self) -> float | None:
+        """Thickness of the horns between slots and recesses; None without a lock."""
+        return self.shells.sizes.horn if self.shells.crank else None
+
     def hub_radii(self, part: str) -> tuple[float, float]:
         """Return the radii of the bore and the hub of a part, "wheel" or "crank", mm."""
         size, ball = self.mechanism.spec.size, self.ball

@@ -164,10 +164,9 @@ def _number(of: Designs, values: Array) -> float:
 
 
 def _shaft(of: Designs, ends: shafts.ShaftDimensions, on: shafts.ShaftForces) -> Columns:
-    """A shaft under its load; without results in a rack's machine."""
+    """A shaft under its load."""
     out: dict[str, Number | None] = {"diameter_mm": ends.diameter_mm}
-    wheel = of.spec.wheel
-    turned = under_load(of).shaft(ends, on) if wheel.FLAT or wheel.SHELLS else None
+    turned = under_load(of).shaft(ends, on)
     if turned is None:
         return out
     moment = np.asarray(turned.moment_Nm) * of.loaded
