@@ -142,8 +142,8 @@ def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[EndPa
         phi[live] += move
         off = np.maximum(low[live] - phi[live], phi[live] - high[live]) / width[live]
         inside = (off <= OVERLAP + ROUNDED).all(axis=1)
-        # radians: the step leaves its square, 1e-10, as error
-        done = np.abs(move).max(axis=1) < 1e-5
+        # radians: half of the digits; the next step gives all of them
+        done = np.abs(move).max(axis=1) < 1e-6
         close[live] = done & inside
         live = live[~done & inside]
     return ends_at(path, boxes.which, phi), close
