@@ -6,7 +6,7 @@ other keys. The annotations are objects, since evaluating text on import would t
 
 from collections.abc import Callable
 from functools import cached_property
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Self
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.spec.default_sizes import Thicknesses, unrounded, value_or
@@ -406,6 +406,15 @@ class Mass(SpecTable):
                 f"bore_mm = {self.bore_mm:g} must be below diameter_mm = {self.diameter_mm:g}",
                 (self.TABLE, "bore_mm"),
             )
+
+    @property
+    def backwards(self) -> Self:
+        """The body on a wheel that turns the other way, as seen from its other side.
+
+        >>> Mass("point", mass_kg=1.0, radius_mm=50.0, angle_deg=30.0).backwards.angle_deg
+        -30.0
+        """
+        return self.replace(angle_deg=0.0 - self.angle_deg)
 
     def _refuse_weight(self) -> None:
         """Raise GenevaError unless exactly one of mass and density is set, with its sizes."""
