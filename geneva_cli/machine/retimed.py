@@ -30,7 +30,7 @@ from geneva_cli.kinematics.engagement import (
 )
 from geneva_cli.machine.driven_shaft import DrivenShaft, ShaftPath
 from geneva_cli.numerics.angles import DEGREE, radians
-from geneva_cli.numerics.arrays import Enclosed, array, library
+from geneva_cli.numerics.arrays import Enclosed, array, library, narrowed
 from geneva_cli.numerics.batchable import Batchable
 from geneva_cli.numerics.jet import Jet, Number, atan2, composed, piecewise
 from geneva_cli.numerics.latest import Latest
@@ -79,9 +79,14 @@ class Rotation(NamedTuple):
 
         Derivatives are by the input angle, both in radians.
         """
+        turned = self._turned(input_deg, order)
+        # the shaft never turns back, so the ends of an enclosure of angles decide
+        angle = narrowed(turned.c[0], lambda x: self._turned(x, 0).c[0], input_deg)
+        return Jet((self.own_deg + angle / DEGREE, *turned.c[1:]))
+
+    def _turned(self, input_deg: Number, order: int) -> Jet:
         sine, versine = self.advance(radians(input_deg - self.input_deg), order)
-        turned = atan2(sine, 1.0 - versine)
-        return Jet((self.own_deg + turned.c[0] / DEGREE, *turned.c[1:]))
+        return atan2(sine, 1.0 - versine)
 
 
 class Timing(Batchable):

@@ -297,7 +297,7 @@ class Spec:
         (True, False)
         """
         # A rack of any length is checked by the slots that the crank reaches in a turn.
-        return not self.output.turns or self.wheel.z <= Z_DRAWN
+        return bool(self.wheel.PARTS) and (not self.output.turns or self.wheel.z <= Z_DRAWN)
 
     @property
     def no_parts(self) -> str:

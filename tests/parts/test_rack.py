@@ -110,6 +110,7 @@ def test_the_end_of_the_ring_stays_in_its_recess():
     assert not in_recess(s, s.floor - 0.3, 0.5 * math.pi)
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_checks():
     rows = {one.name: one for one in design(slot_clearance_mm=0.1).checks}
     assert rows["rack_horn_mm"].value == pytest.approx(
@@ -125,6 +126,7 @@ def test_checks():
     assert thin["rack_horn_mm"].passes is False
 
 
+@pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize(
     ("size", "text"),
     [
