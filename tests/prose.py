@@ -79,12 +79,6 @@ def page_sentences(path: Path) -> list[Sentence]:
     return list(split("\n".join(lines), str(path.relative_to(ROOT))))
 
 
-@cache
-def nodes(path: Path) -> list[ast.AST]:
-    """All nodes of a Python file's syntax tree, of which each measure takes its own."""
-    return list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
-
-
 class Docstring(NamedTuple):
     """A docstring and its place."""
 
@@ -98,15 +92,19 @@ class Docstring(NamedTuple):
 
 
 @cache
-def docstrings(path: Path) -> list[Docstring]:
-    """All docstrings of a Python file."""
+def texts(path: Path) -> tuple[list[Docstring], list[Sentence]]:
+    """Docstrings and messages of a Python file, whose syntax tree is not kept."""
+    nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+    name = str(path.relative_to(ROOT))
+    return list(docstrings(nodes, name)), list(messages(nodes, name))
+
+
+def docstrings(nodes: list[ast.AST], file: str) -> Iterator[Docstring]:
+    """All docstrings among the nodes of a file."""
     kinds = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
-    result = []
-    for node in nodes(path):
+    for node in nodes:
         if isinstance(node, kinds) and (text := ast.get_docstring(node)):
-            place = f"{path.relative_to(ROOT)}:{getattr(node, 'lineno', 1)}"
-            result.append(Docstring(place, text))
-    return result
+            yield Docstring(f"{file}:{getattr(node, 'lineno', 1)}", text)
 
 
 def docstring_sentences(doc: Docstring) -> list[Sentence]:
@@ -124,27 +122,25 @@ def docstring_sentences(doc: Docstring) -> list[Sentence]:
     return list(split("\n".join(lines), doc.where))
 
 
-def messages(path: Path) -> list[Sentence]:
-    """Sentences that a file shows to users: its strings of ``SHOWN_WORDS`` words, but docstrings.
+def messages(nodes: list[ast.AST], file: str) -> Iterator[Sentence]:
+    """Sentences that a file shows to users: strings of ``SHOWN_WORDS`` words, but docstrings.
 
     Errors, warnings, advice, help of options and texts of tables are all of them; a value that is
     filled in stands as X. Strings with markup or braces are code.
     """
     inner = {
         id(part)
-        for node in nodes(path)
+        for node in nodes
         if isinstance(node, ast.JoinedStr)
         for part in ast.walk(node)
         if part is not node
     }
-    inner |= {id(node.value) for node in nodes(path) if isinstance(node, ast.Expr)}
-    result: list[Sentence] = []
-    for node in nodes(path):
+    inner |= {id(node.value) for node in nodes if isinstance(node, ast.Expr)}
+    for node in nodes:
         if id(node) not in inner and isinstance(node, ast.expr):
             text = _literal(node)
             if len(text.split()) >= SHOWN_WORDS and not re.search("[{}<>]|--[a-z-]+:", text):
-                result += split(text, f"{path.relative_to(ROOT)}:{node.lineno}")
-    return result
+                yield from split(text, f"{file}:{node.lineno}")
 
 
 def _literal(node: ast.expr) -> str:
@@ -168,10 +164,10 @@ def main(names: list[str]) -> None:
     """Print the measures of files and folders, and the longest sentences."""
     paths = [Path(name).resolve() for name in names] or [PACKAGE, ROOT / "README.md"]
     code, pages = files(paths, ".py"), files(paths, ".md")
-    docs = [doc for path in code for doc in docstrings(path)]
+    docs = [doc for path in code for doc in texts(path)[0]]
     groups = {
         "docstrings": [s for doc in docs for s in docstring_sentences(doc)],
-        "messages": [s for path in code for s in messages(path)],
+        "messages": [s for path in code for s in texts(path)[1]],
         "pages": [s for path in pages for s in page_sentences(path)],
     }
     print(f"{'':40} {'sentences':>9} {'mean':>6} {'90 %':>5} {'longest':>7}")

@@ -165,11 +165,17 @@ def beside_designs(text):
 CALLS = ("open", "io.open", "os.open", "print", "input", "exec")
 
 
-def streams(tree):
+def called(node):
+    """The function that a call names, alone or of a module: the text of any takes long."""
+    if isinstance(node.func, ast.Attribute):
+        return f"{named(node.func.value)}.{node.func.attr}"
+    return named(node.func)
+
+
+def streams(nodes):
     """Calls and names that touch a file or a stream."""
-    for node in running(tree):
-        # the text of calls and of few attributes: that of every node takes as long as all else
-        if isinstance(node, ast.Call) and ast.unparse(node.func) in CALLS:
+    for node in nodes:
+        if isinstance(node, ast.Call) and called(node) in CALLS:
             yield ast.unparse(node)
         if (
             isinstance(node, ast.Attribute)
@@ -179,9 +185,9 @@ def streams(tree):
             yield ast.unparse(node)
 
 
-def asks(tree):
+def asks(nodes):
     """Where it is asked which machine it is: by a kind's name, or by a literal attribute."""
-    for node in ast.walk(tree):
+    for node in nodes:
         if isinstance(node, ast.Compare):
             for side in (node.left, *node.comparators):
                 words = {n.value for n in ast.walk(side) if isinstance(n, ast.Constant)}
@@ -189,10 +195,10 @@ def asks(tree):
                     yield ast.unparse(node)
         if not (isinstance(node, ast.Call) and len(node.args) > 1):
             continue
-        called, second = named(node.func), node.args[1]
-        if called in ("getattr", "hasattr") and isinstance(second, ast.Constant):
+        name, second = named(node.func), node.args[1]
+        if name in ("getattr", "hasattr") and isinstance(second, ast.Constant):
             yield ast.unparse(node)
-        if called in ("isinstance", "issubclass"):
+        if name in ("isinstance", "issubclass"):
             kinds = {ast.unparse(n).rpartition(".")[2] for n in ast.walk(second)}
             if kinds & CLASSES:
                 yield ast.unparse(node)
@@ -215,9 +221,9 @@ ANY = {
 }
 
 
-def untyped(tree):
+def untyped(nodes):
     """The names of functions, fields and aliases that are annotated with ``Any``."""
-    for node in ast.walk(tree):
+    for node in nodes:
         if isinstance(node, ast.FunctionDef):
             given = node.args
             every = [*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg]
@@ -241,9 +247,9 @@ MANY_PARAMETERS = {
 }
 
 
-def long_lists(tree):
+def long_lists(nodes):
     """The names of functions with more parameters than six, a method's self left out."""
-    for owner in ast.walk(tree):
+    for owner in nodes:
         for node in ast.iter_child_nodes(owner):
             if not isinstance(node, ast.FunctionDef):
                 continue
@@ -283,15 +289,16 @@ class Read(NamedTuple):
 
 @functools.cache
 def read(text):
-    """A source, parsed once for all rules."""
+    """A source, parsed and walked through once for all rules."""
     tree = ast.parse(text)
+    every, run = list(ast.walk(tree)), list(running(tree))
     return Read(
-        list(imported(running(tree))),
-        list(imported(ast.walk(tree))),
-        list(streams(tree)),
-        list(asks(tree)),
-        set(untyped(tree)),
-        set(long_lists(tree)),
+        list(imported(run)),
+        list(imported(every)),
+        list(streams(run)),
+        list(asks(every)),
+        set(untyped(every)),
+        set(long_lists(every)),
     )
 
 

@@ -16,10 +16,8 @@ def sentences(kind):
     if kind == "pages":
         return [s for path in PAGES for s in prose.page_sentences(path)]
     if kind == "messages":
-        return [s for path in CODE for s in prose.messages(path)]
-    return [
-        s for path in CODE for d in prose.docstrings(path) for s in prose.docstring_sentences(d)
-    ]
+        return [s for path in CODE for s in prose.texts(path)[1]]
+    return [s for path in CODE for d in prose.texts(path)[0] for s in prose.docstring_sentences(d)]
 
 
 @pytest.mark.parametrize("kind", ["docstrings", "messages", "pages"])
@@ -38,7 +36,7 @@ def test_no_page_is_long_winded(path):
 
 
 def test_docstrings_begin_with_what_is_returned_or_done():
-    docs = [doc for path in CODE for doc in prose.docstrings(path)]
+    docs = [doc for path in CODE for doc in prose.texts(path)[0]]
     poor = [f"{doc.where}: {doc.text.splitlines()[0]}" for doc in docs if doc.poor_start]
     assert len(poor) <= POOR * len(docs), poor
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 
 if TYPE_CHECKING:
@@ -53,6 +54,32 @@ class PartsModel:
             return PartsModel(mechanism, self.outlines.over(assembly), self.advice)
         shells = self.shells.over(assembly) if mechanism.spec.wheel.SHELLS else None
         return PartsModel(mechanism, None, self.advice, shells)
+
+    def following(self, mechanism: Mechanism) -> PartsModel:
+        """Return the model of the next design, with these outlines and this turn if they are equal.
+
+        They are equal if wheel, drive, motion and ``[size]`` are, but for the speed, and all sizes
+        that follow from the load.
+        """
+        done = vars(self)
+        if "outlines" not in done or not self._has_parts_of(mechanism):
+            return PartsModel(mechanism)
+        model = self.over(mechanism)
+        if "_turn" in done:
+            vars(model)["_turn"] = done["_turn"]
+        return model
+
+    def _has_parts_of(self, mechanism: Mechanism) -> bool:
+        from geneva_cli.layout.sizes import machine_sizes
+
+        own, other = (
+            (spec.wheel, spec.drive.replace(n_rpm=1.0), spec.motion, spec.size)
+            for spec in (self.mechanism.spec, mechanism.spec)
+        )
+        try:
+            return own == other and machine_sizes(mechanism)[1] == self.sizes
+        except GenevaError:
+            return False
 
     @cached_property
     def assembly(self) -> Assembly:
@@ -134,10 +161,9 @@ class PartsModel:
     @property
     def parts(self) -> MachineParts:
         """The parts that are turned: outlines, shells, or a rack and its crank."""
-        wheel = self.mechanism.spec.wheel
-        if wheel.FLAT:
-            return self.outlines
-        return self.shells if wheel.SHELLS else self.rack_outlines
+        named = {"flat": "outlines", "ball": "shells", "rack": "rack_outlines"}
+        parts: MachineParts = getattr(self, named[self.mechanism.spec.wheel.PARTS])
+        return parts
 
     @property
     def turn(self) -> FullTurn:

@@ -30,7 +30,7 @@ from geneva_cli.kinematics.engagement import (
 )
 from geneva_cli.machine.driven_shaft import DrivenShaft, ShaftPath
 from geneva_cli.numerics.angles import DEGREE, radians
-from geneva_cli.numerics.arrays import Enclosed, array, library
+from geneva_cli.numerics.arrays import array, library, narrowed
 from geneva_cli.numerics.batchable import Batchable
 from geneva_cli.numerics.jet import Jet, Number, atan2, composed, piecewise
 from geneva_cli.numerics.latest import Latest
@@ -38,7 +38,6 @@ from geneva_cli.numerics.latest import Latest
 if TYPE_CHECKING:
     from geneva_cli.machine.drives.transmission import Transmission
     from geneva_cli.machine.spec import Spec
-    from geneva_cli.numerics.balls import Ball
     from geneva_cli.numerics.jet import Array
 
 
@@ -79,9 +78,14 @@ class Rotation(NamedTuple):
 
         Derivatives are by the input angle, both in radians.
         """
+        turned = self._turned(input_deg, order)
+        # the shaft never turns back, so the ends of an enclosure of angles decide
+        angle = narrowed(turned.c[0], lambda x: self._turned(x, 0).c[0], input_deg)
+        return Jet((self.own_deg + angle / DEGREE, *turned.c[1:]))
+
+    def _turned(self, input_deg: Number, order: int) -> Jet:
         sine, versine = self.advance(radians(input_deg - self.input_deg), order)
-        turned = atan2(sine, 1.0 - versine)
-        return Jet((self.own_deg + turned.c[0] / DEGREE, *turned.c[1:]))
+        return atan2(sine, 1.0 - versine)
 
 
 class Timing(Batchable):
@@ -128,23 +132,9 @@ class Timing(Batchable):
         return own.c[0], turned
 
     def _turned(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
-        own = self._piecewise(input_deg, order)
-        if isinstance(input_deg, Enclosed):
-            own = Jet((self._enclosed(cast("float", input_deg)), *own.c[1:]))
+        pieces = [partial(one.at, order=order) for one in self.each]
+        own = piecewise(input_deg, self.cuts, pieces)
         return own, Jet((radians(own.c[0]), *own.c[1:]))
-
-    def _piecewise(self, input_deg: Number, order: int) -> Jet:
-        return piecewise(input_deg, self.cuts, [partial(one.at, order=order) for one in self.each])
-
-    def _enclosed(self, input_deg: float) -> Number:
-        """Angle of the driven shaft from its mean value form, which reaches over no cut of its own.
-
-        The plain formula's bounds are too wide by a factor, and its angle must tell on which side
-        of a cut of the drive's own formulas it lies.
-        """
-        middle = cast("float", cast("Ball", input_deg).centre)
-        slope = self._piecewise(input_deg, 1).c[1]
-        return self._piecewise(middle, 0).c[0] + slope * (input_deg - middle)
 
 
 class Composed(NamedTuple):

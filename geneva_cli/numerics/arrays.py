@@ -81,6 +81,10 @@ class Enclosed:
         """Number of the piece between ``cuts`` that holds it."""
         raise NotImplementedError
 
+    def rising(self, f: Callable[[Number], Number]) -> Number:
+        """Enclosure of the values of a function that rises: between those at both ends."""
+        raise NotImplementedError
+
     def _decided(self, yes: bool, no: bool, other: object) -> bool:
         """Return the answer to a comparison with ``other``; raises Undecided where it is open."""
         if yes == no:
@@ -98,6 +102,14 @@ def piece_of(x: Number, cuts: Sequence[float]) -> int:
     1
     """
     return x.piece(cuts) if isinstance(x, Enclosed) else bisect_left(cuts, cast(float, x))
+
+
+def narrowed(value: Number, f: Callable[[Number], Number], x: Number) -> Number:
+    """The value f(x) of a function that rises, as narrow as its ends if x is an enclosure.
+
+    In a formula an enclosure stands several times, and each time counts its width anew.
+    """
+    return x.rising(f) if isinstance(x, Enclosed) else value
 
 
 def library(x: Number, y: Number = 0.0, z: Number = 0.0) -> Library:

@@ -126,6 +126,11 @@ class Ball(Enclosed):
                 raise Undecided(f"the cut {cut!r} is inside {self!r}")
         return bisect_left(cuts, middle)
 
+    def rising(self, f: Callable[[Number], Number]) -> Number:
+        """Hull of the values of a function at both ends: all values of one that rises."""
+        low, high = (f(cast("float", Ball(x))) for x in (self.arb.lower(), self.arb.upper()))
+        return cast("float", ball_of(low).join(ball_of(high)))
+
     def __repr__(self) -> str:
         low, high = self.bounds()
         return f"Ball.between({low!r}, {high!r})"

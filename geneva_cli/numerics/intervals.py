@@ -52,6 +52,11 @@ class Interval(Enclosed):
                 raise Undecided(f"the cut {cut!r} is inside {self!r}")
         return bisect_left(cuts, 0.5 * (self.low + self.high))
 
+    def rising(self, f: Callable[[Number], Number]) -> Number:
+        """Interval of the values of a function that rises: from its lower end to its upper."""
+        low, high = (_ends(cast("float", f(_number(x, x)))) for x in (self.low, self.high))
+        return _number(low[0], high[1])
+
     def __repr__(self) -> str:
         return f"Interval({self.low!r}, {self.high!r})"
 
@@ -129,6 +134,11 @@ class Interval(Enclosed):
 
 def _ends(x: Interval | float) -> tuple[float, float]:
     return (x.low, x.high) if isinstance(x, Interval) else (x, x)
+
+
+def _number(low: float, high: float) -> float:
+    """An interval as the float that it is to the type checker."""
+    return cast("float", Interval(low, high))
 
 
 def _outwards(low: float, high: float, units: int = 1) -> Interval:

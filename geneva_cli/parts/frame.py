@@ -12,9 +12,10 @@ as thick.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import combinations
 from typing import NamedTuple
 
-from geneva_cli.curves.hole_walls import least_wall
+from geneva_cli.curves.hole_walls import apart
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate, Stack
 from geneva_cli.curves.shapes import ORIGIN, Circle, Point
@@ -47,6 +48,14 @@ class FrameAndShafts(NamedTuple):
     plate: Plate
     shafts: tuple[Member, ...]
     spacers: tuple[Member, ...] = ()  # below the parts that are screwed to it
+
+
+class Screwed(NamedTuple):
+    """A screw's hole in the frame, and the part that it fixes, with its lower face."""
+
+    hole: Circle
+    part: str
+    low: float
 
 
 def framed(
@@ -85,8 +94,8 @@ def framed(
     drilled = list(_drilled(mechanism, axles, places, top))
     _require_walls(drilled, wall_min(size, L), axles)
     fixed = [*_fixed(bars), *(_mounted(base, L) if base else ())]
-    holes = [*drilled, *(hole for hole, _ in fixed)]
-    spacers = [_spacer(hole, top, low) for hole, low in fixed if low - top > SAME_LENGTH * L]
+    holes = [*drilled, *(one.hole for one in fixed)]
+    spacers = [_spacer(one, top) for one in fixed if one.low - top > SAME_LENGTH * L]
     # The frame contains every axis, drilled or not.
     within = [*holes, *(Circle(HOLES, at, 0.0) for at in ((0.0, 0.0), *places))]
     eye = corner_radius(size, L)
@@ -136,41 +145,50 @@ def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
             yield axis.at
 
 
-def _fixed(bars: Links) -> Iterator[tuple[Circle, float]]:
-    """Yield the holes by which parts are screwed to the frame, such as a guide or a gear.
-
-    Each has the lower face of its part.
-    """
+def _fixed(bars: Links) -> Iterator[Screwed]:
+    """Yield the screws of parts that are fixed to the frame, such as a guide or a gear."""
     for member in bars.cut:
         if isinstance(member.part, Plate) and member.part.name in bars.standing:
-            yield from ((hole, member.part.low) for hole in placed_holes(member))
+            yield from (_screwed(hole, member.part) for hole in placed_holes(member))
     for gear in bars.gears:
         for hole in gear.bolts:
             (x, y), (u, v) = gear.at, hole.centre
-            yield Circle(HOLES, (x + u, y + v), hole.radius), gear.plate.low
+            yield _screwed(Circle(HOLES, (x + u, y + v), hole.radius), gear.plate)
 
 
-def _mounted(base: Plate, L: float) -> Iterator[tuple[Circle, float]]:
-    """Yield the holes that mount a plate about the crank's axis, and its lower face."""
+def _mounted(base: Plate, L: float) -> Iterator[Screwed]:
+    """Yield the screws of a plate about the crank's axis."""
     holes = placed_holes(Member(base, (L, 0.0)))
-    yield from ((hole, base.low) for hole in holes if not same(hole.centre, (L, 0.0), L))
+    yield from (_screwed(hole, base) for hole in holes if not same(hole.centre, (L, 0.0), L))
 
 
-def _spacer(hole: Circle, low: float, high: float) -> Member:
-    """Return the ring about a screw between the frame and the part that it fixes."""
-    outline, bore = Circle(LAYER, ORIGIN, 2.0 * hole.radius), Circle(HOLES, ORIGIN, hole.radius)
-    return Member(Plate("frame's spacer", LAYER, outline, (bore,), low, high), hole.centre)
+def _screwed(hole: Circle, plate: Plate) -> Screwed:
+    return Screwed(hole, plate.name, plate.low)
+
+
+def _spacer(one: Screwed, top: float) -> Member:
+    """Return the ring about a screw, twice as wide, between the frame and the fixed part."""
+    r = one.hole.radius
+    outline, bore = Circle(LAYER, ORIGIN, 2.0 * r), Circle(HOLES, ORIGIN, r)
+    plate = Plate(f"spacer of the {one.part}", LAYER, outline, (bore,), top, one.low)
+    return Member(plate, one.hole.centre)
 
 
 def _require_walls(holes: list[Circle], least: float, axles: list[Member]) -> None:
     """Raise GenevaError where the bearings of turned shafts leave less than the least wall."""
-    wall = least_wall(holes)
-    if wall < least and any(isinstance(one.part, Stack) for one in axles):
-        raise GenevaError(
-            f'shafts = "turned": two bearings leave a wall of {wall:.4g} mm in the frame, and '
-            f"wall_min_mm is {least:.4g}; smaller bores have smaller bearings",
-            ("size", "shafts"),
-        )
+    if not any(isinstance(one.part, Stack) for one in axles):
+        return
+    for one, other in combinations(holes, 2):
+        wall = apart(one, other)
+        if wall < least:
+            both = (hole.centre for hole in (one, other))
+            names = [next((a.part.name for a in axles if a.at == at), "a hole") for at in both]
+            raise GenevaError(
+                f'shafts = "turned": {" and ".join(names)} leave a wall of {wall:.4g} mm between '
+                f"their bearings in the frame, and wall_min_mm is {least:.4g}; smaller bores have "
+                "smaller bearings",
+                ("size", "shafts"),
+            )
 
 
 def _lowest(mechanism: Mechanism, parts: Outlines | None, bars: Links) -> float:

@@ -13,7 +13,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.sizes import Layout
-from geneva_cli.layout.sphere_sizes import ball
+from geneva_cli.layout.sphere_sizes import sized_ball
 from geneva_cli.layout.sphere_stressed import sphere_stressed
 from geneva_cli.layout.stressed import Stressed, stressed
 from geneva_cli.loads.strength.arm import ArmDimensions
@@ -63,12 +63,16 @@ def stressed_parts(machine: Mechanism, layout: Layout | None) -> Stressed | None
     """The stressed parts of a design, flat ones by their layout; None if they do not fit."""
     if layout or machine.spec.is_flat or not machine.spec.has_parts:
         return stressed(*layout) if layout else None
-    of = {"ball": lambda: sphere_stressed(machine.spec, ball(machine))}
-    of["rack"] = lambda: rack_stressed(machine)
+    of = {"ball": _of_sphere, "rack": rack_stressed}
     try:
-        return of[machine.spec.wheel.PARTS]()
+        return of[machine.spec.wheel.PARTS](machine)
     except GenevaError:  # the check of the parts reports the error
         return None
+
+
+def _of_sphere(machine: Mechanism) -> Stressed | None:
+    ball = sized_ball(machine)
+    return sphere_stressed(machine.spec, ball) if ball else None
 
 
 def _numbers(of: Stressed) -> list[float]:

@@ -187,6 +187,13 @@ def test_few_intervals_are_not_proved_and_the_open_one_is_named():
     assert not found.confirms(1.40625, 0.0)
 
 
+def test_the_seams_of_a_drive_behind_another_are_met():
+    """Its own seams are ends of pieces of the input, where an enclosure must not reach beyond."""
+    proof, peak = design("behind-gears").certificate("velocity"), design("behind-gears").peaks
+    assert proof.proved and proof.confirms(*peak.velocity)
+    assert proof.intervals < 100
+
+
 def test_a_seam_that_is_not_known_is_not_proved(monkeypatch):
     """Formulas hand over at 0.15 and 0.35 of the motion's time: unknown, nothing is claimed."""
     curved = Design(External(6), Crank(), Motion(SineConstantCosine(b=0.3, c=0.4, d=0.3)))

@@ -230,6 +230,18 @@ def test_a_batch_is_each_design_alone():
     assert once.under_load is once
 
 
+def test_backwards_the_torque_is_that_of_a_film_that_runs_backwards():
+    """Without losses every torque has the other sign, at the mirrored angle of the input."""
+    design = design_of(External(5))
+    loads, back = design.loads, design.backwards.loads
+    for name in ("wheel_torque_Nm", "input_torque_Nm"):
+        assert back[name].max == pytest.approx(-loads[name].min, rel=1e-12)
+        assert back[name].min == pytest.approx(-loads[name].max, rel=1e-12)
+    x = np.linspace(-50.0, 50.0, 21)
+    forwards = design.cycle.states(x).wheel_torque_Nm
+    assert design.backwards.cycle.states(x).wheel_torque_Nm == pytest.approx(-forwards[::-1])
+
+
 def test_friction_follows_the_sign_of_the_torque():
     """The work of friction is that of the pin force along the slot: a dense scan of one turn."""
     design = design_of(External(4), Load(friction=0.2))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Undecided, library, piece_of
+from geneva_cli.numerics.arrays import Undecided, library, narrowed, piece_of
 from geneva_cli.numerics.balls import Ball, precision
 from geneva_cli.numerics.enclosures import greatest
 from geneva_cli.numerics.jet import Jet, atan2, piecewise, sin_cos, sqrt
@@ -53,6 +53,20 @@ def test_a_decided_comparison_is_answered():
 
 def test_the_end_of_a_piece_may_be_off_by_rounding():
     assert Ball.between(0.5, math.nextafter(1.0, 2.0)).piece([1.0]) == 0
+
+
+def test_a_rising_function_is_as_narrow_as_its_ends():
+    """x - x²/4 rises on [0, 1], to 3/4; its formula alone reaches from -1/4 to 1."""
+
+    def f(x):
+        return x - x * x * 0.25
+
+    x = Ball.between(0.0, 1.0)
+    low, high = narrowed(f(x), f, x).bounds()
+    assert (low, high) == (pytest.approx(0.0, abs=1e-8), pytest.approx(0.75, abs=1e-8))
+    assert low <= 0.0 and high >= 0.75
+    assert f(x).bounds()[1] >= 1.0
+    assert narrowed(0.25, f, 0.5) == 0.25  # a float's value is kept
 
 
 def test_formulas_of_balls_hold_those_at_fifty_digits():

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Undecided, library, piece_of
+from geneva_cli.numerics.arrays import Undecided, library, narrowed, piece_of
 from geneva_cli.numerics.intervals import Interval, size_of
 from geneva_cli.numerics.jet import Jet, sin_cos, sqrt
 
@@ -95,6 +95,18 @@ def test_what_is_unknown_has_no_bound():
     assert (1.0 / x).size == math.inf
     assert library(x).sqrt(x).size == math.inf
     assert size_of(-2.5) == 2.5
+
+
+def test_a_rising_function_is_as_narrow_as_its_ends():
+    """x - x²/4 rises on [0, 1], to 3/4; its formula alone reaches from -1/4 to 1."""
+
+    def f(x):
+        return x - x * x * 0.25
+
+    x = Interval(0.0, 1.0)
+    found = narrowed(f(x), f, x)
+    assert found.low <= 0.0 and 0.75 <= found.high < 0.75 + 1e-15
+    assert found.low > -1e-300 and f(x).high >= 1.0
 
 
 def test_jets_of_intervals_hold_those_of_floats():

@@ -150,6 +150,7 @@ def cut_in_steps(rack, radius, tip, count, steps=1500):
     return left.difference(shapely.unary_union(swept))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("count", "shift"), [(20, 0.0), (12, 0.45), (60, -0.3)])
 def test_a_rack_that_rolls_leaves_these_teeth(count, shift):
     """Flank, fillet and root against the union of 1500 positions of the tool.
@@ -208,6 +209,7 @@ def free_turn(still, moved, most):
     return low
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("drive", "z", "keys"),
     [
@@ -243,6 +245,7 @@ def test_planet_and_fixed_gear_mesh_with_their_backlash(drive, z, keys):
         assert play * at_planet.radius == pytest.approx(backlash, abs=4e-3)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("backlash", [0.0, 0.1])
 @pytest.mark.parametrize(
     ("z", "sector", "module"),
@@ -374,6 +377,7 @@ def test_a_module_without_gears_is_refused(drive):
     assert caught.value.key == ("size", "gear_module_mm")
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_sectors_whose_last_tooth_is_lower_do_not_serve_both_ways():
     """Backwards the lower tooth would be the first, and the last one would jam."""
     sector = GearSector(sector_deg=60.0, both_ways=True)

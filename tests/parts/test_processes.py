@@ -162,6 +162,7 @@ def test_a_clearance_for_another_thickness_is_named() -> None:
     assert "narrow-for-process" not in {text.name for text in told.warnings}
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_printed_walls_are_two_lines_of_a_nozzle() -> None:
     small = Size(20.0, process="print")
     assert {c.limit for c in Design(External(6), size=small).checks if c.name == "horn_mm"} == {0.8}
@@ -195,6 +196,7 @@ def sphere(*settings: str) -> Design:
     return load(str(DESIGNS / "spherical-z6.toml"), settings)
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_a_laser_cuts_no_shell_from_a_plate() -> None:
     """Its shells are 8 mm thick, within 32 mm; the slots inside 2 · 76 sin(5.3/80) mm wide."""
     ball = sphere("size.process=laser")

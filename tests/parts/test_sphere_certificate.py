@@ -25,7 +25,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.parts.sphere.gaps import BallGaps
 from geneva_cli.parts.sphere.shells import shells
 
-MACHINES = some(300, 12)
+MACHINES = some(300, 8)
 DESIGNS = sorted(path.name for path in repo.DESIGNS.glob("spherical-*.toml"))
 
 
@@ -173,7 +173,7 @@ def test_sectors_out_of_their_place_are_never_proved_free():
     rng = random.Random(5)
     collides = free = 0
     for name in DESIGNS:
-        for _ in range(some(60, 5)):
+        for _ in range(some(60, 3)):
             parts = with_sectors(parts_of(name), math.radians(10.0 ** rng.uniform(-4.0, 0.5)))
             gap = least_gap(parts, turn_of(parts, 8_000))
             found = certificate(parts, 0.0, TO_MM)

@@ -223,6 +223,7 @@ def test_no_gap_of_a_random_machine_is_below_its_bound():
         check_bounds(parts, np.random.default_rng(i))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", FLAT)
 def test_designs_are_proved_to_a_micrometre_of_their_smallest_gap(name):
     parts = parts_of(name)

@@ -86,8 +86,13 @@ def _remark(design: Design, bars: tuple[Bar, ...]) -> str:
     """A remark on simplifications in the picture."""
     if design.spec.wheel.SHELLS:
         return " Seen along the wheel's shaft."
-    gears = any(bar.radius for bar in bars)
-    return " Gears are shown by their pitch circles." if gears else ""
+    out = " Gears are shown by their pitch circles." if any(bar.radius for bar in bars) else ""
+    if design.cycle.mechanism.period_deg > 360.0 * design.spec.turns:
+        out += (
+            " The forces are those of the first turn: a body off the wheel's axis gives each turn "
+            "others."
+        )
+    return out
 
 
 def _figure(design: Design) -> Figure:
@@ -103,6 +108,8 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
     last = turn.passages[-1]
     for one, after in zip(turn.passages, (*turn.passages[1:], None), strict=True):
         which = f"roller {one.roller}" if len(turn.passages) > 1 else "the roller"
+        if not turn.rollers():
+            which = "the driver"
         noun = design.mechanism.output.noun
         a, b = one.entry - turn.start, one.exit - turn.start
         if not one.engagement.paired:
