@@ -123,11 +123,13 @@ def _overtaken(mechanism: Mechanism) -> list[Notice]:
 
 def _starts_at_speed(mechanism: Mechanism) -> list[Notice]:
     """A warning for a wheel whose speed jumps, with the impact at entry."""
+    spec = mechanism.spec
+    if not spec.wheel.JUMPS:
+        return []
     from geneva_cli.analysis.impacts import start_impact
 
-    impact, spec = start_impact(mechanism), mechanism.spec
-    if impact is None:
-        return []
+    impact = start_impact(mechanism)
+    assert impact is not None  # the wheel's speed jumps
     w = impact.jump * omega(spec.drive.n_rpm)
     if impact.moment_Nms is None:
         hit = "set inertia_kgm2 in [load] for the impact"
