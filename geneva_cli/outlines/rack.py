@@ -103,7 +103,8 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
             f"{arm - recess:.6g} and {arm + recess:.6g} mm",
             ("size", "wheel_radius_mm"),
         )
-    bar, slide = arm / 10.0, allowed.slot_clearance_mm
+    # the holes of its screws take at most half of the bar, and leave a wall on either side
+    bar, slide = max(arm / 10.0, 4.0 * wall_min(size, arm)), allowed.slot_clearance_mm
     # the guide's rail, as wide as the bar, stands in front of it, and the arm's eye passes the rail
     rail = max(bottom + w, _eye(mechanism, arm) + 0.25 * bar)
     back = rail + 1.9 * bar + slide - (bottom + w)

@@ -12,9 +12,10 @@ as thick.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import combinations
 from typing import NamedTuple
 
-from geneva_cli.curves.hole_walls import least_wall
+from geneva_cli.curves.hole_walls import apart
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate, Stack
 from geneva_cli.curves.shapes import ORIGIN, Circle, Point
@@ -175,13 +176,19 @@ def _spacer(one: Screwed, top: float) -> Member:
 
 def _require_walls(holes: list[Circle], least: float, axles: list[Member]) -> None:
     """Raise GenevaError where the bearings of turned shafts leave less than the least wall."""
-    wall = least_wall(holes)
-    if wall < least and any(isinstance(one.part, Stack) for one in axles):
-        raise GenevaError(
-            f'shafts = "turned": two bearings leave a wall of {wall:.4g} mm in the frame, and '
-            f"wall_min_mm is {least:.4g}; smaller bores have smaller bearings",
-            ("size", "shafts"),
-        )
+    if not any(isinstance(one.part, Stack) for one in axles):
+        return
+    for one, other in combinations(holes, 2):
+        wall = apart(one, other)
+        if wall < least:
+            both = (hole.centre for hole in (one, other))
+            names = [next((a.part.name for a in axles if a.at == at), "a hole") for at in both]
+            raise GenevaError(
+                f'shafts = "turned": {" and ".join(names)} leave a wall of {wall:.4g} mm between '
+                f"their bearings in the frame, and wall_min_mm is {least:.4g}; smaller bores have "
+                "smaller bearings",
+                ("size", "shafts"),
+            )
 
 
 def _lowest(mechanism: Mechanism, parts: Outlines | None, bars: Links) -> float:

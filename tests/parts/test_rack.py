@@ -413,3 +413,17 @@ def test_a_guide_locks_where_its_friction_takes_all_of_the_push():
     assert not {one.name: one for one in loaded.with_("load.friction", 0.7).checks}[
         "guide_locks"
     ].passes
+
+
+def test_screws_leave_walls_in_the_bars_of_a_small_printed_guide():
+    """Two lines of a nozzle, 0.8 mm, are the least wall of a print: here four of them, not R/10."""
+    small = Design(Linear(4), size=Size(center_distance_mm=20.0, process="print"))
+    s = {one.name: one for one in solids(small.drawing("assembly").solid)}
+    for name in ("guide bar", "guide rail", "guide wall", "guide cover"):
+        low, high = span(s[name])
+        for hole in s[name].holes:
+            x = hole.centre[0]
+            assert min(x - low, high - x) - hole.radius >= 0.8 - 1e-12
+    assert s["guide bar"].high - s["guide bar"].low > 0.0
+    assert np.diff(span(s["guide bar"])) == pytest.approx(3.2)
+    assert span(s["guide rail"])[0] - span(s["guide bar"])[1] == pytest.approx(0.25)  # of a print

@@ -219,7 +219,10 @@ def test_the_sheet_lists_the_steps():
             Design(External(6), SideCrank(A=0.3), size=TURNED.replace(link_bore_mm=3.0)),
             "the input crank's shaft of 3 mm is too thin for a ball bearing; set link_bore_mm to",
         ),
-        (of(crank_bore_mm=65.0, wheel_bore_mm=65.0), "two bearings leave a wall of"),
+        (
+            of(crank_bore_mm=65.0, wheel_bore_mm=65.0),
+            "wheel's shaft and crank's shaft leave a wall of 0 mm between their bearings",
+        ),
     ],
 )
 def test_refused(design, said):
