@@ -144,6 +144,11 @@ def assert_as_listed(found, rows, close=5.1e-4):
     total, unit = texts[texts.index("mass") + 1].split()
     assert float(total) * {"kg": 1.0, "mg": 1e-6}[unit] == pytest.approx(masses, rel=close)
     sizes = {row["name"]: row["value"] for row in rows if row["row"] == "dimension"}
-    assert f"L = {number(sizes['centre distance'])}" in said
+    length = next(
+        f"{letter} = {number(sizes[name])}"
+        for letter, name in (("L", "centre distance"), ("R", "crank radius"))
+        if name in sizes
+    )
+    assert length in said
     rolls = f"Ø {number(2.0 * sizes['roller radius'])}"
     assert rolls in said, rolls

@@ -217,7 +217,7 @@ ANY = {
     "machine.spec": {"replace", "table"},
     "drawings.catalogue": {"_loaded"},
     "drawings.sheet.composed": {"on_paper", "_composed", "_items"},
-    "drawings.sheet.views": {"rows"},
+    "drawings.sheet.content": {"rows"},
 }
 
 

@@ -30,9 +30,9 @@ def templates() -> str:
     return json.dumps({"Kinds": kinds, "Designs": [*designs.titles().items()]})
 
 
-def start(name: str) -> str:
+def start(group: str, name: str) -> str:
     """The text of a kind's template or of a design, whose other files are written."""
-    if name in KINDS:
+    if group == "Kinds":  # a design may have the same name
         return template(name, False, False)
     text, files = designs.design(name)
     for file, content in files.items():

@@ -115,14 +115,14 @@ async function begin() {
     group.label = title;
     for (const [name, about] of entries) {
       const option = element("option", `${name}: ${about}`);
-      option.value = name;
+      option.value = `${title}/${name}`;
       group.append(option);
     }
     get("start").append(group);
   }
   const text = remembered();
   if (text) get("spec").value = text;
-  else get("spec").value = await ask("start", "turret");
+  else get("spec").value = await ask("start", "Kinds/turret");
   get("spec").disabled = false;
   await update();
   document.body.dataset.ready = "true";

@@ -22,7 +22,7 @@ function lastLine(error) {
 
 const ANSWERS = {
   templates: () => JSON.parse(bridge.templates()),
-  start: (name) => bridge.start(name),
+  start: (name) => bridge.start(...name.split("/")),
   verdict: (text) => JSON.parse(bridge.verdict_of(text)),
   page: () => bridge.page(),
   file: (name) => {

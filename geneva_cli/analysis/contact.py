@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Generic, NamedTuple
 from geneva_cli.kinematics.engagement import Engagement, Vector
 from geneva_cli.kinematics.pitch_curve import pitch_at_retrace, retraces
 from geneva_cli.numerics.arrays import all_true, choose, library
-from geneva_cli.numerics.jet import Jet, Number, V, piecewise, sqrt
+from geneva_cli.numerics.jet import Jet, Number, V, piecewise, sin_cos, sqrt
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
@@ -37,6 +37,8 @@ class Contact(NamedTuple, Generic[V]):
     # Reactions of the joints of the roller's body (the crank's shaft, a guide) to a force of 1
     # along the normal i t, to one along t, and to a couple of 1; None where there is only a shaft.
     reactions: tuple[tuple[tuple[V, V], tuple[V, V]], ...] | None = None
+    # Sine and cosine of the wheel's angle since the first mid-motion; None where no load needs it.
+    heading: tuple[V, V] | None = None
 
 
 def contacts(engagement: Engagement, input_deg: Array) -> Contact[Array]:
@@ -54,21 +56,22 @@ def contacts(engagement: Engagement, input_deg: Array) -> Contact[Array]:
 
 def contact_values(at: Contact[Jet]) -> Contact[Array]:
     """The values of a contact's jets."""
-    *jets, joints = at
+    *jets, joints, heading = at
     reactions = joints and [[(x.c[0], y.c[0]) for x, y in pair] for pair in joints]
-    return Contact._make([*[jet.c[0] for jet in jets], reactions])
+    turned = heading and tuple(jet.c[0] for jet in heading)
+    return Contact._make([*[jet.c[0] for jet in jets], reactions, turned])
 
 
 def mirrored(at: Contact[Jet]) -> Contact[Jet]:
     """The contact at the mirror images of places (n, k), in ascending order, without joints.
 
-    Motion and slot must be symmetric.
+    Motion, slot and loads must be symmetric.
     """
     jets, odd = [], ("acceleration", "offset", "along", "curvature")  # change their sign
-    for name, jet in zip(at._fields[:-1], at[:-1], strict=True):
+    for name, jet in zip(at._fields[:-2], at[:-2], strict=True):
         even = name not in odd
         jets.append(Jet([_mirror_image(c, even ^ (k % 2 > 0)) for k, c in enumerate(jet.c)]))
-    return Contact._make([*jets, None])
+    return Contact._make([*jets, None, None])
 
 
 def column(at: Contact[Jet], number: int) -> Contact[Jet]:
@@ -91,9 +94,10 @@ def _changed(at: Contact[Jet], change: Callable[[Array], Array]) -> Contact[Jet]
     def of(jet: Jet) -> Jet:
         return Jet([c if isinstance(c, float) else change(c) for c in jet.c])
 
-    *jets, joints = at
+    *jets, joints, heading = at
+    turned = heading and tuple(map(of, heading))
     reactions = joints and tuple(((of(a), of(b)), (of(c), of(d))) for (a, b), (c, d) in joints)
-    return Contact._make([*map(of, jets), reactions])
+    return Contact._make([*map(of, jets), reactions, turned])
 
 
 def _mirror_image(c: Number, same: bool) -> Number:
@@ -120,8 +124,8 @@ def contact(
         return _moving(engagement, input_deg, order, reactions=reactions, spins=spins)
 
     def moving(x: Number) -> Jet:
-        *jets, _ = _moving(engagement, x, order, reactions=False)
-        return Jet([c for jet in jets for c in jet.c])
+        at = _moving(engagement, x, order, reactions=False)
+        return Jet([c for jet in at[:9] for c in jet.c])
 
     def middle(x: Number) -> Jet:
         assert order == 0
@@ -131,7 +135,7 @@ def contact(
     every = piecewise(input_deg, (-5e-324, 0.0), (moving, middle, moving)).c
     jets = [Jet(every[i : i + order + 1]) for i in range(0, len(every), order + 1)]
     joints = _reactions(engagement, input_deg, jets[2], jets[3]) if reactions else None
-    return Contact._make([*jets, joints])
+    return Contact._make([*jets, joints, None])
 
 
 def is_straight(engagement: Engagement) -> bool:
@@ -168,9 +172,11 @@ def _moving(
         spin = (engagement.carrier(x, order) - velocity * upright) * touches
     arm = (constant + upright) * touches
     joints = _reactions(engagement, x, lever, offset) if reactions else None
-    return Contact(
-        velocity, acceleration, lever, offset, along, curvature, spin, arm, touches, joints
-    )
+    heading = None
+    if engagement.turned is not None:
+        heading = sin_cos(engagement.motion(x, order) + engagement.turned)
+    slot = lever, offset, along, curvature
+    return Contact(velocity, acceleration, *slot, spin, arm, touches, joints, heading)
 
 
 def _curved(engagement: Engagement, x: Number, order: int, rates: Jet) -> tuple[Jet, Jet, Jet, Jet]:
@@ -232,7 +238,7 @@ def _crossing(engagement: Engagement) -> list[Number]:
     The lever is 0 there, so the sign of the tangent is rounding; next to it, the sign is known.
     """
     values, before = (
-        [jet.c[0] for jet in _moving(engagement, x, 0, reactions=False)[:-1]]
+        [jet.c[0] for jet in _moving(engagement, x, 0, reactions=False)[:9]]
         for x in (0.0, NEAR_CUSP * engagement.entry_deg)
     )
     lever, along = (Contact._fields.index(name) for name in ("lever", "along"))

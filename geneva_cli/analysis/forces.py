@@ -18,7 +18,7 @@ import math
 from functools import cached_property
 from typing import TYPE_CHECKING, Generic, NamedTuple
 
-from geneva_cli.analysis.carried import inertia_kgm2, resisting_torque_Nm
+from geneva_cli.analysis.carried import MM, inertia_kgm2, resisting_torque_Nm, unbalance_kgm
 from geneva_cli.analysis.contact import Contact
 from geneva_cli.analysis.pin import pin_diameter_mm
 from geneva_cli.machine.materials import roller_material, wheel_material
@@ -48,12 +48,25 @@ class LoadCase(NamedTuple):
     hertz: float | None
     # turns of the wheel's frame in one turn of the input, positive as the wheel turns in it
     frame: float = 0.0
+    # moment of a body off the axis of a wheel on a carrier, times L w²: along the first slot, and
+    # ahead of it
+    along_Nm: float = 0.0
+    across_Nm: float = 0.0
     design: int | Whole = 0  # the design's number in its batch: (m, 1) in a batch
 
     @property
     def designs(self) -> int:
         """The number of designs in the load case."""
         return designs_of(self.design)
+
+    def faster(self, times: float) -> LoadCase:
+        """Return the case with the loads of inertia at so many times the speed."""
+        square = times * times
+        return self._replace(
+            inertia_Nm=self.inertia_Nm * square,
+            along_Nm=self.along_Nm * square,
+            across_Nm=self.across_Nm * square,
+        )
 
     @property
     def rubs(self) -> bool:
@@ -81,8 +94,22 @@ def load_case(mechanism: Mechanism) -> LoadCase:
         load.efficiency,
         hertz,
         mechanism.frame,
+        *unbalance_Nm(mechanism),
         mechanism.design,
     )
+
+
+def unbalance_Nm(mechanism: Mechanism) -> tuple[float, float]:
+    """The centrifugal moment of bodies off the axis of a wheel on a carrier, as a vector, N m.
+
+    Its parts are along the first slot, which points at the carrier's axis at mid-motion, and ahead
+    of it. On the ground it is 0.
+    """
+    spec = mechanism.spec
+    w = omega(spec.drive.n_rpm)
+    factor = abs(mechanism.frame) * mechanism.center_distance_mm * MM * w * w
+    along, across = unbalance_kgm(spec)
+    return along * factor, across * factor
 
 
 def rubbing(mechanism: Mechanism) -> float:
@@ -152,8 +179,34 @@ def sliding(at: Contact[V], drives: Number, radius: float) -> V:
 
 
 def wheel_torque(case: LoadCase, at: Contact[V]) -> V:
-    """The torque that the wheel needs for inertia and resistance, N m."""
-    return at.acceleration * case.inertia_Nm + case.resists_Nm
+    """The torque that the wheel needs for inertia and resistance, N m.
+
+    On a carrier the centrifugal force of a body off the wheel's axis takes it away from the
+    carrier's axis: it helps the wheel by its moment times the sine of its angle from there.
+    """
+    torque = at.acceleration * case.inertia_Nm + case.resists_Nm
+    if at.heading is None:
+        return torque
+    sine, cosine = at.heading
+    return torque - (sine * case.along_Nm + cosine * case.across_Nm)
+
+
+def frame_torque(case: LoadCase, at: Contact[V]) -> V:
+    """The torque on the carrier besides that which goes through the wheel's slot, N m.
+
+    It speeds the wheel up against the ground. A body off the wheel's axis also moves away from the
+    carrier's axis and back (Coriolis).
+    """
+    torque = at.acceleration * (case.inertia_Nm * case.frame)
+    if at.heading is None:
+        return torque
+    sine, cosine = at.heading
+    ahead, beside = (
+        cosine * case.along_Nm - sine * case.across_Nm,
+        sine * case.along_Nm + cosine * case.across_Nm,
+    )
+    turning = at.velocity * (at.velocity * case.frame + 2.0)
+    return torque + beside * turning - ahead * at.acceleration * case.frame
 
 
 def gain(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
@@ -177,7 +230,7 @@ def feeding(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V
     ratio = gain(case, at, drives, slides)
     if all_true(case.frame == 0.0):
         return ratio * drives
-    own = at.acceleration * (case.inertia_Nm * case.frame)
+    own = frame_torque(case, at)
     return wheel_torque(case, at) * ratio + own * _grip(case, at, drives, slides)
 
 
@@ -239,7 +292,7 @@ class Forces(Generic[V]):
         """
         shaft = self.torque * self.at.velocity
         if not all_true(self.case.frame == 0.0):
-            shaft = shaft + self.at.acceleration * (self.case.inertia_Nm * self.case.frame)
+            shaft = shaft + frame_torque(self.case, self.at)
         if not self.case.rubs:
             return shaft
         rub = self.at.touches * (self.case.friction * self.slides)

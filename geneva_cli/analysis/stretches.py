@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.contact import NEAR_CUSP
-from geneva_cli.analysis.forces import NEGLIGIBLE, LoadCase
+from geneva_cli.analysis.contact import NEAR_CUSP, contact
+from geneva_cli.analysis.forces import NEGLIGIBLE, LoadCase, wheel_torque
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.numerics.angles import DEGREE
@@ -105,8 +105,9 @@ def _between(engagement: Engagement, case: LoadCase, before: Stretch, after: Str
     if b - a > NEAR_CUSP * engagement.motion_deg * 1e-3 and before.drives != after.drives:
 
         def torque(travel: float) -> tuple[float, float]:
-            _, _, epsilon, rise = engagement.motion(a + travel, 3).scalars()
-            return epsilon * case.inertia_Nm + case.resists_Nm, rise * case.inertia_Nm * DEGREE
+            at = contact(engagement, a + travel, 1, reactions=False, spins=False)
+            value, rise = wheel_torque(case, at).scalars()
+            return value, rise * DEGREE
 
         if torque(0.0)[0] * torque(b - a)[0] < 0.0:
             return a + root(torque, 0.0, b - a)

@@ -46,6 +46,10 @@ def run(
     cycle: Annotated[
         str, typer.Option(metavar="S", help="Seconds from step to step.", rich_help_panel=WANTED)
     ] = "",
+    index_mm: Annotated[
+        str,
+        typer.Option(metavar="MM", help="Travel of a rack per step.", rich_help_panel=WANTED),
+    ] = "",
     subject_to: Annotated[
         list[str] | None,
         typer.Option(
@@ -73,6 +77,15 @@ def run(
     spherical: Annotated[
         bool, typer.Option("--spherical", help="Spherical wheels.", rich_help_panel=MACHINES)
     ] = False,
+    linear: Annotated[
+        bool, typer.Option("--linear", help="Racks alone.", rich_help_panel=MACHINES)
+    ] = False,
+    carousel: Annotated[
+        str,
+        typer.Option(
+            metavar="N", help="Wheels on a carrier alone: 3, or 1..4.", rich_help_panel=MACHINES
+        ),
+    ] = "",
     rollers: Annotated[
         int | None,
         typer.Option(
@@ -149,10 +162,13 @@ def run(
         motion_s=motion_s,
         dwell_s=dwell_s,
         cycle=cycle,
+        index_mm=index_mm,
         z=z,
         internal=internal,
         external=external,
         spherical=spherical,
+        linear=linear,
+        carousel=carousel,
         rollers=rollers,
         law=law,
         frame=_frame(from_, settings or ()) if from_ else None,

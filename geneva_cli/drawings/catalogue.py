@@ -15,7 +15,7 @@ from geneva_cli.table import Table
 if TYPE_CHECKING:
     from geneva_cli.curves.drawing import Drawing
     from geneva_cli.curves.sheet import Sheet
-    from geneva_cli.drawings.model import PartsModel
+    from geneva_cli.drawings.model import PartsModel, PartsOfMachine
     from geneva_cli.machine.mechanism import Mechanism
 
 
@@ -30,7 +30,19 @@ class Part(NamedTuple):
     alone: bool = False  # True if it is drawn without the outlines of wheel and crank
     in_front: bool = False  # True if it belongs to a first wheel, in front of the crank
     flat: str | None = None  # its drawing or sheet, laid flat, for a spherical wheel
-    rack: str | None = None  # its drawing for a rack
+    rack: str | None = None  # its drawing or sheet for a rack
+    every: bool = False  # True if every machine has it
+
+    def drawn_by(self, kind: str) -> str | None:
+        """Return the function that draws it among parts of a kind, ``Gearing.PARTS``; or None."""
+        own = {"flat": self.drawing or self.sheet, "ball": self.flat, "rack": self.rack}
+        return own.get(kind)
+
+    def is_of(self, kind: str) -> bool:
+        """Return True if machines with parts of a kind have it: a sphere may have flat links."""
+        plane = self.drawing or self.sheet or self.table
+        own = {"flat": plane, "ball": self.flat or plane, "rack": self.rack}
+        return self.every or own.get(kind) is not None
 
 
 PARTS = {
@@ -61,8 +73,14 @@ PARTS = {
     "links": Part(drawing="drawings.part_drawings:links", cut=True, alone=True),
     "first-wheel": Part(drawing="drawings.part_drawings:wheel", cut=True, in_front=True),
     "first-crank": Part(drawing="drawings.part_drawings:crank", cut=True, in_front=True),
-    "frame": Part(drawing="drawings.part_drawings:frame", cut=True, alone=True),
-    "parts": Part("drawings.parts_list:parts_table"),
+    "frame": Part(
+        drawing="drawings.part_drawings:frame",
+        cut=True,
+        alone=True,
+        rack="drawings.part_drawings:frame",
+    ),
+    "guide": Part(cut=True, rack="drawings.rack:guide"),
+    "parts": Part("drawings.parts_list:parts_table", every=True),
     "assembly": Part(
         drawing="drawings.machine_drawing:machine",
         flat="drawings.sphere.drawings:assembly",
@@ -72,10 +90,16 @@ PARTS = {
     "groove": Part("layout.groove:groove_table", "drawings.part_drawings:groove"),
     "groove-plate": Part(drawing="drawings.part_drawings:groove_plate", cut=True),
     "coupon": Part(drawing="drawings.coupon:coupon", cut=True),
-    "plate": Part(drawing="drawings.print_plate:plate"),
-    "sheet": Part(sheet="drawings.sheet.sheet:sheet", flat="drawings.sphere.sheet:sheet"),
+    "plate": Part(drawing="drawings.print_plate:plate", rack="drawings.print_plate:plate"),
+    "sheet": Part(
+        sheet="drawings.sheet.sheet:sheet",
+        flat="drawings.sphere.sheet:sheet",
+        rack="drawings.sheet.rack:sheet",
+    ),
 }
-DRAWINGS = tuple(name for name, part in PARTS.items() if part.drawing)
+DRAWINGS = tuple(
+    name for name, part in PARTS.items() if part.drawing or (part.rack and not part.sheet)
+)
 CUT = tuple(name for name, part in PARTS.items() if part.cut)
 SHEETS = tuple(name for name, part in PARTS.items() if part.sheet)
 SAMPLES_MAX = 1_000_000
@@ -117,11 +141,13 @@ def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: in
 
 
 def require_drawn(mechanism: Mechanism, part: str) -> None:
-    """Raise GenevaError for a part that a rack's machine does not have."""
-    if _is_rack(mechanism) and PARTS[part].rack is None:
-        known = ", ".join(name for name, one in PARTS.items() if one.rack)
+    """Raise GenevaError for a part that no machine with such a wheel has."""
+    noun, kind = mechanism.spec.output.noun, mechanism.spec.wheel.PARTS
+    known = [name for name, one in PARTS.items() if one.is_of(kind)]
+    if part not in known:
         raise GenevaError(
-            f"--part {part} is not available for a rack, which has {known}", ("wheel", "gearing")
+            f"--part {part} is not available for a {noun}, which has {', '.join(known)}",
+            ("wheel", "gearing"),
         )
 
 
@@ -139,7 +165,8 @@ def is_alone(mechanism: Mechanism, part: str) -> bool:
     own = PARTS.get(part)
     if own is None:
         return False
-    return own.alone or ((own.flat or own.rack) is not None and not _in_plane(mechanism))
+    wheel = mechanism.spec.wheel
+    return own.alone or (not wheel.FLAT and own.drawn_by(wheel.PARTS) is not None)
 
 
 def machine_of(mechanism: Mechanism, part: str) -> Mechanism:
@@ -162,14 +189,8 @@ def part_drawing(model: PartsModel, part: str, tolerance_mm: float, curves: str)
     if part in SHEETS:
         raise GenevaError(f"--part {part} is a drawing sheet, not a drawing to cut")
     is_table(model.mechanism, part, drawn=True)
-    own = PARTS[part]
-    drawing: Drawing
-    if _is_rack(model.mechanism):
-        drawing = _loaded(own.rack)(model.mechanism)
-    elif own.flat is None or _in_plane(model.mechanism):
-        drawing = _loaded(own.drawing)(model.flat.within(tolerance_mm, curves))
-    else:
-        drawing = _loaded(own.flat)(model.ball.within(tolerance_mm, curves))
+    by, built = _maker(model, part)
+    drawing: Drawing = _loaded(by)(built.within(tolerance_mm, curves))
     return drawing._replace(tolerance=tolerance_mm)
 
 
@@ -181,13 +202,16 @@ def part_sheet(model: PartsModel, part: str, tolerance_mm: float, curves: str) -
     require_drawn(model.mechanism, part)
     if not is_sheet(part):
         raise GenevaError(f"--part {part} is no drawing sheet; use {', '.join(SHEETS)}")
-    own = PARTS[part]
-    sheet: Sheet
-    if _in_plane(model.mechanism):
-        sheet = _loaded(own.sheet)(model.flat.within(tolerance_mm, curves))
-    else:
-        sheet = _loaded(own.flat)(model.ball.within(tolerance_mm, curves))
+    by, built = _maker(model, part)
+    sheet: Sheet = _loaded(by)(built.within(tolerance_mm, curves))
     return sheet
+
+
+def _maker(model: PartsModel, part: str) -> tuple[str | None, PartsOfMachine]:
+    """Return the function that draws a part, and the parts of the machine that it takes."""
+    by = PARTS[part].drawn_by(model.mechanism.spec.wheel.PARTS)
+    # the links and gears in front of a sphere are those of a flat machine
+    return (by, model.built) if by else (PARTS[part].drawing, model.flat)
 
 
 def require_cut(part: str, option: str = "--kerf") -> None:
@@ -201,16 +225,7 @@ def require_cut(part: str, option: str = "--kerf") -> None:
 
 def _table(mechanism: Mechanism, part: str) -> str | None:
     own = PARTS[part]
-    in_plane = _in_plane(mechanism) or _is_rack(mechanism)
-    return own.table if in_plane else own.sphere or own.table
-
-
-def _in_plane(mechanism: Mechanism) -> bool:
-    return mechanism.spec.wheel.FLAT
-
-
-def _is_rack(mechanism: Mechanism) -> bool:
-    return not (mechanism.spec.wheel.FLAT or mechanism.spec.wheel.SHELLS)
+    return (own.sphere if mechanism.spec.wheel.SHELLS else None) or own.table
 
 
 def _require_known(part: str) -> None:

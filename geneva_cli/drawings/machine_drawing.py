@@ -23,9 +23,9 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.arm import LAYER as ARM
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.frame import LAYER as STANDING
 from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.links import LAYER as LINK
+from geneva_cli.parts.mounted_plate import LAYER as STANDING
 
 BEYOND = 0.04  # of the centre distance: from a part to the arrow that shows how it turns
 

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from geneva_cli.collisions.full_turn import FullTurn
     from geneva_cli.collisions.gaps import WorkLimit
     from geneva_cli.collisions.machine_parts import MachineParts
@@ -17,8 +20,11 @@ if TYPE_CHECKING:
     from geneva_cli.outlines.outlines import Outlines
     from geneva_cli.outlines.rack_outlines import RackOutlines
     from geneva_cli.parts.flat_parts import FlatParts
+    from geneva_cli.parts.rack_parts import RackParts
     from geneva_cli.parts.sphere.shells import Shells
     from geneva_cli.parts.sphere.sphere_parts import SphereParts
+
+    PartsOfMachine: TypeAlias = FlatParts | SphereParts | RackParts
 
 
 class PartsModel:
@@ -46,7 +52,34 @@ class PartsModel:
         assembly = self.parts.assembly._replace(full=mechanism, to_input=to_input)
         if mechanism.spec.wheel.FLAT:
             return PartsModel(mechanism, self.outlines.over(assembly), self.advice)
-        return PartsModel(mechanism, None, self.advice, self.shells.over(assembly))
+        shells = self.shells.over(assembly) if mechanism.spec.wheel.SHELLS else None
+        return PartsModel(mechanism, None, self.advice, shells)
+
+    def following(self, mechanism: Mechanism) -> PartsModel:
+        """Return the model of the next design, with these outlines and this turn if they are equal.
+
+        They are equal if wheel, drive, motion and ``[size]`` are, but for the speed, and all sizes
+        that follow from the load.
+        """
+        done = vars(self)
+        if "outlines" not in done or not self._has_parts_of(mechanism):
+            return PartsModel(mechanism)
+        model = self.over(mechanism)
+        if "_turn" in done:
+            vars(model)["_turn"] = done["_turn"]
+        return model
+
+    def _has_parts_of(self, mechanism: Mechanism) -> bool:
+        from geneva_cli.layout.sizes import machine_sizes
+
+        own, other = (
+            (spec.wheel, spec.drive.replace(n_rpm=1.0), spec.motion, spec.size)
+            for spec in (self.mechanism.spec, mechanism.spec)
+        )
+        try:
+            return own == other and machine_sizes(mechanism)[1] == self.sizes
+        except GenevaError:
+            return False
 
     @cached_property
     def assembly(self) -> Assembly:
@@ -97,10 +130,26 @@ class PartsModel:
 
         return SphereParts(self.shells)
 
+    @cached_property
+    def rack(self) -> RackParts:
+        """The parts of a rack's machine."""
+        from geneva_cli.parts.rack_parts import RackParts
+
+        return RackParts(self.mechanism)
+
     @property
-    def built(self) -> FlatParts | SphereParts:
+    def built(self) -> PartsOfMachine:
         """The parts that the checks at rest measure."""
-        return self.flat if self.mechanism.spec.wheel.FLAT else self.ball
+        built: PartsOfMachine = getattr(self, self.mechanism.spec.wheel.PARTS)
+        return built
+
+    @property
+    def all_built(self) -> list[tuple[str, Callable[[], PartsOfMachine]]]:
+        """Names and functions of all parts: before a sphere or a rack links and gears are flat."""
+        wheel = self.mechanism.spec.wheel
+        apart = wheel.PARTS and not wheel.FLAT
+        own = [("wheel and crank", lambda: self.built)] if apart else []
+        return [*own, ("all parts", lambda: self.flat)]
 
     @cached_property
     def rack_outlines(self) -> RackOutlines:
@@ -112,10 +161,9 @@ class PartsModel:
     @property
     def parts(self) -> MachineParts:
         """The parts that are turned: outlines, shells, or a rack and its crank."""
-        wheel = self.mechanism.spec.wheel
-        if wheel.FLAT:
-            return self.outlines
-        return self.shells if wheel.SHELLS else self.rack_outlines
+        named = {"flat": "outlines", "ball": "shells", "rack": "rack_outlines"}
+        parts: MachineParts = getattr(self, named[self.mechanism.spec.wheel.PARTS])
+        return parts
 
     @property
     def turn(self) -> FullTurn:

@@ -32,6 +32,7 @@ from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.gear_pair import FINE
 from geneva_cli.parts.plates import arm_plate
+from geneva_cli.parts.rack_parts import RackParts
 
 PITCH = "PITCH"
 
@@ -106,7 +107,7 @@ def _side_by_side(plates: Iterable[Plate], between: float) -> Iterator[Member]:
         top += box.y1 - box.y0 + between
 
 
-def frame(parts: FlatParts) -> Drawing:
+def frame(parts: FlatParts | RackParts) -> Drawing:
     """Return the frame as it is drilled."""
     solid = parts.frame.part
     return Drawing(titled(parts.mechanism, "frame"), outlines_of(solid), solid=solid)

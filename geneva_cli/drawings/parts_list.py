@@ -10,9 +10,10 @@ sphere inwards from the wheel's outer face.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from typing import TypeAlias
+from collections.abc import Callable, Iterable, Iterator
+from typing import TYPE_CHECKING, TypeAlias
 
+from geneva_cli.analysis.timing import timings
 from geneva_cli.curves.mass import MM, solid_properties
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Part, Shell, Solid
@@ -28,9 +29,13 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
 from geneva_cli.outlines.sphere_wheel import POLE
+from geneva_cli.parts.rack_frame import rack_dimensions
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.spec.tables import Size
 from geneva_cli.table import Reading, Table, rows_table
+
+if TYPE_CHECKING:
+    from geneva_cli.drawings.model import PartsOfMachine
 
 # columns of a row of each kind
 KINDS = {
@@ -79,16 +84,13 @@ def _parts(model: PartsModel) -> Iterator[Row | Missing]:
     spec = model.mechanism.spec
     missing: list[Missing] = []
 
-    def shells() -> Iterator[Row]:
-        parts = model.ball
-        yield from part_rows(spec, built_of(parts.by_name(), missing), parts.ball.span_mm[1])
+    for name, build in model.all_built:
 
-    def plates() -> Iterator[Row]:
-        yield from part_rows(spec, built_of(model.flat.by_name(), missing))
+        def rows(build: Callable[[], PartsOfMachine] = build) -> Iterator[Row]:
+            parts = build()
+            yield from part_rows(spec, built_of(parts.by_name(), missing), parts.outside_mm)
 
-    if not spec.wheel.FLAT:
-        yield from or_missing("wheel and crank", shells)
-    yield from or_missing("all parts", plates)
+        yield from or_missing(name, rows)
     yield from missing
 
 
@@ -150,9 +152,7 @@ def _pivots(mechanism: Mechanism) -> Iterator[Row]:
     L = mechanism.center_distance_mm
     own = mechanism.layout
     pivots = [p for p in own if isinstance(p, Pivot)]
-    if mechanism.spec.wheel.FLAT:
-        pivots = [Pivot("wheel axis", 0.0, 0.0), Pivot("crank axis", L, 0.0), *pivots]
-    for pivot in pivots:
+    for pivot in (*mechanism.spec.wheel.axes(L), *pivots):
         yield {"row": "pivot", **pivot._asdict()}
 
 
@@ -165,14 +165,18 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
         Dimension("drive", spec.drive.NAME),
         *([Dimension("drive before it", spec.drive_before.NAME)] if spec.drive_before else []),
         Dimension("slots", spec.wheel.z),
-        Dimension("centre distance" if spec.wheel.FLAT else "sphere's radius", L, "mm"),
+        Dimension(spec.wheel.DISTANCE, L, "mm"),
         Dimension("roller radius", r, "mm"),
         Dimension("slot width", 2.0 * (r + clear), "mm"),
     ]
     entries += _screws_and_edges(spec.size)
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
-    if not spec.wheel.FLAT:
-        entries += or_missing("dimensions of the shells", lambda: dimensions(model.ball))
+    own_dimensions = {
+        "ball": ("dimensions of the shells", lambda: dimensions(model.ball)),
+        "rack": ("dimensions of the rack", lambda: rack_dimensions(model.rack.sizes)),
+    }
+    if spec.wheel.PARTS in own_dimensions:
+        entries += or_missing(*own_dimensions[spec.wheel.PARTS])
     if mechanism.law is None and spec.drive.CRANKED:
         entries += _straight(mechanism)
     elif spec.drive.CRANKED:
@@ -214,10 +218,12 @@ def _straight(mechanism: Mechanism) -> Iterator[Dimension]:
 
 
 def _motions(mechanism: Mechanism) -> Iterator[Dimension]:
-    """Yield the wheel's step and the input angles of each engagement of a period."""
+    """Yield the step and the input angles of each engagement of a period."""
+    output = mechanism.output
     for i, one in enumerate(mechanism.engagements):
         name = f"engagement {i + 1}: " if len(mechanism.engagements) > 1 else ""
-        yield Dimension(f"{name}wheel's step", mechanism.index_deg(i), "deg")
+        step = timings(mechanism)[i].step
+        yield Dimension(f"{name}{output.noun}'s step", step, output.unit)
         yield Dimension(f"{name}input at mid-motion", one.mid_deg, "deg")
         yield Dimension(f"{name}entry, from mid-motion", one.entry_deg, "deg")
         yield Dimension(f"{name}exit, from mid-motion", one.exit_deg, "deg")

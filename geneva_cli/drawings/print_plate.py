@@ -11,11 +11,12 @@ from geneva_cli.drawings.sheet.pack import packed_apart
 from geneva_cli.drawings.sheet.view import Block
 from geneva_cli.layout.projection import outlines_of, titled
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.rack_parts import RackParts
 
 APART = 5.0  # mm between parts, and round them
 
 
-def plate(parts: FlatParts) -> Drawing:
+def plate(parts: FlatParts | RackParts) -> Drawing:
     """Return all parts, each as often as the machine has it, in front of and right of the origin.
 
     Raises GenevaError for a part that cannot be built.

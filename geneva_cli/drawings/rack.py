@@ -1,61 +1,63 @@
-"""Drawings of the rack and the crank of a linear Geneva."""
+"""Drawings of the parts of a linear Geneva, each in its own frame, and of the whole machine."""
 
 from __future__ import annotations
 
-import math
-
 from geneva_cli.curves.drawing import Annotations, Drawing, LevelDistance
-from geneva_cli.curves.plates import Group, Member, Plate
-from geneva_cli.curves.shapes import Contour, Line, closed
-from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
-from geneva_cli.layout.projection import outlines_of, placed, titled
-from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.outlines.rack import rack_contour, rack_sizes, slot_walls
-from geneva_cli.parts.rack_arm import rack_arm, rack_crank
+from geneva_cli.curves.plates import Group
+from geneva_cli.curves.shapes import Circle, Contour, Line, closed
+from geneva_cli.layout.projection import circle_key, once, outlines_of, shapes, titled
+from geneva_cli.outlines.rack import slot_walls
+from geneva_cli.parts.rack_arm import rack_arm
+from geneva_cli.parts.rack_parts import RackParts
 
 
-def wheel(mechanism: Mechanism) -> Drawing:
+def wheel(parts: RackParts) -> Drawing:
     """Return the rack; a slot is along x, with its roller at the origin at mid-motion."""
-    solid = _rack(mechanism)
-    return Drawing(titled(mechanism, "rack"), outlines_of(solid), solid=solid)
+    solid = parts.wheel.part
+    return Drawing(titled(parts.mechanism, "rack"), outlines_of(solid), solid=solid)
 
 
-def crank(mechanism: Mechanism) -> Drawing:
+def crank(parts: RackParts) -> Drawing:
     """Return locking sector and roller, without the arm; x is from the axis to the roller."""
-    solid = Group("crank", rack_crank(mechanism))
-    return Drawing(titled(mechanism, "crank"), outlines_of(solid), solid=solid)
+    solid = parts.crank_without_arm.part
+    return Drawing(titled(parts.mechanism, "crank"), outlines_of(solid), solid=solid)
 
 
-def arm(mechanism: Mechanism) -> Drawing:
+def arm(parts: RackParts) -> Drawing:
     """Return the arm, whose x is from the crank's axis to the roller."""
-    solid = rack_arm(mechanism)
-    return Drawing(titled(mechanism, "arm"), outlines_of(solid), solid=solid)
+    # without an arm the error says why
+    solid = parts.arm or rack_arm(parts.mechanism)
+    return Drawing(titled(parts.mechanism, "arm"), outlines_of(solid), solid=solid)
 
 
-def slot(mechanism: Mechanism) -> Drawing:
+def slot(parts: RackParts) -> Drawing:
     """Return a slot, closed along the rack's edge, and the roller's path in it."""
-    sizes = rack_sizes(mechanism)
+    sizes = parts.sizes
     walls = slot_walls(sizes, 0.0)
     outline = closed("WHEEL", [*walls, Line(walls[-1].end, walls[0].start)])
     path = Contour("PITCH", (Line((0.0, 0.0), (sizes.arm, 0.0)),), closed=False)
-    return Drawing(titled(mechanism, "slot"), (outline, path))
+    return Drawing(titled(parts.mechanism, "slot"), (outline, path))
 
 
-def assembly(mechanism: Mechanism) -> Drawing:
-    """Return rack and crank at input angle 0: the roller is at the origin, the axis at (R, 0)."""
-    axis = rack_sizes(mechanism).arm, 0.0
-    has_pin = pin_radius(mechanism.spec.size, mechanism.roller_radius_mm) > 0.0
-    arms = (Member(rack_arm(mechanism)),) if has_pin else ()
-    crank = Group("crank", (*arms, *rack_crank(mechanism)))
-    # the roller is on the rack's side
-    members = Member(crank, axis, math.pi), Member(_rack(mechanism))
-    shapes = [placed(s, one.at, one.turn) for one in members for s in outlines_of(one.part)]
-    title = titled(mechanism)
-    look = Annotations((LevelDistance((0.0, 0.0), axis, "R"),))
-    return Drawing(title, tuple(shapes), look, Group(title, members))
+def guide(parts: RackParts) -> Drawing:
+    """Return rail and wall of the guide, with the bar of the rack between them.
+
+    The cover lies on wall and bar, and its holes are those of the wall.
+    """
+    title = titled(parts.mechanism, "guide")
+    solid = Group(title, (parts.bar, *parts.guide))
+    return Drawing(title, outlines_of(solid), solid=solid)
 
 
-def _rack(mechanism: Mechanism) -> Plate:
-    high = drawn_thicknesses(mechanism.spec.size, mechanism.center_distance_mm).wheel
-    outline = rack_contour(rack_sizes(mechanism), mechanism.spec.wheel.z)
-    return Plate("rack", "WHEEL", outline, (), 0.0, high)
+def assembly(parts: RackParts) -> Drawing:
+    """Return the machine at input angle 0: the roller is at the origin, the axis at (R, 0)."""
+    moving = [shape for one in (parts.wheel, parts.crank, parts.bar) for shape in shapes([one])]
+    seen = {circle_key(shape) for shape in moving if isinstance(shape, Circle)}
+    standing = [
+        shape._replace(layer="FRAME")
+        for shape in shapes(parts.standing)
+        if not (isinstance(shape, Circle) and circle_key(shape) in seen)
+    ]
+    title = titled(parts.mechanism)
+    look = Annotations((LevelDistance((0.0, 0.0), parts.axis, "R"),))
+    return Drawing(title, tuple(once([*moving, *standing])), look, Group(title, parts.members))

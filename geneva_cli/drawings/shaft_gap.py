@@ -23,7 +23,6 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.gear_pair import PITCH, gear_span, pitch_radii
-from geneva_cli.parts.links import placed_holes
 from geneva_cli.parts.pair_teeth import pair_teeth
 
 Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere
@@ -72,39 +71,24 @@ def shaft_gap(parts: FlatParts) -> ShaftGap | None:
 
 
 def gear_gap(parts: FlatParts) -> ShaftGap | None:
-    """Return the least gap of noncircular gears to hubs, shafts and bolts; None without such gears.
+    """Return the least gap of noncircular gears to hubs, shafts and spacers; None without them.
 
-    The bolts are those that hold a fixed gear or a guide above the gears to the frame.
+    The spacers are those of a fixed gear or a guide above the gears.
 
     Raises GenevaError for sizes that leave no parts.
     """
     if parts.mechanism.spec.gears is None:
         return None
     turning = _rings_of((parts.wheel, parts.crank))
-    return _least(parts, turning, list(_noncircular(parts)), list(_bolts(parts)))
-
-
-def _bolts(parts: FlatParts) -> Iterator[Ring]:
-    """Yield the bolts of fixed gears and guides, from the frame up."""
-    links, low = parts.links, parts.frame.part.low
-    for gear in links.gears:
-        for hole in gear.bolts:
-            at = gear.at[0] + hole.centre[0], gear.at[1] + hole.centre[1]
-            yield Ring(f"bolt of the {gear.name}", "", at, 0.0, hole.radius, low, gear.plate.low)
-    for member in links.cut:
-        if isinstance(member.part, Plate) and member.part.name in links.standing:
-            name, high = f"bolt of the {member.part.name}", member.part.low
-            for hole in placed_holes(member):
-                yield Ring(name, "", hole.centre, 0.0, hole.radius, low, high)
+    return _least(parts, turning, list(_noncircular(parts)), parts.spacers)
 
 
 def _least(
-    parts: FlatParts, turning: list[Ring], rings: list[Ring], bolts: Sequence[Ring] = ()
+    parts: FlatParts, turning: list[Ring], rings: list[Ring], others: Sequence[Member] = ()
 ) -> ShaftGap | None:
-    """Return the least gap of rings to bolts, shafts, and the hubs of wheel and crank."""
+    """Return the least gap of rings to shafts, other parts, and the hubs of wheel and crank."""
     near = SAME_LENGTH * parts.mechanism.center_distance_mm
-    axes = [ring for ring in turning if ring.layer == HUB] + _rings_of(parts.shafts)
-    axes += bolts
+    axes = [ring for ring in turning if ring.layer == HUB] + _rings_of((*parts.shafts, *others))
     return min(
         (
             ShaftGap(

@@ -29,10 +29,9 @@ def single_parts(
 
     A shell of a sphere has a solid and no outline.
     """
-    spec, missing = model.mechanism.spec, list[Missing]()
-    parts = list(built_of(model.flat.within(tolerance_mm, curves).by_name(), missing))
-    if not spec.wheel.FLAT:
-        parts = [*built_of(model.ball.within(tolerance_mm, curves).by_name(), missing), *parts]
+    missing = list[Missing]()
+    built = (build().within(tolerance_mm, curves) for _, build in model.all_built)
+    parts = [part for one in built for part in built_of(one.by_name(), missing)]
     return [_single(model, kind[0], len(kind), tolerance_mm) for kind in alike(parts)], missing
 
 

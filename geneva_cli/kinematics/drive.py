@@ -119,6 +119,11 @@ class Drive(SpecTable, kw_only=True):
         return self.replace(roller_angles_deg=(0.0, *(360.0 - angle for angle in others)))
 
     @property
+    def direct(self) -> bool:
+        """True if the input shaft carries the crank, so that the classic closed forms hold."""
+        return False
+
+    @property
     def wheels_on_carrier(self) -> int:
         """Number of wheels that orbit on a carrier, which the input turns; 0 without a carrier."""
         return 0

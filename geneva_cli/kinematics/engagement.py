@@ -7,6 +7,7 @@ centre distance L. The wheel's axis is the origin, the crank's axis is at (1, 0)
 
 from __future__ import annotations
 
+import copy
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
@@ -14,7 +15,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import N, all_true, array, blocks, library
+from geneva_cli.numerics.arrays import all_true, array, blocks, library
 from geneva_cli.numerics.batchable import Batchable
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 from geneva_cli.numerics.memory import keep_freed_memory
@@ -308,8 +309,11 @@ ARM = Carrier()
 class Engagement(Batchable):
     """Pin path, slot and motion of one roller in one slot.
 
-    ``mid_deg`` is the machine's input angle at its mid-motion.
+    ``mid_deg`` is the machine's input angle at its mid-motion. ``turned`` is the wheel's angle
+    there, radians, if the loads depend on it: where a wheel on a carrier has a body off its axis.
     """
+
+    turned: float | None = None
 
     def __init__(
         self, mid_deg: float, path: Path, slot: Slot, motion: WheelMotion, carrier: Carrier = ARM
@@ -340,8 +344,14 @@ class Engagement(Batchable):
 
     @property
     def mirrored(self) -> bool:
-        """True if motion and slot are symmetric about mid-motion."""
-        return self.motion.symmetric and self.slot.mirrored
+        """True if motion, slot and loads are symmetric about mid-motion."""
+        return self.motion.symmetric and self.slot.mirrored and self.turned is None
+
+    def later(self, mid_deg: float, turned: float) -> Engagement:
+        """The same engagement at another mid-motion, with the wheel turned to an angle."""
+        other = copy.copy(self)
+        other.mid_deg, other.turned = mid_deg, turned
+        return other
 
     @cached_property
     def entry_reach(self) -> Number:
@@ -367,7 +377,7 @@ class Engagement(Batchable):
         x, y = self.path(input_deg, order + 1)
         return turning(x - 1.0, y)
 
-    def own_deg(self, input_deg: N) -> N:
+    def own_deg(self, input_deg: Array) -> Array:
         """Angle of the drive's own input shaft at input angles from mid-motion, degrees."""
         return input_deg
 

@@ -159,12 +159,10 @@ def assembly(mechanism: Mechanism) -> Assembly:
     Raises GenevaError for a machine whose parts are not flat outlines.
     """
     spec = mechanism.spec
-    if not (spec.wheel.FLAT or spec.wheel.SHELLS):
-        raise GenevaError(spec.no_parts, ("wheel", "gearing"))
     if not spec.wheel.FLAT:
         raise GenevaError(
-            f'gearing = "{spec.wheel.NAME}": its parts are not flat; write `--part wheel`, `crank` '
-            "or `assembly` as .dxf, .svg or .step, or `wheel` or `slot` by -o FILE.csv",
+            f'gearing = "{spec.wheel.NAME}": its parts are not flat outlines about two axes; write '
+            "`--part wheel`, `crank` or `assembly` as .dxf, .svg or .step",
             ("wheel", "gearing"),
         )
     if spec.wheel.z > Z_DRAWN:
@@ -178,16 +176,16 @@ def assembled(mechanism: Mechanism) -> Assembly:
     """Return the assembly of any machine; on a sphere ``pin`` is seen along the wheel's axis."""
     full, spec = mechanism, mechanism.spec
     to_input: Callable[[float], float] = _same
+    no_gears = spec.size.replace(gear_module_mm=None, gear_teeth=None, gear_shift=None)
     if spec.drive_before and not spec.drive.CRANKED:
         to_input = spec.input_deg
-        mechanism = build(spec.replace(drive_before=None))
+        mechanism = build(spec.replace(drive_before=None, size=no_gears))
     elif mechanism.law is None and spec.drive.CRANKED:
         to_input = spec.input_deg
         keep = spec.drive
         crank = Crank(
             n_rpm=keep.n_rpm, rollers=keep.rollers, roller_angles_deg=keep.roller_angles_deg
         )
-        no_gears = spec.size.replace(gear_module_mm=None, gear_teeth=None, gear_shift=None)
         mechanism = build(spec.replace(drive=crank, drive_before=None, size=no_gears))
     turn = 360.0 * mechanism.spec.turns
     periods = round(turn / mechanism.period_deg)

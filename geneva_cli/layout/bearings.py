@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.spec.tables import Size
 
 
 class Bearing(NamedTuple):
@@ -126,14 +127,24 @@ def bearing_up_to(diameter: float, shaft: str, key: str) -> Bearing:
     >>> bearing_up_to(16.0, "wheel's shaft", "wheel_bore_mm").name
     '6002'
     """
-    fitting = [one for one in SERIES_60 if one.bore <= diameter]
-    if not fitting:
+    bearing = bearing_within(diameter)
+    if bearing is None:
         raise GenevaError(
             f'shafts = "turned": the {shaft} of {diameter:.4g} mm is too thin for a ball bearing; '
             f"set {key} to at least {SERIES_60[0].bore:g}",
             ("size", "shafts"),
         )
-    return fitting[-1]
+    return bearing
+
+
+def bearing_within(diameter: float) -> Bearing | None:
+    """Return the largest bearing whose bore is no wider than a diameter; None if all are wider."""
+    return next((one for one in reversed(SERIES_60) if one.bore <= diameter), None)
+
+
+def shoulder_length(size: Size, L: float) -> float:
+    """Return the least length of a turned shaft's shoulder above its bearing; 0 for plain ones."""
+    return L / 50.0 if size.shafts == "turned" else 0.0
 
 
 def circlip_up_to(diameter: float) -> Circlip:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from geneva_cli.layout.stressed import Stressed
     from geneva_cli.loads.strength.part_loads import PartLoads
     from geneva_cli.machine.spec import Spec
-    from geneva_cli.spec.tables import Size
+    from geneva_cli.spec.tables import Shaft, Size
 
 
 class PinSpace(NamedTuple):
@@ -52,6 +52,12 @@ def pin_that_holds(spec: Spec, usual: float, space: PinSpace, force_N: float) ->
         if keeps(stress, "at most", allowed):
             break
     return 0.5 * d
+
+
+def greatest_moment_Nm(table: Shaft, force_N: float, torque_Nm: float, overhang_mm: float) -> float:
+    """Return a shaft's equivalent torque, as if force and torque were greatest at once."""
+    bending = table.bending_factor * force_N * overhang_mm / 1000.0
+    return math.hypot(bending, table.torsion_factor * torque_Nm)
 
 
 def shaft_holds(spec: Spec, part: str, diameter: float, moment_Nm: float) -> bool:

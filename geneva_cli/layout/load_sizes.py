@@ -26,12 +26,13 @@ from geneva_cli.layout.holds import (
     PinSpace,
     arm_holds,
     arm_trials,
+    greatest_moment_Nm,
     key_holds,
     pin_that_holds,
     shaft_holds,
 )
 from geneva_cli.layout.link_positions import links_at
-from geneva_cli.layout.plain_sizes import Sizes, drawn_thicknesses
+from geneva_cli.layout.plain_sizes import FirstSizes, Sizes, drawn_thicknesses
 from geneva_cli.layout.roller_paths import roller_reaches
 from geneva_cli.layout.stressed import ShaftSize, lock_of, stressed
 from geneva_cli.loads.strength import lock
@@ -44,18 +45,23 @@ from geneva_cli.numerics.preferred import bores_from, rounded_from
 
 
 def load_sizes(
-    assembly: Assembly, usual: Sizes, space: float, known: PartLoads | None = None
+    assembly: Assembly,
+    usual: Sizes,
+    space: float,
+    known: PartLoads | None = None,
+    first: FirstSizes | None = None,
 ) -> Sizes:
     """Return the sizes of a machine under its load, from the usual ones.
 
     ``space`` is the radius about the crank's axis inside the relief, mm; ``known`` are the loads,
-    if computed already. A load without a bound leaves all sizes.
+    if computed already; ``first`` is what they need of a first wheel. A load without a bound leaves
+    all sizes.
     """
     loads = known or single_loads(assembly.full)
     if not all(map(math.isfinite, loads)):
         return usual
     size = assembly.full.spec.size
-    sizes = usual
+    sizes = usual._replace(link_thickness=first.thickness) if first else usual
     if size.wheel_thickness_mm is None and size.face_width_mm is None:
         sizes = _thick(assembly, sizes, wheel=_wheel_thickness(assembly, sizes))
     sizes = sizes._replace(pin=_pin(assembly, sizes, loads))
@@ -78,11 +84,13 @@ def _thick(
         **({"arm_thickness_mm": arm} if arm else {}),
     )
     thick = drawn_thicknesses(size, assembly.L)
+    # a first wheel's own thickness stays
+    link = sizes.link_thickness if assembly.full.spec.drive.IN_SERIES else thick.link
     return sizes._replace(
         wheel_thickness=thick.wheel,
         lock_thickness=thick.lock,
         arm_thickness=thick.arm,
-        link_thickness=thick.link,
+        link_thickness=link,
     )
 
 
@@ -193,9 +201,10 @@ def _crank_holds(assembly: Assembly, sizes: Sizes, loads: PartLoads, keyed: bool
     return shaft and (not keyed or key_holds(spec, parts.crank_key, loads.crank_Nm))
 
 
-def _shaft_holds(assembly: Assembly, part: str, shaft: ShaftSize, loads: tuple[float, ...]) -> bool:
+def _shaft_holds(
+    assembly: Assembly, part: str, shaft: ShaftSize, loads: tuple[float, float]
+) -> bool:
     """Return True if a shaft holds force and torque, as if both were greatest at once."""
-    table, (force, torque) = assembly.full.spec.shaft, loads
-    bending = table.bending_factor * force * shaft.overhang / 1000.0
-    moment = math.hypot(bending, table.torsion_factor * torque)
-    return shaft_holds(assembly.full.spec, part, shaft.diameter, moment)
+    spec = assembly.full.spec
+    moment = greatest_moment_Nm(spec.shaft, *loads, shaft.overhang)
+    return shaft_holds(spec, part, shaft.diameter, moment)

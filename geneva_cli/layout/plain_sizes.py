@@ -45,6 +45,14 @@ class Sizes(NamedTuple):
         return self.arm - self.half_width - self.recess
 
 
+class FirstSizes(NamedTuple):
+    """What a load needs of the first wheel's parts, mm."""
+
+    thickness: float  # of the wheel and its crank
+    pin: float  # radius of the roller's pin
+    shaft: float  # radius of its crank's shaft
+
+
 def drawn_thicknesses(size: Size, L: float, parts: Sizes | None = None) -> Thicknesses:
     """Return the thicknesses of ``parts``, or else of a spec."""
     if parts:

@@ -133,9 +133,11 @@ def sizes(
         link_thickness=thick.link,
     )
     if assembly.full.spec.is_loaded:
-        from geneva_cli.layout.load_sizes import load_sizes  # without a load none is needed
+        # without a load none is needed
+        from geneva_cli.layout.first_sizes import first_sizes
+        from geneva_cli.layout.load_sizes import load_sizes
 
-        out = load_sizes(assembly, out, within, loads)
+        out = load_sizes(assembly, out, within, loads, first_sizes(assembly.full, sized))
     _refuse(assembly, out)
     _refuse_hubs(size, out)
     return out

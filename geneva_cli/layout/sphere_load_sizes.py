@@ -1,4 +1,4 @@
-"""Default sizes of a spherical machine under a load: pin, bores, hubs and arm.
+"""Default sizes of a spherical machine under a load: thickness, pin, bores, hubs and arm.
 
 They follow one another as on a plane (``load_sizes``). What a shaft bears is exact here, because
 the greatest force and its greatest distance from the bearing are at different angles.
@@ -26,13 +26,38 @@ from geneva_cli.layout.plain_sizes import wall_min
 from geneva_cli.layout.sphere_stressed import sphere_stressed
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.loads.strength.shafts import ShaftDimensions, crank_forces, shaft, wheel_forces
+from geneva_cli.loads.strength.sphere_horn import sphere_horn
 from geneva_cli.machine.both_ways import every_way
+from geneva_cli.machine.materials import wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
-from geneva_cli.numerics.preferred import bores_from
+from geneva_cli.numerics.keeps import keeps
+from geneva_cli.numerics.preferred import bores_from, rounded_from
 
 if TYPE_CHECKING:
     from geneva_cli.loads.strength.shafts import ShaftForces
+
+
+def horn_thickness_mm(mechanism: Mechanism, usual: Ball) -> float | None:
+    """Return the wheel's thickness at which its horns hold, at most twice the usual one.
+
+    None where the spec has a thickness, or nothing bends a horn: then it stays as it is.
+    """
+    size = mechanism.spec.size
+    fixed = size.wheel_thickness_mm is not None or size.face_width_mm is not None
+    if fixed or not usual.recess or not all(map(math.isfinite, single_loads(mechanism))):
+        return None
+    allowed = wheel_material(mechanism.spec).allowed_MPa
+    angles, least = (
+        (usual.half_width, usual.recess, usual.axes),
+        usual.span_mm[1] - usual.span_mm[0],
+    )
+    # a thicker wheel bends its pins more than its horns
+    for thick in rounded_from(least, 2.0 * least):
+        each = [sphere_horn(way, *angles, thick) for way in every_way(mechanism)]
+        if all(keeps(one.stress_MPa, "at most", allowed) for one in each if one):
+            break
+    return thick
 
 
 def sphere_load_sizes(mechanism: Mechanism, usual: Ball) -> Ball:

@@ -9,6 +9,7 @@ above the wheel's lower face is a distance inwards from its outer sphere.
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import arm_bore, hole_radius
@@ -33,6 +34,33 @@ def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
     Those that the spec leaves out are as large as its load needs. Raises GenevaError, naming the
     key, where they leave no wheel or no lock.
     """
+    spec = mechanism.spec
+    radius_mm = mechanism.roller_radius_mm if roller_mm is None else roller_mm
+    usual = _ball(mechanism, radius_mm, spec.size.wheel_thickness_mm)
+    if not spec.is_loaded:
+        return usual
+    from geneva_cli.layout.sphere_load_sizes import horn_thickness_mm, sphere_load_sizes
+
+    thick = horn_thickness_mm(mechanism, usual)
+    if thick is not None:
+        usual = _ball(mechanism, radius_mm, thick)
+    return sphere_load_sizes(mechanism, usual)
+
+
+@lru_cache(maxsize=16)
+def sized_ball(mechanism: Mechanism) -> Ball | None:
+    """Return the cached sizes of a spherical machine; None where it has no parts."""
+    spec = mechanism.spec
+    if not (spec.wheel.SHELLS and spec.has_parts):
+        return None
+    try:
+        return ball(mechanism)
+    except GenevaError:
+        return None  # the check of the parts reports the error
+
+
+def _ball(mechanism: Mechanism, radius_mm: float, thickness_mm: float | None) -> Ball:
+    """Return the sizes for a roller and a thickness of the wheel, or else its default."""
     spec, L = mechanism.spec, mechanism.center_distance_mm
     size, z = spec.size, spec.wheel.z
     if z > Z_DRAWN:
@@ -42,7 +70,6 @@ def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
     engagement = mechanism.engagements[0]
     mouth, deepest = (float(engagement.slot(x, 0)[0].c[0]) for x in (engagement.entry_deg, 0.0))
     axes = deepest + arm
-    radius_mm = mechanism.roller_radius_mm if roller_mm is None else roller_mm
     roller = radius_mm / L
     w = roller + size.allowances.slot_clearance_mm / L
     gap = size.slot_bottom_clearance_mm
@@ -51,7 +78,8 @@ def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
     # the roller touches the wall that faces the crank's axis at the foot of the perpendicular
     rim = math.acos(math.cos(mouth) * math.cos(w))
     _refuse_slots(bottom, w, z)
-    thick, pin = drawn_thicknesses(size, L), pin_radius(size, radius_mm)
+    thick = drawn_thicknesses(size.replace(wheel_thickness_mm=thickness_mm), L)
+    pin = pin_radius(size, radius_mm)
     _refuse_thick(thick, size, L, roller, pin)
     refuse_edges(size, min(thick.wheel, thick.lock, thick.arm))
     inside, outside = L - 0.5 * thick.wheel, L + 0.5 * thick.wheel
@@ -63,7 +91,7 @@ def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
     turns = [p.crank_deg for p in (first, *others)]
     if len(turns) == 1:
         turns = [360.0 * i / many for i in range(many)]
-    result = Ball(
+    ball = Ball(
         radius_mm=L,
         z=z,
         axes=axes,
@@ -87,12 +115,8 @@ def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
         arm_bore_mm=_arm_bore(spec, pin, L, arm),
         about_crank_mm=about_crank(size, L),
     )
-    if spec.is_loaded:
-        from geneva_cli.layout.sphere_load_sizes import sphere_load_sizes  # else none is needed
-
-        result = sphere_load_sizes(mechanism, result)
-    _refuse(result)
-    return result
+    _refuse(ball)
+    return ball
 
 
 def _arm_bore(spec: Spec, pin: float, L: float, arm: float) -> float:

@@ -1,7 +1,8 @@
 """The dimensions of the parts of a spherical machine that their strength depends on.
 
-Shafts reach outwards, past the parts that they carry. Their bearings are in the middle of their
-ends there, which are as long as the arm is thick. An overhang counts from the sphere of radius L.
+Shafts reach outwards, past the parts that they carry. The bearings of plain ones are in the middle
+of their ends there, which are as long as the arm is thick. An overhang counts from the sphere of
+radius L.
 
 The arm is bent over its sphere. A section at the angle x from the pin bears the force F across the
 arm as a moment F L sin x in its plane, and a twist F (R - L cos x), R being the radius of the arm's
@@ -19,7 +20,7 @@ from geneva_cli.layout.arm_sizes import arm_hub, eye_about, hole_radius
 from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.bores import reach_or_bore
 from geneva_cli.layout.plain_sizes import half_or, wall_min
-from geneva_cli.layout.stressed import Stressed, key_of, shaft_of
+from geneva_cli.layout.stressed import ShaftEnd, Stressed, key_of, shaft_of
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.default_sizes import value_or
@@ -27,15 +28,15 @@ from geneva_cli.spec.default_sizes import value_or
 
 def sphere_stressed(spec: Spec, ball: Ball) -> Stressed:
     """Return the dimensions of a spherical machine's parts."""
-    size, table = spec.size, spec.shaft
+    size = spec.size
     inside, outside = ball.span_mm
     under, over = ball.arm_span_mm
-    overhang = ball.shafts_end_mm(size) + 0.5 * (over - under) - ball.radius_mm
+    end = ShaftEnd(ball.shafts_end_mm(size) - ball.radius_mm, over - under, ball.radius_mm)
     return Stressed(
         value_or(size.face_width_mm, outside - inside),
         2.0 * ball.pin_mm,
-        shaft_of(table.wheel_diameter_mm, ball.bore_mm, table.wheel_overhang_mm, overhang),
-        shaft_of(table.crank_diameter_mm, ball.arm_bore_mm, table.crank_overhang_mm, overhang),
+        shaft_of(spec, "wheel", ball.bore_mm, end),
+        shaft_of(spec, "crank", ball.arm_bore_mm, end),
         _arm(spec, ball),
         key_of(size.wheel_keyway, ball.bore_mm, ball.hub_length_mm(size)),
         key_of(size.crank_keyway, ball.arm_bore_mm, over - under),

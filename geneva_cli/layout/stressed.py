@@ -15,6 +15,7 @@ from geneva_cli.analysis.locking import Lock
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import arm_hub, arm_passing, eye_about, hole_radius
 from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.bearings import bearing_within, shoulder_length
 from geneva_cli.layout.bores import reach_or_bore
 from geneva_cli.layout.keyways import key
 from geneva_cli.layout.link_positions import gear_plane, links_at
@@ -23,6 +24,7 @@ from geneva_cli.layout.reliefs import is_whole, sectors
 from geneva_cli.layout.roller_paths import roller_reaches
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
+from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.default_sizes import value_or
 
 
@@ -48,9 +50,9 @@ class Stressed(NamedTuple):
 def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     """Return the dimensions of a machine's parts, for parts of these sizes."""
     spec = assembly.full.spec
-    size, table = spec.size, spec.shaft
+    size = spec.size
     contact = sizes.wheel_thickness if size.face_width_mm is None else size.face_width_mm
-    overhang = _overhang(assembly, sizes)
+    end = ShaftEnd(_to_frame(assembly, sizes), sizes.arm_thickness, assembly.L)
     crank = sizes.arm_bore or sizes.crank_bore
     hub = size.wheel_hub_mm is not None or size.wheel_hub_length_mm is not None
     length = (
@@ -61,30 +63,50 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     return Stressed(
         contact,
         2.0 * sizes.pin,
-        shaft_of(table.wheel_diameter_mm, sizes.wheel_bore, table.wheel_overhang_mm, overhang),
-        shaft_of(table.crank_diameter_mm, crank, table.crank_overhang_mm, overhang),
+        shaft_of(spec, "wheel", sizes.wheel_bore, end),
+        shaft_of(spec, "crank", crank, end),
         _arm(assembly, sizes, contact),
         key_of(size.wheel_keyway, sizes.wheel_bore, sizes.wheel_thickness + length),
         key_of(size.crank_keyway, sizes.arm_bore, sizes.arm_thickness),
     )
 
 
-def shaft_of(
-    diameter: float | None, bore: float, overhang: float | None, usual: float
-) -> ShaftSize:
-    """Return a shaft of the spec's dimensions, or else as wide as its bore; NaN for none."""
-    return ShaftSize(value_or(diameter, 2.0 * bore or math.nan), value_or(overhang, usual))
+class ShaftEnd(NamedTuple):
+    """Where shafts leave the machine, mm: from the contact's middle to the frame of plain shafts.
+
+    ``thick`` is that frame's thickness.
+    """
+
+    to_frame: float
+    thick: float
+    L: float
 
 
-def _overhang(assembly: Assembly, sizes: Sizes) -> float:
-    """Return the distance of the frame's middle from that of the wheel's thickness."""
+def shaft_of(spec: Spec, part: str, bore: float, end: ShaftEnd) -> ShaftSize:
+    """Return a shaft of the spec's dimensions, or else as it is in its bearing; NaN for none.
+
+    A plain shaft is as wide as its bore, and borne in the middle of the frame. A turned one is as
+    wide as its bearing's bore, whose middle is half its width below the frame's upper face.
+    """
+    size, table = spec.size, vars(spec.shaft)
+    diameter, overhang = 2.0 * bore or math.nan, end.to_frame + 0.5 * end.thick
+    bearing = bearing_within(diameter) if size.shafts == "turned" else None
+    if bearing:
+        diameter = bearing.bore
+        overhang = end.to_frame + shoulder_length(size, end.L) + 0.5 * bearing.width
+    own = table[f"{part}_diameter_mm"], table[f"{part}_overhang_mm"]
+    return ShaftSize(value_or(own[0], diameter), value_or(own[1], overhang))
+
+
+def _to_frame(assembly: Assembly, sizes: Sizes) -> float:
+    """Return the distance of the frame's upper face from the middle of the wheel's thickness."""
     size, machine = assembly.full.spec.size, assembly.full
     planes = [link.plane for link in links_at(machine, np.zeros(1))]
     planes += [gear_plane(machine)] if machine.spec.gears else []
     below = (max(planes, default=1) - 1) * (sizes.link_thickness + size.washer_mm)
     down = size.allowances.pin_gap_mm + sizes.arm_thickness + below
     down = max(down, size.wheel_hub_length_mm or 0.0)
-    return 0.5 * sizes.wheel_thickness + down + size.washer_mm + 0.5 * sizes.arm_thickness
+    return 0.5 * sizes.wheel_thickness + down + size.washer_mm
 
 
 def _arm(assembly: Assembly, sizes: Sizes, contact: float) -> ArmDimensions:

@@ -49,15 +49,19 @@ def chosen(path: RollerPath, wheels: PathWheels, wanted: Number | None = None) -
 def _peaks(path: RollerPath, wheels: PathWheels) -> Array:
     """Peak velocities of several wheels per design, accurate enough to know the least.
 
-    A few points of each wheel bound its peak. If the bounds do not decide which wheel of a design
-    has the least peak, those wheels are sampled more closely.
+    A few points of a wheel bound its peak. The wheel of each design with the least velocity so far
+    comes first. If the bounds do not decide which wheel has the least peak, those wheels are
+    sampled more closely.
     """
-    known = _velocities(path, wheels)
-    open_ = _open_peaks(wheels.which, known)
-    for _ in range(12):  # each round narrows to three of sixteen intervals, 5e-9 in all
+    which, velocity = wheels.which, wheels.velocity
+    known = _Velocities(velocity.copy(), np.full(len(which), np.inf), wheels.phi.copy())
+    order = np.lexsort((velocity, which))
+    open_ = order[np.append(True, np.diff(which[order]) != 0)]
+    for _ in range(13):  # each round narrows to three of sixteen intervals, 5e-9 in twelve
         if not len(open_):
             break
         near = _velocities(path, wheels.taken(open_), known.bracket[open_])
+        near = near._replace(least=np.maximum(near.least, known.least[open_]))
         near = near._replace(most=np.minimum(near.most, known.most[open_]))
         for all_, some in zip(known, near, strict=True):
             all_[open_] = some
@@ -83,9 +87,8 @@ class _Velocities(NamedTuple):
     bracket: Array
 
 
-def _velocities(path: RollerPath, wheels: PathWheels, between: Array | None = None) -> _Velocities:
-    """Peak velocities between crank angles (n, 2), by default from entry to exit."""
-    between = wheels.phi if between is None else between
+def _velocities(path: RollerPath, wheels: PathWheels, between: Array) -> _Velocities:
+    """Peak velocities between crank angles (n, 2)."""
     bounds: _Velocities = joined(
         [
             _block_velocities(path.roughly(wheels.which[i]), wheels.phi[i], between[i])

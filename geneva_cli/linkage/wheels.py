@@ -13,7 +13,7 @@ import numpy as np
 
 from geneva_cli.kinematics.paths.course import PinCourse, PlacedWheel, leaves_slot
 from geneva_cli.kinematics.paths.pairs import DOUBLE_ROOT_SLOPE, EndPairs, pairs, residual
-from geneva_cli.kinematics.paths.samples import PathSamples, joined, points, sampled
+from geneva_cli.kinematics.paths.samples import PathSamples, blocks, joined, points, sampled
 from geneva_cli.kinematics.roller_path import RollerPath
 
 if TYPE_CHECKING:
@@ -26,12 +26,14 @@ class PathWheels(NamedTuple):
     """Wheels of the designs numbered in ``which``.
 
     ``phi`` holds the crank angles at entry and exit in two columns. ``sense`` is the direction in
-    which the wheel turns on the path's own axes.
+    which the wheel turns on the path's own axes. ``velocity`` is the greatest one at samples of the
+    path: the peak is no less.
     """
 
     which: Whole
     phi: Array
     sense: Array
+    velocity: Array
 
     def taken(self, where: Which) -> PathWheels:
         """Select some of the wheels."""
@@ -95,6 +97,14 @@ def _firsts(ends: EndPairs, same: float = SAME_ENTRY) -> Whole:
 
 def _followed(path: RollerPath, samples: PathSamples, ends: EndPairs, sense: Array) -> PathWheels:
     """Wheels of the pairs between which the roller stays in its slot."""
+    parts = blocks(len(sense), 256)  # the samples of 256 wheels stay in the processor's cache
+    return joined([_block_followed(path, samples, ends.taken(i), sense[i]) for i in parts])
+
+
+def _block_followed(
+    path: RollerPath, samples: PathSamples, ends: EndPairs, sense: Array
+) -> PathWheels:
+    """Wheels of a block of pairs."""
     (p, q), (t, u) = ends.at.p.T, ends.at.t.T
     rho = np.abs(q - p) / np.abs(t + u)
     centre = 0.5 * ((p + rho * t) + (q - rho * u))
@@ -123,5 +133,7 @@ def _followed(path: RollerPath, samples: PathSamples, ends: EndPairs, sense: Arr
             for x, y in zip(course, limits, strict=True)
         )
     )
-    fails = leaves_slot(path, wheel, ends, nodes, full, motion)
-    return PathWheels(ends.which[~fails], ends.at.phi[~fails], wheel.sense[~fails, 0])
+    moment = np.where(nodes <= motion, full.moment, 0.0)
+    velocity = (moment / (wheel.square - full.short)).max(axis=1)
+    stays = ~leaves_slot(path, wheel, ends, nodes, full, motion)
+    return PathWheels(ends.which[stays], ends.at.phi[stays], wheel.sense[stays, 0], velocity[stays])

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.analysis.contact import contact, contacts
-from geneva_cli.analysis.forces import LoadCase, feeding, load_case, sliding
+from geneva_cli.analysis.forces import LoadCase, feeding, load_case, sliding, wheel_torque
 from geneva_cli.analysis.instant import INSTANT_QUANTITIES, Instant, bounded, values
 from geneva_cli.analysis.load_functions import NO_MORE, LoadFunctions, load_batch
 from geneva_cli.analysis.mid_motion import at_crossing
@@ -106,7 +106,7 @@ class Cycle:
     def moving(self, engagement: Engagement, input_deg: Array) -> Instant[Array]:
         """Arrays (n,) at input angles of an engagement, degrees from its own mid-motion."""
         case, at = self.case, contacts(engagement, input_deg)
-        torque = at.acceleration * case.inertia_Nm + case.resists_Nm
+        torque = wheel_torque(case, at)
         drives = np.copysign(1.0, torque)
         slides = np.copysign(1.0, sliding(at, drives, case.radius))
         feeds = np.copysign(1.0, feeding(case, at, drives, slides))

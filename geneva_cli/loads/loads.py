@@ -15,7 +15,14 @@ import numpy as np
 
 from geneva_cli.analysis.carried import inertia_kgm2
 from geneva_cli.analysis.contact import Contact, contact, is_straight
-from geneva_cli.analysis.forces import Forces, LoadCase, QuantityValue, load_case, sliding
+from geneva_cli.analysis.forces import (
+    Forces,
+    LoadCase,
+    QuantityValue,
+    load_case,
+    sliding,
+    wheel_torque,
+)
 from geneva_cli.analysis.instant import Instant
 from geneva_cli.analysis.load_functions import LoadFunctions, LoadQuantity, load_batch
 from geneva_cli.analysis.peak_search import PeakArray
@@ -59,7 +66,7 @@ def state(mechanism: Mechanism, engagement: Engagement, input_deg: Number) -> Lo
     case = load_case(mechanism)
     x = np.atleast_1d(np.asarray(input_deg, dtype=float))
     at = contact(engagement, x, reactions=False)
-    torque = array(at.acceleration.c[0]) * case.inertia_Nm + case.resists_Nm
+    torque = array(wheel_torque(case, at).c[0])
     drives = np.copysign(1.0, torque)
     slides = np.copysign(1.0, sliding(at, drives, case.radius).c[0])
     bound = np.where(torque == 0.0, 0.0, np.inf)
@@ -93,7 +100,7 @@ def greatest(mechanism: Mechanism, name: str) -> Peak[float]:
     if one is None:
         return Peak(0.0, 0.0)
     first = mechanism.engagements[0]
-    turn = 360.0 * mechanism.spec.turns
+    turn = max(360.0 * mechanism.spec.turns, mechanism.under_load.period_deg)
     start = first.mid_deg + first.entry_deg - 1e-9  # less the rounding of an input angle
     ends = [(one.max, one.max_at_deg), (-one.min, one.min_at_deg)]
     ends.sort(key=lambda end: (end[1] - start) % turn)
@@ -166,8 +173,10 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
 
     Infinite if they hold at any speed or there are none; None if no speed keeps them.
     """
-    limited = load_limits(mechanism.spec.limits)
-    at_one = load_case(mechanism)._replace(inertia_Nm=inertia_kgm2(mechanism.spec))  # at 1 rad/s
+    mechanism, limited = mechanism.under_load, load_limits(mechanism.spec.limits)
+    own = omega(mechanism.spec.drive.n_rpm)
+    at_one = load_case(mechanism).faster(1.0 / own)  # at 1 rad/s
+    at_one = at_one._replace(inertia_Nm=inertia_kgm2(mechanism.spec))  # with all its digits
     if at_one.hertz is None:
         limited.pop(STRESS, None)
     if not limited:
@@ -177,7 +186,7 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
     # Lower speeds may break a limit where inertia helps against the resistance, and so may this
     # speed.
     w = omega(mechanism.spec.drive.n_rpm if math.isinf(rpm) else rpm)
-    tried = at_one._replace(inertia_Nm=at_one.inertia_Nm * w * w)
+    tried = at_one.faster(w)
     peaks = load_peaks(mechanism, tuple(limited), case=tried)
     # a limit that is reached at the highest speed may be exceeded by rounding
     kept = all(peaks[name].max[0] <= limit * (1.0 + 1e-9) for name, limit in limited.items())
@@ -197,7 +206,7 @@ class Slowness(NamedTuple):
 
     def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
         """The quantity, which is unbounded where the place allows no speed."""
-        unit = self.case._replace(inertia_Nm=0.0, resists_Nm=1.0)
+        unit = self.case.faster(0.0)._replace(resists_Nm=1.0)
         factor = self.of(Forces(unit, at, i.drives, i.slides))
         load = self.of(Forces(self.case._replace(resists_Nm=0.0), at, i.drives, i.slides))
         left = self.limit - factor * self.case.resists_Nm

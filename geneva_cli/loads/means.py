@@ -60,6 +60,7 @@ def load_means(
     >>> load_means(batch.machine, ["input_torque_Nm"])["input_torque_Nm"].rms.round(4)
     array([ 26.8019, 107.2078])
     """
+    mechanism = mechanism.under_load
     case = load_case(mechanism)
     multiple_of, sources = sources_of(mechanism, names)
     every = [load_batch(engagement, case, sources, NO_MORE) for engagement in mechanism.engagements]

@@ -90,6 +90,7 @@ def load_peaks(
 
     ``own`` are further quantities by name; ``case`` replaces the machine's own load case.
     """
+    mechanism = mechanism.under_load
     case, best = case or load_case(mechanism), dict[str, PeakArray]()
     flat = all(e.slot.walls_flat for e in mechanism.engagements)
     source_of = {n: FORCE if flat and n == STRESS and case.hertz is not None else n for n in names}
@@ -119,6 +120,7 @@ def load_summaries(
     mean squares are within 1e-12 of that size: quadrature errors of 2e-13 add up over stretches
     that may cancel. ``requested`` selects mean and rms; the other is None.
     """
+    mechanism = mechanism.under_load
     _, sources = sources_of(mechanism, names)
     case = load_case(mechanism)
     every = [load_batch(engagement, case, sources, NO_MORE) for engagement in mechanism.engagements]

@@ -38,6 +38,7 @@ def backwards(mechanism: Mechanism) -> Mechanism:
             drive=spec.drive.backwards(mechanism.plan),
             drive_before=spec.drive_before and spec.drive_before.backwards(mechanism.plan),
             motion=spec.motion and spec.motion.backwards,
+            mass=tuple(one.backwards for one in spec.mass),
         )
         return build(turned)._replace(design=mechanism.design)
 
@@ -57,7 +58,7 @@ def every_way(mechanism: Mechanism) -> tuple[Mechanism, ...]:
 def _ways(mechanism: Mechanism) -> tuple[Mechanism, ...]:
     other, one = backwards(mechanism), mechanism.spec
     same = _alike(one.wheel, other.spec.wheel) and _alike(one.drive, other.spec.drive)
-    same = same and one.motion == other.spec.motion
+    same = same and one.motion == other.spec.motion and one.mass == other.spec.mass
     if one.drive_before and other.spec.drive_before:
         same = same and _alike(one.drive_before, other.spec.drive_before)
     return (mechanism,) if same else (mechanism, other)

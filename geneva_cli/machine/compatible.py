@@ -43,6 +43,12 @@ def _set_on(before: Drive) -> list[str]:
     return [key.key for key in fields(Drive) if own[key.key] != key.default]
 
 
+def _toothed(spec: Spec) -> bool:
+    """True if the spec's drive, or the one before it, has gears."""
+    drives = (spec.drive, spec.drive_before) if spec.drive_before else (spec.drive,)
+    return any(drive.TOOTHED or drive.GEARED for drive in drives)
+
+
 CONFLICTS = (
     Conflict(
         lambda s: s.drive_before and not s.drive_before.IN_FRONT,
@@ -100,7 +106,7 @@ CONFLICTS = (
     Conflict(
         lambda s: s.motion is not None and not s.wheel.FLAT,
         ("motion", "law"),
-        "a {gearing} wheel has straight slots only: remove law",
+        'gearing = "{gearing}" has straight slots only: remove law',
     ),
     Conflict(
         lambda s: s.drive.ONE_ROLLER and s.drive.rollers > 1,
@@ -134,12 +140,10 @@ CONFLICTS = (
         "serve them all; use rollers = 1, or straight slots (no law)",
     ),
     Conflict(
-        lambda s: (
-            s.drive.wheels_on_carrier and any(one.count == 1 and one.radius_mm for one in s.mass)
-        ),
+        lambda s: s.drive.wheels_on_carrier and s.motion is not None and s.unbalanced,
         ("mass", "radius_mm"),
-        'kind = "{drive}" needs balanced wheels, as its centrifugal force would turn them: set '
-        "count to 2 or more evenly spaced bodies, or radius_mm = 0",
+        'kind = "{drive}" with a law needs balanced wheels: set count to 2 or more evenly spaced '
+        "bodies, or radius_mm = 0, or remove law",
     ),
     Conflict(
         lambda s: s.drive.wheels_on_carrier > 1 and (s.drive.rollers > 1 or _several(s)),
@@ -224,7 +228,7 @@ CONFLICTS = (
         "stop_stress_max_MPa limits a stop: set stop = true in [wheel] of an external wheel",
     ),
     Conflict(
-        lambda s: s.size.gear_module_mm is not None and not (s.drive.TOOTHED or s.drive.GEARED),
+        lambda s: s.size.gear_module_mm is not None and not _toothed(s),
         ("size", "gear_module_mm"),
         'gear_module_mm cuts the teeth of gears, and kind = "{drive}" has none: remove it',
     ),

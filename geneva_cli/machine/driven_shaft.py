@@ -46,14 +46,12 @@ class ShaftPath(Batchable):
 class DrivenShaft(Batchable):
     """Reactions on the shaft and on the second drive's guide, to loads on the roller's body.
 
-    ``push`` is the line along which the drive before pushes the shaft; None for a couple. ``sense``
-    is 1 if the shaft turns clockwise, else -1.
+    ``push`` is the line along which the drive before pushes the shaft, written for one that turns
+    clockwise; None for a couple, or for a shaft whose bearings are not computed.
     """
 
-    def __init__(
-        self, own: Engagement, angle: ShaftAngle, push: PushedCrank | None, sense: float
-    ) -> None:
-        self.own, self.angle, self.push, self.sense = own, angle, push, sense
+    def __init__(self, own: Engagement, angle: ShaftAngle, push: PushedCrank | None) -> None:
+        self.own, self.angle, self.push = own, angle, push
 
     def __call__(
         self, input_deg: Number, path: Vector, loads: Sequence[Load]
@@ -65,33 +63,32 @@ class DrivenShaft(Batchable):
         if self.push is None:
             return reactions
         (x, y), (u, v) = self.push.line(input_deg, order)
-        y, v = y * self.sense, v * self.sense
+        sense = self.own.crank_sense  # 1 for a shaft that turns clockwise, else -1
+        y, v = y * sense, v * sense
         lever, rate = cross((x, y), (u, v)), angle.derivative()
         velocity = path[0].derivative(), path[1].derivative()
         spin = composed(self.own.carrier(own_deg, order), Jet(angle.c[:-1])) * rate
         out = []
         for (force, moment), (shaft, guide) in zip(loads, reactions, strict=True):
             power = force[0] * velocity[0] + force[1] * velocity[1] + moment * spin
-            size = power / (rate * lever) * self.sense
+            size = power / (rate * lever) * sense
             pushed = u * size, v * size
-            whole = shaft[0] + pushed[0], shaft[1] + pushed[1]
-            out.append((whole, pushed if self.own.reactions is None else guide))
+            out.append(((shaft[0] + pushed[0], shaft[1] + pushed[1]), guide))
         return out
 
     def _own_reactions(
         self, own_deg: Number, angle: Jet, loads: Sequence[Load]
     ) -> list[tuple[Vector, Vector]]:
-        """Reactions of the second drive's bodies alone; a shaft that carries the roller has one."""
-        if self.own.reactions is None:
-            return [(force, (force[0] * 0.0, force[1] * 0.0)) for force, _ in loads]
+        """Reactions of the second drive's bodies alone, which are linear in the load."""
+        reactions = self.own.reactions
+        assert reactions is not None  # ``retimed`` passes engagements with reactions only
         none = angle * 0.0
         one = none + 1.0
         units: list[Load] = [((one, none), none), ((none, one), none), ((none, none), one)]
-        # the reactions are linear in the load: each unit load is one of the second drive's own
         path = self.own.path(own_deg, angle.order + 1)
         to_unit = [
             [composed(part, angle) for vector in pair for part in vector]
-            for pair in self.own.reactions(own_deg, path, units)
+            for pair in reactions(own_deg, path, units)
         ]
         out = []
         for force, moment in loads:

@@ -20,6 +20,7 @@ from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 if TYPE_CHECKING:
     from geneva_cli.kinematics.wheels.gearing import Output
     from geneva_cli.numerics.arrays import Whole
+    from geneva_cli.numerics.jet import Array
 
 
 class Mechanism(NamedTuple):
@@ -62,7 +63,7 @@ class Mechanism(NamedTuple):
             return own
         return (*own, *spec.drive_before.layout(plan, spec.wheel.SIGN))
 
-    def own_deg(self, input_deg: N) -> N:
+    def own_deg(self, input_deg: Array) -> Array:
         """Angle of the drive's own input shaft at input angles within half a period of mid-motion.
 
         It is the input angle itself, but behind another drive.
@@ -104,6 +105,8 @@ class Mechanism(NamedTuple):
         Over a period of several turns it is counted from the first engagement's entry.
         """
         whole = 360.0 * self.spec.turns
+        if self.engagements[0].turned is not None:
+            whole = self.period_deg  # the turns of the input differ in their loads
         m = library(input_deg, whole)
         entry = self.engagements[0].mid_deg + self.engagements[0].entry_deg
         # Rounding may put an angle just before the entry: count it as the entry.
@@ -137,9 +140,30 @@ class Mechanism(NamedTuple):
 
     @property
     def under_load(self) -> Mechanism:
-        """The machine with the period of its loads: up to the entry of the next wheel."""
-        wheels = self.spec.drive.wheels_on_carrier
-        return self._replace(period_deg=360.0 / wheels) if wheels > 1 else self
+        """The machine with the period of its loads: up to the entry of the next wheel.
+
+        If a body stands off the axis of a wheel on a carrier, it is a whole turn of all wheels, as
+        the body's direction is another one in each motion.
+        """
+        wheels, own = self.spec.drive.wheels_on_carrier, self.engagements
+        if not wheels or own[0].turned is not None:
+            return self
+        if not self.spec.unbalanced:
+            return self._replace(period_deg=360.0 / wheels) if wheels > 1 else self
+        steps, turned = [], 0.0  # the wheel's angle at each mid-motion
+        for _ in range(self.spec.wheel.z // len(own)):
+            for i, one in enumerate(own):
+                after = own[(i + 1) % len(own)]
+                steps.append(turned)
+                turned += one.half_step + after.half_step
+        spacing, each = self.period_deg / wheels, []
+        # each finger meets the wheel in every direction that it can
+        whole = math.lcm(len(steps), self.spec.drive.rollers) * wheels
+        for k in range(whole):
+            number, behind = divmod(k, len(own))
+            one, step = own[behind], k // wheels % len(steps)
+            each.append(one.later(one.mid_deg + number * spacing, steps[step]))
+        return self._replace(engagements=tuple(each), period_deg=spacing * len(each) / len(own))
 
     def index_deg(self, i: int) -> float:
         """Wheel step of engagement i, in degrees."""

@@ -30,7 +30,7 @@ from geneva_cli.kinematics.engagement import (
 )
 from geneva_cli.machine.driven_shaft import DrivenShaft, ShaftPath
 from geneva_cli.numerics.angles import DEGREE, radians
-from geneva_cli.numerics.arrays import N, library, narrowed
+from geneva_cli.numerics.arrays import array, library, narrowed
 from geneva_cli.numerics.batchable import Batchable
 from geneva_cli.numerics.jet import Jet, Number, atan2, composed, piecewise
 from geneva_cli.numerics.latest import Latest
@@ -38,6 +38,7 @@ from geneva_cli.numerics.latest import Latest
 if TYPE_CHECKING:
     from geneva_cli.machine.drives.transmission import Transmission
     from geneva_cli.machine.spec import Spec
+    from geneva_cli.numerics.jet import Array
 
 
 def retimed(plan: Plan, spec: Spec) -> Plan:
@@ -45,7 +46,7 @@ def retimed(plan: Plan, spec: Spec) -> Plan:
     if spec.drive_before is None:
         return plan
     before = cast("Transmission", spec.drive_before)  # ``compatible`` requires one
-    turn = 360.0 * spec.turns
+    turn = 360.0 * spec.drive.turns
     each = tuple(
         _engagement(own, Timing(before, own, k * plan.period_deg), spec, plan.center_distance_mm)
         for k in range(round(turn / plan.period_deg))
@@ -56,16 +57,12 @@ def retimed(plan: Plan, spec: Spec) -> Plan:
 
 def _engagement(own: Engagement, timing: Timing, spec: Spec, L: float) -> RetimedEngagement:
     """Return an engagement behind the drive before, with the reactions of the shaft between."""
-    wheel, reactions = spec.wheel, own.reactions
-    if not spec.drive.CRANKED:
+    push = None
+    if not spec.drive.CRANKED:  # the shaft turns about the crank's axis
         path = ShaftPath(timing)
-        push = timing.before.reactions(wheel, path, timing.within_deg, L) if wheel.FLAT else None
-        sense = own.crank_sense or wheel.SIGN
-        reactions = DrivenShaft(own, timing, push, sense) if own.reactions or push else None
-    elif reactions is not None:
-        reactions = DrivenShaft(own, timing, None, 1.0)
-    body = RetimedRate(own, timing)
-    carrier = Carrier(own.crank_sense, body, reactions, own.groove, own.hub)
+        push = timing.before.reactions(spec.wheel, path, timing.within_deg, L)
+    reactions = DrivenShaft(own, timing, push) if own.reactions else None
+    carrier = Carrier(own.crank_sense, RetimedRate(own, timing), reactions, None, own.hub)
     return RetimedEngagement(own, timing, carrier)
 
 
@@ -297,9 +294,9 @@ class RetimedEngagement(Engagement):
         super().__init__(timing.mid_deg, path, slot, RetimedMotion(own.motion, timing), carrier)
         self._own, self.timing = own, timing
 
-    def own_deg(self, input_deg: N) -> N:
+    def own_deg(self, input_deg: Array) -> Array:
         """Angle of the drive's own input shaft at input angles from mid-motion, degrees."""
-        return cast("N", self.timing.at(input_deg, 0)[0])
+        return array(self.timing.at(input_deg, 0)[0])
 
     @property
     def own(self) -> Engagement:

@@ -57,13 +57,16 @@ def _hub_in_bore(part: str, hub: float, bore: float) -> GenevaError:
 
 def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[tuple[str, float, float, str]]:
     """Each size that is set: its key, its value, an upper limit, and the meaning of the limit."""
-    size, r = spec.size, spec.roller_radius_mm(L)
+    size, r, distance = spec.size, spec.roller_radius_mm(L), f"the {spec.wheel.DISTANCE}"
+    farthest = "the roller's greatest distance from the wheel's axis"
+    if not spec.output.turns:  # a rack has no axis: where its roller is farthest from the deepest
+        farthest = f"twice {distance}"
     ratios = [math.sin(math.radians(0.5 * step)) for step in spec.wheel.steps] or [ratio]
     short, long = L * min(ratios), L * max(ratios)
     narrow, what = short, "the crank's arm"
     if not spec.drive.ONE_ARM:
         short = long = narrow = L  # a roller whose arm changes has no fixed arm length
-        what = "the centre distance"
+        what = distance
     elif spec.wheel.FLAT and spec.wheel.SIGN > 0.0:
         narrow, what = smaller(short, L - long), "the crank's arm and the wheel radius inside it"
     bounds = [
@@ -71,26 +74,26 @@ def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[tuple[str, float, fl
         ("slot_clearance_mm", narrow, what),
         ("lock_radius_mm", short, "the crank's arm"),
         ("lock_clearance_mm", short, "the crank's arm"),
-        ("slot_bottom_clearance_mm", L, "the centre distance"),
-        ("relief_clearance_mm", L, "the centre distance"),
-        ("wheel_radius_mm", L + long, "the roller's greatest distance from the wheel's axis"),
-        ("wheel_bore_mm", 2.0 * L, "twice the centre distance"),
-        ("wheel_hub_mm", 2.0 * L, "twice the centre distance"),
+        ("slot_bottom_clearance_mm", L, distance),
+        ("relief_clearance_mm", L, distance),
+        ("wheel_radius_mm", L + long, farthest),
+        ("wheel_bore_mm", 2.0 * L, f"twice {distance}"),
+        ("wheel_hub_mm", 2.0 * L, f"twice {distance}"),
         ("crank_bore_mm", 2.0 * short, "twice the crank's arm"),
         ("crank_hub_mm", 2.0 * short, "twice the crank's arm"),
         ("pin_mm", 2.0 * r, "the roller's diameter"),
         ("press_fit_mm", 2.0 * r, "the roller's diameter"),
         ("shaft_fit_mm", 2.0 * r, "the roller's diameter"),
         ("arm_bore_mm", 2.0 * short, "twice the crank's arm"),
-        ("arm_hub_mm", 2.0 * L, "twice the centre distance"),
-        ("arm_eye_mm", 2.0 * L, "twice the centre distance"),
-        ("dial_bolt_mm", 2.0 * L, "twice the centre distance"),
-        ("dial_bolt_circle_mm", 4.0 * L, "four times the centre distance"),
-        ("gear_bolt_mm", 2.0 * L, "twice the centre distance"),
-        ("gear_bolt_circle_mm", 4.0 * L, "four times the centre distance"),
-        ("link_pin_mm", 2.0 * L, "twice the centre distance"),
-        ("link_bore_mm", 2.0 * L, "twice the centre distance"),
-        ("link_width_mm", 2.0 * L, "twice the centre distance"),
+        ("arm_hub_mm", 2.0 * L, f"twice {distance}"),
+        ("arm_eye_mm", 2.0 * L, f"twice {distance}"),
+        ("dial_bolt_mm", 2.0 * L, f"twice {distance}"),
+        ("dial_bolt_circle_mm", 4.0 * L, f"four times {distance}"),
+        ("gear_bolt_mm", 2.0 * L, f"twice {distance}"),
+        ("gear_bolt_circle_mm", 4.0 * L, f"four times {distance}"),
+        ("link_pin_mm", 2.0 * L, f"twice {distance}"),
+        ("link_bore_mm", 2.0 * L, f"twice {distance}"),
+        ("link_width_mm", 2.0 * L, f"twice {distance}"),
         ("lock_bolt_mm", 2.0 * short, "twice the crank's arm"),
         ("lock_bolt_circle_mm", 2.0 * short, "twice the crank's arm"),
     ]

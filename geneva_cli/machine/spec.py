@@ -263,6 +263,15 @@ class Spec:
         return nothing & (self.support.own_torque_Nm == 0.0) & (not self.mass)
 
     @property
+    def unbalanced(self) -> bool:
+        """True if a single body stands off the wheel's axis.
+
+        >>> Spec(External(6), mass=(Mass("point", mass_kg=1.0, radius_mm=50.0),)).unbalanced
+        True
+        """
+        return any(one.count < 2 and one.radius_mm > 0.0 for one in self.mass)
+
+    @property
     def is_flat(self) -> bool:
         """True if wheel and crank are flat outlines and the wheel has few enough slots to be drawn.
 
@@ -288,7 +297,7 @@ class Spec:
         (True, False)
         """
         # A rack of any length is checked by the slots that the crank reaches in a turn.
-        return not self.output.turns or self.wheel.z <= Z_DRAWN
+        return bool(self.wheel.PARTS) and (not self.output.turns or self.wheel.z <= Z_DRAWN)
 
     @property
     def no_parts(self) -> str:
@@ -297,14 +306,16 @@ class Spec:
         >>> Spec(External(400)).no_parts
         'wheels of more than 360 slots are not drawn'
         """
-        if not (self.wheel.FLAT or self.wheel.SHELLS):
-            return "shafts, frame and guide of a rack's machine are not built"
+        if not self.wheel.PARTS:
+            return f'the parts of gearing = "{self.wheel.NAME}" are not built'
         before = self.drive_before
         if before is not None and (self.drive.CRANKED or not before.GEARED):
             return (
                 f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '
                 "built: only gears before a drive whose shaft stands at the crank's axis"
             )
+        if not (self.output.turns or self.drive.direct):
+            return f"frame and guide of a rack behind {self.drive.WORDS} are not built"
         if self.wheel.z > Z_DRAWN:
             return f"wheels of more than {Z_DRAWN} slots are not drawn"
         return ""

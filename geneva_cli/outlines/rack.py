@@ -22,6 +22,8 @@ from typing import NamedTuple
 
 from geneva_cli.curves.shapes import Contour, Line, Segment, about, closed
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.arm_sizes import eye_about, pin_hole
+from geneva_cli.layout.plain_sizes import half_or, pin_radius, wall_min
 from geneva_cli.layout.sizes import lock_between, require_lock_between
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.spec.default_sizes import value_or
@@ -39,6 +41,8 @@ class RackSizes(NamedTuple):
     floor: float  # its inner radius
     recess: float
     back: float  # wall between the slots' ends and the rack's back
+    bar: float  # width of the bar on the rack's back that slides in the guide
+    slide: float  # its clearance on either side
 
     @property
     def rim(self) -> float:
@@ -52,9 +56,28 @@ class RackSizes(NamedTuple):
 
     @property
     def horn(self) -> float:
-        """Thickness of the horn between slot and recess at its thinnest place."""
+        """Thickness of the horn between slot and recess at its thinnest place.
+
+        Without a recess it is half of the wall between two slots.
+        """
         below = min(self.edge - self.arm, 0.0)  # an edge below the crank's axis has wider horns
-        return self.arm - self.half_width - math.sqrt(self.recess**2 - below**2)
+        half_recess = math.sqrt(max(self.recess**2 - below**2, 0.0))
+        return self.arm - self.half_width - half_recess
+
+    @property
+    def behind(self) -> float:
+        """The x of the rack's back."""
+        return -(self.slot_bottom + self.half_width + self.back)
+
+    @property
+    def bar_back(self) -> float:
+        """The x of the bar's back, a tenth of its width behind the rack, which keeps clear so."""
+        return self.behind - 0.1 * self.bar
+
+    @property
+    def beyond(self) -> float:
+        """Length of the rack from the last slot's axis to its end."""
+        return 2.0 * self.arm - self.half_width
 
 
 def rack_sizes(mechanism: Mechanism) -> RackSizes:
@@ -80,7 +103,21 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
             f"{arm - recess:.6g} and {arm + recess:.6g} mm",
             ("size", "wheel_radius_mm"),
         )
-    return RackSizes(arm, r, w, edge, bottom, lock, floor, recess, max(r, arm / 10.0))
+    # the holes of its screws take at most half of the bar, and leave a wall on either side
+    bar, slide = max(arm / 10.0, 4.0 * wall_min(size, arm)), allowed.slot_clearance_mm
+    # the guide's rail, as wide as the bar, stands in front of it, and the arm's eye passes the rail
+    rail = max(bottom + w, _eye(mechanism, arm) + 0.25 * bar)
+    back = rail + 1.9 * bar + slide - (bottom + w)
+    return RackSizes(arm, r, w, edge, bottom, lock, floor, recess, back, bar, slide)
+
+
+def _eye(mechanism: Mechanism, arm: float) -> float:
+    """Return the radius of the arm's eye about the pin; 0 without a pin, and so without an arm."""
+    size = mechanism.spec.size
+    pin = pin_radius(size, mechanism.roller_radius_mm)
+    if not pin:
+        return 0.0
+    return half_or(size.arm_eye_mm, eye_about(pin_hole(size, pin), wall_min(size, arm)))
 
 
 def _lock(mechanism: Mechanism, arm: float, limit: float, relief: float) -> float:
@@ -106,16 +143,12 @@ def rack_contour(sizes: RackSizes, count: int) -> Contour:
 
     A recess lies between two slots, and one beyond the last slot on either side.
     """
-    R, w, rho = sizes.arm, sizes.half_width, sizes.recess
-    first = -2.0 * R * ((count - 1) // 2)
-    last = first + 2.0 * R * (count - 1)
-    beyond = 2.0 * R - w if rho else w + sizes.back
-    low, high = first - beyond, last + beyond
-    bottom = -sizes.slot_bottom
-    back = bottom - w - sizes.back
-    cuts = [slot_walls(sizes, first + 2.0 * R * k) for k in range(count)]
-    if rho:
-        recesses = [_recess(sizes, first + R * (2 * k - 1)) for k in range(count + 1)]
+    low, high = rack_ends(sizes, count)
+    back, places = sizes.behind, slot_places(sizes, count)
+    cuts = [slot_walls(sizes, y) for y in places]
+    if sizes.recess:
+        between = places[0] - sizes.arm, *(y + sizes.arm for y in places)
+        recesses = [_recess(sizes, y) for y in between]
         pairs = zip(recesses, [*cuts, []], strict=True)
         cuts = [cut for pair in pairs for cut in pair if cut]
     edge: list[Segment] = []
@@ -127,6 +160,18 @@ def rack_contour(sizes: RackSizes, count: int) -> Contour:
     sides = [Line(at, corners[0])]
     sides += [Line(a, b) for a, b in zip(corners, corners[1:], strict=False)]
     return closed("WHEEL", [*edge, *sides])
+
+
+def slot_places(sizes: RackSizes, count: int) -> list[float]:
+    """Return the y of the slots of a rack, from below; that in the middle is at 0."""
+    first = -2.0 * sizes.arm * ((count - 1) // 2)
+    return [first + 2.0 * sizes.arm * k for k in range(count)]
+
+
+def rack_ends(sizes: RackSizes, count: int) -> tuple[float, float]:
+    """Return the y of both ends of a rack of ``count`` slots."""
+    first, *_, last = slot_places(sizes, count)
+    return first - sizes.beyond, last + sizes.beyond
 
 
 def slot_walls(sizes: RackSizes, y: float) -> list[Segment]:

@@ -13,16 +13,13 @@ from collections.abc import Iterator
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics import registry
-from geneva_cli.kinematics.wheels.external import External
-from geneva_cli.layout.plain_sizes import drawn_thicknesses, wall_min
+from geneva_cli.layout.first_sizes import first_spec
+from geneva_cli.layout.plain_sizes import wall_min
 from geneva_cli.layout.projection import titled
-from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.spec import Spec
 from geneva_cli.outlines.outlines import Outlines, outlines
 from geneva_cli.parts.links import Links, drawn_links
 from geneva_cli.parts.plates import locking_plates, wheel_plate
-from geneva_cli.spec.tables import Size
 
 
 def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:
@@ -42,25 +39,23 @@ def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:
         bars = drawn_links(mechanism, outlines(mechanism) if spec.is_flat else None)
     second, own = (L, 0.0), (L + first.distance_mm, 0.0)
     bore = 0.0 if bars.one_piece(own, L) else bars.shaft(own, L)
-    sizes = spec.size
-    size = Size(
-        center_distance_mm=first.distance_mm,
-        roller_radius_mm=mechanism.roller_radius_mm,
-        process=sizes.process,
-        slot_clearance_mm=sizes.slot_clearance_mm,
-        lock_clearance_mm=sizes.lock_clearance_mm,
-        press_fit_mm=sizes.press_fit_mm,
-        shaft_fit_mm=sizes.shaft_fit_mm,
-        pin_mm=sizes.pin_mm,
-        wall_min_mm=wall_min(sizes, L),
-        wheel_thickness_mm=bars.sizes.thickness if bars.sizes else drawn_thicknesses(sizes, L).link,
+    alone = first_spec(mechanism, first)
+    size = alone.size.replace(
+        wall_min_mm=wall_min(spec.size, L),
         crank_bore_mm=2.0 * bore,
         wheel_bore_mm=2.0 * bars.shaft(second, L),
-        lock_bolts=0,  # the link below its disc has no holes for them
     )
-    title = f"{titled(mechanism)}, first pair"
-    drive = Crank(n_rpm=spec.drive.n_rpm)
-    return build(Spec(External(first.z), drive, size=size, title=title))
+    if bars.sizes:
+        link, shaft = bars.sizes, bars.shaft(own, L)
+        size = size.replace(
+            wheel_thickness_mm=link.thickness,
+            arm_thickness_mm=link.thickness,
+            pin_mm=2.0 * link.roller_stands,
+            arm_bore_mm=2.0 * shaft,
+            arm_hub_mm=2.0 * link.hub(shaft),
+            arm_eye_mm=2.0 * link.roller_eye,
+        )
+    return build(alone.replace(size=size, title=f"{titled(mechanism)}, first pair"))
 
 
 def in_front(first: Outlines, bars: Links, L: float) -> Iterator[Member]:

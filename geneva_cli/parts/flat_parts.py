@@ -179,6 +179,16 @@ class FlatParts:
         hub = crank_hub(self.outlines)
         return self._plate(hub) if hub else None
 
+    @property
+    def outside_mm(self) -> float | None:
+        """None: heights count from the wheel's lower face."""
+        return None
+
+    @property
+    def horn_mm(self) -> float | None:
+        """Thickness of the horns between slots and recesses; None without a lock."""
+        return self.outlines.sizes.horn if self.outlines.crank else None
+
     def hub_radii(self, part: str) -> tuple[float, float]:
         """Return the radii of the bore and the hub of a part, "wheel" or "crank", mm."""
         sizes = self.outlines.sizes
@@ -286,10 +296,15 @@ class FlatParts:
         """The frame, which holds the shafts."""
         return self._edged([Member(self._framed.plate)])[0]
 
+    @cached_property
+    def spacers(self) -> tuple[Member, ...]:
+        """The rings between the frame and parts that are screwed to it."""
+        return self._edged(self._framed.spacers)
+
     @property
     def standing(self) -> tuple[Member, ...]:
-        """The parts that stand still: a cam's groove plate, if there is one, and the frame."""
-        return (*self.groove_plate, self.frame)
+        """The parts that stand still: a cam's groove plate, the frame, and what is between."""
+        return (*self.groove_plate, *self.spacers, self.frame)
 
     def require(self) -> None:
         """Raise GenevaError for a part that cannot be built, without fitting curves for it."""
@@ -329,4 +344,4 @@ class FlatParts:
         yield "first wheel", lambda: [one.part for one in self.first]
         yield "shafts", lambda: [one.part for one in self.shafts]
         yield "groove plate", lambda: [one.part for one in self.groove_plate]
-        yield "frame", lambda: [self.frame.part]
+        yield "frame", lambda: [one.part for one in (*self.spacers, self.frame)]

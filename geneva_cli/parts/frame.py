@@ -11,39 +11,51 @@ as thick.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
+from itertools import combinations
 from typing import NamedTuple
 
+from geneva_cli.curves.hole_walls import apart
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate, Stack
-from geneva_cli.curves.shapes import Circle, Point
+from geneva_cli.curves.shapes import ORIGIN, Circle, Point
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.bearings import SERIES_60
-from geneva_cli.layout.bores import around
+from geneva_cli.layout.bearings import shoulder_length
 from geneva_cli.layout.link_positions import same
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, wall_min
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.preferred import bore_radius, rounded_radius
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import wheel_hub
+from geneva_cli.parts.all_shafts import all_shafts, arm_beside, built_shafts, passing
 from geneva_cli.parts.arm import has_arm
-from geneva_cli.parts.gear_pair import NAMES, gear_shafts, gear_span
-from geneva_cli.parts.link_shafts import Ends, carried, link_shafts, outside_links
+from geneva_cli.parts.gear_pair import gear_span
+from geneva_cli.parts.link_shafts import outside_links
 from geneva_cli.parts.links import Links, placed_holes
-from geneva_cli.parts.planes import crank_stop
-from geneva_cli.parts.shaft import Seat, Shaft
-from geneva_cli.parts.shafts import crank_shaft_radius, shafts, wheel_shaft_radius
-from geneva_cli.parts.turned_shafts import bearing_of, turned_shaft
-from geneva_cli.spec.tables import Size
-
-NAME, LAYER, HOLES = "frame", "FRAME", "BORE"
+from geneva_cli.parts.mounted_plate import (
+    HOLES,
+    LAYER,
+    corner_radius,
+    hole_without_shaft,
+    mounted_plate,
+    shaft_hole,
+)
 
 
 class FrameAndShafts(NamedTuple):
-    """The frame, and the shafts at their positions, whether they reach it or not."""
+    """The frame, what is on it, and the shafts, whether they reach it or not."""
 
     plate: Plate
     shafts: tuple[Member, ...]
+    spacers: tuple[Member, ...] = ()  # below the parts that are screwed to it
+
+
+class Screwed(NamedTuple):
+    """A screw's hole in the frame, and the part that it fixes, with its lower face."""
+
+    hole: Circle
+    part: str
+    low: float
 
 
 def framed(
@@ -68,104 +80,32 @@ def framed(
     lows = [base.low] if base else []
     if mechanism.spec.gears:
         lows.append(gear_span(mechanism, outlines)[0])
-    top = min([_lowest(mechanism, outlines, bars), *lows]) - size.washer_mm
     drawn = outlines.sizes if outlines else None
     thick = drawn_thicknesses(size, L, drawn).arm
-    collar = L / 50.0  # the least length of a shoulder
-    top -= collar if size.shafts == "turned" else 0.0
-    bottom = top - thick
-    own = list(_shafts(mechanism, outlines, bars, bottom, first))
-    turned = [one for one in own if _in_bearing(one, size, bottom)]
-    bottom = min([bottom, *(top - bearing_of(one).width for one in turned)])
-    moving = [*_moving(mechanism, outlines, bars), *map(_span, first)]
-    axles = []
-    for one in own:
-        if one in turned:
-            passed = _is_passed(one, moving)
-            axles.append(turned_shaft(size, one, top, collar if passed else None))
-        else:
-            axles.append(one.plain(size))
+    free = min([_lowest(mechanism, outlines, bars), *lows]) - size.washer_mm
+    top = free - shoulder_length(size, L)
+    own = list(all_shafts(mechanism, outlines, bars, top - thick, first))
+    others = (*first, *([Member(base)] if base else []))
+    beside = list(passing(mechanism, outlines, bars, others))
+    if size.shafts == "turned" and outlines:
+        beside += arm_beside(outlines, own)
+    axles, bottom = built_shafts(size, own, beside, (top - thick, top, free))
     places = list(_standing(mechanism, bars))
-    mounts = _mounted(base, L) if base else ()
-    holes = [*_drilled(mechanism, axles, places, top), *_fixed(bars), *mounts]
-    wall = wall_min(size, L)
-    eye = max(L / 20.0, 3.0 * wall)
+    drilled = list(_drilled(mechanism, axles, places, top))
+    _require_walls(drilled, wall_min(size, L), axles)
+    fixed = [*_fixed(bars), *(_mounted(base, L) if base else ())]
+    holes = [*drilled, *(one.hole for one in fixed)]
+    spacers = [_spacer(one, top) for one in fixed if one.low - top > SAME_LENGTH * L]
     # The frame contains every axis, drilled or not.
     within = [*holes, *(Circle(HOLES, at, 0.0) for at in ((0.0, 0.0), *places))]
+    eye = corner_radius(size, L)
     if mechanism.frame > 0.0:
         reach = max(c.radius for c in holes) + eye
         eyes = [Circle(LAYER, at, reach) for at in places]
         plate = Plate("carrier", LAYER, convex_hull(LAYER, eyes), tuple(holes), bottom, top)
         return FrameAndShafts(plate, tuple(outside_links(axles, bars, L)))
-    low, high = (
-        [pick(c.centre[k] + sense * c.radius for c in within) + 3.0 * sense * eye for k in (0, 1)]
-        for sense, pick in ((-1.0, min), (1.0, max))
-    )
-    corners = [(x, y) for x in (low[0], high[0]) for y in (low[1], high[1])]
-    outline = convex_hull(LAYER, [Circle(LAYER, corner, eye) for corner in corners])
-    holes += [Circle(HOLES, corner, rounded_radius(0.4 * eye)) for corner in corners]
-    return FrameAndShafts(
-        Plate(NAME, LAYER, outline, tuple(holes), bottom, top), tuple(outside_links(axles, bars, L))
-    )
-
-
-def _shafts(
-    mechanism: Mechanism,
-    outlines: Outlines | None,
-    bars: Links,
-    lowest: float,
-    first: Sequence[Member],
-) -> Iterator[Shaft]:
-    """Yield all shafts and pivots; ``lowest`` is the frame's lower face."""
-    stop, has_one = None, (False, False)
-    L = mechanism.center_distance_mm
-    if outlines:
-
-        def below(at: Point) -> list[Seat]:
-            """Return what a shaft carries below wheel or crank."""
-            here = (axis for axis in bars.axes if same(axis.at, at, L))
-            seats = [seat for axis in here for seat in carried(bars, axis, first, L)]
-            if mechanism.spec.gears and same(at, (L, 0.0), L):
-                seats.append(Seat("driven gear", *gear_span(mechanism, outlines)))
-            return seats
-
-        stop = crank_stop(outlines, bars)
-        has_one = crank_shaft_radius(outlines) > 0.0, wheel_shaft_radius(outlines) > 0.0
-        _, *others = mechanism.wheel_places
-        half = mechanism.engagements[0].half_step
-        for one in shafts(outlines, lowest, stop, below):
-            yield one
-            if same(one.at, (0.0, 0.0), L):
-                yield from (one._replace(at=it.at, turn=one.turn + it.turn - half) for it in others)
-    size, drawn = mechanism.spec.size, outlines.sizes if outlines else None
-    top = drawn_thicknesses(size, L, drawn).wheel
-    ends = Ends(lowest, top, stop, *has_one)
-    yield from link_shafts(mechanism, bars, ends, first)
-    yield from gear_shafts(mechanism, outlines, ends)
-
-
-def _in_bearing(shaft: Shaft, size: Size, lowest: float) -> bool:
-    """Return True for a turned shaft: it turns in the frame, whose lower face it reaches."""
-    return size.shafts == "turned" and shaft.turns and shaft.low <= lowest
-
-
-def _moving(mechanism: Mechanism, outlines: Outlines | None, bars: Links) -> Iterator[Seat]:
-    """Yield links and gears: their names, lower and upper faces."""
-    yield from map(_span, (*bars.cut, *bars.joined, *(gear.member for gear in bars.gears)))
-    if mechanism.spec.gears:
-        yield from (Seat(name, *gear_span(mechanism, outlines)) for name in NAMES)
-
-
-def _span(member: Member) -> Seat:
-    assert isinstance(member.part, Plate)
-    return Seat(member.part.name, member.part.low, member.part.high)
-
-
-def _is_passed(shaft: Shaft, moving: Iterable[Seat]) -> bool:
-    """Return True if parts on other axes are lower than what a shaft carries."""
-    low = shaft.seats[0].low if shaft.seats else shaft.high
-    own = {seat.part for seat in shaft.seats}
-    return any(one.low < low and one.part not in own for one in moving)
+    plate = mounted_plate(holes, within, eye, (bottom, top))
+    return FrameAndShafts(plate, tuple(outside_links(axles, bars, L)), tuple(spacers))
 
 
 def _drilled(
@@ -181,16 +121,11 @@ def _drilled(
     for at in places:
         here = [one.part for one in shafts_ if same(one.at, at, L)]
         for one in here:
-            if isinstance(one, Stack):
-                seat = next(step for step in one.plates if step.high == top)
-                bearing = next(b for b in SERIES_60 if b.bore == 2.0 * around(seat.outline))
-                yield Circle(HOLES, at, 0.5 * bearing.outside)
-            elif isinstance(one, Plate) and one.low < top:
-                wider = 0.5 * mechanism.spec.size.allowances.shaft_fit_mm
-                yield Circle(HOLES, at, around(one.outline) + wider)
+            if isinstance(one, Plate | Stack) and one.low < top:
+                yield shaft_hole(one, at, top, mechanism.spec.size.allowances.shaft_fit_mm)
         if not here:
             diameter = diameters.get(at[0], shaft.wheel_diameter_mm)
-            yield Circle(HOLES, at, bore_radius(L / 20.0) if diameter is None else 0.5 * diameter)
+            yield hole_without_shaft(diameter, at, L)
 
 
 def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
@@ -210,21 +145,50 @@ def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
             yield axis.at
 
 
-def _fixed(bars: Links) -> Iterator[Circle]:
-    """Yield the holes by which fixed parts, such as a guide or a gear, are screwed to the frame."""
+def _fixed(bars: Links) -> Iterator[Screwed]:
+    """Yield the screws of parts that are fixed to the frame, such as a guide or a gear."""
     for member in bars.cut:
         if isinstance(member.part, Plate) and member.part.name in bars.standing:
-            yield from placed_holes(member)
+            yield from (_screwed(hole, member.part) for hole in placed_holes(member))
     for gear in bars.gears:
         for hole in gear.bolts:
             (x, y), (u, v) = gear.at, hole.centre
-            yield Circle(HOLES, (x + u, y + v), hole.radius)
+            yield _screwed(Circle(HOLES, (x + u, y + v), hole.radius), gear.plate)
 
 
-def _mounted(base: Plate, L: float) -> Iterator[Circle]:
-    """Yield the holes that mount a plate about the crank's axis."""
+def _mounted(base: Plate, L: float) -> Iterator[Screwed]:
+    """Yield the screws of a plate about the crank's axis."""
     holes = placed_holes(Member(base, (L, 0.0)))
-    yield from (hole for hole in holes if not same(hole.centre, (L, 0.0), L))
+    yield from (_screwed(hole, base) for hole in holes if not same(hole.centre, (L, 0.0), L))
+
+
+def _screwed(hole: Circle, plate: Plate) -> Screwed:
+    return Screwed(hole, plate.name, plate.low)
+
+
+def _spacer(one: Screwed, top: float) -> Member:
+    """Return the ring about a screw, twice as wide, between the frame and the fixed part."""
+    r = one.hole.radius
+    outline, bore = Circle(LAYER, ORIGIN, 2.0 * r), Circle(HOLES, ORIGIN, r)
+    plate = Plate(f"spacer of the {one.part}", LAYER, outline, (bore,), top, one.low)
+    return Member(plate, one.hole.centre)
+
+
+def _require_walls(holes: list[Circle], least: float, axles: list[Member]) -> None:
+    """Raise GenevaError where the bearings of turned shafts leave less than the least wall."""
+    if not any(isinstance(one.part, Stack) for one in axles):
+        return
+    for one, other in combinations(holes, 2):
+        wall = apart(one, other)
+        if wall < least:
+            both = (hole.centre for hole in (one, other))
+            names = [next((a.part.name for a in axles if a.at == at), "a hole") for at in both]
+            raise GenevaError(
+                f'shafts = "turned": {" and ".join(names)} leave a wall of {wall:.4g} mm between '
+                f"their bearings in the frame, and wall_min_mm is {least:.4g}; smaller bores have "
+                "smaller bearings",
+                ("size", "shafts"),
+            )
 
 
 def _lowest(mechanism: Mechanism, parts: Outlines | None, bars: Links) -> float:

@@ -22,11 +22,10 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.parts.link_shafts import Ends
 from geneva_cli.parts.link_sizes import link_sizes
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.pair_teeth import ToothedCurve, pair_teeth, toothed_curve
-from geneva_cli.parts.shaft import Seat, Shaft, shaft_ends
+from geneva_cli.parts.shaft import Ends, Seat, Shaft, shaft_ends
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -8,10 +8,10 @@ without a bore is one piece with its shaft, which ends at the link's faces.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from typing import NamedTuple
+from collections.abc import Callable, Iterable, Iterator
 
 from geneva_cli.curves.plates import Member, Plate, Stack, between
+from geneva_cli.curves.shapes import Point
 from geneva_cli.kinematics.layout import Joint
 from geneva_cli.layout.bores import RoundBore
 from geneva_cli.layout.link_positions import same
@@ -19,33 +19,23 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.link_axes import LinkAxis
 from geneva_cli.parts.links import Links, placed_holes
-from geneva_cli.parts.shaft import Seat, Shaft, shaft_ends
-
-
-class Ends(NamedTuple):
-    """Ends of the shafts of wheel and crank, as far as links share them."""
-
-    lowest: float  # the frame's lower face
-    top: float  # the wheel's upper face
-    stop: float | None = None  # height at which the crank's shaft ends above that face
-    crank_has_one: bool = False  # the crank's shaft carries more than links: another function's
-    wheel_has_one: bool = False
+from geneva_cli.parts.shaft import Ends, Seat, Shaft, shaft_ends
 
 
 def link_shafts(
-    mechanism: Mechanism, bars: Links, ends: Ends, others: Iterable[Member] = ()
+    mechanism: Mechanism, bars: Links, ends: Ends, on: Callable[[Point], tuple[Seat, ...]]
 ) -> Iterator[Shaft]:
     """Yield the shafts and pivots that carry only links, at input angle 0.
 
-    ``others`` are plates that turn with a link: the locking disc on a first crank.
+    ``on`` returns the parts on the axis at a point.
     """
-    size, L, others = mechanism.spec.size, mechanism.center_distance_mm, list(others)
+    size, L = mechanism.spec.size, mechanism.center_distance_mm
     for axis in bars.axes:
         on_crank = same(axis.at, (L, 0.0), L)
         on_wheel = same(axis.at, (0.0, 0.0), L)
         if (on_crank and ends.crank_has_one) or (on_wheel and ends.wheel_has_one):
             continue
-        seats = carried(bars, axis, others, L)
+        seats = on(axis.at)
         low, high = seats[0].low, max(seat.high for seat in seats)
         bore = RoundBore(axis.radius)
         if axis.stands:
@@ -61,12 +51,11 @@ def link_shafts(
             yield Shaft(name, axis.names[0], bore, seats, low, high, axis.at, turns=False)
 
 
-def carried(bars: Links, axis: LinkAxis, others: Iterable[Member], L: float) -> tuple[Seat, ...]:
-    """Return the parts on an axis, with or without a bore, from the lowest up."""
-    return tuple(sorted(_carried(bars, axis, others, L), key=lambda seat: seat.low))
+def carried(bars: Links, axis: LinkAxis, others: Iterable[Member], L: float) -> Iterator[Seat]:
+    """Yield the links and gears on an axis, with or without a bore.
 
-
-def _carried(bars: Links, axis: LinkAxis, others: Iterable[Member], L: float) -> Iterator[Seat]:
+    ``others`` are plates that turn with a link: the locking disc on a first crank.
+    """
     for member in bars.cut:
         if isinstance(member.part, Plate) and member.part.name in axis.names:
             yield _seat(member.part)

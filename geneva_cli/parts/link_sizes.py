@@ -15,7 +15,9 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.layout.arm_sizes import HUB, eye_about, pin_hole
+from geneva_cli.layout.first_sizes import first_sizes
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, half_or, pin_radius, wall_min
+from geneva_cli.layout.sizes import sized
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.outlines.outlines import Outlines
@@ -33,10 +35,11 @@ class LinkSizes(NamedTuple):
 
     wall: float  # the least wall that `check` lets pass
     pin: float
-    roller_pin: float  # radius of its hole; 0 if the spec has no pin
+    roller_stands: float  # radius of a roller's pin; 0 if the spec has none
+    roller_pin: float  # radius of its hole
     eye: float  # radius of the plate around a pin
     roller_eye: float
-    shaft: float | None  # of the spec, for shafts that carry only links
+    shaft: float | None  # of the spec, or as a load needs it, for shafts that carry only links
     crank_shaft: float | None  # of the spec, or of the arm on it
     thickness: float
     arm: float  # thickness of arm or link in the first plane
@@ -90,7 +93,9 @@ def link_sizes(
     size, links = spec.size, [link for link in links if not link.radius_mm]
     drawn = parts.sizes if parts else None
     wall, thick = wall_min(size, L), drawn_thicknesses(size, L, drawn)
-    stands = pin_radius(size, mechanism.roller_radius_mm, drawn)
+    first = first_sizes(mechanism, sized) if drawn else None
+    stands = first.pin if first else pin_radius(size, mechanism.roller_radius_mm, drawn)
+    own = None if size.link_bore_mm is None else 0.5 * size.link_bore_mm
     roller = pin_hole(size, stands) if stands else 0.0
     nearest = min((distance for link in links for distance in _pin_distances(link)), default=L)
     # a fifth of the distance to the next joint leaves eyes and a gap between
@@ -116,10 +121,11 @@ def link_sizes(
     return LinkSizes(
         wall=wall,
         pin=pin,
+        roller_stands=stands,
         roller_pin=roller,
         eye=eye,
         roller_eye=eye_about(roller, wall, limit) if roller else eye,
-        shaft=None if size.link_bore_mm is None else 0.5 * size.link_bore_mm,
+        shaft=first.shaft if first else own,
         crank_shaft=_crank_shaft(mechanism, parts),
         thickness=thick.link,
         arm=arm,

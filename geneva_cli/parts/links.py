@@ -22,7 +22,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.layout.gear_mesh import GearMesh, gear_mesh
 from geneva_cli.layout.link_positions import links_at, same
-from geneva_cli.layout.plain_sizes import pin_radius
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -105,10 +104,10 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
     ]
     _refuse_unused(mechanism, turning, sizes, parts)
     cut = [member for bar in unbored for member in _members(bar, turning, sizes, L)]
-    r, drawn = mechanism.roller_radius_mm, parts.sizes if parts else None
+    r = mechanism.roller_radius_mm
     between = [
         *pins(bars, sizes, SAME_LENGTH * L),
-        *rollers(bars, sizes, r, pin_radius(mechanism.spec.size, r, drawn)),
+        *rollers(bars, sizes, r, sizes.roller_stands),
     ]
     mesh, gears = _gears([link for link in links if link.radius_mm], turning, sizes, mechanism)
     kinds = {kind for link in bars if link.plane == 1 for kind in link.kinds}

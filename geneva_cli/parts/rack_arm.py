@@ -11,14 +11,15 @@ import math
 from geneva_cli.curves.hole_walls import least_wall
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate
-from geneva_cli.curves.shapes import Circle, Contour, Shape
+from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import arm_bore, hub_and_eye, lock_bolt_directions, pin_hole
 from geneva_cli.layout.bolt_holes import bolt_radius
 from geneva_cli.layout.bores import bore_of
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, half_or, pin_radius, wall_min
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.outlines.rack import RackSizes, locking_sector, rack_sizes
+from geneva_cli.outlines.rack import locking_sector, rack_sizes
+from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.plates import roller_plates
 
 
@@ -28,8 +29,8 @@ def rack_arm(mechanism: Mechanism) -> Plate:
     Raises GenevaError, naming the key, where the sizes leave no arm around its holes.
     """
     size, sizes = mechanism.spec.size, rack_sizes(mechanism)
-    thick = drawn_thicknesses(size, sizes.arm)
-    outline, holes = _hull_and_holes(mechanism, sizes)
+    thick, arm = drawn_thicknesses(size, sizes.arm), crank_arm(mechanism)
+    outline, holes = arm.outline, (arm.bore, *arm.pins, *arm.bolts)
     least, needed = least_wall(holes, [outline]), wall_min(size, sizes.arm)
     if least < needed:
         raise GenevaError(
@@ -39,19 +40,27 @@ def rack_arm(mechanism: Mechanism) -> Plate:
             ("size", "arm_bore_mm"),
         )
     high = -size.allowances.pin_gap_mm
-    return Plate("arm", "ARM", outline, tuple(holes), high - thick.arm, high)
+    return Plate("arm", "ARM", outline, holes, high - thick.arm, high)
 
 
-def _hull_and_holes(mechanism: Mechanism, sizes: RackSizes) -> tuple[Contour, list[Shape]]:
-    """Return the outline about hub and eye, and the holes of shaft, pin and bolts."""
-    size, R = mechanism.spec.size, sizes.arm
-    hole = pin_hole(size, pin_radius(size, sizes.roller))
-    bore = arm_bore(mechanism.spec, 0.0, 2.0 * R, R - hole)  # as if R were L/2, as for 6 slots
+def crank_arm(mechanism: Mechanism) -> CrankArm:
+    """Return the arm: its outline about hub and eye, and the holes of shaft, pin and bolts."""
+    size, sizes = mechanism.spec.size, rack_sizes(mechanism)
+    R = sizes.arm
+    hole, bore = pin_hole(size, pin_radius(size, sizes.roller)), rack_bore(mechanism)
     form = bore_of(size, "crank", bore)
     hub, eye = hub_and_eye(size, wall_min(size, R), hole, bore, math.inf, sizes.lock)
     outline = convex_hull("ARM", [Circle("ARM", (0.0, 0.0), hub), Circle("ARM", (R, 0.0), eye)])
-    holes: list[Shape] = [form.shape("BORE", math.pi), Circle("BORE", (R, 0.0), hole)]
-    return outline, [*holes, *lock_bolts(mechanism)]
+    pins, bored = [Circle("BORE", (R, 0.0), hole)], form.shape("BORE", math.pi)
+    return CrankArm(outline, bored, pins, lock_bolts(mechanism), hub, eye, math.inf)
+
+
+def rack_bore(mechanism: Mechanism) -> float:
+    """Return the radius of the arm's bore, in which the crank's shaft ends."""
+    size, sizes = mechanism.spec.size, rack_sizes(mechanism)
+    hole = pin_hole(size, pin_radius(size, sizes.roller))
+    # as if R were L/2, as for 6 slots
+    return arm_bore(mechanism.spec, 0.0, 2.0 * sizes.arm, sizes.arm - hole)
 
 
 def lock_bolts(mechanism: Mechanism) -> list[Circle]:

@@ -39,7 +39,8 @@ class Shaft(NamedTuple):
     @property
     def bore_key(self) -> str:
         """The key of ``[size]`` that sets the bore."""
-        return f"{self.part}_bore_mm" if self.part in ("wheel", "crank") else "link_bore_mm"
+        own = f"{self.part}_bore_mm"
+        return own if hasattr(Size, own) else "link_bore_mm"
 
     def plain(self, size: Size) -> Member:
         """Return the shaft with one section all along: that of its bore, less the fit.
@@ -57,6 +58,16 @@ class Shaft(NamedTuple):
             )
         section = fitted(size, self.bore).section(SHAFT, self.direction)
         return Member(Plate(self.name, SHAFT, section, (), self.low, self.high), self.at, self.turn)
+
+
+class Ends(NamedTuple):
+    """Ends of the shafts of wheel and crank, as far as links share them."""
+
+    lowest: float  # the frame's lower face
+    top: float  # the wheel's upper face
+    stop: float | None = None  # height at which the crank's shaft ends above that face
+    crank_has_one: bool = False  # the crank's shaft carries more than links: another function's
+    wheel_has_one: bool = False
 
 
 def shaft_ends(size: Size, part: str, low: float, high: float) -> tuple[float, float]:

@@ -67,8 +67,8 @@ def _crank_hub(parts: Outlines) -> Plate | None:
 def shafts(
     parts: Outlines,
     lowest: float,
-    stop: float | None = None,
-    carried: Callable[[Point], list[Seat]] = lambda at: [],
+    stop: float | None,
+    carried: Callable[[Point], tuple[Seat, ...]],
 ) -> Iterator[Shaft]:
     """Yield the shafts of wheel and crank.
 

@@ -35,11 +35,18 @@ def bearing_of(shaft: Shaft) -> Bearing:
     return bearing_up_to(2.0 * shaft.bore.radius, shaft.name, shaft.bore_key)
 
 
-def turned_shaft(size: Size, shaft: Shaft, frame: float, collar: float | None) -> Member:
+def shoulder_mm(shaft: Shaft) -> float:
+    """Return the diameter of a shoulder: wider than bearing and bore by a quarter, or by 2 mm."""
+    wide = max(bearing_of(shaft).shoulder, 2.5 * shaft.bore.around)
+    # rounded up to half a millimetre; the last term drops rounding errors
+    return 0.5 * math.ceil(2.0 * wide - 1e-9)
+
+
+def turned_shaft(size: Size, shaft: Shaft, frame: float, free: float | None = None) -> Member:
     """Return a shaft with its steps.
 
-    ``frame`` is the frame's upper face, and ``collar`` the length of a shoulder below which nothing
-    passes; None where the shoulder reaches the lowest part. Raises GenevaError, naming the key, for
+    ``frame`` is the frame's upper face. Other parts pass above ``free``, where the shoulder ends;
+    otherwise it reaches the lowest part. Raises GenevaError, naming the key, for
     a shaft that is too thin for a bearing, and for ends that leave no space for the circlips.
     """
     bearing, own = bearing_of(shaft), fitted(size, shaft.bore)
@@ -53,7 +60,7 @@ def turned_shaft(size: Size, shaft: Shaft, frame: float, collar: float | None) -
         Step("end", _circle(ring.shaft), groove),
         Step("circlip groove, DIN 471", _circle(ring.groove), under),
         Step(f"seat of bearing {bearing.name}", _circle(bearing.bore), frame),
-        *_above(shaft, own, bearing, frame, collar),
+        *_above(shaft, own, free),
     ]
     *others, last = steps
     high = _end(high_key, values.get(high_key), last.high, 1.0)
@@ -66,17 +73,13 @@ def turned_shaft(size: Size, shaft: Shaft, frame: float, collar: float | None) -
     return Member(Stack(shaft.name, SHAFT, tuple(plates)), shaft.at, shaft.turn)
 
 
-def _above(
-    shaft: Shaft, own: Bore, bearing: Bearing, frame: float, collar: float | None
-) -> Iterator[Step]:
+def _above(shaft: Shaft, own: Bore, free: float | None) -> Iterator[Step]:
     """Yield the steps from the frame's upper face up."""
-    # rounded up to half a millimetre; the last term drops rounding errors
-    wide = 0.5 * math.ceil(2.0 * max(bearing.shoulder, 2.5 * shaft.bore.around) - 1e-9)
     section = own.section(SHAFT, shaft.direction)
     below = rounded(section) if own.is_round else _circle(2.0 * own.radius)
     first = shaft.seats[0].low if shaft.seats else shaft.high
-    top = first if collar is None else min(first, frame + collar)
-    yield Step("shoulder", _circle(wide), top)
+    top = first if free is None else min(first, free)
+    yield Step("shoulder", _circle(shoulder_mm(shaft)), top)
     if top < first:
         yield Step("shaft", below, first)
     for seat, after in pairwise(shaft.seats):

@@ -6,7 +6,7 @@ other keys. The annotations are objects, since evaluating text on import would t
 
 from collections.abc import Callable
 from functools import cached_property
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Self
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.spec.default_sizes import Thicknesses, unrounded, value_or
@@ -242,13 +242,15 @@ class Size(SpecTable):
         float | None, POSITIVE, "diameter of the pins between links; default up to L/20"
     ] = None
     link_bore_mm: Annotated[
-        float | None, POSITIVE, "diameter of shafts that carry links only; default up to L/10"
+        float | None,
+        POSITIVE,
+        "diameter of shafts that carry links only; default up to L/10, or by load",
     ] = None
     link_width_mm: Annotated[
         float | None, POSITIVE, "width of the links round their pins; default 2 pin diameters"
     ] = None
     link_thickness_mm: Annotated[
-        float | None, POSITIVE, "thickness of the links; default: the crank arm's"
+        float | None, POSITIVE, "thickness of the links; default: the crank arm's, or by load"
     ] = None
     washer_mm: Annotated[float, NOT_NEGATIVE, "thickness of washers between stacked links"] = 0.0
     edge_chamfer_mm: Annotated[float | None, POSITIVE, "chamfer of all edges, at 45 degrees"] = None
@@ -368,6 +370,11 @@ class Mass(SpecTable):
     thickness_mm: Annotated[float | None, POSITIVE, "thickness; required with a density"] = None
     count: Annotated[int, Range(1, 1000), "number of equal bodies"] = 1
     radius_mm: Annotated[float, NOT_NEGATIVE, "distance from the wheel's axis to the body's"] = 0.0
+    angle_deg: Annotated[
+        float,
+        Range(-360.0, 360.0),
+        "carousel: direction of a single body from the first slot, positive as the wheel turns",
+    ] = 0.0
     name: Annotated[str, None, "name of the body"] = ""
 
     # sizes of each shape, from which its mass or inertia follows
@@ -399,6 +406,15 @@ class Mass(SpecTable):
                 f"bore_mm = {self.bore_mm:g} must be below diameter_mm = {self.diameter_mm:g}",
                 (self.TABLE, "bore_mm"),
             )
+
+    @property
+    def backwards(self) -> Self:
+        """The body on a wheel that turns the other way, as seen from its other side.
+
+        >>> Mass("point", mass_kg=1.0, radius_mm=50.0, angle_deg=30.0).backwards.angle_deg
+        -30.0
+        """
+        return self.replace(angle_deg=0.0 - self.angle_deg)
 
     def _refuse_weight(self) -> None:
         """Raise GenevaError unless exactly one of mass and density is set, with its sizes."""

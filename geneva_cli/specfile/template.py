@@ -103,7 +103,7 @@ def template(kind: str, schema: bool = True, whole: bool = True) -> str:
     gearing = registry.gearing(str(own["wheel"].get("gearing", External.NAME)))
     # any law may be set: a template shows the keys of all
     law_keys = [key for name in registry.LAWS for key in fields(registry.law(name))]
-    before = registry.drive(own[BEFORE]["kind"]) if BEFORE in own else None
+    before = registry.drive(str(own[BEFORE]["kind"])) if BEFORE in own else None
     keys = keys_of(gearing, drive, law_keys, before)
     for name, table in keys.items():
         values = own.get(name, {})

@@ -9,7 +9,6 @@ from functools import partial
 from typing import NamedTuple, TypeVar
 
 from geneva_cli.design import CURVES, Design
-from geneva_cli.drawings.catalogue import require_drawn
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.drawings.single_parts import SinglePart, single_parts
 from geneva_cli.errors import GenevaError, cut
@@ -76,18 +75,17 @@ def export_files(
     >>> [file.name for file in files][:3]
     ['wheel-1x-10mm.dxf', 'locking-disc-1x-10mm.dxf', 'arm-1x-10mm.dxf']
     """
-    require_drawn(design.mechanism, "sheet")
-    flat = design.spec.wheel.FLAT
+    shells = design.spec.wheel.SHELLS
     files: list[ExportFile] = []
     missing: list[Missing] = []
     for format in trade.single:
         curves = CURVES[usual_curves("", format)]
         fine = of_curves(usual_tolerance("", format), "", format)
         parts, missing = single_parts(model, fine, curves)
-        if format == "dxf" and not flat:
+        if format == "dxf" and shells:
             files += _laid_flat(design, model, fine)
         files += _single(parts, format)
-    names = [name for name in trade.whole if flat or not name.startswith("plate.")]
+    names = [name for name in trade.whole if not (shells and name.startswith("plate."))]
     files += [ExportFile(name, CONTENTS[name], _writer(design, model, name)) for name in names]
     files.append(
         ExportFile("parts.csv", "list of parts", partial(show, design.part_table("parts")))

@@ -53,13 +53,17 @@ class Pick(NamedTuple):
         """The quantities that are computed for each design alone."""
         return pick([name for name in self.names if not in_batch([name])])
 
-    def of(self, mechanism: Mechanism, known: Sequence[Cell] | None = None) -> list[Cell]:
-        """The values of the quantities for a machine; None if one does not apply.
+    def of(self, mechanism: Mechanism) -> list[Cell]:
+        """The values of the quantities for a machine; None if one does not apply."""
+        return self.of_model(PartsModel(mechanism))
+
+    def of_model(self, model: PartsModel, known: Sequence[Cell] | None = None) -> list[Cell]:
+        """The values of the quantities for a machine's model; None if one does not apply.
 
         ``known`` are those of ``batched``, if a batch has computed them.
         """
         groups = self.groups if known is None else self.rest.groups
-        cells = values(PartsModel(mechanism), groups)
+        cells = values(model, groups)
         cells |= zip(self.batched, known or (), strict=False)
         return [cells.get(name) for name in self.names]
 

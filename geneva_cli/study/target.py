@@ -18,13 +18,14 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.law_motion import MOTION_MIN
-from geneva_cli.kinematics.wheels.gearing import Gearing
+from geneva_cli.kinematics.wheels.gearing import Gearing, Output
 from geneva_cli.machine.spec import Spec
+from geneva_cli.spec.tables import DISTANCE_MM
 from geneva_cli.study.goals import Objective
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.sweep.constraints import Constraint
 
-GEARINGS = ("external", "internal", "spherical")
+GEARINGS = ("external", "internal", "spherical")  # wheels; racks are searched alone
 USUAL_RPM = 60.0
 PEAK = "acceleration.max"
 SPACE = 3.0  # centre distances that a linkage may take by default
@@ -50,6 +51,8 @@ class Target(NamedTuple):
     space: float = SPACE  # of a linkage: its joints' distance from the crank's axis, over L
     bounded: frozenset[str] = frozenset()  # names of the ranges that bounds have narrowed
     strict: bool = False  # whether its bounds include the frame's limits, which many families break
+    # numbers of wheels on a carrier; without any, cranks on the ground are sought
+    wheels: tuple[int, ...] = ()
 
     @property
     def timed(self) -> bool:
@@ -58,8 +61,25 @@ class Target(NamedTuple):
 
     @property
     def peak(self) -> str:
-        """The name of the peak acceleration, the default goal; in rad/s² if times are required."""
-        return "acceleration.max_rad_s2" if self.timed else PEAK
+        """The name of the peak acceleration, the default goal; per s² if times are required."""
+        per_s2 = f"{PEAK}_{self.output.rate_unit}_s2"
+        return per_s2 if self.timed else PEAK
+
+    @property
+    def output(self) -> Output:
+        """What the machines give out: an angle or a travel."""
+        return self.wheel(self.gearings[0], self.z[0]).output(1.0)
+
+    def center_distance_mm(self, own: float | None) -> float | None:
+        """The centre distance for the required step of a rack, two crank radii.
+
+        Of a range of steps it is the shortest, with the lowest peaks; of one without a lower end it
+        is the nearest to ``own``, that of the frame, which is None for the default.
+        """
+        if "index_mm" not in self.spans:
+            return own
+        low, high = self.spans["index_mm"]
+        return 0.5 * (low if low > 0.0 else min(2.0 * (own or DISTANCE_MM), high))
 
     def wheel(self, gearing: str, z: int) -> Gearing:
         """A wheel of a gearing and a number of slots, with a stop if the frame's has one."""

@@ -24,6 +24,7 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.rounding import to_digits
 from geneva_cli.outlines.outlines import CONTACT
+from geneva_cli.outlines.rack import rack_sizes
 from geneva_cli.spec.tables import Size
 from geneva_cli.synthesis.parts_data import PartsData, gap_at_rest, parts_data
 from geneva_cli.verdict.checks.undercut import undercut_depth
@@ -81,8 +82,10 @@ def parts(mechanism: Mechanism) -> Parts:
     If the spec gives its roller, only that one is tested.
     """
     spec = mechanism.spec
-    if not spec.has_parts:
+    if not spec.is_turned:
         return Parts(spec, None)
+    if not spec.output.turns:
+        return Parts(spec, _suiting_rack(mechanism))
     if not spec.is_flat:
         r, why = _suiting_sphere(mechanism)
         return Parts(spec if r is None else with_roller(spec, r), why)
@@ -93,6 +96,15 @@ def parts(mechanism: Mechanism) -> Parts:
     else:
         r, why = _suiting_plane(assembly(mechanism), at, m)
     return Parts(spec if r is None else with_roller(spec, r), why)
+
+
+def _suiting_rack(mechanism: Mechanism) -> str:
+    """The obstacle to a rack and its crank with the roller of the spec, or the usual one."""
+    try:
+        rack_sizes(mechanism)
+    except GenevaError:
+        return SIZES
+    return ""
 
 
 @lru_cache(maxsize=1024)

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.registry import STANDARD_LAWS as LAWS
+from geneva_cli.machine.drives.carousel import Carousel
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.ranges import range_text
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
@@ -27,6 +28,7 @@ SPANS = {
     "motion_s": (POSITIVE, "a motion of", " s"),
     "dwell_s": (POSITIVE, "a dwell of", " s"),
     "cycle": (Range(1e-6, 1e6), "a cycle of", " s"),
+    "index_mm": (POSITIVE, "a step of", " mm"),
 }
 
 
@@ -38,10 +40,13 @@ def read_target(
     motion_s: str = "",
     dwell_s: str = "",
     cycle: str = "",
+    index_mm: str = "",
     z: str = "",
     internal: bool = False,
     external: bool = False,
     spherical: bool = False,
+    linear: bool = False,
+    carousel: str = "",
     rollers: int | None = None,
     law: str = "modified-sine",
     frame: Spec | None = None,
@@ -61,6 +66,7 @@ def read_target(
         "motion_s": motion_s,
         "dwell_s": dwell_s,
         "cycle": cycle,
+        "index_mm": index_mm,
     }
     spans = {
         name: span(f"--{name.replace('_', '-')}", text, SPANS[name][0])
@@ -70,26 +76,30 @@ def read_target(
     if not (spans or subject_to or frame):
         raise GenevaError(
             "no requirement; give one or more of --tau, --motion-deg, --dwell-deg, --motion-s, "
-            "--dwell-s, --cycle and --subject-to"
+            "--dwell-s, --cycle, --index-mm and --subject-to"
         )
-    if frame and frame.drive.wheels_on_carrier:
+    if frame and frame.drive_before:
         raise GenevaError(
-            f'--from: kind = "{frame.drive.NAME}" has wheels on a carrier, and synth tries cranks '
-            "on the ground: leave the kind out, and set it in the result"
+            "--from: [drive.before] has no meaning here, since synth chooses the drive: remove it"
         )
     phrases = [spans[name].words(*SPANS[name][1:]) for name in spans]
     phrases = [w if w[:2] == "a " else " = ".join(w.split(" ", 1)) for w in phrases]
     bounds = tuple(constraint(text) for text in subject_to)
     refuse_contradictions(bounds)
     phrases += [str(bound) for bound in bounds]
-    peaks = [bound for bound in bounds if _is_peak(bound)]
-    words = ", ".join(phrases) or "the spec alone"
     chosen = dict(zip(GEARINGS, (external, internal, spherical), strict=True))
+    requested = tuple(g for g, is_chosen in chosen.items() if is_chosen)
+    wheels = _wheels(carousel, frame)
+    gearings = _gearings(requested, linear or bool(index_mm), wheels, frame)
+    racks = not registry.gearing(gearings[0])(3).output(1.0).turns
+    # families keep a limit on the peak in closed form, but not those of racks and carriers
+    peaks = [bound for bound in bounds if _is_peak(bound) and not (racks or wheels)]
+    words = ", ".join(phrases) or "the spec alone"
     target = Target(
         words if words.startswith(("tau", "k ")) else words[:1].upper() + words[1:],
-        _slots(z, frame),
-        _gearings(tuple(g for g, is_chosen in chosen.items() if is_chosen), frame),
-        _rollers(rollers, frame),
+        _slots(z or ("6" if racks and frame is None else ""), frame),
+        gearings,
+        _rollers(rollers, racks, frame),
         _laws(law),
         spans,
         min((bound.bound for bound in peaks), default=None),
@@ -97,18 +107,50 @@ def read_target(
         objective(sort, "--sort") if sort else None,
         tuple(bound for bound in bounds if bound not in peaks),
         number("--space", space, Range(0.1, 100.0)) if space else SPACE,
+        wheels=wheels,
     )
     target.refuse_contradictions()
     return target
 
 
-def _gearings(chosen: tuple[str, ...], frame: Spec | None) -> tuple[str, ...]:
-    """The gearings to try; with a frame that has a stop those that may have one."""
-    if frame is not None and not frame.output.turns:
+def _wheels(carousel: str, frame: Spec | None) -> tuple[int, ...]:
+    """The numbers of wheels on a carrier; none for cranks on the ground."""
+    own = frame.drive.wheels_on_carrier if frame else 0
+    if not carousel:
+        return (own,) if own else ()
+    if frame and not own:
         raise GenevaError(
-            "--from: the spec has a rack, and only wheels are searched: its step is twice "
-            "center_distance_mm, and a side-crank or gears change its motion of 180 deg"
+            f'--carousel: the spec has kind = "{frame.drive.NAME}": set kind = "carousel" in it'
         )
+    low, dots, high = carousel.partition("..")
+    least = number("--carousel", low, Range(1, 24))
+    most = number("--carousel", high, Range(1, 24)) if dots else least
+    if least != int(least) or most != int(most) or most < least:
+        raise GenevaError(f"--carousel {cut(carousel)}: write a number of wheels, or LOW..HIGH")
+    return tuple(range(int(least), int(most) + 1))
+
+
+def _gearings(
+    chosen: tuple[str, ...], linear: bool, wheels: tuple[int, ...], frame: Spec | None
+) -> tuple[str, ...]:
+    """The gearings to try: racks alone, or wheels.
+
+    On a carrier they are external or internal, and with a frame that has a stop those that may have
+    one.
+    """
+    if linear or (frame is not None and not frame.output.turns):
+        if chosen or wheels:
+            other = f"--{chosen[0]}" if chosen else "--carousel"
+            raise GenevaError(f"{other}: racks are searched alone: leave it out, or the rack")
+        if frame is not None and frame.output.turns:
+            raise GenevaError("--from: the spec has a wheel, and a rack is sought: leave one out")
+        return ("linear",)
+    if wheels:
+        able = Carousel.GEARINGS
+        wrong = next((name for name in chosen if name not in able), None)
+        if wrong:
+            raise GenevaError(f"--{wrong}: a carrier has {' or '.join(able)} wheels")
+        return chosen or able
     if frame is None or not frame.wheel.stopped:
         return chosen or GEARINGS
     stopped = tuple(
@@ -121,8 +163,13 @@ def _gearings(chosen: tuple[str, ...], frame: Spec | None) -> tuple[str, ...]:
     return stopped
 
 
-def _rollers(rollers: int | None, frame: Spec | None) -> int | None:
+def _rollers(rollers: int | None, racks: bool, frame: Spec | None) -> int | None:
     """The number of rollers: None for any, 1 for a frame that has a stop."""
+    if racks and rollers not in (None, 1):
+        raise GenevaError(
+            f"--rollers {cut(rollers)}: a rack moves for half a turn, so that a second roller "
+            "would leave no dwell: leave it out"
+        )
     if rollers is not None and not 1 <= rollers <= Z_MAX:
         raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {Z_MAX}")
     if frame is None or not frame.wheel.stopped:

@@ -71,6 +71,9 @@ class Candidate(NamedTuple):
     entry_deg: float | None
     sector_deg: float | None
     first_z: int | None
+    index_mm: float | None  # of a rack
+    acceleration_max_m_s2: float | None
+    wheels: int | None  # on a carrier
 
     @property
     def is_driven(self) -> bool:
@@ -79,9 +82,9 @@ class Candidate(NamedTuple):
 
     @property
     def peak(self) -> float:
-        """The greatest acceleration, in rad/s² if the speed is required."""
-        rate = self.acceleration_max_rad_s2
-        return self.acceleration_max if rate is None else rate
+        """The greatest acceleration, in rad/s² or m/s² if the speed is required."""
+        rates = self.acceleration_max_rad_s2, self.acceleration_max_m_s2, self.acceleration_max
+        return next(rate for rate in rates if rate is not None)
 
     @property
     def of_two_numbers(self) -> bool:
@@ -207,6 +210,8 @@ def _candidate(
     own = spec.wheel.as_dict() | spec.drive.as_dict()
     n = spec.drive.n_rpm if target.timed else None
     velocity, acceleration, entry, jerk, power = costs
+    output = machine.output
+    rate = acceleration * omega(n) ** 2 * output.rate_per_radian if n else None
     return Candidate(
         z=spec.wheel.z,
         gearing=spec.wheel.NAME,
@@ -229,7 +234,7 @@ def _candidate(
         jerk_max=jerk,
         power_max=power,
         n_rpm=n,
-        acceleration_max_rad_s2=acceleration * omega(n) ** 2 if n else None,
+        acceleration_max_rad_s2=rate if output.turns else None,
         parts=parts,
         offset_mm=own.get("offset_mm") or None,
         planet_ratio=own.get("planet_ratio"),
@@ -245,4 +250,7 @@ def _candidate(
         entry_deg=own.get("entry_deg"),
         sector_deg=own.get("sector_deg"),
         first_z=own.get("first_z"),
+        index_mm=time.index_mm,
+        acceleration_max_m_s2=None if output.turns else rate,
+        wheels=own.get("wheels"),
     )

@@ -323,6 +323,17 @@ def _out_of_reach(target: Target, reached: list[float], errors: list[str]) -> st
             f"turns the crank once in {TURNS[0]} to {TURNS[-1]} turns: none of these rests so long"
         )
     first = f"; the first says: {errors[0]}" if errors else ""
+    if target.wheels:
+        return (
+            f"{target.words}: out of reach on a carrier: its wheels have straight radial slots, "
+            "whose motion follows from their number; several wheels take one finger, and must "
+            f"not meet in time{first}"
+        )
+    if not target.output.turns:
+        return (
+            f"{target.words}: out of reach of a rack: no drive goes beyond A or eccentricity "
+            f"{closed.PARAMETER_MAX}{first}"
+        )
     return (
         f"{target.words}: out of reach with {'one roller' if m == 1 else f'{m} rollers'}: curved "
         "slots turn an internal wheel at most half as fast as the crank"

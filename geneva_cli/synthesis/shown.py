@@ -23,6 +23,8 @@ HEADS = {
     "motion_deg": "motion_deg",
     "dwell_s": "dwell_s",
     "acceleration_max_rad_s2": "accel_rad/s2",
+    "acceleration_max_m_s2": "accel_m/s2",
+    "index_mm": "index_mm",
     "acceleration_entry": "accel_entry",
     "velocity_max": "velocity_max",
     "jerk_max": "jerk_max",
@@ -34,15 +36,25 @@ HEADS = {
     "ratio": "ratio",
 }
 ORDER = (
-    *("no", "z", "gearing", "rollers", "machine", "ratio", "motion_deg", "dwell_deg", "motion_s"),
-    *("dwell_s", "tau", "k", "n_rpm", "velocity_max", "acceleration_max", "acceleration_entry"),
-    *("jerk_max", "power_max", "acceleration_max_rad_s2", "extra", "parts"),
+    *("no", "z", "gearing", "rollers", "machine", "ratio", "index_mm", "motion_deg", "dwell_deg"),
+    *(
+        "motion_s",
+        "dwell_s",
+        "tau",
+        "k",
+        "n_rpm",
+        "velocity_max",
+        "acceleration_max",
+        "acceleration_entry",
+    ),
+    *("jerk_max", "power_max", "acceleration_max_rad_s2", "acceleration_max_m_s2", "extra"),
+    "parts",
 )
 DESCRIBED = (  # columns that the machine's description replaces
     *("drive", "A", "eccentricity", "phase", "axes_deg", "alpha0_deg", "law"),
     *("offset_mm", "planet_ratio", "fixed"),
     *("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg"),
-    *("sector_deg", "first_z"),
+    *("sector_deg", "first_z", "wheels"),
 )
 
 
@@ -134,6 +146,7 @@ def _machine(row: dict[str, Any], several: bool) -> str:
         f"offset {_number(row['offset_mm'])} mm" if row["offset_mm"] else "",
         f"D {_number(row['sector_deg'])}" if row["sector_deg"] else "",
         f"first z {row['first_z']}" if row["first_z"] else "",
+        f"{row['wheels']} wheels" if (row["wheels"] or 1) > 1 else "",
         _links(row) if row["ground_mm"] else "",
     ]
     return " ".join([row["drive"], *filter(None, own)])
@@ -158,9 +171,10 @@ def _fitting(columns: list[SynthesisColumn]) -> list[SynthesisColumn]:
 def _ranks(columns: list[SynthesisColumn]) -> dict[str, int]:
     """The rank of each column in importance."""
     rank = {source: i for i, source in enumerate(HEADS)}
-    peak, rate = "acceleration_max", "acceleration_max_rad_s2"
-    if rate in {c.source for c in columns}:  # rows are sorted by it
-        rank[peak], rank[rate] = rank[rate], rank[peak]
+    peak = "acceleration_max"
+    for rate in ("acceleration_max_rad_s2", "acceleration_max_m_s2"):
+        if rate in {c.source for c in columns}:  # rows are sorted by it
+            rank[peak], rank[rate] = rank[rate], rank[peak]
     return rank
 
 

@@ -179,6 +179,8 @@ class _Turn:
         """The checks at rest that fail, for a machine with the same positions."""
         if isinstance(self._parts, Failure):
             return [self._parts]
+        if not machine.spec.has_parts:
+            return []
         return _failures(standing_checks(self._model.over(machine).built))
 
     def every(self) -> list[Failure]:
@@ -199,7 +201,7 @@ class _Turn:
         The latter are tried at the places where they failed, if the turn is not sampled yet.
         """
         parts = self._parts
-        if self._begun or isinstance(parts, Failure):
+        if self._begun or isinstance(parts, Failure) or not machine.spec.has_parts:
             return []
         built, among = self._model.over(machine).built, standing(machine)
         at_rest = (check_named(among, one.name, built) for one in known)

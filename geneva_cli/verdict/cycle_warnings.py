@@ -44,7 +44,10 @@ def _back_driven(cycle: Cycle, loads: Mapping[str, QuantitySummary]) -> list[Not
     driven = back_driven_deg(cycle)
     if not driven:
         return []
-    where = ", ".join(f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in driven)
+    each = [f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in driven]
+    more = len(each) - 6  # a line or two; a carousel may have many
+    where = ", ".join(each if more <= 0 else each[:6])
+    rest = f" and in {more} other intervals" if more > 0 else ""
     helps = f"or add a drag to the {noun} (with {resistance(cycle)} in all, the input always "
     helps += "drives)"
     if arrival(cycle.mechanism):
@@ -54,8 +57,8 @@ def _back_driven(cycle: Cycle, loads: Mapping[str, QuantitySummary]) -> list[Not
     return [
         Notice(
             "drives-the-motor",
-            f"the {noun} drives the motor from {where} deg, with up to {-least:.4g} N m on the "
-            "input. There the play of slot and reducer changes sides, and a self-locking worm "
+            f"the {noun} drives the motor from {where} deg{rest}, with up to {-least:.4g} N m on "
+            "the input. There the play of slot and reducer changes sides, and a self-locking worm "
             f"jams: use a brake or a motor that brakes, {helps}",
         )
     ]

@@ -9,6 +9,7 @@ from geneva_cli.analysis.peaks import worst
 from geneva_cli.errors import Notice
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.machine.spec import BEFORE
 
 
 def direction_warnings(mechanism: Mechanism) -> Iterator[Notice]:
@@ -53,7 +54,7 @@ def _is_tuned(mechanism: Mechanism) -> bool:
 
 def _reasons(forwards: Mechanism, backwards: Mechanism) -> Iterator[str]:
     """Keys that have other values in the mirror, and the law if its halves differ."""
-    for table in ("wheel", "drive"):
+    for table in ("wheel", "drive", BEFORE):
         mirrored = backwards.spec.table(table)
         for key, value in forwards.spec.table(table).items():
             if value != mirrored[key] and key != "entry_deg":  # it follows from the others

@@ -19,7 +19,6 @@ def failures(rows: list[Check], model: PartsModel) -> tuple[str, list[str]]:
 
     The first text is empty if the parts can be written.
     """
-    turn = None
     refused, warned, advice = [], [], ""
     for c in rows:
         if c.passes is not False:
@@ -37,8 +36,7 @@ def failures(rows: list[Check], model: PartsModel) -> tuple[str, list[str]]:
             and c.name.endswith("_mm")
             and (c.value or 0.0) < 0.0
         ):
-            turn = turn or model.turn
-            refused.append(in_words(c, turn.smallest.parts))
+            refused.append(in_words(c, model.turn.smallest.parts if c.name == "gap_mm" else ""))
             advice = advice or c.nearest
         else:
             more = f"{c.nearest} would pass" if c.nearest else c.why
@@ -48,20 +46,20 @@ def failures(rows: list[Check], model: PartsModel) -> tuple[str, list[str]]:
     ]
 
 
-def in_words(c: Check, parts: str = "parts") -> str:
-    """A failing check in words; ``parts`` names those that overlap."""
+def in_words(c: Check, parts: str = "") -> str:
+    """A failing check in words; ``parts`` names those that overlap, where they are known."""
     shown = in_digits(c.value or 0.0, 6)
     general = f"{c.name} is {shown}{c.where}; it must be {c.must_be} {c.limit or 0.0:.6g}"
     return meaning(c, parts) or general
 
 
-def meaning(c: Check, parts: str = "parts") -> str:
+def meaning(c: Check, parts: str = "") -> str:
     """The meaning of a failing check; empty if its value is enough."""
     from geneva_cli.verdict.checks.walls import NO_WALL
 
     where, value, limit = c.where, c.value or 0.0, c.limit or 0.0
     if c.name == "gap_mm":
-        return f"{parts} overlap by {-value:.4g} mm{where}"
+        return f"{parts or 'parts'} overlap by {-value:.4g} mm{where}"
     if c.name == "idle_roller_mm":
         return f"an idle roller overlaps the wheel by {-value:.4g} mm{where}"
     if c.name in NO_WALL and value < 0.0:

@@ -13,11 +13,12 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.sizes import Layout
-from geneva_cli.layout.sphere_sizes import ball
+from geneva_cli.layout.sphere_sizes import sized_ball
 from geneva_cli.layout.sphere_stressed import sphere_stressed
 from geneva_cli.layout.stressed import Stressed, stressed
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
+from geneva_cli.parts.rack_stressed import rack_stressed
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
@@ -59,13 +60,19 @@ def part_sizes(parts: Sequence[Stressed | None]) -> PartSizes | None:
 
 
 def stressed_parts(machine: Mechanism, layout: Layout | None) -> Stressed | None:
-    """The stressed parts of a design: flat ones by their layout, or those of a sphere; or None."""
+    """The stressed parts of a design, flat ones by their layout; None if they do not fit."""
     if layout or machine.spec.is_flat or not machine.spec.has_parts:
         return stressed(*layout) if layout else None
+    of = {"ball": _of_sphere, "rack": rack_stressed}
     try:
-        return sphere_stressed(machine.spec, ball(machine))
+        return of[machine.spec.wheel.PARTS](machine)
     except GenevaError:  # the check of the parts reports the error
         return None
+
+
+def _of_sphere(machine: Mechanism) -> Stressed | None:
+    ball = sized_ball(machine)
+    return sphere_stressed(machine.spec, ball) if ball else None
 
 
 def _numbers(of: Stressed) -> list[float]:

@@ -204,6 +204,15 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         scaled("size", "arm_hub_mm", 3.0),
         *_LESS_LOAD,
     ),
+    # a first wheel is as thick as its crank, which is a link
+    "first_pin_stress_MPa": (
+        scaled("size", "roller_radius_mm", 3.0),
+        scaled("size", "pin_mm", 1.9),
+        *_LESS_LOAD,
+    ),
+    "first_horn_stress_MPa": (scaled("size", "link_thickness_mm", 10.0), *_LESS_LOAD),
+    "first_crank_shaft_stress_MPa": (scaled("size", "link_bore_mm", 5.0), *_LESS_LOAD),
+    "first_arm_stress_MPa": (scaled("size", "link_thickness_mm", 10.0), *_LESS_LOAD),
     "wheel_clamp_Nm": (
         scaled("size", "wheel_hub_mm", 5.0),
         Change("size", "wheel_clamp_mm", _wider_screws),

@@ -12,6 +12,7 @@ import numpy as np
 from geneva_cli.errors import Notice
 from geneva_cli.layout.sizes import sized
 from geneva_cli.loads.strength import horn, lock, shafts
+from geneva_cli.loads.strength.sphere_horn import sphere_stoutness
 from geneva_cli.verdict.quantities.designs import single
 from geneva_cli.verdict.quantities.groups import REPORT, only
 from geneva_cli.verdict.quantities.under_load import under_load
@@ -61,11 +62,9 @@ class Strength:
 
     def warnings(self) -> list[Notice]:
         """A note on the limits of a known stress."""
-        sizes = self.load.lock_sizes
-        if sizes is None or self["strength.horn.stress_MPa"] is None:
+        if self["strength.horn.stress_MPa"] is None:
             return []
-        recess = sizes.lock.recess
-        stout = float(horn.stoutness(self.mechanism, sizes.half_width, recess)[0])
+        stout, recess = self._stoutness()
         if stout <= horn.STOUT:
             return []
         return [
@@ -76,6 +75,16 @@ class Strength:
                 "stress is 7 % too small for horns of half that radius, more for thicker ones",
             )
         ]
+
+    def _stoutness(self) -> tuple[float, float]:
+        """The thickness of the horns at their mouth over the recess's radius, and that, mm."""
+        sizes, (ball,) = self.load.lock_sizes, self.load.balls
+        if sizes is not None:
+            recess = sizes.lock.recess
+            return float(horn.stoutness(self.mechanism, sizes.half_width, recess)[0]), recess
+        assert ball is not None  # without a lock there is no stress
+        stout = sphere_stoutness(self.mechanism, ball.half_width, ball.recess, ball.axes)
+        return stout, ball.radius_mm * math.sin(ball.recess)
 
     def reason(self, name: str) -> str | None:
         """The keys that a value of ``REASONS`` needs, in words.
@@ -135,8 +144,9 @@ class Strength:
         yield [self._has_bound]
 
     def _horn(self) -> Keys:
-        yield self._drawn_parts()
-        if self.load.lock_sizes is not None:
+        if self.load.balls == [None]:
+            yield self._drawn_parts()
+        if self.load.has_horns:
             yield from self._pin()
 
     def _lock(self) -> Keys:
@@ -158,15 +168,13 @@ class Strength:
             yield [(not np.isnan(lock_load.approach_deg), rounds)]
 
     def _wheel_shaft(self) -> Keys:
+        yield [(self.spec.output.turns, "a wheel that turns on a shaft")]
         yield from self._shaft("wheel", shafts.wheel_shaft(self.spec.shaft))
 
     def _crank_shaft(self) -> Keys:
         yield from self._shaft("crank", shafts.crank_shaft(self.spec.shaft))
 
     def _shaft(self, which: str, ends: shafts.ShaftDimensions) -> Keys:
-        wheel = self.spec.wheel
-        words = "a wheel on a shaft: the shafts of a rack's machine are not computed"
-        yield [(wheel.FLAT or wheel.SHELLS, words)]
         if self.spec.is_loaded:
             yield [self._has_bound]
         drawn = self.load.parts and getattr(self.load.parts, f"{which}_shaft")

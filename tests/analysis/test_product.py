@@ -1,11 +1,11 @@
 """The product on the dial, against closed forms at 50 digits and dense scans."""
 
 import math
-from pathlib import Path
 
 import mpmath
 import numpy as np
 import pytest
+import repo
 
 from geneva_cli import (
     Design,
@@ -23,7 +23,6 @@ from geneva_cli.analysis.motion import derivatives
 from geneva_cli.analysis.product import product_motion
 
 G = 9.80665
-DESIGNS = sorted(Path("designs").glob("*.toml"))
 
 
 def motion_of(wheel, drive=None, product=None, **tables):
@@ -79,7 +78,7 @@ def test_plain_wheel(z, ratio):
     assert got.friction_needed.item() == pytest.approx(got.acceleration_m_s2.max.item() / G)
 
 
-@pytest.mark.parametrize("file", DESIGNS, ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", repo.WHEELS, ids=lambda file: file.stem)
 @pytest.mark.sampled(8)
 def test_dense_scan(file):
     """No place of 20,000 has more acceleration than the peak, and one nearly as much."""

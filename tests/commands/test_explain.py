@@ -282,7 +282,7 @@ def test_every_label_is_a_field_of_an_entry():
         ("crank", ["kind", "part"]),
         ("inputs.drive.n_rpm", ["key"]),
         ("wheel.steps_deg", ["key"]),
-        ("A", ["key", "key"]),
+        ("A", ["key"] * 4),  # of two kinds, in [drive] and in [drive.before]
     ],
 )
 def test_what_a_word_means(word: str, groups: list[str]):

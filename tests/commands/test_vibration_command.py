@@ -8,6 +8,7 @@ import pytest
 import repo
 from typer.testing import CliRunner
 
+from geneva_cli import load
 from geneva_cli.app import app
 
 PRESS = str(repo.DESIGNS / "press-straight.toml")
@@ -46,7 +47,9 @@ def record(*words):
 def test_the_names_are_the_same_for_every_machine(path):
     found = record(str(path), "--period-ratio", "3.7", "--damping", "0.01")
     assert list(found) == NAMES
-    assert [name for name in NAMES if found[name] is None] in ([], ["stations"])
+    lacks = load(str(path)).spec.output.lacks  # a rack has no angle
+    unknown = [name for name in NAMES if found[name] is None and name not in lacks]
+    assert unknown in ([], ["stations"])
     assert found["warnings"] == [] or "tuned" in found["warnings"][0]
 
 

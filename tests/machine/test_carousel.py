@@ -24,7 +24,6 @@ from geneva_cli import (
     Size,
     Spherical,
     Support,
-    load,
 )
 from geneva_cli.analysis.product import product_motion
 from geneva_cli.curves.plates import plates
@@ -38,7 +37,6 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.scene import place_at, value_at
 from geneva_cli.study.against import against
 from geneva_cli.study.animation.scene import scene
-from geneva_cli.synthesis.reading import read_target
 from geneva_cli.verdict.quantities.groups import GROUPS
 
 WHEELS = [External(3), External(4), External(6), External(12), Internal(3), Internal(6)]
@@ -431,8 +429,6 @@ def test_what_a_product_feels_at_any_place_on_the_wheel(wheel):
 def test_studies_of_machines_on_the_ground_refuse_a_carrier(tmp_path):
     spec = tmp_path / "spec.toml"
     spec.write_text('[wheel]\nz = 4\n[drive]\nkind = "carousel"\n')
-    with pytest.raises(GenevaError, match="wheels on a carrier, and synth tries cranks"):
-        read_target(frame=load(str(spec)).spec)
     with pytest.raises(GenevaError, match="wheels on a carrier, and an alternative"):
         against(str(spec), (), ["cam"])
 
@@ -462,7 +458,6 @@ def test_only_one_wheel_moves_at_a_time(z, most):
     ("tables", "text"),
     [
         ({"wheel": Spherical(6)}, "external or internal"),
-        ({"mass": (Mass("point", mass_kg=1.0, radius_mm=50.0),)}, "balanced"),
         ({"product": Product(sprocket_teeth=20, pitch_mm=5.0)}, "on the ground"),
         ({"support": Support(gear_ratio=2.0)}, "on the ground"),
         ({"drive": Carousel(wheels=2, rollers=2)}, "one finger"),

@@ -221,15 +221,18 @@ def test_what_a_rack_cannot_have_is_refused(spec, text):
 
 
 def test_what_needs_a_wheel_is_refused_with_the_reason(tmp_path):
-    """Angles of a cam, a cam indexer's step, and a search for a wheel."""
+    """Angles of a cam, a cam indexer's step, and a search for a wheel among racks."""
     path = tmp_path / "rack.toml"
     path.write_text('[wheel]\nz = 6\ngearing = "linear"\n')
     for words, text in (
         (["motion", str(path), "--format", "cam"], "this machine moves a rack"),
         (["compare", str(path), "--against", "cam"], "this machine moves a rack"),
-        (["synth", "--tau", "0.4", "--from", str(path)], "its step is twice center_distance_mm"),
-        (["export", str(path), "-o", str(tmp_path / "all")], "not available for a rack"),
-        (["profile", str(path), "--part", "frame", "-o", str(tmp_path / "a.dxf")], "not available"),
+        (["synth", "--tau", "0.4", "--external", "--from", str(path)], "searched alone"),
+        (["profile", str(path), "--part", "links", "-o", str(tmp_path / "a.dxf")], "not available"),
+        (
+            ["profile", str(path), "--set", "size.wheel_radius_mm=1000"],
+            "wheel_radius_mm = 1000: it must be below 200, twice the crank radius",
+        ),
         (
             ["check", str(path), "--set", "support.friction=0.1"],
             "a rack's load is mass_kg",
@@ -239,7 +242,10 @@ def test_what_needs_a_wheel_is_refused_with_the_reason(tmp_path):
             "not available for a rack",
         ),
         (["check", str(path), "--set", "load.dwell_torque_Nm=1"], "not available for a rack"),
-        (["check", str(path), "--set", "motion.law=cycloidal"], "has straight slots only"),
+        (
+            ["check", str(path), "--set", "motion.law=cycloidal"],
+            'gearing = "linear" has straight slots only',
+        ),
     ):
         refused = CliRunner().invoke(app, words)
         assert refused.exit_code == 2

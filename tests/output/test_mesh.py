@@ -262,5 +262,5 @@ def test_a_plate_has_every_part_once_for_each_in_the_machine():
 
 
 def test_a_spherical_machine_has_no_plate():
-    with pytest.raises(GenevaError, match="its parts are not flat"):
+    with pytest.raises(GenevaError, match="its parts are not flat outlines"):
         Design(Spherical(6)).drawing("plate", 0.1)

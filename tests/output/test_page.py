@@ -11,8 +11,10 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 import repo
+from drawing_witness import vertices
 from py_mini_racer import MiniRacer
 from sampling import some
+from shapely import Polygon, affinity
 from typer.testing import CliRunner
 
 from geneva_cli import Design, EllipticalGears, Linear, Load, Size, load
@@ -24,7 +26,7 @@ from geneva_cli.curves.shapes import Circle
 from geneva_cli.kinematics.layout import Joint
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.output import animate, moving_gif, page
-from geneva_cli.scene import value_at
+from geneva_cli.scene import body_pose, value_at
 from geneva_cli.study.animation.scene import scene
 from geneva_cli.study.animation.turn import MachineTurn
 
@@ -83,11 +85,14 @@ def test_the_wheel_and_the_rollers_are_where_the_core_has_them(name):
     turn = MachineTurn(design.mechanism)
     at = np.sort(np.random.default_rng(14).uniform(0.0, data["turn"], 60))
     asked = json.dumps(at.tolist())
+    track, unit = "angle", 1.0
+    if not design.spec.output.turns:  # the travel, from mid-motion
+        track, unit = "travel", design.spec.output.per_radian
     wheel = json.loads(
-        engine.eval(f"JSON.stringify({asked}.map(t => afterTurns(scene.bodies[0].angle, t, 2)))")
+        engine.eval(f"JSON.stringify({asked}.map(t => afterTurns(scene.bodies[0].{track}, t, 2)))")
     )
     expected, gain = wheel_by_core(design, at)
-    assert np.abs(np.array(wheel) - (expected + 2.0 * gain)).max() < ANGLE
+    assert np.abs(np.array(wheel) - unit * (expected + 2.0 * gain)).max() < ANGLE * unit
     ask = f"JSON.stringify({asked}.map(t => scene.rollers.map(p => p.map(v => valueAt(v, t)))))"
     rollers = np.array(json.loads(engine.eval(ask)))
     for i in range(rollers.shape[1]):
@@ -392,3 +397,45 @@ def test_gears_move_a_rack_on_a_page_too():
         "driver gear",
         "driven gear",
     ]
+
+
+@pytest.mark.parametrize(
+    ("name", "module"),
+    [
+        ("elliptical-gears", 4.07127),
+        ("elliptical-internal", 3.93675),
+        ("noncircular-gears", 3.02027),
+    ],
+)
+def test_teeth_of_gears_mesh_on_a_page(name, module):
+    """With backlash they never touch in a turn, and are nearer than it; without, they touch."""
+    for backlash in (0.1, 0.0):
+        keys = [f"size.gear_module_mm={module}", f"size.gear_backlash_mm={backlash}"]
+        driver, driven = (
+            body
+            for body in scene(load(str(repo.DESIGNS / f"{name}.toml"), keys)).bodies
+            if body.name.endswith("gear")
+        )
+        apart, common = math.inf, 0.0
+        for t in np.linspace(0.0, 360.0, 61):
+            placed = []
+            for gear in (driver, driven):
+                x, y, angle = body_pose(gear, t)
+                own = Polygon(vertices(gear.shapes[0], 1e-3))
+                own = affinity.rotate(own, angle, origin=(0, 0), use_radians=True)
+                placed.append(affinity.translate(own, x, y))
+            apart = min(apart, placed[0].distance(placed[1]))
+            common = max(common, placed[0].intersection(placed[1]).area)
+        if backlash:
+            assert 0.0 < apart < backlash
+        else:  # curves within 0.01 mm overlap by no more along a pair of flanks of 8 mm
+            assert apart == 0.0
+            assert common < 0.08
+
+
+def test_teeth_that_do_not_fit_leave_the_pitch_curves():
+    bare, wrong = (
+        scene(load(str(repo.DESIGNS / "elliptical-gears.toml"), keys)).bodies
+        for keys in ([], ["size.gear_module_mm=3"])
+    )
+    assert [one.shapes for one in bare[-2:]] == [one.shapes for one in wrong[-2:]]

@@ -300,6 +300,19 @@ def test_a_process_leaves_space_for_all_but_press_fits(kind, process, tmp_path):
 
 
 @pytest.mark.usefixtures("no_advice")
+@pytest.mark.parametrize("kind", registry.DRIVES)
+def test_turned_shafts_leave_space(kind, tmp_path):
+    """Of every kind; shoulders and circlips meet no part that passes them in a turn."""
+    spec = tmp_path / f"{kind}.toml"
+    spec.write_text(template(kind) if kind != "crank" else "[wheel]\nz = 6\n")
+    keys = ["size.shafts=turned"]
+    keys += ["size.link_bore_mm=5"] if kind == "geneva-pair" else []
+    design = load(str(spec), keys)
+    assert "turned" not in " ".join(check.why for check in design.checks)
+    require_space(design)
+
+
+@pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("process", [None, *PROCESSES])
 @pytest.mark.parametrize("shafts", ["plain", "turned"])
 @pytest.mark.parametrize(

@@ -72,7 +72,8 @@ def test_no_text_of_a_design_stands_on_anything(path, sheets):
         return
     # the centre distance is on it, as the machine has it
     L = f"{design.mechanism.center_distance_mm:.3f}".rstrip("0").rstrip(".")
-    assert any(m.label.text.startswith(f"L = {L}") for m in found.measures)
+    name = "L" if design.spec.output.turns else "R"
+    assert any(m.label.text.startswith(f"{name} = {L}") for m in found.measures)
     assert_as_listed(found, list(design.part_table("parts").to_rows()), 2e-3)
 
 

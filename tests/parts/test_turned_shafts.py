@@ -8,17 +8,23 @@ import trimesh
 from step_witness import File, Solid
 from test_arm import polygon
 
-from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical
+from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, load
 from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.plates import Plate, Stack, lowered, solids
+from geneva_cli.curves.plates import Group, Plate, Stack, lowered, solids
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics import registry
 from geneva_cli.layout.bearings import DIN_471, SERIES_60, bearing_up_to, circlip_up_to
+from geneva_cli.layout.sizes import machine_sizes
+from geneva_cli.layout.stressed import stressed
 from geneva_cli.output.mesh import scad
 from geneva_cli.output.mesh.solids import bodies
 from geneva_cli.output.step import chunks
+from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.links import placed_holes
 from geneva_cli.parts.sphere.sphere_parts import SphereParts
+from geneva_cli.specfile.template import template
 
 TURNED = Size(shafts="turned", wheel_bore_mm=16.0, crank_bore_mm=10.0)
 
@@ -54,7 +60,7 @@ def test_tables():
         # grooves are between 1.7 % and 3.4 % of the diameter deep
         assert 0.017 < 0.5 * (large.shaft - large.groove) / large.shaft < 0.034
     # from makers' tables: 6004 is 20 x 42 x 12; DIN 471 - 20: d2 = 19, m = 1.3, n = 1.5
-    assert bearing_up_to(24.9, "wheel") == ("6004", 20, 42, 12)
+    assert bearing_up_to(24.9, "wheel's shaft", "wheel_bore_mm") == ("6004", 20, 42, 12)
     assert circlip_up_to(21.5) == (20, 19.0, 1.3) and circlip_up_to(21.5).edge == 1.5
     assert circlip_up_to(40.0).edge == pytest.approx(3.75)  # 3.8 in the table
     # least abutments by DIN 5418, which SKF's catalogue has: 608, 6001, 6004, 6010
@@ -209,7 +215,14 @@ def test_the_sheet_lists_the_steps():
     ("design", "said"),
     [
         (of(crank_bore_mm=3.0), "set crank_bore_mm to at least 4"),
-        (Design(External(6), SideCrank(A=0.3), size=TURNED), "has links or gears on its shafts"),
+        (
+            Design(External(6), SideCrank(A=0.3), size=TURNED.replace(link_bore_mm=3.0)),
+            "the input crank's shaft of 3 mm is too thin for a ball bearing; set link_bore_mm to",
+        ),
+        (
+            of(crank_bore_mm=65.0, wheel_bore_mm=65.0),
+            "wheel's shaft and crank's shaft leave a wall of 0 mm between their bearings",
+        ),
     ],
 )
 def test_refused(design, said):
@@ -218,12 +231,98 @@ def test_refused(design, said):
     assert caught.value.key == ("size", "shafts")
 
 
-def test_refused_on_a_sphere():
-    shells = PartsModel(
-        Design(Spherical(6), size=Size(80.0, 5.0, shafts="turned")).mechanism
-    ).shells
-    with pytest.raises(GenevaError, match="a machine on a sphere has no frame"):
-        _ = SphereParts(shells).members
+def test_steps_on_a_sphere():
+    """Seen from its axis each shaft is one of a plane: the sphere's outside is the height 0."""
+    size = Size(80.0, 5.0, shafts="turned", wheel_bore_mm=16.0, wheel_hub_mm=24.0, arm_bore_mm=10.0)
+    parts = SphereParts(PartsModel(Design(Spherical(6), size=size).mechanism).shells)
+    wheel, crank = (m.part for m in parts.shafts)
+    (inside, _), (under, over) = parts.ball.span_mm, parts.ball.arm_span_mm
+    n, m = 1.5 * (15.0 - 14.3), 1.1
+    bearing = over + 80.0 / 50.0  # the hub ends at the arm's outside
+    wanted = [
+        ("end", 16.0, inside - 2.3, inside - 1.1),
+        ("circlip groove, DIN 471", 15.2, inside - 1.1, inside),
+        ("seat of wheel", 16.0, inside, over),
+        ("shoulder", 20.0, over, bearing),
+        ("seat of bearing 6002", 15.0, bearing, bearing + 9.0),
+        ("circlip groove, DIN 471", 14.3, bearing + 9.0, bearing + 9.0 + m),
+        ("end", 15.0, bearing + 9.0 + m, bearing + 9.0 + m + n),
+    ]
+    for step, (name, wide, low, high) in zip(steps(wheel), wanted, strict=True):
+        assert step == (name, wide, pytest.approx(low), pytest.approx(high))
+    # the wheel turns inside the arm: no circlip there
+    assert steps(crank)[0] == ("seat of crank", 10.0, pytest.approx(under), pytest.approx(over))
+
+
+KINDS = [kind for kind in registry.DRIVES if kind != "crank"]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_shafts_of_every_kind(kind, tmp_path):
+    """All that turns in the frame has a bearing there, its shoulder above, and seats in its bores.
+
+    By the parts of the machine with plain shafts: each bore about an axis has a seat of its
+    heights, and a shoulder ends in the free layer above the frame, or on the lowest part.
+    """
+    spec = tmp_path / f"{kind}.toml"
+    spec.write_text(template(kind))
+    keys = ["size.shafts=turned"]
+    if load(str(spec)).mechanism.center_distance_mm < 60.0:
+        keys.append("size.link_bore_mm=5")  # the default is too thin for a bearing
+    design = load(str(spec), keys)
+    parts = FlatParts(design.mechanism, design.parts)
+    plain = FlatParts(load(str(spec), keys[1:]).mechanism)
+    frame, free = parts.frame.part, plain.frame.part.high
+    assert free - frame.high == pytest.approx(design.mechanism.center_distance_mm / 50.0)
+    for before, after in zip(plain.shafts, parts.shafts, strict=True):
+        at, solid = before.at, after.part
+        assert after.part.name == before.part.name
+        reaches = before.part.low <= plain.frame.part.low and "pivot" not in before.part.name
+        assert isinstance(solid, Stack) == reaches
+        if not reaches:
+            continue
+        (hole,) = [h for h in frame.holes if math.dist(h.centre, at) < 1e-9]
+        (seat,) = [s for s in solid.plates if s.high == frame.high]
+        (bearing,) = [b for b in SERIES_60 if b.bore == 2.0 * seat.outline.radius]
+        assert (2.0 * hole.radius, seat.thickness) == (bearing.outside, bearing.width)
+        assert frame.thickness >= bearing.width
+        bored = before.part.outline.radius
+        heights = [
+            (p.low, p.high)
+            for m in members(parts.members)
+            for p in [m.part]
+            if p.layer not in ("SHAFT", "FRAME")
+            for h in placed_holes(m)
+            if math.dist(h.centre, at) < 1e-9 and abs(h.radius - bored) < 1e-9
+        ]
+        for low, high in heights:
+            ends = [s for s in solid.plates if s.low < high - 1e-9 and s.high > low + 1e-9]
+            assert {s.outline.radius for s in ends} == {bored}
+        (shoulder,) = [s for s in solid.plates if s.name == "shoulder"]
+        assert shoulder.outline.radius >= 1.25 * bored - 1e-9
+        least = min([low for low, _ in heights], default=free)
+        assert shoulder.high == pytest.approx(least) or shoulder.high == pytest.approx(free)
+
+
+def members(some):
+    """The flat parts, each at its place in the machine."""
+    for one in some:
+        if isinstance(one.part, Plate):
+            yield one
+        elif isinstance(one.part, Group):
+            yield from (m._replace(at=one.at) for m in one.part.members if m.at == (0.0, 0.0))
+
+
+def test_stress_in_the_bearing():
+    """A turned shaft is as thick as its bearing's bore, and longer by the shoulder."""
+    plain, turned = (
+        stressed(*machine_sizes(of(shafts=shafts).mechanism)).wheel_shaft
+        for shafts in ("plain", "turned")
+    )
+    # to the frame: half of the wheel and the arm; then half of the frame of 10 mm, or 2 mm of
+    # shoulder and half of the bearing 6002
+    assert plain == (16.0, pytest.approx(5.0 + 10.0 + 5.0))
+    assert turned == (15.0, pytest.approx(5.0 + 10.0 + 2.0 + 4.5))
 
 
 @pytest.mark.parametrize("shape", ["round", "D", "hex"])

@@ -1,9 +1,10 @@
 """Every design's STEP files read by a CAD kernel, OpenCASCADE: `tests/stress/solids_in_cad.py`.
 
 Each solid must be valid and closed, with the name, colour, volume, centroid and inertia that it
-has in closed form; an assembly's parts must stand where the drawing has them. `--pictures DIR` also
-draws each file from three sides. `make cad` runs it, two minutes,
-and installs the kernel (0.5 GB).
+has in closed form. An assembly's parts must stand where the drawing has them, and share no space
+but that of press fits, with plain and with turned shafts. `--set KEY=VALUE` changes all designs,
+and `--pictures DIR` also draws each file from three sides. `make cad` runs it, some minutes, and
+installs the kernel (0.5 GB).
 """
 
 import argparse
@@ -11,13 +12,17 @@ import math
 import os
 import sys
 import tempfile
+from itertools import combinations
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 import repo
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+from OCP.Bnd import Bnd_Box
 from OCP.BRep import BRep_Tool
+from OCP.BRepAlgoAPI import BRepAlgoAPI_Common
+from OCP.BRepBndLib import BRepBndLib
 from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepGProp import BRepGProp
 from OCP.BRepMesh import BRepMesh_IncrementalMesh
@@ -204,6 +209,25 @@ def triangles(body, reach):
         faces.Next()
 
 
+def overlaps(found, pressed):
+    """Pairs of solids that share more than 0.01 mm³; ``pressed`` pins may share it with any."""
+    boxes = []
+    for _, _, body in found:
+        box = Bnd_Box()
+        BRepBndLib.AddOptimal_s(body, box, False, False)
+        boxes.append([(c.X(), c.Y(), c.Z()) for c in (box.CornerMin(), box.CornerMax())])
+    for (one, (low, high)), (other, (least, most)) in combinations(
+        zip(found, boxes, strict=True), 2
+    ):
+        depth = min(min(high[k], most[k]) - max(low[k], least[k]) for k in range(3))
+        if depth < 1e-3 or (pressed and "pin" in (one[0], other[0])):
+            continue
+        both = GProp_GProps()
+        BRepGProp.VolumeProperties_s(BRepAlgoAPI_Common(one[2], other[2]).Shape(), both)
+        if both.Mass() > 0.01:
+            yield f"{one[0]} and {other[0]} share {both.Mass():.3g} mm³"
+
+
 def carries(found):
     """Whether the machine has an arm, which carries rollers on pins."""
     return (has_arm if isinstance(found, Outlines) else has_cap)(found)
@@ -230,6 +254,12 @@ def main():
                 continue
             for curves in ("arcs", "spline"):
                 bad += not one(design, proof, name, part, curves, given.pictures)
+        try:
+            turned = load(path, [*given.set, "size.shafts=turned"])
+            proof = turned.drawn(0.001, "assembly")
+            bad += not one(turned, proof, f"{name}, turned", "assembly", "arcs", given.pictures)
+        except GenevaError as error:
+            print(f"{name:24} {str(error).partition(': ')[2][:70]}")
     return 1 if bad else 0
 
 
@@ -256,6 +286,10 @@ def one(design, proof, name, part, curves, pictures):
     beside = max(beside, exact, EDGED if edges else 0.0)
     limits = 3 * (NEARLY,) if drawing.shells else (exact, beside, beside)
     good = all(error < limit for error, limit in zip(worst, limits, strict=True))
+    if part == "assembly" and curves == "arcs":
+        for text in overlaps(found, design.spec.size.allowances.press_fit_mm > 0.0):
+            print(f"{name:24} {text}")
+            good = False
     numbers = "  ".join(f"{error:.1e}" for error in worst)
     print(
         f"{name:24} {part:8} {curves:6} {len(found):3} solids {size / 1000:6.1f} kB  {numbers}"

@@ -43,6 +43,11 @@ PUT = """
 (text => { const box = document.getElementById("spec"); box.value = text;
   box.dispatchEvent(new Event("input")); document.body.classList.add("busy"); })
 """
+# Chooses a design from the page's list, which also writes the files that its spec names.
+CHOOSE = """
+(name => { const list = document.getElementById("start"); list.value = name;
+  list.dispatchEvent(new Event("change")); document.body.classList.add("busy"); })
+"""
 
 
 class Quiet(http.server.SimpleHTTPRequestHandler):
@@ -67,9 +72,9 @@ def wait(browser, condition, seconds=60.0):
     return time.perf_counter() - start
 
 
-def answer(browser, text):
-    """The verdict that the page shows for a spec, and the seconds it took."""
-    browser.run(f"{PUT}({json.dumps(text)})")
+def answer(browser, value, action=PUT):
+    """The verdict that the page shows for a spec's text, and the seconds it took."""
+    browser.run(f"{action}({json.dumps(value)})")
     seconds = wait(browser, "!document.body.classList.contains('busy')")
     return browser.run("document.querySelector('#verdict .head').textContent"), seconds
 
@@ -133,7 +138,7 @@ def main(folder):
                 [GENEVA, "new", "--from-design", name, "-o", "spec.toml", "--force"], cwd=here
             )
             text = (here / "spec.toml").read_text()
-            shown, seconds = answer(browser, text)
+            shown, seconds = answer(browser, f"Designs/{name}", CHOOSE)
             expected = spoken(here, text)
             print(f"{name}: {seconds:.1f} s: {shown}")
             if new.returncode or shown != expected:

@@ -1,10 +1,10 @@
 """Electronic cams: each file read back, and drawn as its controller draws it."""
 
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
+import repo
 from scipy.interpolate import BPoly, PPoly
 
 from geneva_cli import GenevaError, load
@@ -12,7 +12,7 @@ from geneva_cli.manual import page
 from geneva_cli.output.formats import CONTROLLERS
 from geneva_cli.study.cam_files import cam
 
-DESIGNS = sorted(Path("designs").glob("*.toml"))
+DESIGNS = repo.WHEELS
 SOME = ("turret", "two-pins-z4", "unequal-steps", "side-crank-z6", "gear-sector", "sine-group")
 TOLERANCE = 1e-4
 

@@ -8,11 +8,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from geneva_cli.curves.sheet import Sheet
+from geneva_cli.drawings.machine_drawing import machine
 from geneva_cli.drawings.sheet import links, points
-from geneva_cli.drawings.sheet.composed import on_paper
-from geneva_cli.drawings.sheet.paper import smaller, table
+from geneva_cli.drawings.sheet.composed import at_scales, on_paper
+from geneva_cli.drawings.sheet.content import section, shown_on_sheet
+from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.view import Block
-from geneva_cli.drawings.sheet.views import section, shown_on_sheet, together, views
+from geneva_cli.drawings.sheet.views import together, views
 from geneva_cli.kinematics.layout import Dimension, Pivot
 from geneva_cli.layout.written import length, quantity
 from geneva_cli.machine.mechanism import Mechanism
@@ -21,7 +23,8 @@ from geneva_cli.parts.flat_parts import FlatParts
 
 def sheet(parts: FlatParts) -> Sheet:
     """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
-    shown, mechanism = shown_on_sheet(parts), parts.mechanism
+    mechanism, L = parts.mechanism, parts.mechanism.center_distance_mm
+    shown = shown_on_sheet(mechanism.spec, parts.members, machine(parts).shapes)
     tolerance = parts.tolerance or 0.0
     fixed = [
         *points.tables(parts.outlines, tolerance),
@@ -31,14 +34,13 @@ def sheet(parts: FlatParts) -> Sheet:
     ]
 
     def blocks(scale: float) -> Iterator[list[Block]]:
-        apart = [view.block() for view in views(shown, scale)]
-        # the scales of the machine and of its section: those of the parts, or half of them
-        half = smaller(scale, 2.0)
-        wholes, cuts = (
-            [make(shown, s).block() for s in (scale, half)] for make in (together, section)
+        apart = [view.block() for view in views(shown, parts, scale)]
+        yield from at_scales(
+            [*apart, *fixed],
+            scale,
+            lambda s: together(shown, parts, s),
+            lambda s: section(shown, (0.0, L), s),
         )
-        for whole, cut in ((0, 0), (1, 0), (1, 1)):
-            yield [*apart, cuts[cut], wholes[whole], *fixed]
 
     return on_paper(mechanism.spec, shown.rows, shown.largest, blocks, shown.area)
 

@@ -6,7 +6,7 @@ import math
 
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Plate, Stack
-from geneva_cli.curves.shapes import ORIGIN, Arc, Circle, Contour, Line, Shape, closed
+from geneva_cli.curves.shapes import ORIGIN, Arc, Circle, Contour, Line, Point, Shape, closed
 from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, circle_of
@@ -15,38 +15,43 @@ from geneva_cli.layout.bores import around
 from geneva_cli.layout.written import length
 
 
-def draw_frame(view: View, plate: Plate) -> None:
-    """Draw the frame: its size, and diameter and position of each hole from the wheel's axis."""
+def draw_frame(
+    view: View, plate: Plate, axis: Point = ORIGIN, axis_name: str = "the wheel's axis"
+) -> None:
+    """Draw the frame: its size, and diameter and position of each hole from an axis."""
     for shape in (plate.outline, *plate.holes):
         view.draw(shape, OUTLINE)
     holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
-    wheel = (0.0, 0.0)  # the wheel's axis, with or without a hole
-    for centre, radius in {wheel: holes[0].radius, **{h.centre: h.radius for h in holes}}.items():
+    # the axis may have no hole
+    for centre, radius in {axis: holes[0].radius, **{h.centre: h.radius for h in holes}}.items():
         view.cross(centre, radius)
     box = bounds(plate.outline)
     up = 0.5 * math.pi
     # from the shortest to the longest, so that their lines do not cross; leaders find places later
-    for axis, turn in ((0, 0.0), (1, up)):
+    for k, turn in ((0, 0.0), (1, up)):
+        away = [(abs(hole.centre[k] - axis[k]), hole.centre) for hole in holes]
         texts = {length(0.0)}
-        for hole in sorted(holes, key=lambda hole: abs(hole.centre[axis])):
-            text = length(abs(hole.centre[axis]))
+        for far, centre in sorted(away, key=lambda one: one[0]):
+            text = length(far)
             if text not in texts:
                 texts.add(text)
-                view.linear(wheel, hole.centre, turn, text)
+                view.linear(axis, centre, turn, text)
     corner = (box.x0, box.y0)
-    view.linear(corner, wheel, 0.0, length(-box.x0))
-    view.linear(corner, wheel, up, length(-box.y0))
+    view.linear(corner, axis, 0.0, length(axis[0] - box.x0))
+    view.linear(corner, axis, up, length(axis[1] - box.y0))
     view.linear(corner, (box.x1, box.y0), 0.0, length(box.x1 - box.x0))
     view.linear(corner, (box.x0, box.y1), up, length(box.y1 - box.y0))
     alike: dict[str, list[Circle]] = {}
     for hole in holes:
         alike.setdefault(sized.bore(view.fits, hole.radius), []).append(hole)
     for text, some in alike.items():
-        places = ", ".join(f"({length(x)}, {length(y)})" for _, (x, y), _ in some)
-        view.diameter(some, times(len(some), text), f"at {places} from the wheel's axis")
+        u, v = axis
+        places = ", ".join(f"({length(x - u)}, {length(y - v)})" for _, (x, y), _ in some)
+        view.diameter(some, times(len(some), text), f"at {places} from {axis_name}")
     assert isinstance(plate.outline, Contour)
     arcs = [piece for piece in plate.outline.segments if isinstance(piece, Arc)]
-    view.of_arcs(arcs, times(len(arcs), sized.plain(arcs[0].radius, "R ")))
+    if arcs:
+        view.of_arcs(arcs, times(len(arcs), sized.plain(arcs[0].radius, "R ")))
 
 
 def draw_groove(

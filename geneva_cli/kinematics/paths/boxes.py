@@ -7,7 +7,6 @@ Cubics through values and slopes at the corners of a box show if it can contain 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -17,7 +16,7 @@ from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, joined,
 from geneva_cli.kinematics.roller_path import RollerPath
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Mask, Number, Which, Whole
+    from geneva_cli.numerics.arrays import Array, Mask, Number, Whole
 
 THIRD = 1.0 / 3.0
 CUBIC_ERROR = 0.1  # possible error of a quantity's cubics, as a fraction of their range in a box
@@ -25,15 +24,24 @@ OVERLAP = 0.5  # fraction of a box's width by which its pair may lie outside it
 
 
 class CrankInterval(NamedTuple):
-    """An interval of crank angles: the points at both ends, and the turn between them."""
+    """Intervals of crank angles: the points at both ends, and the turn between them.
 
-    first: PathPoints
-    last: PathPoints
-    turn: Array
+    Rows of a point are crank angle, position (x, y), unit tangent (x, y), speed and turn rate.
+    """
 
-    def taken(self, where: Which) -> CrankInterval:
+    first: Array  # (7, n)
+    last: Array
+    turn: Array  # (n,)
+
+    def taken(self, where: Whole) -> CrankInterval:
         """Select some of the intervals."""
-        return CrankInterval(self.first.taken(where), self.last.taken(where), self.turn[where])
+        return CrankInterval._make(part.take(where, axis=-1) for part in self)
+
+    @property
+    def width(self) -> Array:
+        """Crank angle from the first point to the last."""
+        width: Array = self.last[0] - self.first[0]
+        return width
 
 
 class Boxes(NamedTuple):
@@ -45,10 +53,11 @@ class Boxes(NamedTuple):
     exit: CrankInterval
     turn: Array
 
-    def taken(self, where: Which) -> Boxes:
+    def taken(self, where: Whole) -> Boxes:
         """Select some of the boxes."""
-        entry, exit_ = (side.taken(where) for side in (self.entry, self.exit))
-        return Boxes(self.which[where], self.sense[where], entry, exit_, self.turn[where])
+        return Boxes._make(
+            part.taken(where) if isinstance(part, tuple) else part.take(where) for part in self
+        )
 
 
 def _span(width: Array, turn: Array, first: Array, last: Array) -> tuple[Array, Array]:
@@ -69,7 +78,7 @@ def _against(width: Array, turn: Array, first: Array, last: Array, sense: Number
 def boxes_of(samples: PathSamples, wanted: Array) -> Boxes:
     """Boxes between adjacent samples that may contain a pair."""
     at, angle = samples.at, samples.angle
-    count = angle.shape[1] - 1
+    count, numbers = angle.shape[1] - 1, _numbers(at)
     first, last = slice(None, -1), slice(1, None)
     turn = angle[:, last] - angle[:, first]
     width = at.phi[:, last] - at.phi[:, first]
@@ -96,35 +105,29 @@ def boxes_of(samples: PathSamples, wanted: Array) -> Boxes:
         row, entry = np.divmod(cell, count)
         row = some[row]
         exit_ = (entry + ahead) % count
-        may = _may_meet_of(at, width, row, entry, exit_)
+        corners = (
+            _interval(numbers, row * (count + 1) + of, turn[row, of]) for of in (entry, exit_)
+        )
+        may = _may_meet(*corners)
         per_sense.append((row[may], entry[may], exit_[may], np.full(int(may.sum()), sense)))
     row, entry, exit_, senses = joined(per_sense)
     round_ = np.where(exit_ < entry, 1.0, 0.0)
     start = angle[row, exit_] + whole[row, 0] * round_ - angle[row, entry]
-    one, two = (
-        CrankInterval(at.at_samples(row, of), at.at_samples(row, of + 1), turn[row, of])
-        for of in (entry, exit_)
-    )
-    near_end, far_end = (
-        end._replace(phi=end.phi + math.tau * round_) for end in (two.first, two.last)
-    )
-    two = CrankInterval(near_end, far_end, two.turn)
+    one, two = (_interval(numbers, row * (count + 1) + of, turn[row, of]) for of in (entry, exit_))
+    for end in (two.first, two.last):
+        end[0] += math.tau * round_
     return Boxes(samples.which[row], senses, one, two, start)
 
 
-def _may_meet_of(at: PathPoints, width: Array, row: Whole, entry: Whole, exit_: Whole) -> Mask:
-    """Mask of the boxes between samples whose chord may be parallel to the sum of the tangents."""
-    count = at.phi.shape[1]
-    numbers = np.stack([x.ravel() for x in _numbers(at)])
-    corners = [
-        [np.take(numbers, row * count + of + i, axis=1) for i in (0, 1)] for of in (entry, exit_)
-    ]
-    return _may_be_zero(corners[0], corners[1], width[row, entry], width[row, exit_])
+def _interval(numbers: Array, first: Whole, turn: Array) -> CrankInterval:
+    """Intervals that begin at some of the points, and end at the next."""
+    return CrankInterval(numbers.take(first, axis=1), numbers.take(first + 1, axis=1), turn)
 
 
-def _numbers(at: PathPoints) -> tuple[Array, ...]:
-    """Position, unit tangent, speed and turn rate of points."""
-    return at.p.real, at.p.imag, at.t.real, at.t.imag, at.speed, at.turn
+def _numbers(at: PathPoints) -> Array:
+    """Numbers of points, in the rows of ``CrankInterval``."""
+    rows = (at.phi, at.p.real, at.p.imag, at.t.real, at.t.imag, at.speed, at.turn)
+    return np.stack([x.ravel() for x in rows])
 
 
 def _may_turn(boxes: Boxes, wanted: Array) -> Mask:
@@ -132,44 +135,30 @@ def _may_turn(boxes: Boxes, wanted: Array) -> Mask:
     spans = []
     good = np.ones(len(boxes.which), dtype=bool)
     for side in (boxes.entry, boxes.exit):
-        width = side.last.phi - side.first.phi
-        rates = side.first.turn, side.last.turn
-        good &= _against(width, side.turn, *rates, boxes.sense)
-        spans.append(_span(width, side.turn, *rates))
+        shape = side.width, side.turn, side.first[6], side.last[6]
+        good &= _against(*shape, boxes.sense)
+        spans.append(_span(*shape))
     (e_low, e_high), (x_low, x_high) = spans
     target = -boxes.sense * wanted[boxes.which] - boxes.turn
     return good & (x_low - e_high <= target) & (x_high - e_low >= target)
 
 
-def _may_meet(boxes: Boxes) -> Mask:
-    """True if the chord may be parallel to the sum of the tangents."""
-    entry, exit_ = boxes.entry, boxes.exit
-    corners = [[_numbers(side.first), _numbers(side.last)] for side in (entry, exit_)]
-    return _may_be_zero(corners[0], corners[1], _width(entry), _width(exit_))
-
-
-def _width(side: CrankInterval) -> Array:
-    width: Array = side.last.phi - side.first.phi
-    return width
-
-
-def _across(one: Sequence[Array], two: Sequence[Array]) -> tuple[Array, Array, Array]:
+def _across(one: Array, two: Array) -> tuple[Array, Array, Array]:
     """Component of the chord across the sum of tangents, and its slopes by entry and by exit."""
-    px, py, tx, ty, v, w = one
-    qx, qy, ux, uy, v_out, w_out = two
+    _, px, py, tx, ty, v, w = one
+    _, qx, qy, ux, uy, v_out, w_out = two
     cx, cy, q = qx - px, qy - py, ux * ty - uy * tx
     by_entry = v * q + w * (cx * tx + cy * ty)
     by_exit = v_out * q + w_out * (cx * ux + cy * uy)
     return cx * (ty + uy) - cy * (tx + ux), by_entry, by_exit
 
 
-def _may_be_zero(
-    entries: Sequence[Sequence[Array]], exits: Sequence[Sequence[Array]], wide: Array, high: Array
-) -> Mask:
-    """True if the chord's component across may vanish in boxes of this width and height."""
+def _may_meet(entry: CrankInterval, exit_: CrankInterval) -> Mask:
+    """True if the chord may be parallel to the sum of the tangents in boxes of two intervals."""
+    wide, high = entry.width, exit_.width
     least, most = np.full(wide.shape, np.inf), np.full(wide.shape, -np.inf)
-    for i, one in enumerate(entries):
-        for j, two in enumerate(exits):
+    for i, one in enumerate((entry.first, entry.last)):
+        for j, two in enumerate((exit_.first, exit_.last)):
             away, by_entry, by_exit = _across(one, two)
             e = by_entry * wide * (-THIRD if i else THIRD)
             x = by_exit * high * (-THIRD if j else THIRD)
@@ -191,11 +180,11 @@ class NewtonSteps(NamedTuple):
 def newton_steps(boxes: Boxes, wanted: Array) -> NewtonSteps:
     """Newton step from each corner of a box; if all lead to one place, the box has one pair."""
     entry, exit_ = boxes.entry, boxes.exit
-    wide, high = _width(entry), _width(exit_)
+    wide, high = entry.width, exit_.width
     over = boxes.turn + boxes.sense * wanted[boxes.which]
     steps = []
-    for i, one in enumerate((_numbers(entry.first), _numbers(entry.last))):
-        for j, two in enumerate((_numbers(exit_.first), _numbers(exit_.last))):
+    for i, one in enumerate((entry.first, entry.last)):
+        for j, two in enumerate((exit_.first, exit_.last)):
             away, by_entry, by_exit = _across(one, two)
             rest = over + j * exit_.turn - i * entry.turn
             turn, turn_out = one[-1], two[-1]
@@ -207,7 +196,7 @@ def newton_steps(boxes: Boxes, wanted: Array) -> NewtonSteps:
     middle = places.mean(axis=0)
     apart = np.abs(places - middle).max(axis=(0, 1))
     outside = np.abs(middle - 0.5).max(axis=0) - 0.5
-    phi = np.stack((entry.first.phi + middle[0] * wide, exit_.first.phi + middle[1] * high), axis=1)
+    phi = np.stack((entry.first[0] + middle[0] * wide, exit_.first[0] + middle[1] * high), axis=1)
     # the corners agree if they lead to places within a tenth of the box's width
     return NewtonSteps(apart <= 0.1, outside <= OVERLAP, phi)
 
@@ -216,8 +205,8 @@ def halved(path: RollerPath, boxes: Boxes, wanted: Array) -> Boxes:
     """Cut each box into four and keep those that may contain a pair."""
     halves = []
     for side in (boxes.entry, boxes.exit):
-        phi = 0.5 * (side.first.phi + side.last.phi)
-        middle = points(path.roughly(boxes.which), phi[:, None]).taken((slice(None), 0))
+        phi = 0.5 * (side.first[0] + side.last[0])
+        middle = _numbers(points(path.roughly(boxes.which), phi[:, None]))
         halves.append((_side(side.first, middle), _side(middle, side.last)))
     parts = []
     for i, entry in enumerate(halves[0]):
@@ -229,10 +218,11 @@ def halved(path: RollerPath, boxes: Boxes, wanted: Array) -> Boxes:
                 turn = turn + halves[1][0].turn
             part = Boxes(boxes.which, boxes.sense, entry, exit_, turn)
             part = part.taken(np.flatnonzero(_may_turn(part, wanted)))
-            parts.append(part.taken(np.flatnonzero(_may_meet(part))))
-    halved: Boxes = joined(parts)
+            parts.append(part.taken(np.flatnonzero(_may_meet(part.entry, part.exit))))
+    halved: Boxes = joined(parts, -1)
     return halved
 
 
-def _side(first: PathPoints, last: PathPoints) -> CrankInterval:
-    return CrankInterval(first, last, np.angle(last.t * first.t.conj()))
+def _side(first: Array, last: Array) -> CrankInterval:
+    (a, b), (c, d) = first[3:5], last[3:5]
+    return CrankInterval(first, last, np.arctan2(a * d - b * c, a * c + b * d))

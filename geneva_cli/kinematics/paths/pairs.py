@@ -75,7 +75,7 @@ class Residual(NamedTuple):
 def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> PairSearch:
     """All pairs for designs with half index angles b, (n, 1), from samples of their paths."""
     wanted = math.pi - 2.0 * b[:, 0]
-    boxes = joined([boxes_of(some, wanted[some.which]) for some in samples])
+    boxes = joined([boxes_of(some, wanted[some.which]) for some in samples], -1)
     solved, halvings = [], 8  # of a box
     for depth in range(halvings + 1):
         steps = newton_steps(boxes, wanted)
@@ -126,8 +126,8 @@ def newton(ends: EndPairs, rest: Residual) -> Array:
 
 def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[EndPairs, Mask]:
     """Newton's method from places in boxes: its end points, and a mask of those in their box."""
-    low = np.stack((boxes.entry.first.phi, boxes.exit.first.phi), axis=1)
-    high = np.stack((boxes.entry.last.phi, boxes.exit.last.phi), axis=1)
+    low = np.stack((boxes.entry.first[0], boxes.exit.first[0]), axis=1)
+    high = np.stack((boxes.entry.last[0], boxes.exit.last[0]), axis=1)
     width = high - low
     phi = np.clip(phi, low - OVERLAP * width, high + OVERLAP * width)
     close = np.zeros(len(phi), dtype=bool)

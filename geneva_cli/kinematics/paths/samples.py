@@ -153,7 +153,7 @@ def _between(
 
 def _blocks(counts: Whole) -> Iterator[slice]:
     """Slices of rows with a limited number of pairs of samples."""
-    start, most = 0, 1 << 20  # pairs that stay in the processor's cache
+    start, most = 0, 1 << 18  # pairs that stay in the processor's cache
     while start < len(counts):
         rows = max(1, most // int(counts[start]) ** 2)
         stop = min(start + rows, len(counts))
@@ -188,18 +188,18 @@ def _samples(which: Whole, at: PathPoints, turned: Array) -> PathSamples:
     return PathSamples(which, at, angle)
 
 
-def joined(parts: Sequence[Record]) -> Record:
+def joined(parts: Sequence[Record], axis: int = 0) -> Record:
     """Concatenate records of arrays."""
-    fields = [_joined(field) for field in zip(*parts, strict=True)]
+    fields = [_joined(field, axis) for field in zip(*parts, strict=True)]
     make: Callable[..., object] = type(parts[0])
     return cast("Record", tuple(fields) if make is tuple else make(*fields))
 
 
-def _joined(parts: Sequence[object]) -> object:
+def _joined(parts: Sequence[object], axis: int) -> object:
     """Concatenate members of records: arrays, or nested records."""
     if isinstance(parts[0], tuple):
-        return joined(cast("Sequence[tuple[object, ...]]", parts))
-    return np.concatenate(cast("Sequence[Array]", parts))
+        return joined(cast("Sequence[tuple[object, ...]]", parts), axis)
+    return np.concatenate(cast("Sequence[Array]", parts), axis)
 
 
 def blocks(count: int, size: int) -> Iterator[slice]:

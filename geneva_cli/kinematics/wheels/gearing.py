@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import field
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self, TypeAlias
 
-from geneva_cli.kinematics.layout import Layout
+from geneva_cli.kinematics.layout import Layout, Pivot
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose
 from geneva_cli.kinematics.wheels.skew import Skew
@@ -96,6 +96,11 @@ class Gearing(SpecTable):
     FLAT: ClassVar[bool] = True
     # True if they are shells of a sphere, on shafts that meet at its centre
     SHELLS: ClassVar[bool] = False
+    # how all parts are built: "flat" about two axes, "ball" about a point, "rack" along a line, or
+    # "" if they are not built
+    PARTS: ClassVar[str] = "flat"
+    # meaning of center_distance_mm
+    DISTANCE: ClassVar[str] = "centre distance"
     z: Annotated[int, Range(3, Z_MAX), "number of slots"]
     held_by: Annotated[
         str | None,
@@ -143,6 +148,14 @@ class Gearing(SpecTable):
         (Dimension(name="slots' axes offset from the wheel's", value=12.0, unit='mm'),)
         """
         return ()
+
+    def axes(self, L: float) -> tuple[Pivot, ...]:
+        """Axes of wheel and crank in the plane of the parts, for a centre distance in mm.
+
+        >>> [axis.name for axis in External(6).axes(100.0)], Linear(6).axes(50.0)
+        (['wheel axis', 'crank axis'], (Pivot(name='crank axis', x_mm=50.0, y_mm=0.0),))
+        """
+        return Pivot("wheel axis", 0.0, 0.0), Pivot("crank axis", L, 0.0)
 
     def words(self, slots: str) -> str:
         """The wheel in words; ``slots`` is the kind of its slots.

@@ -13,6 +13,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, ClassVar
 
 from geneva_cli.kinematics.engagement import Slot, SlotAxis
+from geneva_cli.kinematics.layout import Pivot
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.kinematics.wheels.gearing import FollowedRate, Gearing, Output, RollerPlace
 from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose, middle
@@ -42,6 +43,8 @@ class Linear(Gearing):
     )
     USUAL_LOAD: ClassVar[dict[str, float]] = {"mass_kg": 4, "force_N": 30}
     FLAT: ClassVar[bool] = False
+    PARTS: ClassVar[str] = "rack"
+    DISTANCE: ClassVar[str] = "crank radius"
 
     def output(self, center_distance_mm: float) -> Output:
         """The travel, in millimetres."""
@@ -68,6 +71,10 @@ class Linear(Gearing):
             loads=loads,
             lacks=lacks,
         )
+
+    def axes(self, L: float) -> tuple[Pivot, ...]:
+        """Axis of the crank."""
+        return (Pivot("crank axis", L, 0.0),)
 
     def plane_motion(self, center_distance_mm: float) -> PlaneMotion:
         """How the rack slides: by the crank's radius a radian."""

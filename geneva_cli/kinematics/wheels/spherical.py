@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.kinematics.layout import Dimension, Layout
+from geneva_cli.kinematics.layout import Dimension, Layout, Pivot
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, MeridianSlot, StraightSlotMotion
 from geneva_cli.kinematics.wheels.gearing import FollowedRate, Gearing, RollerPlace
 from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose
@@ -37,6 +37,8 @@ class Spherical(Gearing):
     )
     FLAT: ClassVar[bool] = False
     SHELLS: ClassVar[bool] = True
+    PARTS: ClassVar[str] = "ball"
+    DISTANCE: ClassVar[str] = "sphere's radius"
     axes_deg: Annotated[
         float, Range(0.0, 180.0, "()"), "spherical: angle between the two shafts"
     ] = 90.0
@@ -58,6 +60,10 @@ class Spherical(Gearing):
     def own_sizes(self) -> dict[str, float]:
         """Angle between the shafts, for the report."""
         return {"axes_deg": self.axes_deg}
+
+    def axes(self, L: float) -> tuple[Pivot, ...]:
+        """None: both axes meet at the sphere's centre."""
+        return ()
 
     @property
     def layout(self) -> Layout:

@@ -166,7 +166,7 @@ def product(a: Array, b: Array) -> Array:
 def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[Horn]:
     """Both horns of each kind of slot."""
     L, sides = mechanism.center_distance_mm, []
-    for whole in mechanism.engagements:
+    for whole in mechanism.under_load.engagements:
         engagement, aheads = whole.through, whole.ahead_deg
         ends = engagement.entry_deg, engagement.exit_deg
         for end, mouth, ahead in zip((-1.0, 1.0), ends, (aheads[0], aheads[-1]), strict=True):

@@ -33,6 +33,7 @@ import numpy as np
 
 from geneva_cli.analysis.forces import contact_modulus_GPa, hertz_MPa
 from geneva_cli.analysis.locking import Lock
+from geneva_cli.analysis.unbalance import held_unbalance_Nm
 from geneva_cli.loads.strength.horn import SHEAR, horns, product
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.materials import wheel_material
@@ -76,9 +77,15 @@ class HornBending(NamedTuple):
 
 
 def held_torque_Nm(mechanism: Mechanism) -> float:
-    """Torque that the lock holds during the dwell."""
+    """Torque that the lock holds during the dwell.
+
+    On a carrier the moment of bodies off the wheel's axis adds to it.
+    """
     load = mechanism.spec.load
-    return load.torque_Nm if load.dwell_torque_Nm is None else load.dwell_torque_Nm
+    held = load.torque_Nm if load.dwell_torque_Nm is None else load.dwell_torque_Nm
+    if not (mechanism.frame and mechanism.spec.unbalanced):
+        return held
+    return held + parameter(held_unbalance_Nm(mechanism))
 
 
 def lock(

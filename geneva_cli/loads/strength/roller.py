@@ -150,12 +150,12 @@ def passing(case: LoadCase, at: Contact[Jet], drives: Number, slides: Number) ->
 
 def passages(mechanism: Mechanism) -> list[SlotPassage]:
     """Passage of each engagement of a period: (m,) each for m designs."""
-    return [_passage(mechanism, engagement, 0.0) for engagement in mechanism.engagements]
+    return [_passage(mechanism, one, 0.0) for one in mechanism.under_load.engagements]
 
 
 def by_roller(mechanism: Mechanism) -> list[SlotPassage]:
     """Passages of each roller; an engagement has two if one starts and another stops the wheel."""
-    each = [(one, half) for one in mechanism.engagements for half in halves(one)]
+    each = [(one, half) for one in mechanism.under_load.engagements for half in halves(one)]
     return [_passage(mechanism, *of) for of in each]
 
 

@@ -142,11 +142,6 @@ class Transmission(Drive, kw_only=True):
         """
         return ConstantRate(sense) if self.direct else None
 
-    @property
-    def direct(self) -> bool:
-        """True if crank angle and input angle are equal, so that the classic closed forms hold."""
-        return False
-
     def _anchor(self, pose: PinPose, crank_deg: float) -> Anchor:
         """A pose as an anchor by the input angle; the roller is ``crank_deg`` behind the first."""
         here = self.about(crank_deg + pose.crank_deg)

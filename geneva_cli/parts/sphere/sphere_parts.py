@@ -19,6 +19,7 @@ from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.axles import crank_hub, refuse_wide
 from geneva_cli.layout.ball import Ball
+from geneva_cli.layout.bearings import shoulder_length
 from geneva_cli.layout.bores import bore_of, has_shape
 from geneva_cli.layout.held_hubs import held_hub
 from geneva_cli.layout.missing import NamedParts
@@ -73,6 +74,16 @@ class SphereParts:
     def shafts(self) -> tuple[Member, ...]:
         """The shafts of wheel and crank."""
         return tuple(_shafts(self.shells, self.arm))
+
+    @property
+    def outside_mm(self) -> float | None:
+        """Radius of the wheel's outer face, from which heights count inwards."""
+        return self.ball.span_mm[1]
+
+    @property
+    def horn_mm(self) -> float | None:
+        """Thickness of the horns between slots and recesses; None without a lock."""
+        return self.shells.sizes.horn if self.shells.crank else None
 
     def hub_radii(self, part: str) -> tuple[float, float]:
         """Return the radii of the bore and the hub of a part, "wheel" or "crank", mm."""
@@ -205,9 +216,8 @@ def _shafts(parts: Shells, arm: CapArm | None) -> Iterator[Member]:
     lowest = face - (over - under)
     for one, frame in _axles(parts, arm, lowest):
         turned = size.shafts == "turned" and one.low <= lowest
-        # the least length of a shoulder
-        at_face = face - ball.radius_mm / 50.0
-        part = (turned_shaft(size, one, at_face, None) if turned else one.plain(size)).part
+        bearing = face - shoulder_length(size, ball.radius_mm)
+        part = (turned_shaft(size, one, bearing) if turned else one.plain(size)).part
         yield Member(inwards(part, outside), frame=frame)
 
 

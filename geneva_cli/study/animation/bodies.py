@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Circle, Contour, Line, Shape, closed
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
@@ -95,23 +96,45 @@ def _mark(shapes: tuple[Shape, ...], turn: MachineTurn) -> Shape:
 
 
 def _gears(design: Design, turn: MachineTurn) -> Iterator[Body]:
-    """The pitch curves of both gears: the driven one is fixed to the crank."""
-    table = gears_table(turn.mechanism, 0.001, 241).to_dict()
+    """Both gears, with their teeth or by their pitch curves: the driven one is on the crank."""
     sign = -crank_sense(turn.mechanism)
     gears = turn.mechanism.spec.gears
     assert gears
-    # the table puts the driver first, and turns as an external wheel does
-    driver = _closed(-table["driver_x_mm"], -sign * table["driver_y_mm"])
-    driven = _closed(-table["driven_x_mm"], -sign * table["driven_y_mm"])
+    driven, driver = _toothed(design) or _pitch_curves(turn, sign)
     rate = sign * math.pi / 180.0
     begin = rate * (turn.start - turn.passages[0].mid)
     gain = rate * turn.whole
     angle = Track((0.0, turn.whole), (begin, begin + gain), (rate, rate), gain)
-    yield Body("driver gear", (driver,), (turn.L + gears.distance_mm, 0.0), angle)
+    yield Body("driver gear", driver, (turn.L + gears.distance_mm, 0.0), angle)
     crank = turn.crank()
     ahead = math.pi if turn.mechanism.spec.wheel.SIGN > 0.0 else 0.0
     level = crank._replace(value=tuple(v - ahead for v in crank.value))
-    yield Body("driven gear", (driven,), (turn.L, 0.0), level)
+    yield Body("driven gear", driven, (turn.L, 0.0), level)
+
+
+def _toothed(design: Design) -> list[tuple[Shape, ...]]:
+    """The driven gear and the driver with their teeth and bores.
+
+    None if no module is set, or where teeth do not fit.
+    """
+    if design.spec.size.gear_module_mm is None:
+        return []
+    with suppress(GenevaError):
+        # a hundredth of a millimetre is less than a screen shows
+        gears = design.parts_model.flat.within(0.01, "arcs").gear_pair
+        plates = [one.part for one in gears if isinstance(one.part, Plate)]
+        return [(one.outline, *one.holes) for one in plates]
+    return []
+
+
+def _pitch_curves(turn: MachineTurn, sign: float) -> list[tuple[Shape, ...]]:
+    """The pitch curves of the driven gear and the driver."""
+    table = gears_table(turn.mechanism, 0.001, 241).to_dict()
+    # the table turns as an external wheel does
+    return [
+        (_closed(-table[f"{gear}_x_mm"], -sign * table[f"{gear}_y_mm"]),)
+        for gear in ("driven", "driver")
+    ]
 
 
 def _closed(x: Array, y: Array) -> Contour:

@@ -86,8 +86,13 @@ def _remark(design: Design, bars: tuple[Bar, ...]) -> str:
     """A remark on simplifications in the picture."""
     if design.spec.wheel.SHELLS:
         return " Seen along the wheel's shaft."
-    gears = any(bar.radius for bar in bars)
-    return " Gears are shown by their pitch circles." if gears else ""
+    out = " Gears are shown by their pitch circles." if any(bar.radius for bar in bars) else ""
+    if design.cycle.mechanism.period_deg > 360.0 * design.spec.turns:
+        out += (
+            " The forces are those of the first turn: a body off the wheel's axis gives each turn "
+            "others."
+        )
+    return out
 
 
 def _figure(design: Design) -> Figure:

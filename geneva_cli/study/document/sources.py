@@ -24,6 +24,6 @@ def sources(spec: Spec) -> tuple[str, ...]:
         "derivative.",
         "Contact stress: Hertz, line contact. Life of the roller: ISO 281. Shafts: the ASME code "
         "for transmission shafting (B17c). Pins and arm: beams, by von Mises. Keys: DIN 6892. "
-        "Default steel: C45+N, EN 10083-2.",
+        "Default steel: C45+N, EN 10083-2; of printed plates PLA, doi 10.1089/3dp.2020.0109.",
         "Formula and source of each value and check: geneva explain NAME.",
     )

@@ -10,6 +10,7 @@ from functools import partial
 from typing import NamedTuple
 
 from geneva_cli import __version__
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
@@ -68,9 +69,13 @@ class Sweep(NamedTuple):
         out: list[list[Cell]] = []
         for start in range(0, len(every), KEPT):
             part = every[start : start + KEPT]
-            machines = self._machines(part)
-            for i, some in enumerate(part):
-                out.append(self._row(some, machines[i], known.get(start + i)))
+            last: PartsModel | None = None
+            for i, machine in enumerate(self._machines(part)):
+                if isinstance(machine, GenevaError):
+                    out.append(self._row(part[i], machine))
+                    continue
+                last = last.following(machine) if last else PartsModel(machine)
+                out.append(self._row(part[i], last, known.get(start + i)))
         return out
 
     def _machines(self, every: Sequence[Sequence[Value]]) -> list[Mechanism | GenevaError]:
@@ -132,19 +137,20 @@ class Sweep(NamedTuple):
 
     def row(self, some: Sequence[Value]) -> list[Cell]:
         """The row of the design with these values of the keys, computed alone."""
-        return self._row(some, self._machine_or_error(some))
+        machine = self._machine_or_error(some)
+        return self._row(some, PartsModel(machine) if isinstance(machine, Mechanism) else machine)
 
     def _row(
         self,
         some: Sequence[Value],
-        machine: Mechanism | GenevaError,
+        model: PartsModel | GenevaError,
         known: Sequence[Cell] | None = None,
     ) -> list[Cell]:
         """The row of a machine; ``known`` are the quantities of ``pick.batched`` from a batch."""
         try:
-            if isinstance(machine, GenevaError):
-                raise machine
-            return [*some, *self.pick.of(machine, known), None]
+            if isinstance(model, GenevaError):
+                raise model
+            return [*some, *self.pick.of_model(model, known), None]
         except GenevaError as error:
             return [*some, *[None] * len(self.pick.names), str(error)]
 

@@ -40,7 +40,7 @@ def straight(target: Target, wheels: Sequence[Gearing], reached: list[float]) ->
         yield from map(only, _specs(target, wheel, reached))
         for m in rollers(target, natural_deg(wheel)):
             yield from offset_slots(target, wheel, m)
-        if not wheel.FLAT:
+        if wheel.SHELLS:
             yield from driven(target, wheel)
         if target.rollers in (None, 1):
             yield from planets(target, wheel)
@@ -57,7 +57,7 @@ def _specs(target: Target, wheel: Gearing, reached: list[float]) -> Iterator[Spe
         yield from (plain(target, wheel, m) for m in every)
     elif not target.rollers or natural * target.rollers < 360.0:
         reached.append(natural_peak)
-    if not wheel.FLAT:
+    if wheel.SHELLS:
         return
     limit = target.acceleration_max * (1.0 - MARGIN)
     if 1 in every and not gentle:

@@ -12,6 +12,7 @@ from typing import TypeAlias
 from geneva_cli.kinematics.wheels.gearing import Gearing
 from geneva_cli.study.target import Target
 from geneva_cli.synthesis.families import below
+from geneva_cli.synthesis.families.carousels import carousels
 from geneva_cli.synthesis.families.curved import with_laws
 from geneva_cli.synthesis.families.family import Family
 from geneva_cli.synthesis.families.four_bars import four_bars
@@ -23,11 +24,16 @@ Kind: TypeAlias = Callable[[Target, Sequence[Gearing], list[float]], Iterator[Fa
 
 
 def kinds(target: Target) -> list[tuple[Kind, Target]]:
-    """Independent kinds of machines: all four-bars; straight slots, and laws, of each gearing."""
+    """Independent kinds of machines: all four-bars; straight slots, and laws, of each gearing.
+
+    Where wheels on a carrier are sought, these of each gearing.
+    """
     first, last = (
         (below.straight, below.with_laws) if target.only_acceleration else (_straight, _laws)
     )
     each = [target._replace(gearings=(gearing,)) for gearing in target.gearings]
+    if target.wheels:
+        return [(carousels, one) for one in each]
     return [
         (_four_bars, target),
         *((first, one) for one in each),
@@ -40,6 +46,8 @@ def longest_first(target: Target) -> list[int]:
 
     Four-bars come first, then the laws of the first gearing; the fastest come last.
     """
+    if target.wheels:
+        return [*range(len(target.gearings))]
     wheels, laws = len(target.gearings), len(target.laws)
     straight = [1, *range(wheels, 1, -1)]
     curved = range(1 + wheels, 1 + wheels * (1 + laws))

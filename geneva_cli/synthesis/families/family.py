@@ -107,7 +107,16 @@ def machine(
     """
     own = target.frame or BARE
     own_drive = drive(target.n_rpm(m, motion_deg))
-    return own.replace(wheel=wheel, drive=own_drive, motion=motion, title="", path="", files=())
+    L = target.center_distance_mm(own.size.center_distance_mm)
+    return own.replace(
+        wheel=wheel,
+        drive=own_drive,
+        motion=motion,
+        size=own.size.replace(center_distance_mm=L),
+        title="",
+        path="",
+        files=(),
+    )
 
 
 def is_compatible(spec: Spec) -> bool:

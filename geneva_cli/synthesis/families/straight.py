@@ -109,7 +109,7 @@ def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
     motion = closed_span(allowed_motions(target, 1, natural), 1) if has_one else None
     if motion is not None and not (motion.exact and allows(motion, natural)):
         yield from _in_front(target, wheel, natural, motion)
-    if not wheel.FLAT:
+    if wheel.SHELLS:
         yield from _inclined(target, wheel)
 
 

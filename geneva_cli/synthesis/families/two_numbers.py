@@ -71,7 +71,7 @@ AXES = AllowedSpan(closed.AXES_MIN_DEG, 180.0 - closed.AXES_MIN_DEG)
 
 def two_numbers(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     """For each wheel and drive the best machine of two numbers, if one keeps the bounds."""
-    inclined = [wheel for wheel in wheels if not wheel.FLAT]
+    inclined = [wheel for wheel in wheels if wheel.SHELLS]
     if target.rollers not in (None, 1) or not inclined:
         return
     moved = all(map(is_motion, target.quantities))

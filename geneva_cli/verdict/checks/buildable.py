@@ -6,12 +6,13 @@ from collections.abc import Callable
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.rack_parts import RackParts
 from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.verdict.checks.check import Check, refused
 
 
-def plates(name: str, parts: FlatParts) -> Check | None:
-    """The check that fails if a plate of a flat machine cannot be built; else None."""
+def plates(name: str, parts: FlatParts | RackParts) -> Check | None:
+    """The check that fails if a plate of a machine cannot be built; else None."""
     return _refusal(name, parts.require)
 
 

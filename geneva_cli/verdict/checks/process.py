@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 
+from geneva_cli.layout.plain_sizes import drawn_thicknesses
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.rack_parts import RackParts
 from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.spec.workshops import workshop
 from geneva_cli.verdict.checks.check import Check, compared
@@ -25,6 +27,15 @@ def thickest_shell(name: str, parts: SphereParts) -> Check | None:
     return _thickness(name, parts.mechanism, max(outer - inner for inner, outer in spans))
 
 
+def thickest_of_rack(name: str, parts: RackParts) -> Check | None:
+    """The thickest plate of a rack's machine, where the process has a limit.
+
+    Bar, rail and wall of the guide are bars, which may be cut from stock.
+    """
+    thick = drawn_thicknesses(parts.mechanism.spec.size, parts.sizes.arm)
+    return _thickness(name, parts.mechanism, max(thick.wheel, thick.lock, thick.arm))
+
+
 def slot_width(name: str, parts: FlatParts) -> Check | None:
     """The slots' width, where the process cuts none that is narrow for its plate."""
     sizes = parts.outlines.sizes
@@ -36,6 +47,12 @@ def width_in_shell(name: str, parts: SphereParts) -> Check | None:
     inner, outer = parts.ball.span_mm
     wide = 2.0 * inner * math.sin(parts.ball.half_width)
     return _width(name, parts.mechanism, wide, outer - inner)
+
+
+def width_in_rack(name: str, parts: RackParts) -> Check | None:
+    """The width of a rack's slots, where the process cuts none that is narrow for its plate."""
+    thick = drawn_thicknesses(parts.mechanism.spec.size, parts.sizes.arm).wheel
+    return _width(name, parts.mechanism, 2.0 * parts.sizes.half_width, thick)
 
 
 def _thickness(name: str, mechanism: Mechanism, thick: float) -> Check | None:

@@ -6,6 +6,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.plain_sizes import wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.verdict.checks.check import Check, compared
+from geneva_cli.verdict.strength import strength
 
 
 def rack_horn(name: str, mechanism: Mechanism) -> Check | None:
@@ -22,3 +23,10 @@ def rack_horn(name: str, mechanism: Mechanism) -> Check | None:
         return None
     least = wall_min(mechanism.spec.size, mechanism.center_distance_mm)
     return compared(name, sizes.horn, "at least", least)
+
+
+def guide_locks(name: str, mechanism: Mechanism) -> Check | None:
+    """The coefficient of friction from which the guide locks, above that of roller and slot."""
+    friction = mechanism.spec.load.friction
+    value = strength(mechanism)["guide.locks_at_friction"]
+    return compared(name, value, "at least", friction) if value and friction else None

@@ -15,10 +15,8 @@ from geneva_cli.verdict.checks.check import Check
 if TYPE_CHECKING:
     from geneva_cli.collisions.full_turn import FullTurn
     from geneva_cli.collisions.machine_parts import MachineParts
-    from geneva_cli.drawings.model import PartsModel
+    from geneva_cli.drawings.model import PartsModel, PartsOfMachine
     from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.parts.flat_parts import FlatParts
-    from geneva_cli.parts.sphere.sphere_parts import SphereParts
 
 Checks: TypeAlias = dict[str, str]  # name -> module:function in this folder
 
@@ -35,6 +33,7 @@ MOTION: Checks = {
     "reversal_shock_N": "shocks:reversal_shock",
     "stopping_torque_Nm": "arrival:stopping_torque",
     "rack_horn_mm": "rack:rack_horn",
+    "guide_locks": "rack:guide_locks",
 }
 # Checks of limits that the spec sets.
 LIMITS: Checks = {
@@ -82,6 +81,10 @@ STATIC: Checks = {
     "arm_to_hub_mm": "arm:arm_to_hub",
     "link_wall_mm": "links:wall",
     "link_gap_mm": "links:gap",
+    "first_pin_stress_MPa": "first_pair:first_stress",
+    "first_horn_stress_MPa": "first_pair:first_stress",
+    "first_crank_shaft_stress_MPa": "first_pair:first_stress",
+    "first_arm_stress_MPa": "first_pair:first_stress",
     "branches_apart_mm": "branches:apart",
     "branches_crossed_mm": "branches:crossed",
     "wheels_apart_mm": "carrier:wheels_apart",
@@ -107,6 +110,13 @@ SPHERE: Checks = {
     "cut_slot_mm": "process:width_in_shell",
     "parts": "buildable:solids",
 }
+# Checks of a rack's machine at rest.
+RACK: Checks = {
+    "cut_plate_mm": "process:thickest_of_rack",
+    "cut_slot_mm": "process:width_in_rack",
+    "parts": "buildable:plates",
+}
+STANDING = {"flat": STATIC, "ball": SPHERE, "rack": RACK}  # by ``Gearing.PARTS``
 # Checks of plates or shells in a whole turn.
 TURNING: Checks = {
     "dwell_hold": "play:dwell_hold",
@@ -128,7 +138,7 @@ PROOFS: Checks = {
 
 def checks_before_turn() -> tuple[str, ...]:
     """The names of all checks but those of the whole turn; ``parts``: they can be built."""
-    lists = (MOTION, LIMITS, ("parts",), STATIC, SPHERE)
+    lists = (MOTION, LIMITS, ("parts",), *STANDING.values())
     return tuple(dict.fromkeys(name for names in lists for name in names))
 
 
@@ -149,10 +159,10 @@ def motion_checks(among: Checks, mechanism: Mechanism) -> Iterator[Check]:
 
 def standing(mechanism: Mechanism) -> Checks:
     """The checks of the parts of a machine at rest."""
-    return STATIC if mechanism.spec.wheel.FLAT else SPHERE
+    return STANDING[mechanism.spec.wheel.PARTS]
 
 
-def standing_checks(parts: FlatParts | SphereParts) -> Iterator[Check]:
+def standing_checks(parts: PartsOfMachine) -> Iterator[Check]:
     """The checks of parts at rest: walls, shafts, branches of a slot."""
     yield from _applicable(standing(parts.mechanism), parts)
 
@@ -169,7 +179,7 @@ def proof_checks(model: PartsModel, to_mm: float | None) -> Iterator[Check]:
 
 def import_checks() -> None:
     """Import all checks at once: processes that are forked then have them."""
-    for among in (MOTION, LIMITS, STATIC, SPHERE, TURNING, PROOFS):
+    for among in (MOTION, LIMITS, *STANDING.values(), TURNING, PROOFS):
         for by in among.values():
             load_named(f"verdict.checks.{by}")
 

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.analysis.carried import MM, carried_kg
+from geneva_cli.analysis.carried import carried_kg
 from geneva_cli.analysis.peak_search import worst_peaks
-from geneva_cli.numerics.angles import omega
+from geneva_cli.analysis.unbalance import centrifugal_N, held_unbalance_Nm
 
 if TYPE_CHECKING:
     from geneva_cli.verdict.quantities.designs import Columns, Designs
@@ -22,12 +22,13 @@ def carousel(of: Designs) -> Columns:
     own = sum(2.0 * one.half_step for one in machine.engagements) * (360.0 / machine.period_deg)
     fastest = worst_peaks(machine, ["velocity"])["velocity"].max
     moving = sum(one.motion_deg for one in machine.engagements) / machine.under_load.period_deg
-    mass, w = carried_kg(of.spec), omega(of.spec.drive.n_rpm)
-    force = mass * w * w * machine.center_distance_mm * MM if mass else np.inf
+    force = centrifugal_N(machine) if carried_kg(of.spec) else np.inf
+    held = held_unbalance_Nm(machine) if of.spec.unbalanced else np.inf
     return {
         "turn_deg": np.ravel(360.0 + machine.frame * np.degrees(own)),
         "velocity": 1.0 + machine.frame * fastest,
         "moving_fraction": np.ravel(moving),
         "behind_deg": 360.0 / wheels if wheels > 1 else np.inf,
         "centrifugal_N": np.ravel(force),
+        "held_Nm": np.ravel(held),
     }

@@ -217,7 +217,7 @@ REPORT = (
     ),
     _group(
         "carousel",
-        "turn_deg velocity moving_fraction behind_deg centrifugal_N",
+        "turn_deg velocity moving_fraction behind_deg centrifugal_N held_Nm",
         batch="carousel:carousel",
     ),
     _group("", "", "report.carousel:wheels"),
@@ -249,6 +249,7 @@ REPORT = (
         "report.stop:stop",
         makes_parts=True,
     ),
+    _group("guide", "length_mm locks_at_friction force_N at_deg", batch="guide:guide"),
     _group("parts_list", "", "report.parts_list:parts_list_tables", makes_parts=True),
     QuantityGroup(
         "tolerance",

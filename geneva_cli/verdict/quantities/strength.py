@@ -11,7 +11,6 @@ from geneva_cli.analysis import pin as pins
 from geneva_cli.loads.strength import arm as arms
 from geneva_cli.loads.strength import roller, shafts
 from geneva_cli.loads.strength.allowed import shear_allowed_MPa
-from geneva_cli.loads.strength.horn import horn_stresses
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress
 from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.numerics.arrays import array, parameter
@@ -86,16 +85,15 @@ def _allowed(of: Designs, own: Material, material: Callable[[Spec], Stock]) -> N
 
 def horn(of: Designs) -> Columns:
     """The horn at the place where the roller bends it most; it needs a width of the contact."""
-    width, allowed = under_load(of).contact_mm, _allowed(of, of.spec.material_wheel, wheel_material)
+    allowed, load = _allowed(of, of.spec.material_wheel, wheel_material), under_load(of)
     out: dict[str, Number | None] = {"allowed_MPa": allowed}
-    sizes = None if width is None else under_load(of).lock_sizes
-    if width is None or sizes is None:
+    width = load.contact_mm
+    if width is None or not load.has_horns:
         return out
-    force = under_load(of).force_N
+    force = load.force_N
     if not np.isfinite(force).any():
         return out | dict.fromkeys(("stress_MPa", "at_deg", "inwards_mm", "thickness_mm"), force)
-    stresses = horn_stresses(of.machine, sizes.half_width, sizes.lock.recess, width)
-    rows = {name: _known(row) for name, row in stresses._asdict().items()}
+    rows = {name: _known(row) for name, row in load.horn(width)._asdict().items()}
     stress = np.where(np.isfinite(force), rows["stress_MPa"], force)
     out["margin"] = margin(stress, allowed)
     return out | {name: np.where(np.isfinite(force), row, force) for name, row in rows.items()}
@@ -164,10 +162,9 @@ def _number(of: Designs, values: Array) -> float:
 
 
 def _shaft(of: Designs, ends: shafts.ShaftDimensions, on: shafts.ShaftForces) -> Columns:
-    """A shaft under its load; without results in a rack's machine."""
+    """A shaft under its load."""
     out: dict[str, Number | None] = {"diameter_mm": ends.diameter_mm}
-    wheel = of.spec.wheel
-    turned = under_load(of).shaft(ends, on) if wheel.FLAT or wheel.SHELLS else None
+    turned = under_load(of).shaft(ends, on)
     if turned is None:
         return out
     moment = np.asarray(turned.moment_Nm) * of.loaded

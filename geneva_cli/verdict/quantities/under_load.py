@@ -10,10 +10,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.analysis.quantities import FORCE, PV
+from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.sizes import Layout, sized
+from geneva_cli.layout.sphere_sizes import sized_ball
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.strength import lock, roller, shafts
+from geneva_cli.loads.strength.horn import horn_stresses
+from geneva_cli.loads.strength.horn_search import HornStress
 from geneva_cli.loads.strength.part_loads import PartLoads, own_loads, part_loads, sizing_loads
+from geneva_cli.loads.strength.sphere_horn import sphere_horn
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.verdict.lock_sizes import LockSizes, design_lock_sizes, layouts_lock_sizes
@@ -60,6 +65,28 @@ class UnderLoad:
         if self.designs.are_built:
             return layouts_lock_sizes(self.layouts)
         return design_lock_sizes(self.machine)
+
+    @cached_property
+    def balls(self) -> Sequence[Ball | None]:
+        """Sizes of each design on a sphere; None for a design without parts there."""
+        return [sized_ball(one) for one in self.designs.each]
+
+    @property
+    def has_horns(self) -> bool:
+        """True if a design has horns: a locking disc and its recesses."""
+        return self.lock_sizes is not None or any(ball and ball.recess for ball in self.balls)
+
+    def horn(self, width: float) -> HornStress:
+        """The greatest stress in the horns under the roller, for a width of its contact."""
+        sizes = self.lock_sizes
+        if sizes is not None:
+            return horn_stresses(self.machine, sizes.half_width, sizes.lock.recess, width)
+        rows = np.full((len(HornStress._fields), len(self.balls)), np.nan)
+        widths = np.broadcast_to(np.ravel(width), len(self.balls))
+        for i, (one, ball) in enumerate(zip(self.designs.each, self.balls, strict=True)):
+            angles = (ball.half_width, ball.recess, ball.axes) if ball else (0.0, 0.0, 0.0)
+            rows[:, i] = sphere_horn(one, *angles, float(widths[i])) or np.nan
+        return HornStress(*map(parameter, rows))
 
     @cached_property
     def layouts(self) -> Sequence[Layout | None]:

@@ -33,8 +33,7 @@ def _or_reason(model: PartsModel, compute: Callable[[PartsModel], Values]) -> Va
 
 
 def _sizes(model: PartsModel) -> Values:
-    parts = model.parts
-    horn: Values = {"parts.horn_mm": parts.sizes.horn if parts.crank else None}
+    horn: Values = {"parts.horn_mm": model.built.horn_mm}
     return horn | (cut_sizes(model) if model.mechanism.spec.is_flat else {})
 
 

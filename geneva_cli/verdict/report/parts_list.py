@@ -10,9 +10,6 @@ from geneva_cli.verdict.report.values import Values
 
 def parts_list_tables(model: PartsModel) -> Values:
     """The three tables; None for one without rows, such as the pivots of a spherical wheel."""
-    wheel = model.mechanism.spec.wheel
-    if not (wheel.FLAT or wheel.SHELLS):
-        return {f"parts_list.{kind}": None for kind in KINDS}
     rows = parts_list(model).to_rows()
     values: Values = {}
     for kind, names in KINDS.items():

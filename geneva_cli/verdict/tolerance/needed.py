@@ -54,7 +54,7 @@ def required_clearances(
     slot = fit + max(
         _slot_offset_mm(mechanism, e, sizes, least_play) for e in mechanism.engagements
     )
-    if not spec.has_parts:
+    if not spec.is_turned:
         return RequiredClearances(slot, None, None, "there are no drawn parts to turn")
     try:
         lock, corner = (

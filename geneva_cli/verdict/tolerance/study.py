@@ -161,7 +161,7 @@ def _applicable(mechanism: Mechanism) -> tuple[dict[str, float], list[Notice]]:
 def _locks(
     mechanism: Mechanism, model: PartsModel, warnings: list[Notice]
 ) -> Sequence[Lock | SphereLock]:
-    if not mechanism.spec.has_parts:
+    if not mechanism.spec.is_turned:
         return []
     try:
         return locks(model.outlines) if mechanism.spec.wheel.FLAT else sphere_locks(model.shells)

@@ -1,0 +1,71 @@
+"""The content of a sheet, independent of its scale: rows of the list, items, cut faces."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, NamedTuple
+
+from geneva_cli.curves.measure import bounds
+from geneva_cli.curves.plates import Member, Plate, Stack, plates
+from geneva_cli.curves.shapes import Shape
+from geneva_cli.drawings.parts_list import part_rows
+from geneva_cli.drawings.sheet.cut import (
+    Face,
+    balloons,
+    balloons_in_section,
+    draw_section,
+    faces,
+    steps,
+)
+from geneva_cli.drawings.sheet.paper import scale_name
+from geneva_cli.drawings.sheet.view import View
+from geneva_cli.layout.alike import alike
+from geneva_cli.machine.spec import Spec
+
+
+class SheetContent(NamedTuple):
+    """The content of a sheet, independent of its scale."""
+
+    members: tuple[Member, ...]  # all parts at their positions
+    together: tuple[Shape, ...]  # what the assembled machine shows of them
+    rows: list[dict[str, Any]]  # the list of parts
+    largest: float  # mm: a part's width or height
+    area: float  # mm², of the boxes about some parts: the views need more than that
+    items: dict[Plate, int]  # the number of each kind of plate in the list
+    cut: list[Face]  # the faces of the section
+
+
+def shown_on_sheet(
+    spec: Spec, members: tuple[Member, ...], together: tuple[Shape, ...]
+) -> SheetContent:
+    """Return the content of the views, computed once for all scales."""
+    every = [one.part for one in members]
+    rows: list[dict[str, Any]] = list(part_rows(spec, every))
+    sizes = [row[f"size_{axis}_mm"] for row in rows for axis in "xy"]
+    # each plate of these layers has a view, and so has the frame
+    apart = [one for part in every for one in plates(part) if one.layer in ("WHEEL", "ARM")]
+    boxes = [bounds(plate.outline) for plate in (*apart, *plates(every[-1]))]
+    area = sum((box.x1 - box.x0) * (box.y1 - box.y0) for box in boxes)
+    kinds = enumerate(alike(every), 1)
+    flat = ((i, kind[0]) for i, kind in kinds if isinstance(kind[0], Plate | Stack))
+    items = {step: i for i, part in flat for step in steps(part)}
+    # chords of 1.5 mm on a part of 500 mm: spans are within 0.1 mm on any paper
+    cut = faces(members, 500.0 / max(sizes))
+    return SheetContent(members, together, rows, max(sizes), area, items, cut)
+
+
+def section(shown: SheetContent, axes: Iterable[float], scale: float) -> View:
+    """Return the section along the line of centres, with balloons; ``axes`` are the shafts' x."""
+    view = View(f"A-A ({scale_name(scale)})", scale)
+    draw_section(view, shown.cut, axes)
+    balloons_in_section(view, shown.cut, shown.items)
+    return view
+
+
+def mark_items(view: View, shown: SheetContent) -> None:
+    """Draw where the section is, and balloons of the items that it does not cut."""
+    boxes = [bounds(shape) for shape in shown.together]
+    ends = ((min(box.x0 for box in boxes), 0.0), (max(box.x1 for box in boxes), 0.0))
+    view.section(*ends, "A")
+    marked = {shown.items[face.plate] for face in shown.cut}
+    balloons(view, shown.members, shown.items, marked)

@@ -1,0 +1,112 @@
+"""All shafts of a flat machine, plain or turned, and what passes below the parts on them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+
+from geneva_cli.curves.plates import Member, Plate
+from geneva_cli.curves.shapes import Point
+from geneva_cli.layout.link_positions import same
+from geneva_cli.layout.plain_sizes import drawn_thicknesses
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.parts.arm import crank_arm, has_arm
+from geneva_cli.parts.gear_pair import NAMES, gear_shafts, gear_span
+from geneva_cli.parts.link_shafts import carried, link_shafts
+from geneva_cli.parts.links import Links
+from geneva_cli.parts.planes import crank_stop
+from geneva_cli.parts.shaft import Ends, Seat, Shaft
+from geneva_cli.parts.shafts import crank_shaft_radius, shafts, wheel_shaft_radius
+from geneva_cli.parts.turned_shafts import bearing_of, shoulder_mm, turned_shaft
+from geneva_cli.spec.tables import Size
+
+
+def all_shafts(
+    mechanism: Mechanism,
+    outlines: Outlines | None,
+    bars: Links,
+    lowest: float,
+    first: Sequence[Member],
+) -> Iterator[Shaft]:
+    """Yield all shafts and pivots; ``lowest`` is the frame's lower face."""
+    stop, has_one = None, (False, False)
+    L = mechanism.center_distance_mm
+
+    def on(at: Point) -> tuple[Seat, ...]:
+        """Return what a shaft carries, from the lowest up, but for wheel and crank."""
+        here = (axis for axis in bars.axes if same(axis.at, at, L))
+        seats = [seat for axis in here for seat in carried(bars, axis, first, L)]
+        if mechanism.spec.gears and same(at, (L, 0.0), L):
+            seats.append(Seat(NAMES[0], *gear_span(mechanism, outlines)))
+        return tuple(sorted(seats, key=lambda seat: seat.low))
+
+    if outlines:
+        stop = crank_stop(outlines, bars)
+        has_one = crank_shaft_radius(outlines) > 0.0, wheel_shaft_radius(outlines) > 0.0
+        _, *others = mechanism.wheel_places
+        half = mechanism.engagements[0].half_step
+        for one in shafts(outlines, lowest, stop, on):
+            yield one
+            if same(one.at, (0.0, 0.0), L):
+                yield from (one._replace(at=it.at, turn=one.turn + it.turn - half) for it in others)
+    size, drawn = mechanism.spec.size, outlines.sizes if outlines else None
+    top = drawn_thicknesses(size, L, drawn).wheel
+    ends = Ends(lowest, top, stop, *has_one)
+    yield from link_shafts(mechanism, bars, ends, on)
+    yield from gear_shafts(mechanism, outlines, ends)
+
+
+def built_shafts(
+    size: Size, own: list[Shaft], beside: list[Seat], heights: tuple[float, float, float]
+) -> tuple[list[Member], float]:
+    """Return the shafts, plain or turned, and the frame's lower face.
+
+    Turned are those that turn in the frame and reach its lower face. ``heights`` are that of the
+    frame of plain shafts, its upper face, and the lowest height at which parts pass.
+    """
+    usual, top, free = heights
+    turned = [size.shafts == "turned" and one.turns and one.low <= usual for one in own]
+    widths = (bearing_of(one).width for one, steps in zip(own, turned, strict=True) if steps)
+    bottom = min([usual, *(top - width for width in widths)])
+    axles = []
+    for one, steps in zip(own, turned, strict=True):
+        if steps:
+            axles.append(turned_shaft(size, one, top, free if _is_passed(one, beside) else None))
+        else:
+            axles.append(one._replace(low=bottom if one.low == usual else one.low).plain(size))
+    return axles, bottom
+
+
+def passing(
+    mechanism: Mechanism, outlines: Outlines | None, bars: Links, others: Iterable[Member]
+) -> Iterator[Seat]:
+    """Yield links, gears and other parts: their names, lower and upper faces."""
+    gears = (gear.member for gear in bars.gears)
+    yield from map(_span, (*bars.cut, *bars.joined, *gears, *others))
+    if mechanism.spec.gears:
+        yield from (Seat(name, *gear_span(mechanism, outlines)) for name in NAMES)
+
+
+def arm_beside(outlines: Outlines, own: Iterable[Shaft]) -> Iterator[Seat]:
+    """Yield the faces of an arm whose end passes a wheel's shaft nearer than its shoulder."""
+    if not has_arm(outlines):
+        return
+    arm, L = crank_arm(outlines), outlines.assembly.L
+    away = L - max(math.hypot(*pin.centre) for pin in arm.pins) - arm.eye
+    high = -outlines.assembly.full.spec.size.allowances.pin_gap_mm
+    for one in own:
+        if one.part == "wheel" and away < 0.5 * shoulder_mm(one):
+            yield Seat("arm", high - outlines.sizes.arm_thickness, high)
+
+
+def _span(member: Member) -> Seat:
+    assert isinstance(member.part, Plate)
+    return Seat(member.part.name, member.part.low, member.part.high)
+
+
+def _is_passed(shaft: Shaft, beside: Iterable[Seat]) -> bool:
+    """Return True if parts on other axes are lower than what a shaft carries."""
+    low = shaft.seats[0].low if shaft.seats else shaft.high
+    own = {seat.part for seat in shaft.seats}
+    return any(one.low < low and one.part not in own for one in beside)

@@ -1,0 +1,57 @@
+"""A frame as a plate: holes for shafts and screws, and four mounting holes in its corners."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from geneva_cli.curves.hull import convex_hull
+from geneva_cli.curves.plates import Plate, Stack
+from geneva_cli.curves.shapes import Circle, Point
+from geneva_cli.layout.bearings import SERIES_60
+from geneva_cli.layout.bores import around
+from geneva_cli.layout.plain_sizes import half_or, wall_min
+from geneva_cli.numerics.preferred import bore_radius, rounded_radius
+from geneva_cli.spec.tables import Size
+
+NAME, LAYER, HOLES = "frame", "FRAME", "BORE"
+
+
+def mounted_plate(
+    holes: Sequence[Circle], within: Iterable[Circle], eye: float, span: tuple[float, float]
+) -> Plate:
+    """Return a frame with its holes, around circles that it contains.
+
+    Four mounting holes are in its corners, whose radius is ``eye``. ``span`` has its lower and
+    upper face.
+    """
+    inside = list(within)
+    low, high = (
+        [pick(c.centre[k] + sense * c.radius for c in inside) + 3.0 * sense * eye for k in (0, 1)]
+        for sense, pick in ((-1.0, min), (1.0, max))
+    )
+    corners = [(x, y) for x in (low[0], high[0]) for y in (low[1], high[1])]
+    outline = convex_hull(LAYER, [Circle(LAYER, corner, eye) for corner in corners])
+    mounts = [Circle(HOLES, corner, rounded_radius(0.4 * eye)) for corner in corners]
+    return Plate(NAME, LAYER, outline, (*holes, *mounts), *span)
+
+
+def corner_radius(size: Size, L: float) -> float:
+    """Return the radius of a frame's corners, which leaves walls around their mounting holes."""
+    return max(L / 20.0, 3.0 * wall_min(size, L))
+
+
+def shaft_hole(shaft: Plate | Stack, at: Point, top: float, fit_mm: float) -> Circle:
+    """Return the hole of a shaft in a frame with the upper face ``top``.
+
+    It is as wide as the bearing on a turned shaft, or as a bore for a plain one.
+    """
+    if isinstance(shaft, Stack):
+        seat = next(step for step in shaft.plates if step.high == top)
+        bearing = next(one for one in SERIES_60 if one.bore == 2.0 * around(seat.outline))
+        return Circle(HOLES, at, 0.5 * bearing.outside)
+    return Circle(HOLES, at, around(shaft.outline) + 0.5 * fit_mm)
+
+
+def hole_without_shaft(diameter_mm: float | None, at: Point, L: float) -> Circle:
+    """Return the hole for a part that is one piece with its shaft, of the spec or L/10 wide."""
+    return Circle(HOLES, at, half_or(diameter_mm, bore_radius(L / 20.0)))

@@ -1,0 +1,182 @@
+"""The frame of a rack's machine: the crank's shaft in it, and the guide along the rack on it.
+
+A bar is bolted under the rack's back, and reaches a little beyond it. It slides between a rail, on
+which the rack lies, and a wall. A cover on the wall keeps the rack from lifting. All of them lie
+beyond the sweep of the crank's arm, and are screwed to the frame.
+
+The rack covers its guide in each of its steps. At the start of the first one it ends R - w past the
+crank's axis, w being half a slot. On the other side it does so at the end of the last one. So the
+guide is 2 (R - w) long.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from geneva_cli.curves.plates import Member, Plate, Stack
+from geneva_cli.curves.shapes import Circle
+from geneva_cli.curves.sheet import rectangle
+from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics.layout import Dimension
+from geneva_cli.layout.bearings import bearing_up_to, shoulder_length
+from geneva_cli.layout.bolt_holes import bolt_radius
+from geneva_cli.layout.bores import bore_of
+from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.outlines.rack import RackSizes, rack_ends, rack_sizes, slot_places
+from geneva_cli.parts.mounted_plate import (
+    HOLES,
+    LAYER,
+    corner_radius,
+    hole_without_shaft,
+    mounted_plate,
+    shaft_hole,
+)
+from geneva_cli.parts.rack_arm import rack_bore
+from geneva_cli.parts.shaft import Seat, Shaft, shaft_ends
+from geneva_cli.parts.turned_shafts import turned_shaft
+
+
+class RackFrame(NamedTuple):
+    """The heights of a rack's parts along the crank's axis, mm; 0 is the rack's lower face."""
+
+    bottom: float  # of the frame
+    top: float
+    arm: float  # lower face of the arm
+    stands: float  # its upper face
+    rack: float  # upper face of the rack
+    cover: float  # thickness of the guide's cover
+
+
+def rack_frame(mechanism: Mechanism) -> RackFrame:
+    """Return the heights of a machine's parts."""
+    size, R = mechanism.spec.size, mechanism.center_distance_mm
+    thick, gap = drawn_thicknesses(size, R), size.allowances.pin_gap_mm
+    arm, thickness = -gap - thick.arm, thick.arm
+    top = arm - size.washer_mm
+    if size.shafts == "turned" and has_arm(mechanism):
+        top -= shoulder_length(size, 2.0 * R)  # as on a wheel of 6 slots, whose L is 2 R
+        bearing = bearing_up_to(2.0 * rack_bore(mechanism), "crank's shaft", "arm_bore_mm")
+        thickness = max(thickness, bearing.width)
+    return RackFrame(top - thickness, top, arm, 0.0 - gap, thick.wheel, thick.arm)
+
+
+def has_arm(mechanism: Mechanism) -> bool:
+    """Return True if the roller has a pin, which an arm carries."""
+    return pin_radius(mechanism.spec.size, mechanism.roller_radius_mm) > 0.0
+
+
+def rack_shaft(mechanism: Mechanism) -> Member | None:
+    """Return the crank's shaft, from the frame's lower face to the arm's upper one.
+
+    None without an arm, as the crank is one piece with its shaft then. Raises GenevaError, naming
+    the key, where its lower end is not below its upper one.
+    """
+    if not has_arm(mechanism):
+        return None
+    size, heights = mechanism.spec.size, rack_frame(mechanism)
+    bore, axis = bore_of(size, "crank", rack_bore(mechanism)), (mechanism.center_distance_mm, 0.0)
+    seats = (Seat("crank", heights.arm, heights.stands),)
+    low, high = shaft_ends(size, "crank", heights.bottom, heights.stands)
+    # the keyway is on the side of the locking sector, as in the arm
+    one = Shaft("crank's shaft", "crank", bore, seats, low, high, axis, math.pi, math.pi)
+    if size.shafts == "turned" and low <= heights.bottom:
+        return turned_shaft(size, one, heights.top, None)
+    return one.plain(size)
+
+
+def guide_bar(mechanism: Mechanism, count: int) -> Plate:
+    """Return the bar under a rack of ``count`` slots; half the height under it is free."""
+    sizes, heights = rack_sizes(mechanism), rack_frame(mechanism)
+    low, high = rack_ends(sizes, count)
+    x = sizes.bar_back
+    outline = rectangle("LINK", x, low, x + sizes.bar, high)
+    return Plate("guide bar", "LINK", outline, bar_bolts(sizes, count), 0.5 * heights.top, 0.0)
+
+
+def bar_bolts(sizes: RackSizes, count: int) -> tuple[Circle, ...]:
+    """Return the holes that fix the bar to a rack, behind each of its slots."""
+    x = sizes.bar_back + 0.5 * sizes.bar
+    return tuple(Circle(HOLES, (x, y), _bolt(sizes)) for y in slot_places(sizes, count))
+
+
+def guide(mechanism: Mechanism) -> tuple[Plate, ...]:
+    """Return rail, wall and cover of the guide.
+
+    Raises GenevaError where the slots are so wide that hardly any guide is left between them.
+    """
+    sizes, heights = rack_sizes(mechanism), rack_frame(mechanism)
+    x, bar, slide, half = sizes.bar_back, sizes.bar, sizes.slide, guide_half_mm(sizes)
+    if half < bar:
+        raise GenevaError(
+            f"roller_radius_mm = {sizes.roller:g}: a guide that the rack always covers would be "
+            f"{2.0 * half:.4g} mm long, and its screws need {2.0 * bar:.4g}: use a smaller roller",
+            ("size", "roller_radius_mm"),
+        )
+    over = heights.rack + mechanism.spec.size.allowances.pin_gap_mm
+    on_rail, on_wall = (tuple(_row(sizes, at)) for at in _rows(sizes))
+    rail = rectangle(LAYER, x + bar + slide, -half, x + 2.0 * bar + slide, half)
+    wall = rectangle(LAYER, x - slide - 2.0 * bar, -half, x - slide, half)
+    cover = rectangle(LAYER, x - slide - 1.9 * bar, -half, x + 0.9 * bar, half)
+    return (
+        Plate("guide rail", LAYER, rail, on_rail, heights.top, 0.0),
+        Plate("guide wall", LAYER, wall, on_wall, heights.top, over),
+        Plate("guide cover", LAYER, cover, on_wall, over, over + heights.cover),
+    )
+
+
+def guide_half_mm(sizes: RackSizes) -> float:
+    """Return half the length of the guide, which the rack covers in each of its steps."""
+    return sizes.beyond - sizes.arm
+
+
+def rack_dimensions(sizes: RackSizes) -> Iterator[Dimension]:
+    """Yield the dimensions of rack, locking sector and guide."""
+    lock = {
+        "recess radius": sizes.recess,
+        "locking sector: outer radius": sizes.lock,
+        "locking sector: inner radius": sizes.floor,
+    }
+    named = {
+        "distance of the slots": 2.0 * sizes.arm,
+        "edge, from the deepest roller": sizes.edge,
+        **(lock if sizes.lock else {}),
+        "guide bar: width": sizes.bar,
+        "guide: clearance on either side": sizes.slide,
+        "guide: length": 2.0 * guide_half_mm(sizes),
+    }
+    for name, value in named.items():
+        yield Dimension(name, value, "mm")
+
+
+def frame_plate(mechanism: Mechanism) -> Plate:
+    """Return the frame, with holes for the crank's shaft and the guide's screws."""
+    size, sizes, heights = mechanism.spec.size, rack_sizes(mechanism), rack_frame(mechanism)
+    R, shaft = sizes.arm, rack_shaft(mechanism)
+    axis, span = (R, 0.0), (heights.bottom, heights.top)
+    L = 2.0 * R  # as a wheel of 6 slots has it
+    if shaft is None:
+        bored = hole_without_shaft(mechanism.spec.shaft.crank_diameter_mm, axis, L)
+    else:
+        assert isinstance(shaft.part, Plate | Stack)
+        bored = shaft_hole(shaft.part, axis, heights.top, size.allowances.shaft_fit_mm)
+    holes = [bored, *(hole for at in _rows(sizes) for hole in _row(sizes, at))]
+    return mounted_plate(holes, holes, corner_radius(size, L), span)
+
+
+def _rows(sizes: RackSizes) -> tuple[float, float]:
+    """Return the x of the screws of rail and wall."""
+    return sizes.bar_back + 1.5 * sizes.bar + sizes.slide, sizes.bar_back - sizes.slide - sizes.bar
+
+
+def _row(sizes: RackSizes, x: float) -> Iterator[Circle]:
+    """Yield three screws' holes along the guide, half a bar's width from its ends."""
+    far = guide_half_mm(sizes) - 0.5 * sizes.bar
+    for y in (-far, 0.0, far):
+        yield Circle(HOLES, (x, y), _bolt(sizes))
+
+
+def _bolt(sizes: RackSizes) -> float:
+    return bolt_radius(None, 2.0 * sizes.arm, 0.5 * sizes.bar)

@@ -1,0 +1,166 @@
+"""All parts of a rack's machine at their positions, at input angle 0.
+
+In the machine's frame the rack's slots run along x, the roller is at the origin, and the crank's
+axis is at (R, 0). Each part is built once, on first use. Drawing, solid, list of parts and sheet
+are projections of them. Their outlines are lines and arcs, so that no tolerance changes them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from functools import cached_property
+from typing import Self
+
+from geneva_cli.curves.edges import Edge
+from geneva_cli.curves.hole_walls import require_faces
+from geneva_cli.curves.plates import Group, Member, Plate, edged, plates
+from geneva_cli.curves.shapes import Point
+from geneva_cli.errors import GenevaError
+from geneva_cli.layout.missing import NamedParts
+from geneva_cli.layout.plain_sizes import drawn_thicknesses
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.outlines.rack import RackSizes, rack_contour, rack_sizes
+from geneva_cli.parts.rack_arm import rack_arm, rack_crank
+from geneva_cli.parts.rack_frame import (
+    bar_bolts,
+    frame_plate,
+    guide,
+    guide_bar,
+    has_arm,
+    rack_shaft,
+)
+
+
+class RackParts:
+    """The parts of a machine, in its frame.
+
+    A part that the sizes leave no place for raises GenevaError, naming the key.
+    """
+
+    def __init__(self, mechanism: Mechanism) -> None:
+        self.mechanism = mechanism
+
+    def within(self, tolerance: float, curves: str) -> Self:
+        """Return these parts, which have no curves to fit."""
+        return self
+
+    @cached_property
+    def sizes(self) -> RackSizes:
+        """The sizes of rack and locking sector."""
+        return rack_sizes(self.mechanism)
+
+    @property
+    def axis(self) -> Point:
+        """The crank's axis."""
+        return self.sizes.arm, 0.0
+
+    @cached_property
+    def wheel(self) -> Member:
+        """The rack, with holes for the bolts of its guide bar."""
+        count, sizes = self.mechanism.spec.wheel.z, self.sizes
+        high = drawn_thicknesses(self.mechanism.spec.size, sizes.arm).wheel
+        outline, holes = rack_contour(sizes, count), bar_bolts(sizes, count)
+        return self._edged([Member(Plate("rack", "WHEEL", outline, holes, 0.0, high))])[0]
+
+    @cached_property
+    def bar(self) -> Member:
+        """The bar under the rack's back."""
+        return self._edged([Member(guide_bar(self.mechanism, self.mechanism.spec.wheel.z))])[0]
+
+    @cached_property
+    def arm(self) -> Plate | None:
+        """The crank's arm; None without a pin for the roller."""
+        if not has_arm(self.mechanism):
+            return None
+        return rack_arm(self.mechanism)._replace(edge=self._edge)
+
+    @cached_property
+    def crank_without_arm(self) -> Member:
+        """Locking sector, roller and pin, as they lie in the rack's plane."""
+        return self._crank(None)
+
+    @cached_property
+    def crank(self) -> Member:
+        """The crank: arm, locking sector, roller on its pin."""
+        return self._crank(self.arm)
+
+    def _crank(self, arm: Plate | None) -> Member:
+        below = (Member(arm),) if arm else ()
+        members = *below, *self._edged(rack_crank(self.mechanism))
+        # the roller is on the rack's side
+        return Member(Group("crank", members), self.axis, math.pi)
+
+    @cached_property
+    def shafts(self) -> tuple[Member, ...]:
+        """The crank's shaft; none without an arm."""
+        self._require_direct()
+        shaft = rack_shaft(self.mechanism)
+        return self._edged([shaft]) if shaft else ()
+
+    @cached_property
+    def guide(self) -> tuple[Member, ...]:
+        """Rail, wall and cover of the guide."""
+        self._require_direct()
+        return self._edged(Member(plate) for plate in guide(self.mechanism))
+
+    @cached_property
+    def frame(self) -> Member:
+        """The frame, which holds the crank's shaft and the guide."""
+        self._require_direct()
+        return self._edged([Member(frame_plate(self.mechanism))])[0]
+
+    def _require_direct(self) -> None:
+        """Raise GenevaError where links or gears turn the crank: the frame has no place for them.
+
+        Those of a sphere have no frame either.
+        """
+        if reason := self.mechanism.spec.no_parts:
+            raise GenevaError(reason, ("drive", "kind"))
+
+    def _edged(self, members: Iterable[Member]) -> tuple[Member, ...]:
+        """Return members with the spec's edges."""
+        return tuple(edged(one, self._edge) for one in members)
+
+    @property
+    def _edge(self) -> Edge:
+        """The edges of all plates."""
+        size = self.mechanism.spec.size
+        return Edge(size.edge_mm, rounded=size.edge_chamfer_mm is None)
+
+    @property
+    def outside_mm(self) -> float | None:
+        """None: heights count from the rack's lower face."""
+        return None
+
+    @property
+    def horn_mm(self) -> float | None:
+        """Thickness of the horns between slots and recesses; None without a lock."""
+        return self.sizes.horn if self.sizes.lock else None
+
+    @property
+    def standing(self) -> tuple[Member, ...]:
+        """The parts that stand still."""
+        return (*self.guide, self.frame)
+
+    @property
+    def members(self) -> tuple[Member, ...]:
+        """All parts; behind links or gears those that move."""
+        moving = self.wheel, self.bar, self.crank
+        framed = self.mechanism.spec.has_parts
+        return (*moving, *self.shafts, *self.standing) if framed else moving
+
+    def require(self) -> None:
+        """Raise GenevaError for a part that cannot be built."""
+        for member in self.members:
+            for plate in plates(member.part):
+                require_faces(plate)
+
+    def by_name(self) -> Iterator[NamedParts]:
+        """Yield all parts in the order of a list, as names and functions that build them."""
+        yield "rack", lambda: [self.wheel.part]
+        yield "guide bar", lambda: [self.bar.part]
+        yield "crank", lambda: [self.crank.part]
+        yield "shafts", lambda: [one.part for one in self.shafts]
+        yield "guide", lambda: [one.part for one in self.guide]
+        yield "frame", lambda: [self.frame.part]

@@ -1,0 +1,233 @@
+"""Drives in series: what ``test_machines.py`` and ``test_series_loads.py`` do not hold yet."""
+
+import math
+
+import numpy as np
+import pytest
+import repo
+from words import load
+
+from geneva_cli import (
+    Cam,
+    Carousel,
+    Crank,
+    Cycloidal,
+    Design,
+    EllipticalGears,
+    Epicyclic,
+    External,
+    FourBar,
+    GearSector,
+    GenevaPair,
+    Internal,
+    Motion,
+    NoncircularGears,
+    SideCrank,
+    Spherical,
+)
+from geneva_cli.drawings.model import PartsModel
+from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics.layout import Joint
+from geneva_cli.layout.link_positions import links_at
+from geneva_cli.machine.both_ways import backwards
+from geneva_cli.machine.many import many
+from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.retimed import retimed
+from geneva_cli.machine.spec import Spec
+from geneva_cli.specfile.tree import spec_of
+from geneva_cli.specfile.writer import spec_lines
+from geneva_cli.study.animation.bodies import bodies
+from geneva_cli.study.animation.turn import MachineTurn
+
+GEARS = EllipticalGears(eccentricity=0.2, gear_distance_mm=50.0)
+PLANET = Epicyclic(planet_ratio="shockless")
+COUPLER = FourBar(
+    crank_mm=40.0,
+    ground_mm=90.0,
+    coupler_mm=100.0,
+    rocker_mm=100.0,
+    point_mm=161.519,
+    point_deg=-36.138,
+    entry_deg=123.3,
+)
+
+
+@pytest.mark.parametrize(
+    "wheel", [External(6), Internal(6), External(6, offset_mm=8.0), Spherical(6)], ids=repr
+)
+@pytest.mark.parametrize("front", [GEARS, SideCrank(A=0.4), NoncircularGears(A=-0.3)], ids=repr)
+def test_a_retimed_crank_is_the_crank_behind_that_drive(wheel, front):
+    """The drive's own machine writes the same path about its own anchors, without a chain rule."""
+    plain = Crank().plan(wheel, None, 100.0)
+    (ours,) = retimed(plain, Spec(wheel, drive_before=front)).engagements
+    (own,) = front.plan(wheel, None, 100.0).engagements
+    assert (ours.entry_deg, ours.exit_deg) == (own.entry_deg, own.exit_deg)
+    x = np.linspace(own.entry_deg, own.exit_deg, 41)
+    for a, b in zip(ours.motion.derivatives(x), own.motion.derivatives(x), strict=True):
+        # 16 units of the peak: the bar of every machine, in test_machines.py
+        assert abs(a - b).max() <= 16.0 * math.ulp(abs(b).max())
+    for a, b in zip(ours.slot.axis(x, 1), own.slot.axis(x, 1), strict=True):
+        for k in (0, 1):
+            assert abs(a.c[k] - b.c[k]).max() <= 16.0 * math.ulp(1.0)
+    spins = [one.carrier(x, 1) for one in (ours, own)]
+    assert abs(spins[0].c[1] - spins[1].c[1]).max() <= 16.0 * math.ulp(1.0)
+
+
+@pytest.mark.parametrize("drive", [PLANET, Epicyclic(planet_ratio=-0.01), COUPLER], ids=repr)
+def test_speed_and_jump_scale_with_the_ratio_of_the_gears(drive):
+    """psi' = G' i at mid-motion, and psi'' = G'' i² at entry, where G' = 0."""
+    one, both = (Design(External(4), drive, drive_before=b).mechanism for b in (None, GEARS))
+    (own,), (here,) = one.engagements, both.engagements
+    e = GEARS.eccentricity
+    middle = own.motion(0.0).c[1] * (1.0 - e) / (1.0 + e)
+    assert here.motion(0.0).c[1] == pytest.approx(middle, rel=1e-14)
+    # the gears' ratio at the input angle of entry: Kepler's, test_machines.py has its witness
+    ratio = (1.0 - e * e) / (1.0 + e * e + 2.0 * e * math.cos(math.radians(here.entry_deg)))
+    jump = own.motion(own.entry_deg).derivatives()[2] * ratio**2
+    assert here.motion(here.entry_deg).derivatives()[2] == pytest.approx(jump, rel=1e-12, abs=1e-14)
+    assert both.center_distance_mm == one.center_distance_mm
+
+
+@pytest.mark.parametrize(
+    "drive, key, values",
+    [
+        (PLANET, "drive.before.eccentricity", (0.0, 0.1, 0.3, 1.5)),
+        (Epicyclic(planet_ratio=0.01), "drive.planet_ratio", (-0.02, 0.0, 0.02)),
+        (COUPLER, "drive.point_mm", (160.0, 161.5, 163.0)),
+        (SideCrank(A=0.3), "drive.A", (0.1, 0.5)),
+        (
+            EllipticalGears(eccentricity=0.1, rollers=2),
+            "drive.before.gear_distance_mm",
+            (50.0, 70.0),
+        ),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_a_batch_has_the_numbers_of_single_designs(drive, key, values):
+    spec = Spec(External(4), drive, drive_before=GEARS)
+    batch = many(spec, {key: np.array(values)})
+    built = [x for x, refused in zip(values, batch.refused.tolist(), strict=True) if not refused]
+    assert built == [x for x in values if x != 1.5]
+    for i, value in enumerate(built):
+        single = build(spec.with_(key, value))
+        for one, of in zip(single.engagements, batch.machine.engagements, strict=True):
+            places = (of.mid_deg, of.entry_deg, of.exit_deg)
+            mid, entry, exit_ = (np.broadcast_to(x, (len(built), 1))[i, 0] for x in places)
+            # a batch solves a linkage in long doubles
+            wanted = (one.mid_deg, one.entry_deg, one.exit_deg)
+            assert (mid, entry, exit_) == pytest.approx(wanted, rel=1e-13, abs=1e-13)
+            x = np.linspace(0.9 * one.entry_deg, 0.9 * one.exit_deg, 7)
+            for a, b in zip(of.motion(x, 3).arrays(), one.motion(x, 3).arrays(), strict=True):
+                a = np.broadcast_to(a, (len(built), 7))[i]
+                assert abs(a - b).max() <= 1e-12 * abs(b).max()
+
+
+@pytest.mark.parametrize(
+    "wheel, drive, before, motion, message",
+    [
+        (External(6), Crank(), GEARS, None, "its crank is on the shaft: set that kind in"),
+        (External(6), Carousel(), GEARS, None, "its carrier turns at a constant speed"),
+        (External(3), GearSector(sector_deg=60.0), GEARS, None, "two rollers would run in diff"),
+        (External(6), Cam(), GEARS, Motion(Cycloidal()), "its groove gives any law without gears"),
+        (External(6), SideCrank(A=0.2), GEARS, Motion(Cycloidal()), "would only change the slots"),
+        (External(4), PLANET, GenevaPair(first_z=4), None, "cannot turn the shaft of another"),
+        (External(4), PLANET, COUPLER, None, "cannot turn the shaft of another"),
+        (External(4), PLANET, GEARS.replace(n_rpm=30.0), None, "set them in .drive., not in"),
+        (External(4), PLANET, GEARS.replace(rollers=2), None, "set them in .drive., not in"),
+    ],
+)
+def test_what_cannot_stand_in_series_is_refused(wheel, drive, before, motion, message):
+    with pytest.raises(GenevaError, match=message):
+        _ = Design(wheel, drive, motion, drive_before=before).mechanism
+
+
+@pytest.mark.parametrize(
+    "before, message, key",
+    [
+        ({}, r"\[drive.before\] needs kind", ("drive", "before")),
+        (3, r"before must be a table: write \[drive.before\]", ("drive", "before")),
+        ({"kind": "side-crank", "A": 2.0}, "A = 2 must be above -1", ("drive", "before", "A")),
+        ({"kind": "side-crank", "n_rpm": 3.0}, "set it in .drive.", ("drive", "before", "n_rpm")),
+        ({"kind": "gear"}, "kind must be one of", ("drive", "before", "kind")),
+    ],
+)
+def test_an_error_names_the_key_of_the_drive_before(before, message, key):
+    drive = {"kind": "epicyclic", "planet_ratio": "shockless", "before": before}
+    with pytest.raises(GenevaError, match=message) as error:
+        spec_of({"wheel": {"z": 4}, "drive": drive}, "spec.toml")
+    assert error.value.key == key
+
+
+def test_a_written_spec_is_read_as_the_same(tmp_path):
+    design = Design(External(4), PLANET, drive_before=GEARS)
+    path = tmp_path / "spec.toml"
+    path.write_text("\n".join(spec_lines(design.spec)), encoding="utf-8")
+    again = load(path).spec
+    assert (again.drive, again.drive_before) == (design.spec.drive, GEARS)
+    assert "drive_before=EllipticalGears(eccentricity=0.2" in repr(design)
+    assert design.with_("drive.before.phase", "quick").spec.drive_before.phase == "quick"
+
+
+def test_a_ratio_from_points_turns_both_ways():
+    """Backwards psi(x) is -psi(-x), with the points in reverse order; a warning names their key."""
+    at = np.arange(0.0, 361.0, 10.0)
+    ratio = 1.0 - 0.25 * np.cos(np.radians(at)) + 0.1 * np.sin(np.radians(2.0 * at))
+    ratio[-1] = ratio[0]
+    front = NoncircularGears(ratio=tuple(zip(at.tolist(), ratio.tolist(), strict=True)))
+    drive = Epicyclic(planet_ratio=0.02, both_ways=True)
+    design = Design(External(4), drive, drive_before=front)
+    (here,), (back,) = (m.engagements for m in (design.mechanism, backwards(design.mechanism)))
+    x = np.linspace(here.entry_deg, here.exit_deg, 31)
+    turned = back.motion.derivatives(-x[::-1])
+    for k, (a, b) in enumerate(zip(here.motion.derivatives(x), turned, strict=True)):
+        # 1e-13: the spline's rounding, whose third derivative has the fewest digits
+        assert abs(a + (-1) ** k * b[::-1]).max() <= 1e-13 * abs(a).max()
+    (warning,) = (w for w in design.warnings if "because of" in w)
+    assert "because of ratio_file." in warning
+
+
+@pytest.mark.parametrize("drive", [PLANET, COUPLER], ids=repr)
+def test_the_roller_of_the_links_is_on_the_path(drive):
+    """Through a whole turn, dwell included: links and path count the same input angle."""
+    machine = Design(External(4), drive, drive_before=GEARS).mechanism
+    x = np.linspace(-179.0, 180.0, 360)
+    (joint,) = (
+        at
+        for link in links_at(machine, x)
+        for at, kind in zip(link.joints, link.kinds, strict=True)
+        if kind is Joint.ROLLER
+    )
+    px, py = (c.c[0] * machine.center_distance_mm for c in machine.engagements[0].path(x, 0))
+    assert np.hypot(joint[0] - px, joint[1] - py).max() <= 1e-11 * machine.center_distance_mm
+
+
+@pytest.mark.parametrize("drive", [PLANET, COUPLER], ids=repr)
+def test_the_driven_gear_turns_with_the_crank(drive):
+    """The page's gear keeps its place on the crank (or carrier), whichever way that turns."""
+    design = Design(External(4), drive, drive_before=GEARS)
+    turn = MachineTurn(design.mechanism)
+    gear = next(b for b in bodies(design, turn) if b.name == "driven gear")
+    at = np.array(gear.angle.at)
+    crank = links_at(design.mechanism, (at + turn.start + 180.0) % 360.0 - 180.0)[0]
+    (x0, y0), (x1, y1) = crank.joints[:2]
+    off = np.array(gear.angle.value) - np.arctan2(y1 - y0, x1 - x0)
+    # 1e-6 rad: ten times the error of a track
+    assert np.ptp(np.exp(1j * off).real) + np.ptp(np.exp(1j * off).imag) <= 1e-6
+
+
+def test_gears_lie_below_all_links_and_inside_the_bolts():
+    """A sun stands on bolts: gears between it and the frame turn inside them."""
+    spec = load(str(repo.DESIGNS / "behind-gears.toml")).spec
+    flat = PartsModel(build(spec)).flat
+    lows = [link.part.low for link in flat.links.cut]
+    assert all(gear.part.high <= min(lows) for gear in flat.gear_pair)
+    assert flat.gear_pair[0].part.low == flat.gear_pair[1].part.low
+    wide = Design.of(spec.with_("drive.before.gear_distance_mm", 100.0))
+    assert [c.name for c in wide.checks if c.passes is False] == ["gear_gap_mm"]
+
+
+def test_parts_that_are_not_built_say_why():
+    side = Design(External(4), PLANET, drive_before=SideCrank(A=0.2))
+    assert "only gears before a drive whose shaft stands" in side.spec.no_parts
+    both = Design(External(4), SideCrank(A=0.2), drive_before=GEARS)
+    assert 'kind = "elliptical-gears" before kind = "side-crank"' in both.spec.no_parts
