@@ -231,7 +231,7 @@ def composed(outer: Jet, inner: Jet) -> Jet:
     """f(g) by the chain rule, from f as a function of g, about g's value, and from g.
 
     >>> composed(Jet((5.0, 6.0, 1.0)), Jet((2.0, 3.0, 0.0))).c  # (g + 1)² - 4 about 2, g = 2 + 3x
-    [5.0, 18.0, 9.0]
+    (5.0, 18.0, 9.0)
     """
     step = Jet((inner.c[0] * 0.0, *inner.c[1:]))
     total = step * 0.0 + outer.c[-1]

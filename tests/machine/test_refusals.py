@@ -230,7 +230,14 @@ PAIRS = [
 BODY = '[[mass]]\nshape = "point"\nmass_kg = 1\n'
 CAROUSELS = [
     case("spherical", "[wheel]\nz = 6\ngearing = @\n" + ORBIT, '"spherical"', 3, "or internal"),
-    case("unbalanced", WHEEL + ORBIT + BODY + "radius_mm = @", "50", 5, "balanced", "count to 2"),
+    case(
+        "unbalanced",
+        WHEEL + ORBIT + BODY + "radius_mm = 50\n[motion]\nlaw = @",
+        '"cycloidal"',
+        5,
+        "balanced",
+        "count to 2",
+    ),
     case(
         "chain",
         WHEEL + ORBIT + "[product]\nsprocket_teeth = 20\npitch_mm = @",
