@@ -51,6 +51,7 @@ class SphereHorn(NamedTuple):
     half_width: float  # w
     recess: float  # k
     half_step: float  # from the slot's middle to the next horn, about the wheel's axis
+    # as ``HornSide`` describes them
     end: float
     whole: Engagement
     ahead_deg: float
