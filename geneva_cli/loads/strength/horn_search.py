@@ -122,7 +122,7 @@ def greatest_stress(
             sample, around = _sampled(some[0], one, around, some[3])
             best[:, own] = np.where(np.isnan(sample[0]), best[:, own], sample)
         best[1, own] += np.ravel(one.whole.mid_deg - one.ahead_deg)
-    at_deg = np.ravel(mechanism.shown_deg(parameter(best[1][:, None])))
+    at_deg = np.ravel(mechanism.under_load.shown_deg(parameter(best[1][:, None])))
     return HornStress(*map(parameter, (best[0], at_deg, *best[2:])))
 
 
