@@ -74,9 +74,9 @@ class Rotation(NamedTuple):
     advance: Displacement
 
     def at(self, input_deg: Number, order: int) -> Jet:
-        """Angle of the driven shaft at input angles in degrees: its value in degrees, too.
+        """Angle of the driven shaft, degrees, at input angles in degrees.
 
-        Derivatives are by the input angle, both in radians.
+        Its derivatives are by the input angle, both in radians.
         """
         turned = self._turned(input_deg, order)
         # the shaft never turns back, so the ends of an enclosure of angles decide
