@@ -155,21 +155,18 @@ class Mechanism(NamedTuple):
             return self._replace(period_deg=360.0 / wheels) if wheels > 1 else self
         if own[0].mid_angle is not None:  # it is under load already
             return self
-        angles, angle = [], 0.0  # the wheel's angle at each mid-motion
-        for _ in range(self.spec.wheel.z // len(own)):
-            for i, one in enumerate(own):
-                after = own[(i + 1) % len(own)]
-                angles.append(angle)
-                angle += one.half_step + after.half_step
+        z, count = self.spec.wheel.z, len(own)
+        angles, angle = [], 0.0  # the wheel's angle at each mid-motion of its turn
+        for i in range(z):
+            angles.append(angle)
+            angle += own[i % count].half_step + own[(i + 1) % count].half_step
         spacing, each = self.period_deg / wheels, []
         # each finger meets the wheel in every direction that it can
-        motions = math.lcm(len(angles), self.spec.drive.rollers) * wheels
-        for k in range(motions):
-            number, behind = divmod(k, len(own))
-            one = own[behind]
-            mid_deg = one.mid_deg + number * spacing
-            each.append(one.later(mid_deg, angles[k // wheels % len(angles)]))
-        return self._replace(engagements=tuple(each), period_deg=spacing * len(each) / len(own))
+        for k in range(math.lcm(z, count, self.spec.drive.rollers) * wheels):
+            number, behind = divmod(k, count)
+            mid_deg = own[behind].mid_deg + number * spacing
+            each.append(own[behind].later(mid_deg, angles[k // wheels % z]))
+        return self._replace(engagements=tuple(each), period_deg=spacing * len(each) / count)
 
     def index_deg(self, i: int) -> float:
         """Wheel step of engagement i, in degrees; unequal steps repeat."""

@@ -241,6 +241,19 @@ def test_several_wheels_have_the_sum_of_their_torques(wheels):
     assert several.rms == pytest.approx(math.sqrt(wheels) * one.rms, rel=1e-10)
 
 
+@pytest.mark.parametrize("z", [4, 5, 6])
+@pytest.mark.parametrize("apart", [None, (0.0, 150.0)])
+def test_two_fingers_meet_the_body_in_all_its_directions(z, apart):
+    """Each step has the torques of one finger, however the two stand; a turn has twice as many."""
+    one = design_of(External(z)).loads["input_torque_Nm"]
+    both = design_of(External(z), rollers=2, roller_angles_deg=apart)
+    loads = both.loads["input_torque_Nm"]
+    assert (loads.max, loads.min) == pytest.approx((one.max, one.min), rel=1e-12)
+    assert loads.rms == pytest.approx(math.sqrt(2.0) * one.rms, rel=1e-10)
+    # finger and direction come together again after lcm(z, 2) motions, two in a turn
+    assert both.mechanism.under_load.period_deg == pytest.approx(180.0 * math.lcm(z, 2))
+
+
 def test_a_batch_is_each_design_alone():
     load = Load(torque_Nm=0.1, friction=0.1)
     spec = design_of(External(5), load).spec
