@@ -141,7 +141,10 @@ def _gearings(
             other = f"--{chosen[0]}" if chosen else "--carousel"
             raise GenevaError(f"{other}: racks are searched alone: leave it out, or the rack")
         if frame is not None and frame.output.turns:
-            raise GenevaError("--from: the spec has a wheel, and a rack is sought: leave one out")
+            raise GenevaError(
+                "--from: the spec has a wheel: leave out --linear and --index-mm, or take the spec "
+                "of a rack"
+            )
         return ("linear",)
     if wheels:
         able = Carousel.GEARINGS
