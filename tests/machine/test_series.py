@@ -154,6 +154,17 @@ def test_what_cannot_stand_in_series_is_refused(wheel, drive, before, motion, me
         ({"kind": "side-crank", "A": 2.0}, "A = 2 must be above -1", ("drive", "before", "A")),
         ({"kind": "side-crank", "n_rpm": 3.0}, "set it in .drive.", ("drive", "before", "n_rpm")),
         ({"kind": "gear"}, "kind must be one of", ("drive", "before", "kind")),
+        ({"kind": ["side-crank"]}, "kind must be", ("drive", "before", "kind")),
+        (
+            {"kind": "side-crank", "A": 0.2, "base": 3.0},
+            r"unknown key base in \[drive.before\]; known: .*A, input_crank_mm$",
+            ("drive", "before", "base"),
+        ),
+        (
+            {"kind": "side-crank", "A": 0.2, "phase": "quick"},
+            'phase belongs to kind = "elliptical-gears"',
+            ("drive", "before", "phase"),
+        ),
     ],
 )
 def test_an_error_names_the_key_of_the_drive_before(before, message, key):
