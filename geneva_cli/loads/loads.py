@@ -100,10 +100,10 @@ def greatest(mechanism: Mechanism, name: str) -> Peak[float]:
     if one is None:
         return Peak(0.0, 0.0)
     first = mechanism.engagements[0]
-    turn = max(360.0 * mechanism.spec.turns, mechanism.under_load.period_deg)
+    whole = mechanism.under_load.whole_deg
     start = first.mid_deg + first.entry_deg - 1e-9  # less the rounding of an input angle
     ends = [(one.max, one.max_at_deg), (-one.min, one.min_at_deg)]
-    ends.sort(key=lambda end: (end[1] - start) % turn)
+    ends.sort(key=lambda end: (end[1] - start) % whole)
     value, place = np.array(ends).T[..., None]
     most, at_deg = first_greatest(value, place, np.zeros(1))
     return Peak(float(most[0]), float(at_deg[0]))

@@ -99,14 +99,22 @@ class Mechanism(NamedTuple):
         matched = self.spec.drive.matched_ratio(self.spec.wheel, law, motion_deg)
         return None if math.isnan(matched) else float(matched)
 
+    @property
+    def whole_deg(self) -> float:
+        """Input angle after which all is as before: a turn of the crank.
+
+        Under load that of an unbalanced wheel on a carrier is its period.
+        """
+        if self.engagements[0].mid_angle is not None:
+            return self.period_deg
+        return 360.0 * self.spec.turns
+
     def shown_deg(self, input_deg: float) -> float:
         """Input angle for display: between -180 and 180 degrees from mid-motion.
 
         Over a period of several turns it is counted from the first engagement's entry.
         """
-        whole = 360.0 * self.spec.turns
-        if self.engagements[0].mid_angle is not None:
-            whole = self.period_deg  # the turns of the input differ in their loads
+        whole = self.whole_deg
         m = library(input_deg, whole)
         entry = self.engagements[0].mid_deg + self.engagements[0].entry_deg
         # Rounding may put an angle just before the entry: count it as the entry.

@@ -241,6 +241,21 @@ def test_several_wheels_have_the_sum_of_their_torques(wheels):
     assert several.rms == pytest.approx(math.sqrt(wheels) * one.rms, rel=1e-10)
 
 
+@pytest.mark.parametrize("wheels", [1, 3])
+@pytest.mark.parametrize("angle", [0.0, 130.0, 220.0])
+def test_a_figure_marks_a_load_on_its_curve(wheels, angle):
+    """The states at a mark's own input angle have its value: it is in the right turn."""
+    design = design_of(External(4), angle=angle, wheels=wheels)
+    names = ["pin_force_N", "input_torque_Nm"]
+    for name, panel in zip(names, design.figure(names).panels, strict=True):
+        (curve,) = panel.curves
+        assert [mark.word for mark in curve.marks] == ["max", "min"]
+        for mark in curve.marks:
+            state = design.cycle.states(np.array([mark.x]))
+            # the load is flat about its peak, whose place has half of the digits
+            assert getattr(state, name)[0] == pytest.approx(mark.y, rel=1e-9)
+
+
 @pytest.mark.parametrize("z", [4, 5, 6])
 @pytest.mark.parametrize("apart", [None, (0.0, 150.0)])
 def test_two_fingers_meet_the_body_in_all_its_directions(z, apart):
