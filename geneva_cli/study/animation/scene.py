@@ -108,6 +108,8 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
     last = turn.passages[-1]
     for one, after in zip(turn.passages, (*turn.passages[1:], None), strict=True):
         which = f"roller {one.roller}" if len(turn.passages) > 1 else "the roller"
+        if not turn.rollers():
+            which = "the driver"
         noun = design.mechanism.output.noun
         a, b = one.entry - turn.start, one.exit - turn.start
         if not one.engagement.paired:
