@@ -57,6 +57,11 @@ class Jet:
         """The derivatives of a jet at many numbers."""
         return cast("tuple[Array, ...]", self.derivatives())
 
+    @property
+    def lower(self) -> Jet:
+        """The jet without its highest derivative."""
+        return Jet(self.c[:-1])
+
     def derivative(self) -> Jet:
         """The jet of the derivative, one order lower."""
         return Jet([k * c if k > 1 else c for k, c in enumerate(self.c) if k])
@@ -264,7 +269,7 @@ def atan2(y: Jet, x: Jet) -> Jet:
 
 def turning(x: Jet, y: Jet) -> Jet:
     """The rate at which the vector (x, y) turns, one order lower."""
-    low_x, low_y = Jet(x.c[:-1]), Jet(y.c[:-1])
+    low_x, low_y = x.lower, y.lower
     return moment(x, y) / (low_x * low_x + low_y * low_y)
 
 

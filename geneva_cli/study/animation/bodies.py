@@ -115,7 +115,7 @@ def _gears(design: Design, turn: MachineTurn) -> Iterator[Body]:
 def _toothed(design: Design) -> list[tuple[Shape, ...]]:
     """The driven gear and the driver with their teeth and bores.
 
-    None if no module is set, or where teeth do not fit.
+    Empty if no module is set, or where teeth do not fit.
     """
     if design.spec.size.gear_module_mm is None:
         return []

@@ -89,8 +89,8 @@ def _remark(design: Design, bars: tuple[Bar, ...]) -> str:
     out = " Gears are shown by their pitch circles." if any(bar.radius for bar in bars) else ""
     if design.cycle.mechanism.period_deg > 360.0 * design.spec.turns:
         out += (
-            " The forces are those of the first turn: a body off the wheel's axis gives each turn "
-            "others."
+            " The forces are those of the first turn. A body off the wheel's axis makes them "
+            "different in each turn."
         )
     return out
 
