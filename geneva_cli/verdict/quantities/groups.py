@@ -221,6 +221,7 @@ REPORT = (
         batch="carousel:carousel",
     ),
     _group("", "", "report.carousel:wheels"),
+    _group("", "", "report.cranks:cranks"),
     _group(
         "sizes",
         "axes_deg sphere_radius_mm crank_arm_mm slot_mouth_polar_deg slot_bottom_polar_deg "
