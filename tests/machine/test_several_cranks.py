@@ -209,3 +209,22 @@ def test_the_listed_slots_are_those_that_pins_enter(steps, places, slots):
     table = design.report.table.to_dict()["cranks"]
     listed = {s for row in table for s in range(row["slot"], steps, row["slot_every"])}
     assert sorted(listed) == list(slots)
+
+
+@built
+def test_backwards_the_cranks_stand_and_work_as_in_a_mirror(z, places):
+    """In a mirror about the line of centres, with the input turned back."""
+    design = with_cranks(z, places)
+    turned = design.backwards.mechanism
+    own = {
+        (round(p.at[0], 9), round(-p.at[1], 9)): -p.behind_deg
+        for p in design.mechanism.crank_places
+    }
+    for place in turned.crank_places:
+        behind = own[round(place.at[0], 9), round(place.at[1], 9)]
+        assert math.remainder(place.behind_deg - behind, 360.0) == 0.0
+    names = [one.name for one in design.backwards.checks]
+    values = [one.value for one in design.backwards.checks]
+    at = names.index("cranks_apart_mm")
+    # 1e-3: both bounds are below one gap by rounding of the directions
+    assert values[at] == pytest.approx(design.checks[at].value, abs=1e-3)

@@ -7,10 +7,14 @@ moves as by one crank with that many rollers, and so do the loads.
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar
+import math
+from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
 from geneva_cli.machine.drives.transmission import Direct
 from geneva_cli.spec.rules import Z_MAX, Range
+
+if TYPE_CHECKING:
+    from geneva_cli.kinematics.drive import Plan
 
 
 class Crank(Direct, kw_only=True):
@@ -38,3 +42,16 @@ class Crank(Direct, kw_only=True):
     def cranks(self) -> tuple[float, ...]:
         """The places of the spec."""
         return self.crank_steps or super().cranks
+
+    def backwards(self, plan: Plan) -> Self:
+        """The drive that turns the other way: its last crank works first after the first one.
+
+        >>> crank = Crank(rollers=3, crank_steps=(0, 4, 3))
+        >>> crank.backwards(Design(External(5), crank).mechanism.plan).crank_steps
+        (0.0, 2.0, 1.0)
+        """
+        out = super().backwards(plan)
+        if not self.crank_steps:
+            return out
+        z = float(round(math.pi / plan.engagements[0].half_step))
+        return out.replace(crank_steps=(0.0, *(z - step for step in self.crank_steps[:0:-1])))
