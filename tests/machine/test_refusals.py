@@ -228,6 +228,8 @@ PAIRS = [
 ]
 
 SEVERAL = "[drive]\nrollers = 2\ncrank_steps = @\n"
+TWO = "[drive]\nrollers = 2\ncrank_steps = [0, 3]\n"
+BODY = '[[mass]]\nshape = "point"\nmass_kg = 1\n'
 CRANKS = [
     case("beyond", WHEEL + SEVERAL, "[0, 6]", 5, "below z = 6"),
     case("between", WHEEL + SEVERAL, "[0, 2.5]", 5, "whole numbers"),
@@ -238,9 +240,10 @@ CRANKS = [
     case(
         "side-crank", WHEEL + drive("side-crank", "A = 0.5\ncrank_steps = @"), "[0, 3]", 6, "crank"
     ),
+    case("angles", WHEEL + TWO + "roller_angles_deg = @", "[0, 150]", 6, "even turns", "remove"),
+    case("tolerance", WHEEL + TWO + "[tolerance]\nlock_radius_mm = @", "0.1", 6, "remove one"),
+    case("body", WHEEL + TWO + BODY + "radius_mm = @", "50", 6, "count to 2"),
 ]
-
-BODY = '[[mass]]\nshape = "point"\nmass_kg = 1\n'
 CAROUSELS = [
     case("spherical", "[wheel]\nz = 6\ngearing = @\n" + ORBIT, '"spherical"', 3, "or internal"),
     case("unbalanced", WHEEL + ORBIT + BODY + "radius_mm = @", "50", 5, "balanced", "count to 2"),

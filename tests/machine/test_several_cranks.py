@@ -14,7 +14,7 @@ from drawing_witness import vertices
 from shapely import Polygon, affinity
 from shapely.ops import unary_union
 
-from geneva_cli import Crank, Design, External, Load
+from geneva_cli import Crank, Cycloidal, Design, External, Load, Motion
 from geneva_cli.drawings.parts_list import parts_list
 from geneva_cli.scene import place_at, value_at
 from geneva_cli.study.animation.scene import scene
@@ -130,13 +130,19 @@ def test_parts_are_drawn_where_the_cranks_stand(z, places):
         assert counts[name] == len(places)
 
 
-@built
-def test_no_crank_meets_the_wheel_or_another_one(z, places):
+SHAPED = [  # slots of other shapes
+    Design(External(6), Crank(rollers=2, crank_steps=(0, 2)), Motion(Cycloidal())),
+    Design(External(6, offset_mm=5), Crank(rollers=2, crank_steps=(0, 3))),
+]
+
+
+@pytest.mark.parametrize("design", [*(with_cranks(*one) for one in BUILT), *SHAPED])
+def test_no_crank_meets_the_wheel_or_another_one(design):
     """Polygons at dense angles, each crank placed by hand; the program's gaps are of one crank.
 
     Chords miss arcs by 1e-3 mm, and the curves touch by design: overlaps are below 0.02 mm² there.
     """
-    design = with_cranks(z, places)
+    z, places = design.spec.wheel.z, design.spec.drive.crank_steps
     parts, mechanism = design.parts_model.flat, design.mechanism
     (engagement,) = mechanism.engagements
     plates, wheel = polygons(parts.crank.part), Polygon(vertices(parts.wheel.part.outline, 1e-3))
