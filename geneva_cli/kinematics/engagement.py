@@ -190,6 +190,10 @@ class WheelMotion(Batchable, ABC):
 
     # motion law, if a law gives the motion
     law: Law | None = None
+    # False if the two halves of the path differ
+    mirrored = True
+    # peaks that need no general search
+    closed_peaks: ClosedPeaks | None = None
     # Greatest error of ``rough_rates``, as a fraction of the greatest rate; 0 for exact ones.
     ROUGH_TO: ClassVar[float] = 0.0
 
@@ -219,9 +223,14 @@ class WheelMotion(Batchable, ABC):
         return None
 
     @property
+    def jump(self) -> float:
+        """Jump of the wheel's velocity at entry, and back at exit, over the input's."""
+        return 0.0
+
+    @property
     def symmetric(self) -> bool:
         """True if the second half mirrors the first."""
-        return all_true(self.entry_deg == -self.exit_deg)
+        return self.mirrored and all_true(self.entry_deg == -self.exit_deg)
 
     @property
     def breaks_deg(self) -> tuple[float, ...]:

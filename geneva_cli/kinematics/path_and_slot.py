@@ -9,7 +9,6 @@ from geneva_cli.kinematics.anchors import anchors_of
 from geneva_cli.kinematics.engagement import (
     Anchor,
     Carrier,
-    ClosedPeaks,
     Engagement,
     Level,
     Peak,
@@ -116,13 +115,8 @@ class MeridianSlot(Slot):
 
 
 class StraightSlotMotion(WheelMotion):
-    """Motion of a wheel whose straight slot follows the pin.
+    """Motion of a wheel whose straight slot follows the pin."""
 
-    ``mirrored`` is False if the two halves of the path differ. ``closed_peaks`` gives peaks that
-    need no general search.
-    """
-
-    closed_peaks: ClosedPeaks | None = None
     ROUGH_TO: ClassVar[float] = 1e-9
 
     def __init__(self, path: AnchoredPath, half_step: float, mirrored: bool = True) -> None:
@@ -137,11 +131,6 @@ class StraightSlotMotion(WheelMotion):
     def closed_peak(self, quantity: str) -> Peak[float] | None:
         """Peak of a quantity from ``closed_peaks``, or None if it has none."""
         return self.closed_peaks(quantity) if self.closed_peaks else None
-
-    @property
-    def symmetric(self) -> bool:
-        """True if path and slot are symmetric about mid-motion."""
-        return self.mirrored and super().symmetric
 
     @property
     def seams_deg(self) -> tuple[float, ...]:

@@ -220,6 +220,8 @@ def _peak(
     if name == machine.output.column:
         return ()
     peak = peaks.worst_of(machine, name)
+    if math.isinf(peak.max):  # where the speed jumps
+        return ()
     first = first_entry_deg(machine)
     x = _placed(machine, peak.at_deg, (first, first))
     values = [

@@ -145,7 +145,7 @@ def _unweighed(spec: Spec) -> str:
 def no_load(cycle: Cycle) -> str:
     """What a cycle without a load needs."""
     keys = cycle.mechanism.spec.load_keys
-    return f"nothing resists the wheel, so no force is known: set {keys}"
+    return f"no force is known: set {keys}"
 
 
 def missing(cycle: Cycle) -> list[Notice]:

@@ -97,6 +97,11 @@ CONFLICTS = (
         'kind = "{drive}" drives an {gearings} wheel, not gearing = "{gearing}"',
     ),
     Conflict(
+        lambda s: s.wheel.DRIVES and (s.drive.NAME not in s.wheel.DRIVES or s.drive_before),
+        ("drive", "kind"),
+        'gearing = "{gearing}" needs kind = "{drives}" without [drive.before]',
+    ),
+    Conflict(
         lambda s: s.drive.LAW is Needs.LAW and s.motion is None,
         ("drive", "kind"),
         'kind = "{drive}" needs a law in [motion]: the groove is cut for it',
@@ -313,6 +318,7 @@ def _error(conflict: Conflict, spec: Spec) -> GenevaError:
         first=spec.drive.FIRST,
         gearing=spec.wheel.NAME,
         gearings=" or ".join(spec.drive.GEARINGS),
+        drives=" or ".join(spec.wheel.DRIVES),
         rollers=spec.drive.rollers,
         cranks=_cranks(spec),
         z=spec.wheel.z,

@@ -230,7 +230,9 @@ class Spec:
 
     @property
     def is_loaded(self) -> bool:
-        """True if the spec has a load: an inertia, a mass, a torque or friction.
+        """True if the spec has a load whose forces are computed: an inertia, a torque or friction.
+
+        It is never so for a wheel whose speed jumps.
 
         >>> Spec(External(6)).is_loaded, Spec(External(6), load=Load(torque_Nm=2.0)).is_loaded
         (False, True)
@@ -257,6 +259,8 @@ class Spec:
 
     @property
     def _unloaded(self) -> bool:
+        if self.wheel.JUMPS:
+            return True
         load = self.load
         nothing = (load.inertia_kgm2 == 0.0) & (load.torque_Nm == 0.0)
         nothing = nothing & (load.mass_kg == 0.0) & (load.force_N == 0.0)

@@ -248,7 +248,7 @@ class FlatParts:
         """Gears with round pitch circles, with teeth if they have a module; no first wheel."""
         if self.first:
             return ()
-        write = self._writer(FINE["cubics"] * self.mechanism.center_distance_mm)
+        write = self.writer(FINE["cubics"] * self.mechanism.center_distance_mm)
         return tuple(gear.with_teeth(write) for gear in self.links.gears)
 
     @property
@@ -263,7 +263,7 @@ class FlatParts:
         """Those gears in the machine."""
         return tuple(gear.member for gear in self.toothed)
 
-    def _writer(self, fine: float) -> Writer:
+    def writer(self, fine: float) -> Writer:
         """Return a function that fits curves: within ``fine`` mm where no tolerance is set."""
         if self.tolerance is None:
             return lambda curve, a, b: fit.cubics(curve, a, b, fine)
@@ -278,7 +278,7 @@ class FlatParts:
             return ()
         # teeth are spaced along the pitch curves, whose lengths must agree better than the teeth
         fine = FINE["cubics"] if size.gear_module_mm is None else 1e-6
-        return gear_pair(self.mechanism, self.drawn, self._writer(fine * pair.distance_mm))
+        return gear_pair(self.mechanism, self.drawn, self.writer(fine * pair.distance_mm))
 
     @cached_property
     def _base(self) -> Plate | None:

@@ -110,6 +110,8 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
         which = f"roller {one.roller}" if len(turn.passages) > 1 else "the roller"
         if cranks > 1:
             which = f"crank {turn.on_crank(one.roller - 1).number}"
+        if not turn.rollers():
+            which = "the driver"
         noun = design.mechanism.output.noun
         a, b = one.entry - turn.start, one.exit - turn.start
         if not one.engagement.paired:

@@ -131,8 +131,9 @@ class MachineTurn:
         return turned_points(about_first, np.full(len(input_deg), place.turn))
 
     def rollers(self) -> tuple[Place, ...]:
-        """The centres of all rollers over the turn."""
-        numbers = range(len(self._carried))
+        """The centres of all rollers over the turn; none where teeth drive from entry to exit."""
+        first = self.passages[0].engagement
+        numbers = range(len(self._carried)) if first.slot.touches(first.entry_deg) else ()
         return tuple(self._place(partial(self.centre, number)) for number in numbers)
 
     def _pin(self, engagement: Engagement, mid: float, input_deg: Array) -> Array:
