@@ -13,7 +13,7 @@ def cranks(model: PartsModel) -> Values:
     """A row for each of several cranks; None for a single one.
 
     Input angles are from the middle of the first crank's motion. Slots count counterclockwise from
-    that which the first crank then enters. In step n a crank enters the slot of its own place less n.
+    that which the first crank then enters. In step n a crank enters slot k - n from place k.
     """
     mechanism = model.mechanism
     places = mechanism.crank_places
