@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from geneva_cli.kinematics.drive import Plan
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.laws.law import Law
-from geneva_cli.kinematics.layout import Layout, WheelPlace, wheel_places
+from geneva_cli.kinematics.layout import AxisPlace, Layout, Pivot, crank_places, wheel_places
 from geneva_cli.machine import compatible
 from geneva_cli.machine.retimed import retimed
 from geneva_cli.machine.size_rules import refuse_sizes
@@ -56,9 +56,14 @@ class Mechanism(NamedTuple):
 
     @property
     def layout(self) -> Layout:
-        """Pivots and dimensions of the drive, and of the one before it about the crank's axis."""
+        """Pivots and dimensions of the drive, and of the one before it about the crank's axis.
+
+        Of several cranks it has the axes behind the first.
+        """
         spec, plan = self.spec, self.plan
         own = spec.drive.layout(plan, spec.wheel.SIGN)
+        _, *others = self.crank_places
+        own = (*own, *(Pivot(f"axis of crank {place.number}", *place.at) for place in others))
         if spec.drive_before is None or spec.drive.CRANKED:
             return own
         return (*own, *spec.drive_before.layout(plan, spec.wheel.SIGN))
@@ -146,10 +151,16 @@ class Mechanism(NamedTuple):
         return input_deg + self.spec.wheel.SIGN * wheel_deg
 
     @property
-    def wheel_places(self) -> tuple[WheelPlace, ...]:
+    def wheel_places(self) -> tuple[AxisPlace, ...]:
         """Places of all wheels; more than one only on a carrier."""
         count = max(1, self.spec.drive.wheels_on_carrier)
         return wheel_places(count, self.spec.wheel.SIGN, self.center_distance_mm)
+
+    @property
+    def crank_places(self) -> tuple[AxisPlace, ...]:
+        """Places of all cranks about the wheel; more than one with ``crank_steps``."""
+        spec = self.spec
+        return crank_places(spec.drive.cranks, spec.wheel.z, self.center_distance_mm)
 
     @property
     def under_load(self) -> Mechanism:

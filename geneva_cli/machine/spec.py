@@ -164,8 +164,8 @@ class Spec:
 
         A table that the spec does not have is empty.
 
-        >>> Spec(External(6)).table("drive")
-        {'n_rpm': 60.0, 'rollers': 1, 'roller_angles_deg': None, 'both_ways': False}
+        >>> Spec(External(6)).table("wheel")
+        {'z': 6, 'held_by': None, 'offset_mm': 0.0, 'steps_deg': None, 'stop': False}
         """
         if name == "motion":
             return {} if self.motion is None else self.motion.law.as_dict() | self.motion.as_dict()

@@ -105,9 +105,11 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
     if design.spec.drive.wheels_on_carrier > 1:
         yield from _wheels_in_turn(design, turn)
         return
-    last = turn.passages[-1]
+    last, cranks = turn.passages[-1], len(design.mechanism.crank_places)
     for one, after in zip(turn.passages, (*turn.passages[1:], None), strict=True):
         which = f"roller {one.roller}" if len(turn.passages) > 1 else "the roller"
+        if cranks > 1:
+            which = f"crank {turn.on_crank(one.roller - 1).number}"
         if not turn.rollers():
             which = "the driver"
         noun = design.mechanism.output.noun
