@@ -133,7 +133,9 @@ class Lock(NamedTuple):
         cosine = self.sign * (L * L + reach * reach - far * far) / (2.0 * L * reach)
         arcs = _truth(smaller(self.reach, self.half) > 0.5 * math.pi)
         # if the arcs touch there is no such triangle: the angle is 90 degrees
-        phi = library(cosine).acos(choose(arcs, 0.0, cosine))
+        # NaN where the recess's corner is beyond the recess, so that nothing meets it
+        none = _truth(larger(cosine, -cosine) > 1.0)
+        phi = library(cosine).acos(choose(arcs, 0.0, choose(none, math.nan, cosine)))
         edge = choose(corner, self.edge, 0.0)
         ended = self.lock * edge / (self.lock + edge)
         loose = _truth(clearance > 0.0)

@@ -3,6 +3,7 @@
 import math
 
 import mpmath
+import numpy as np
 import pytest
 import repo
 from plane_stress import horn as in_plane_stress
@@ -158,3 +159,13 @@ def test_the_horn_gives_more_in_plane_stress(z, L, r, h):
     give, _, thick = bending(mechanism, r, wall - h, square)
     assert thick == pytest.approx(h, rel=1e-9)
     assert 1.05 < moved / give < 1.31
+
+
+def test_a_corner_beyond_the_recess_is_met_by_nothing():
+    """The corner is 155 mm from the wheel's axis, the recess reaches 145 mm: no angle, in no way.
+
+    `synth` sized the parts of such internal wheels by their load, and ended in an error of `acos`.
+    """
+    sizes = (120.0, -1.0, 25.0, 25.02, 155.0, 0.016)
+    assert math.isnan(Lock(*sizes).contact().phi)
+    assert np.isnan(Lock(*(np.full((2, 1), x) for x in sizes)).contact().phi).all()
