@@ -1,11 +1,11 @@
 """DXF files of flat designs and of racks in a physics engine, Chipmunk: `tests/stress/jam.py`.
 
 The engine is told nothing of where the wheel should be: its outline, read from the file, is a free
-body on a pivot, or a rack's in a groove, moved by contact alone. Crank and rollers, from the other file, are carried round
-as the design's own drive carries them, for two turns. The wheel must go where the program says, off
-by no more than the play that the program says, and nothing may be squeezed: that is a jam. A roller
-too large for its slot must be found to jam. `make jam` runs it, ten minutes, and installs the
-engine (pymunk).
+body on a pivot, or a rack's in a groove, moved by contact alone. Crank and rollers, from the other
+file, are carried round as the design's own drive carries them, for two turns. The wheel must go
+where the program says, off by no more than the play that the program says, and nothing may be
+squeezed: that is a jam. A roller too large for its slot must be found to jam. `make jam` runs it,
+ten minutes, and installs the engine (pymunk).
 """
 
 import argparse
