@@ -30,6 +30,7 @@ if TYPE_CHECKING:  # for a type checker: one line for each name
     from geneva_cli.kinematics.laws.table import TableLaw as TableLaw
     from geneva_cli.kinematics.laws.tuned import Tuned as Tuned
     from geneva_cli.kinematics.motion import Motion as Motion
+    from geneva_cli.kinematics.wheels.counter import Counter as Counter
     from geneva_cli.kinematics.wheels.external import External as External
     from geneva_cli.kinematics.wheels.internal import Internal as Internal
     from geneva_cli.kinematics.wheels.linear import Linear as Linear

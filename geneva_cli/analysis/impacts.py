@@ -68,6 +68,26 @@ def entry_impacts(mechanism: Mechanism, fraction: float = 1.0) -> Impacts:
     return _with_force(mechanism, best)
 
 
+def start_impact(mechanism: Mechanism) -> Impact | None:
+    """Impact at entry of a wheel whose speed jumps by design; None for other wheels."""
+    return start_impacts(mechanism).only if mechanism.spec.wheel.JUMPS else None
+
+
+def start_impacts(mechanism: Mechanism) -> Impacts:
+    """Impacts at entry of m designs whose wheels' speed jumps.
+
+    The pinions of a counter that start at once are one mass behind the first driver's tooth.
+    """
+    (engagement, *_), pinions = mechanism.engagements, mechanism.spec.wheel.pinions
+    jump = parameter(np.reshape(engagement.motion.jump, (-1, 1)))
+    at_deg, size = _shown(mechanism, engagement, np.ravel(engagement.entry_deg), np.ravel(jump))
+    impulse = np.ravel(pinions * impulse_Nms(mechanism, jump))
+    force = forces_N(mechanism, np.asarray(jump * np.sqrt(pinions)))
+    force = np.full(len(impulse), np.nan) if force is None else force
+    impulse = np.where(impulse == 0.0, np.nan, impulse)
+    return Impacts(*np.broadcast_arrays(at_deg, size, force, impulse))
+
+
 def _errors(
     mechanism: Mechanism, engagement: Engagement, fraction: float
 ) -> Iterator[tuple[float, float]]:
@@ -131,7 +151,8 @@ def reversal_impacts(mechanism: Mechanism) -> Impacts:
     """Hardest impacts at a change of sides of m designs."""
     best = np.full((2, 1), np.nan)
     none = (drag_over(mechanism) == np.inf) | (clearance_mm(mechanism) == 0.0)
-    none = none | (mechanism.frame != 0.0 and mechanism.spec.unbalanced)  # coasts otherwise
+    # a body off a carried wheel's axis drives the wheel where it would coast
+    none = none | mechanism.unbalanced
     for engagement in () if all_true(none) else mechanism.engagements:
         best = _harder(best, _reversal(mechanism, engagement))
     return _with_force(mechanism, best)

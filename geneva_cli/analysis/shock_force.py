@@ -6,9 +6,10 @@ force Q the roller is pressed into the wall and its pin is bent, together by
     d = c Q^0.9 + Q / k,    c = 3.84e-5 mm / N^0.9 / b^0.8    (b: contact line, mm).
 
 The force is greatest where c Q^1.9 0.9 / 1.9 + Q² / (2 k) equals the energy I dw² / 2. For a spring
-only, it is dv sqrt(k m), for any lever. Palmgren measured c for steel on steel (Ball and Roller
-Bearing Engineering, 3rd ed., 1959). It is proportional to the 0.9th power of the materials'
-softness. The pin is a cantilever, 3 E pi d⁴ / (64 (b/2)³), loaded in the middle of its roller.
+only, as teeth are, it is dv sqrt(k m), for any lever. Palmgren measured c for steel on steel (Ball
+and Roller Bearing Engineering, 3rd ed., 1959). It is proportional to the 0.9th power of the
+materials' softness. The pin is a cantilever, 3 E pi d⁴ / (64 (b/2)³), loaded in the middle of its
+roller.
 """
 
 from __future__ import annotations
@@ -60,6 +61,8 @@ def forces_N(mechanism: Mechanism, jump: Array) -> Array | None:
     # Palmgren's constant in mm, for 1 N on a line of 1 mm, steel on steel
     press = 3.84e-5 * soft**POWER / face**WIDTH
     bend = 1.0 / pin_stiffness_N_mm(mechanism, face)
+    if spec.wheel.TOOTH_N_mm2:
+        press, bend = 0.0 * soft, soft / (spec.wheel.TOOTH_N_mm2 * face)
     rows = np.broadcast_arrays(energy, press, bend, inertia)
     work, c, k, heavy = (row[:, 0] for row in rows)
 

@@ -31,17 +31,20 @@ class Part(NamedTuple):
     in_front: bool = False  # True if it belongs to a first wheel, in front of the crank
     flat: str | None = None  # its drawing or sheet, laid flat, for a spherical wheel
     rack: str | None = None  # its drawing or sheet for a rack
+    counter: str | None = None  # its drawing for a counter
     every: bool = False  # True if every machine has it
 
     def drawn_by(self, kind: str) -> str | None:
-        """Return the function that draws it among parts of a kind, ``Gearing.PARTS``; or None."""
+        """Return the function that draws it among parts of a kind; or None."""
         own = {"flat": self.drawing or self.sheet, "ball": self.flat, "rack": self.rack}
+        own["counter"] = self.counter
         return own.get(kind)
 
     def is_of(self, kind: str) -> bool:
         """Return True if machines with parts of a kind have it: a sphere may have flat links."""
         plane = self.drawing or self.sheet or self.table
         own = {"flat": plane, "ball": self.flat or plane, "rack": self.rack}
+        own["counter"] = self.counter
         return self.every or own.get(kind) is not None
 
 
@@ -57,12 +60,14 @@ PARTS = {
         cut=True,
         flat="drawings.sphere.drawings:wheel",
         rack="drawings.rack:wheel",
+        counter="drawings.counter:wheel",
     ),
     "crank": Part(
         drawing="drawings.part_drawings:crank",
         cut=True,
         flat="drawings.sphere.drawings:crank",
         rack="drawings.rack:crank",
+        counter="drawings.counter:crank",
     ),
     "arm": Part(
         drawing="drawings.part_drawings:arm",
@@ -70,6 +75,7 @@ PARTS = {
         flat="drawings.sphere.arm_drawing:arm",
         rack="drawings.rack:arm",
     ),
+    "number-wheel": Part(cut=True, counter="drawings.counter:number_wheel"),
     "links": Part(drawing="drawings.part_drawings:links", cut=True, alone=True),
     "first-wheel": Part(drawing="drawings.part_drawings:wheel", cut=True, in_front=True),
     "first-crank": Part(drawing="drawings.part_drawings:crank", cut=True, in_front=True),
@@ -85,6 +91,7 @@ PARTS = {
         drawing="drawings.machine_drawing:machine",
         flat="drawings.sphere.drawings:assembly",
         rack="drawings.rack:assembly",
+        counter="drawings.counter:assembly",
     ),
     "gears": Part("layout.gear_curves:gears_table", "drawings.part_drawings:gears", alone=True),
     "groove": Part("layout.groove:groove_table", "drawings.part_drawings:groove"),
@@ -98,7 +105,9 @@ PARTS = {
     ),
 }
 DRAWINGS = tuple(
-    name for name, part in PARTS.items() if part.drawing or (part.rack and not part.sheet)
+    name
+    for name, part in PARTS.items()
+    if part.drawing or part.counter or (part.rack and not part.sheet)
 )
 CUT = tuple(name for name, part in PARTS.items() if part.cut)
 SHEETS = tuple(name for name, part in PARTS.items() if part.sheet)
@@ -142,7 +151,7 @@ def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: in
 
 def require_drawn(mechanism: Mechanism, part: str) -> None:
     """Raise GenevaError for a part that no machine with such a wheel has."""
-    noun, kind = mechanism.spec.output.noun, mechanism.spec.wheel.PARTS
+    noun, kind = mechanism.spec.output.noun, _kind(mechanism)
     known = [name for name, one in PARTS.items() if one.is_of(kind)]
     if part not in known:
         raise GenevaError(
@@ -165,8 +174,8 @@ def is_alone(mechanism: Mechanism, part: str) -> bool:
     own = PARTS.get(part)
     if own is None:
         return False
-    wheel = mechanism.spec.wheel
-    return own.alone or (not wheel.FLAT and own.drawn_by(wheel.PARTS) is not None)
+    in_plane = mechanism.spec.wheel.FLAT
+    return own.alone or (not in_plane and own.drawn_by(_kind(mechanism)) is not None)
 
 
 def machine_of(mechanism: Mechanism, part: str) -> Mechanism:
@@ -209,9 +218,17 @@ def part_sheet(model: PartsModel, part: str, tolerance_mm: float, curves: str) -
 
 def _maker(model: PartsModel, part: str) -> tuple[str | None, PartsOfMachine]:
     """Return the function that draws a part, and the parts of the machine that it takes."""
-    by = PARTS[part].drawn_by(model.mechanism.spec.wheel.PARTS)
-    # the links and gears in front of a sphere are those of a flat machine
-    return (by, model.built) if by else (PARTS[part].drawing, model.flat)
+    by = PARTS[part].drawn_by(_kind(model.mechanism))
+    # the links and gears in front of a sphere are those of a flat machine, and so is a counter
+    if by and model.mechanism.spec.wheel.PARTS:
+        return by, model.built
+    return by or PARTS[part].drawing, model.flat
+
+
+def _kind(mechanism: Mechanism) -> str:
+    """Return the kind of a machine's parts, or the name of a wheel that is drawn but not built."""
+    wheel = mechanism.spec.wheel
+    return wheel.PARTS or wheel.NAME
 
 
 def require_cut(part: str, option: str = "--kerf") -> None:

@@ -190,6 +190,10 @@ class WheelMotion(Batchable, ABC):
 
     # motion law, if a law gives the motion
     law: Law | None = None
+    # False if the two halves of the path differ
+    mirrored = True
+    # peaks that need no general search
+    closed_peaks: ClosedPeaks | None = None
     # Greatest error of ``rough_rates``, as a fraction of the greatest rate; 0 for exact ones.
     ROUGH_TO: ClassVar[float] = 0.0
 
@@ -219,9 +223,14 @@ class WheelMotion(Batchable, ABC):
         return None
 
     @property
+    def jump(self) -> float:
+        """Jump of the wheel's velocity at entry, and back at exit, over the input's."""
+        return 0.0
+
+    @property
     def symmetric(self) -> bool:
         """True if the second half mirrors the first."""
-        return all_true(self.entry_deg == -self.exit_deg)
+        return self.mirrored and all_true(self.entry_deg == -self.exit_deg)
 
     @property
     def breaks_deg(self) -> tuple[float, ...]:
@@ -309,11 +318,11 @@ ARM = Carrier()
 class Engagement(Batchable):
     """Pin path, slot and motion of one roller in one slot.
 
-    ``mid_deg`` is the machine's input angle at its mid-motion. ``turned`` is the wheel's angle
-    there, radians, if the loads depend on it: where a wheel on a carrier has a body off its axis.
+    ``mid_deg`` is the machine's input angle at its mid-motion. ``mid_angle`` is the wheel's angle
+    there, radians from the first mid-motion, if the loads depend on it (``Mechanism.unbalanced``).
     """
 
-    turned: float | None = None
+    mid_angle: float | None = None
 
     def __init__(
         self, mid_deg: float, path: Path, slot: Slot, motion: WheelMotion, carrier: Carrier = ARM
@@ -345,12 +354,12 @@ class Engagement(Batchable):
     @property
     def mirrored(self) -> bool:
         """True if motion, slot and loads are symmetric about mid-motion."""
-        return self.motion.symmetric and self.slot.mirrored and self.turned is None
+        return self.motion.symmetric and self.slot.mirrored and self.mid_angle is None
 
-    def later(self, mid_deg: float, turned: float) -> Engagement:
-        """The same engagement at another mid-motion, with the wheel turned to an angle."""
+    def later(self, mid_deg: float, mid_angle: float) -> Engagement:
+        """The same engagement at a later mid-motion, at another angle of the wheel."""
         other = copy.copy(self)
-        other.mid_deg, other.turned = mid_deg, turned
+        other.mid_deg, other.mid_angle = mid_deg, mid_angle
         return other
 
     @cached_property

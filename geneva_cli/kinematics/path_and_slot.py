@@ -9,7 +9,6 @@ from geneva_cli.kinematics.anchors import anchors_of
 from geneva_cli.kinematics.engagement import (
     Anchor,
     Carrier,
-    ClosedPeaks,
     Engagement,
     Level,
     Peak,
@@ -85,7 +84,7 @@ class RadialSlot(Slot):
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
         depth = _length(self.path.from_nearest(input_deg, order + 1))
-        return SlotAxis(Jet(depth.c[:-1]), depth.derivative())
+        return SlotAxis(depth.lower, depth.derivative())
 
 
 class MeridianSlot(Slot):
@@ -108,7 +107,7 @@ class MeridianSlot(Slot):
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         """Lever (the pin's distance from the wheel's axis) and the pin's speed along the slot."""
         polar = self(input_deg, order + 1)[0]
-        return SlotAxis(sin_cos(Jet(polar.c[:-1]))[0], polar.derivative())
+        return SlotAxis(sin_cos(polar.lower)[0], polar.derivative())
 
     def upright(self, input_deg: Number, order: int = 0) -> Jet:
         """Cosine of the pin's polar angle: the roller's axis passes through the sphere's centre."""
@@ -116,13 +115,8 @@ class MeridianSlot(Slot):
 
 
 class StraightSlotMotion(WheelMotion):
-    """Motion of a wheel whose straight slot follows the pin.
+    """Motion of a wheel whose straight slot follows the pin."""
 
-    ``mirrored`` is False if the two halves of the path differ. ``closed_peaks`` gives peaks that
-    need no general search.
-    """
-
-    closed_peaks: ClosedPeaks | None = None
     ROUGH_TO: ClassVar[float] = 1e-9
 
     def __init__(self, path: AnchoredPath, half_step: float, mirrored: bool = True) -> None:
@@ -137,11 +131,6 @@ class StraightSlotMotion(WheelMotion):
     def closed_peak(self, quantity: str) -> Peak[float] | None:
         """Peak of a quantity from ``closed_peaks``, or None if it has none."""
         return self.closed_peaks(quantity) if self.closed_peaks else None
-
-    @property
-    def symmetric(self) -> bool:
-        """True if path and slot are symmetric about mid-motion."""
-        return self.mirrored and super().symmetric
 
     @property
     def seams_deg(self) -> tuple[float, ...]:

@@ -18,6 +18,7 @@ GEARINGS = {
     "internal": "kinematics.wheels.internal:Internal",
     "spherical": "kinematics.wheels.spherical:Spherical",
     "linear": "kinematics.wheels.linear:Linear",
+    "counter": "kinematics.wheels.counter:Counter",
 }
 DRIVES = {
     "crank": "machine.drives.crank:Crank",

@@ -19,7 +19,7 @@ LAYERS = (
 def titled(mechanism: Mechanism, part: str = "") -> str:
     """Return the title of a machine's drawings, or of one part's."""
     spec = mechanism.spec
-    title = spec.title or f"Geneva {spec.output.noun} of {spec.wheel.z} slots"
+    title = spec.title or spec.wheel.title
     return f"{title}: {part}" if part else title
 
 

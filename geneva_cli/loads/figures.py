@@ -220,6 +220,8 @@ def _peak(
     if name == machine.output.column:
         return ()
     peak = peaks.worst_of(machine, name)
+    if math.isinf(peak.max):  # where the speed jumps
+        return ()
     first = first_entry_deg(machine)
     x = _placed(machine, peak.at_deg, (first, first))
     values = [
@@ -246,8 +248,8 @@ def _ends(machine: Mechanism, ends: Extremes, window: tuple[float, float]) -> It
 
 def _placed(machine: Mechanism, at_deg: float, window: tuple[float, float]) -> float:
     """An input angle as displayed, moved by whole turns to its first place in the window."""
-    turn = 360.0 * machine.spec.turns
-    return at_deg + turn * math.ceil((window[0] - SAME_INPUT_DEG - at_deg) / turn)
+    whole = machine.whole_deg
+    return at_deg + whole * math.ceil((window[0] - SAME_INPUT_DEG - at_deg) / whole)
 
 
 def _bounds(cycle: Cycle, ends: Mapping[str, Extremes]) -> dict[str, tuple[float, float]]:

@@ -144,8 +144,8 @@ def _unweighed(spec: Spec) -> str:
 
 def no_load(cycle: Cycle) -> str:
     """What a cycle without a load needs."""
-    spec = cycle.mechanism.spec
-    return f"nothing resists the {spec.output.noun}, so no force is known: set {spec.load_keys}"
+    keys = cycle.mechanism.spec.load_keys
+    return f"no force is known: set {keys}"
 
 
 def missing(cycle: Cycle) -> list[Notice]:

@@ -164,8 +164,8 @@ class Spec:
 
         A table that the spec does not have is empty.
 
-        >>> Spec(External(6)).table("drive")
-        {'n_rpm': 60.0, 'rollers': 1, 'roller_angles_deg': None, 'both_ways': False}
+        >>> Spec(External(6)).table("wheel")
+        {'z': 6, 'held_by': None, 'offset_mm': 0.0, 'steps_deg': None, 'stop': False}
         """
         if name == "motion":
             return {} if self.motion is None else self.motion.law.as_dict() | self.motion.as_dict()
@@ -216,21 +216,31 @@ class Spec:
 
     @property
     def gears(self) -> Gears | None:
-        """Noncircular gears on the crank's shaft; None without, and in front of a second crank."""
+        """Noncircular gears on the crank's shaft; None without, and in front of a second crank.
+
+        >>> Spec(External(6), NoncircularGears(A=0.5)).gears.distance_mm
+        100.0
+        """
         before = self.drive_before
         if before is None:
             return self.drive.gears
         return None if self.drive.CRANKED else before.gears
 
     def input_deg(self, crank_deg: float) -> float:
-        """Input angle from mid-motion at a crank angle from mid-motion, degrees."""
+        """Input angle from mid-motion at a crank angle from mid-motion, degrees.
+
+        >>> round(Spec(External(6), SideCrank(A=0.5)).input_deg(90.0), 9)
+        120.0
+        """
         shaft_deg = self.drive.input_deg(crank_deg)
         before = self.drive_before
         return shaft_deg if before is None else before.input_deg(shaft_deg)
 
     @property
     def is_loaded(self) -> bool:
-        """True if the spec has a load: an inertia, a mass, a torque or friction.
+        """True if the spec has a load whose forces are computed: an inertia, a torque or friction.
+
+        It is never so for a wheel whose speed jumps.
 
         >>> Spec(External(6)).is_loaded, Spec(External(6), load=Load(torque_Nm=2.0)).is_loaded
         (False, True)
@@ -257,6 +267,8 @@ class Spec:
 
     @property
     def _unloaded(self) -> bool:
+        if self.wheel.JUMPS:
+            return True
         load = self.load
         nothing = (load.inertia_kgm2 == 0.0) & (load.torque_Nm == 0.0)
         nothing = nothing & (load.mass_kg == 0.0) & (load.force_N == 0.0)

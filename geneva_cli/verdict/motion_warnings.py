@@ -13,7 +13,7 @@ from geneva_cli.kinematics.laws.law import Law
 from geneva_cli.kinematics.pitch_curve import retraces
 from geneva_cli.layout.fits import loosest_mm
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.spec.tables import Z_USUAL
 
@@ -43,6 +43,7 @@ def motion_warnings(mechanism: Mechanism) -> list[Notice]:
     out.extend(_loose_fits(mechanism))
     out.extend(_rounded_points(mechanism))
     out.extend(_overtaken(mechanism))
+    out.extend(_starts_at_speed(mechanism))
     law = mechanism.law
     if law is None:
         return out
@@ -116,6 +117,33 @@ def _overtaken(mechanism: Mechanism) -> list[Notice]:
             f"the roller overtakes the wheel by {lead:.4g} deg while the gears drive. Near the "
             "line of centres its slot would turn the wheel faster than the gears do. It presses "
             'into the wall that it drove: gear_ratio = "shockless" keeps it behind',
+        )
+    ]
+
+
+def _starts_at_speed(mechanism: Mechanism) -> list[Notice]:
+    """A warning for a wheel whose speed jumps, with the impact at entry."""
+    spec = mechanism.spec
+    if not spec.wheel.JUMPS:
+        return []
+    from geneva_cli.analysis.impacts import start_impact
+
+    impact = start_impact(mechanism)
+    assert impact is not None  # the wheel's speed jumps
+    w = impact.jump * omega(spec.drive.n_rpm)
+    if impact.moment_Nms is None:
+        hit = "set inertia_kgm2 in [load] for the impact"
+    else:
+        pinions = spec.wheel.pinions
+        hit = f"with all {pinions} pinions at once, " if pinions > 1 else ""
+        hit += f"an impact of {impact.moment_Nms:.4g} N m s and {0.5 * impact.moment_Nms * w:.4g} J"
+        force = impact.force_N
+        hit += "; set face_width_mm for its force" if force is None else f", up to {force:.4g} N"
+    return [
+        Notice(
+            "speed-jumps",
+            f"at entry and exit the wheel's speed jumps by {w:.4g} rad/s, {impact.jump:.4g} of the "
+            f"input's. Acceleration and forces have no bound there: {hit}",
         )
     ]
 

@@ -88,7 +88,10 @@ def test_the_same_turret_on_a_geneva():
 @pytest.mark.sampled(4)
 @every
 def test_with_inertia_alone_the_energy_swings_by_what_the_wheel_holds(file):
-    """theory-loads.md 4: exactly I w² psi1max²/2, and the form is the exact cycle's peak."""
+    """theory-loads.md 4: exactly I w² psi1max²/2, and the form is the exact cycle's peak.
+
+    On a carrier the wheel turns by 1 + psi1, and by 1 in its dwell.
+    """
     design = load(str(file))
     load_ = Load(inertia_kgm2=0.4)
     if not design.spec.output.turns:  # a rack's mass is as an inertia at the crank's radius
@@ -97,11 +100,14 @@ def test_with_inertia_alone_the_energy_swings_by_what_the_wheel_holds(file):
     loaded = loaded.with_("motor.gear_ratio", None).with_("motor.gear_efficiency", None)
     found, _ = sized(loaded)
     w = omega(loaded.spec.drive.n_rpm)
-    held = 0.4 * w * w * loaded.peaks.velocity.max**2 / 2
+    on_carrier = float(loaded.spec.drive.NAME == "carousel")
+    fastest = on_carrier + loaded.peaks.velocity.max
+    held = 0.4 * w * w * (fastest**2 - on_carrier) / 2
     # 1e-12: quadrature agrees to 1e-13 of the whole
     assert found.energy_fluctuation_J == pytest.approx(held, rel=1e-12)
     motor = loaded.peaks.power.max * 0.4 * w * w
-    assert found.motor_torque_max_Nm == pytest.approx(motor, rel=1e-12)
+    if not on_carrier:  # whose torque is proved in test_carousel.py
+        assert found.motor_torque_max_Nm == pytest.approx(motor, rel=1e-12)
 
 
 def test_a_resistance_alone_by_its_integral():

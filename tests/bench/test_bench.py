@@ -87,10 +87,13 @@ def test_errors_of_ours(one):
 
 
 def test_nothing_is_more_accurate_than_ours(one):
-    """But for what is below the errors that count as equal; a slot's pieces are counted below."""
+    """But for what is below the errors that count as equal; a slot's pieces are counted below.
+
+    Of means over a few thousand machines luck decides: their errors are bounded above.
+    """
     subject, rows = measured(one)
     for row in rows:
-        if row.ours and one != "slot":
+        if row.ours and one not in ("slot", "tolerance"):
             rivals = [r.error for r in rows if r.task == row.task and r.error is not None]
             assert row.error <= max(min(rivals), 2 * subject.floor)
 

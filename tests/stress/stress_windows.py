@@ -80,9 +80,12 @@ def main(pages):
         with tempfile.TemporaryDirectory() as folder:
             os.chdir(folder)
             shutil.copytree(repo.DESIGNS, "designs")
-            shutil.copy("designs/tolerances.toml", "spec.toml")
-            shutil.copy("designs/side-crank-z6.toml", "wish.toml")
-            for name, text in steps(page):
+            each = [*steps(page)]
+            for design, spec in (("tolerances", "spec.toml"), ("side-crank-z6", "wish.toml")):
+                # a page that makes the file begins without it
+                if not any(name == spec or f"-o {spec}" in text for name, text in each):
+                    shutil.copy(f"designs/{design}.toml", spec)
+            for name, text in each:
                 if name:
                     with open(name, "a", encoding="utf-8") as file:
                         file.write(text)

@@ -37,9 +37,11 @@ SPECTRUM_COLUMNS = (
 
 def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
     """Named values, with equal names for every machine; all None if no inertia is known."""
-    if load is None:
+    jumps = any(one.motion.jump for one in mechanism.engagements)
+    if load is None or jumps:
+        why = "the wheel's speed jumps at entry, and so does the load's" if jumps else NO_INERTIA
         return dict.fromkeys((*NUMBERS, "avoid", "stations")) | {
-            "warnings": (Notice("not-known", f"no value is computed: {NO_INERTIA}"),)
+            "warnings": (Notice("not-known", f"no value is computed: {why}"),)
         }
     oscillators = oscillators_of(mechanism, load)
     avoid = speeds_to_avoid(mechanism, load)

@@ -116,7 +116,7 @@ def _composed(
             "author": own.author or "",
         },
     )
-    head = spec.title or f"Geneva {spec.output.noun} of {spec.wheel.z} slots"
+    head = spec.title or spec.wheel.title
     right, low = paper.width - MARGIN, MARGIN
     corner = title_block(head, rows_of_fields).moved(right - TITLE_WIDTH, low)
     items = _items(rows, materials)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.layout import Dimension, Layout
-from geneva_cli.kinematics.path_and_slot import AnchoredPath, StraightSlotMotion
+from geneva_cli.kinematics.path_and_slot import AnchoredPath
 from geneva_cli.kinematics.wheels import classic, poses
 from geneva_cli.kinematics.wheels.gearing import FollowedRate, Gearing, RollerPlace
 from geneva_cli.kinematics.wheels.offset_slot import OffsetSlot, OffsetSlotMotion, exact_rate
@@ -19,7 +19,7 @@ from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import LENGTH, Range
 
 if TYPE_CHECKING:
-    from geneva_cli.kinematics.engagement import Displacement, Slot
+    from geneva_cli.kinematics.engagement import Displacement, Slot, WheelMotion
 
 
 class External(Gearing):
@@ -133,7 +133,7 @@ class External(Gearing):
 
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement
-    ) -> tuple[Slot, StraightSlotMotion]:
+    ) -> tuple[Slot, WheelMotion]:
         """Radial or offset slot for a roller's path, and the motion that follows."""
         if place.skew is None:
             return super().follow(path, place, turn)

@@ -19,7 +19,12 @@ from geneva_cli.spec.rules import Z_MAX, OneOf, Range
 from geneva_cli.spec.schema import SpecTable
 
 if TYPE_CHECKING:
-    from geneva_cli.kinematics.engagement import CarrierVelocity, Displacement, Slot
+    from geneva_cli.kinematics.engagement import (
+        CarrierVelocity,
+        Displacement,
+        Slot,
+        WheelMotion,
+    )
     from geneva_cli.kinematics.plane_motion import PlaneMotion
 
 
@@ -101,6 +106,12 @@ class Gearing(SpecTable):
     PARTS: ClassVar[str] = "flat"
     # meaning of center_distance_mm
     DISTANCE: ClassVar[str] = "centre distance"
+    # True if its speed jumps at entry and exit, so that forces have no bound
+    JUMPS: ClassVar[bool] = False
+    # stiffness of a pair of steel teeth that drive it, over their width; 0 for a roller
+    TOOTH_N_mm2: ClassVar[float] = 0.0
+    # the only drives that it has; empty for any
+    DRIVES: ClassVar[tuple[str, ...]] = ()
     z: Annotated[int, Range(3, Z_MAX), "number of slots"]
     held_by: Annotated[
         str | None,
@@ -141,6 +152,11 @@ class Gearing(SpecTable):
         return self
 
     @property
+    def pinions(self) -> int:
+        """Number of a counter's pinions, which may start at once; 0 for a wheel."""
+        return 0
+
+    @property
     def layout(self) -> Layout:
         """Dimensions of this kind of wheel, in addition to its number of slots.
 
@@ -148,6 +164,15 @@ class Gearing(SpecTable):
         (Dimension(name="slots' axes offset from the wheel's", value=12.0, unit='mm'),)
         """
         return ()
+
+    @property
+    def title(self) -> str:
+        """The title of a design without one of its own.
+
+        >>> External(6).title
+        'Geneva wheel of 6 slots'
+        """
+        return f"Geneva wheel of {self.z} slots"
 
     def axes(self, L: float) -> tuple[Pivot, ...]:
         """Axes of wheel and crank in the plane of the parts, for a centre distance in mm.
@@ -193,7 +218,7 @@ class Gearing(SpecTable):
 
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement
-    ) -> tuple[Slot, StraightSlotMotion]:
+    ) -> tuple[Slot, WheelMotion]:
         """Straight slot for a roller's path, and the motion that follows.
 
         ``turn`` is the crank's rotation from mid-motion, as its sine and versine.

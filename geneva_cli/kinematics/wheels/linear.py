@@ -72,6 +72,11 @@ class Linear(Gearing):
             lacks=lacks,
         )
 
+    @property
+    def title(self) -> str:
+        """The title of a design without one of its own."""
+        return f"Geneva rack of {self.z} slots"
+
     def axes(self, L: float) -> tuple[Pivot, ...]:
         """Axis of the crank."""
         return (Pivot("crank axis", L, 0.0),)

@@ -195,8 +195,9 @@ def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:
     radius_m = np.ravel(mechanism.roller_radius_mm / 1000.0)
     rows = []
     for own in (each[i::m] for i in range(min(m, len(each)))):
-        rolled = sum(one.rolled_m for one in own)
-        force = (sum(one.load for one in own) / rolled) ** (1.0 / LIFE_EXPONENT)
+        rolled = np.ravel(sum(one.rolled_m for one in own))
+        with np.errstate(invalid="ignore"):  # where gears drive throughout, no roller rolls
+            force = (sum(one.load for one in own) / rolled) ** (1.0 / LIFE_EXPONENT)
         turns = rolled / len(own) / (2.0 * math.pi * radius_m)
         often = np.ravel(_periods_per_h(mechanism) * (len(own) if len(each) >= m else 1.0 / m))
         rows.append(np.stack(np.broadcast_arrays(force, turns, often)))

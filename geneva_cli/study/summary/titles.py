@@ -25,7 +25,7 @@ def title_of(design: Design) -> str:
     >>> title_of(Design(External(6)))
     'Geneva wheel of 6 slots'
     """
-    return design.spec.title or f"Geneva {design.spec.output.noun} of {design.spec.wheel.z} slots"
+    return design.spec.title or design.spec.wheel.title
 
 
 def counted(warnings: Sequence[str]) -> str:

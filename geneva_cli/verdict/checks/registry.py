@@ -34,6 +34,9 @@ MOTION: Checks = {
     "stopping_torque_Nm": "arrival:stopping_torque",
     "rack_horn_mm": "rack:rack_horn",
     "guide_locks": "rack:guide_locks",
+    "counter_free_deg": "counter:free",
+    "counter_play_deg": "counter:greatest_play",
+    "counter_lock_deg": "counter:lock",
 }
 # Checks of limits that the spec sets.
 LIMITS: Checks = {
@@ -88,6 +91,7 @@ STATIC: Checks = {
     "branches_apart_mm": "branches:apart",
     "branches_crossed_mm": "branches:crossed",
     "wheels_apart_mm": "carrier:wheels_apart",
+    "cranks_apart_mm": "cranks:cranks_apart",
     "stop_turns": "stop:turns",
     "stop_overlap_mm": "stop:overlap",
     "stop_stress_max_MPa": "stop:stress",
@@ -159,7 +163,7 @@ def motion_checks(among: Checks, mechanism: Mechanism) -> Iterator[Check]:
 
 def standing(mechanism: Mechanism) -> Checks:
     """The checks of the parts of a machine at rest."""
-    return STANDING[mechanism.spec.wheel.PARTS]
+    return STANDING.get(mechanism.spec.wheel.PARTS, {})
 
 
 def standing_checks(parts: PartsOfMachine) -> Iterator[Check]:

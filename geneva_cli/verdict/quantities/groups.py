@@ -221,6 +221,13 @@ REPORT = (
         batch="carousel:carousel",
     ),
     _group("", "", "report.carousel:wheels"),
+    _group("", "", "report.cranks:cranks"),
+    _group(
+        "counter",
+        "digits number_step_deg turns_to_zero impulse_Nms energy_J force_N",
+        batch="counter:counter",
+    ),
+    _group("", "", "report.counter:number_wheels"),
     _group(
         "sizes",
         "axes_deg sphere_radius_mm crank_arm_mm slot_mouth_polar_deg slot_bottom_polar_deg "

@@ -79,4 +79,5 @@ def _ends(machine: Mechanism, order: int) -> list[Array]:
 
 
 def _size(motion: WheelMotion, at_deg: Number, order: int) -> Array:
-    return np.ravel(abs(motion(at_deg, order).arrays()[order]))
+    inside = np.ravel(abs(motion(at_deg, order).arrays()[order]))
+    return np.where(np.ravel(motion.jump) > 0.0, np.inf, inside)

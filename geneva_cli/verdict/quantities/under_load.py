@@ -143,7 +143,9 @@ class SingleUnderLoad(UnderLoad):
     @cached_property
     def force_N(self) -> Array:
         """The greatest force on a roller."""
-        return np.array([self.part_loads.pin_N]) * self.loaded
+        if np.isnan(self.loaded[0]):
+            return self.loaded
+        return np.array([self.part_loads.pin_N])
 
     @cached_property
     def part_loads(self) -> PartLoads:

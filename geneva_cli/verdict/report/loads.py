@@ -22,6 +22,6 @@ def greatest_loads(model: PartsModel) -> Values:
         bounded = peak is not None and math.isfinite(peak.max)
         values[f"loads.{name}.max"] = peak.max if peak and bounded else None
         values[f"loads.{name}.at_deg"] = peak.at_deg if peak else None
-    power = worst(mechanism).power.max if inertia_kgm2(mechanism.spec) else None
-    kinetic = None if power is None else loads.kinetic_power_W(mechanism, power)
+    power = worst(mechanism).power.max if inertia_kgm2(mechanism.spec) else math.inf
+    kinetic = None if math.isinf(power) else loads.kinetic_power_W(mechanism, power)
     return values | {"loads.kinetic_power_W": kinetic}

@@ -1,0 +1,192 @@
+"""The driver and the pinion of a counter: their teeth, the locking rim, and their outlines.
+
+Both have involute teeth of one rack. The driver keeps two of its N. The pinion has 2 z, and every
+second one is wide: it also lies in the plane of the driver's rim. At input angle 0 a wide tooth is
+on the line of centres, between the driver's two.
+
+Profile shifts keep both from undercut, x = max(0, 1 - z sin² 20°) of the pinion. Where their sum is
+above 0, the gears work at a larger pressure angle w, and the module is smaller:
+
+    inv w = inv 20° + 2 (x1 + x2) tan 20°/(N + 2 z),    m = 2 L cos w/((N + 2 z) cos 20°)
+
+At rest a narrow tooth is on the line of centres, and the two wide ones next to it lie 180°/z to
+either side. The rim is the largest circle about the driver's axis that they let pass, less
+``lock_clearance_mm``. The driver's tips may not pass it either, as they go by the same teeth.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.curves.gear_teeth import Rack, RoundTeeth, circle, fillet, involute
+from geneva_cli.curves.measure import turned
+from geneva_cli.curves.shapes import ORIGIN, Arc, Contour, Segment, about, closed
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.roots import boundary
+
+if TYPE_CHECKING:
+    from geneva_cli.curves.gear_teeth import Writer
+    from geneva_cli.numerics.jet import Array
+
+WHEEL, CRANK = "WHEEL", "CRANK"
+
+
+class CounterSizes(NamedTuple):
+    """The teeth of driver and pinion about their axes, and the locking rim; mm and radians."""
+
+    driver: RoundTeeth
+    pinion: RoundTeeth
+    distance: float  # of the axes
+    pressure_angle: float  # at work
+    touch: float  # radius of the circle that touches the wide teeth at rest
+    rim: float
+
+    @property
+    def half_space(self) -> float:
+        """Half the angle between the driver's two teeth."""
+        return 0.5 * self.driver.step
+
+
+def counter_sizes(mechanism: Mechanism) -> CounterSizes:
+    """Return the sizes of a counter. Raises GenevaError, naming the key, if none fit."""
+    spec, L = mechanism.spec, mechanism.center_distance_mm
+    z = spec.wheel.z
+    large = round(2 * z * mechanism.ratio / (1.0 - mechanism.ratio))
+    counts = large, 2 * z
+    plain = Rack(1.0)
+    off = 0.25 * spec.size.gear_backlash_mm / math.tan(plain.angle)
+    # no undercut: the rack's straight flank ends above the base circle's tangent
+    least = [1.0 - 0.5 * count * math.sin(plain.angle) ** 2 for count in counts]
+    own = max(0.0, least[1])
+    shifts = max(-own, least[0]), own
+    total = sum(counts)
+    rolled = involute(plain.angle) + 2.0 * sum(shifts) * math.tan(plain.angle) / total
+    angle = boundary(lambda w: involute(w) <= rolled, plain.angle, 1.2)
+    m = 2.0 * L * math.cos(angle) / (total * math.cos(plain.angle))
+    racks = [Rack(m, x - off / m) for x in shifts]
+    radii = [0.5 * m * count for count in counts]
+    # a quarter of a module from the other gear's root, and no farther than its flank reaches
+    ends = [
+        radii[k] * math.sin(r.angle) - r.straight / math.sin(r.angle) for k, r in enumerate(racks)
+    ]
+    bases, far = [r * math.cos(plain.angle) for r in radii], L * math.sin(angle)
+    tips = [
+        min(
+            L - radii[1 - k] + m * (1.0 - shifts[1 - k]),
+            math.hypot(bases[k], far - ends[1 - k]),
+        )
+        for k in (0, 1)
+    ]
+    both = [RoundTeeth(racks[k], radii[k], _blunt(racks[k], radii[k], tips[k])) for k in (0, 1)]
+    driver, pinion = both
+    touch = _touching_circle(pinion, L)
+    rim = touch - spec.size.allowances.lock_clearance_mm
+    driver = driver._replace(tip=min(driver.tip, rim))
+    if driver.tip <= driver.base or rim <= L - pinion.tip:
+        raise GenevaError(
+            f"z = {z}: the rim that locks {z} wide teeth, of radius {rim:.4g} mm, leaves the "
+            f"driver no teeth, which begin at {driver.base:.4g} mm; use more teeth, or a smaller "
+            "lock_clearance_mm",
+            ("wheel", "z"),
+        )
+    return CounterSizes(driver, pinion, L, angle, touch, rim)
+
+
+def _blunt(rack: Rack, radius: float, tip: float) -> float:
+    """Return the radius of tips that keep the least thickness, at most ``tip``."""
+    teeth = RoundTeeth(rack, radius, tip)
+    return boundary(lambda r: teeth.thickness(r) >= rack.least_tip, radius, tip)
+
+
+def _touching_circle(pinion: RoundTeeth, L: float) -> float:
+    """Return the radius of the circle about the driver's axis that touches the wide teeth at rest.
+
+    It keeps a tenth of a module from the pinion's root circle. The sides of the teeth are sampled
+    so closely that the least distance is missed by less than 1e-8 L.
+    """
+    r = np.linspace(pinion.root, pinion.tip, 20001)
+    away = pinion.step - half_angles(pinion, r)
+    least = np.sqrt(L * L + r * r - 2.0 * L * r * np.cos(away)).min()
+    return min(float(least), L - pinion.root - 0.1 * pinion.rack.module)
+
+
+def half_angles(teeth: RoundTeeth, r: Array) -> Array:
+    """Return the angles between middle and side of a tooth at radii: flank, and fillet below it."""
+    rack = teeth.rack
+    u = np.linspace(-rack.end, -rack.corner[0], 1001)
+    points, _ = fillet(circle(teeth.radius), rack, 0.0, 1)(u)
+    below, side = np.hypot(*points.T), np.arctan2(points[:, 1], points[:, 0])
+    start, ascending = below[0], below[::-1]
+    cosine = np.minimum(teeth.base / np.maximum(r, max(start, teeth.base)), 1.0)
+    at = np.arccos(cosine)
+    on_flank = rack.half / teeth.radius + involute(rack.angle) - (np.tan(at) - at)
+    out: Array = np.where(r >= start, on_flank, np.interp(r, ascending, side[::-1]))
+    return out
+
+
+def driver_teeth(sizes: CounterSizes, write: Writer) -> Contour:
+    """Return the driver's two teeth on its root circle, to either side of the x axis."""
+    teeth, half = sizes.driver, sizes.half_space
+    one = Contour(CRANK, tuple(teeth.one(write)), closed=False)
+    between = Contour(CRANK, (teeth.between(),), closed=False)
+    pieces = [*turned(one, -half).segments, *turned(between, -half).segments]
+    pieces += turned(one, half).segments
+    from_middle = teeth.rack.corner[0] / teeth.radius
+    start = half + from_middle
+    return closed(CRANK, [*pieces, about(ORIGIN, teeth.root, start, math.tau - 2.0 * start)])
+
+
+def driver_rim(sizes: CounterSizes, write: Writer) -> Contour:
+    """Return the locking rim, whose gap is the space between the driver's two teeth."""
+    teeth, half = sizes.driver._replace(tip=sizes.rim), sizes.half_space
+    before, after = _sides(teeth, write)
+    between = Contour(CRANK, (teeth.between(),), closed=False)
+    pieces = [*turned(after, -half).segments, *turned(between, -half).segments]
+    pieces += turned(before, half).segments
+    start = half - teeth.half_angle(sizes.rim)
+    return closed(CRANK, [*pieces, about(ORIGIN, sizes.rim, start, math.tau - 2.0 * start)])
+
+
+def _sides(teeth: RoundTeeth, write: Writer) -> tuple[Contour, Contour]:
+    """Return both sides of a tooth about the x axis, without its tip."""
+    pieces = teeth.one(write)
+    (tip,) = (i for i, piece in enumerate(pieces) if _is_tip(piece, teeth.tip))
+    before, after = pieces[:tip], pieces[tip + 1 :]
+    return Contour(CRANK, tuple(before), False), Contour(CRANK, tuple(after), False)
+
+
+def _is_tip(piece: Segment, radius: float) -> bool:
+    """True for an arc about the origin at a radius."""
+    if not isinstance(piece, Arc):
+        return False
+    return all(math.isclose(math.hypot(*end), radius) for end in (piece.start, piece.end))
+
+
+def pinion_teeth(sizes: CounterSizes, wide: bool, write: Writer) -> Contour:
+    """Return the pinion in the plane of its wide teeth alone, or in that of all teeth."""
+    teeth, each = sizes.pinion, 2 if wide else 1
+    one = Contour(WHEEL, tuple(teeth.one(write)), closed=False)
+    between = Contour(WHEEL, (teeth.between((each - 1) * teeth.step),), closed=False)
+    pieces: list[Segment] = []
+    for k in range(0, round(math.tau / teeth.step), each):
+        pieces += turned(one, k * teeth.step).segments
+        pieces += turned(between, k * teeth.step).segments
+    return closed(WHEEL, pieces)
+
+
+def number_teeth(sizes: CounterSizes, write: Writer) -> Contour:
+    """Return the gear of the number wheel, whose space is about the x axis, as the driver's."""
+    teeth = sizes.driver
+    both = [
+        Contour(CRANK, tuple(teeth.one(write)), False),
+        Contour(CRANK, (teeth.between(),), False),
+    ]
+    pieces: list[Segment] = []
+    for k in range(round(math.tau / teeth.step)):
+        for one in both:
+            pieces += turned(one, sizes.half_space + k * teeth.step).segments
+    return closed(CRANK, pieces)
