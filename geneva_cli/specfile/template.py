@@ -121,12 +121,18 @@ def template(kind: str, schema: bool = True, whole: bool = True) -> str:
             "limits": {"acceleration_max": 1.5, "pin_force_max_N": 600},
         }
         usual = usual_tables.get(name, {})
-        block = [_line(f, values) for f in table] if whole else _usual(table, values, usual)
+        block = (
+            [_line(f, values) for f in table]
+            if whole
+            else _usual(table, values, usual, gearing.NAME)
+        )
         lines += ["", head, *block] if block else []
     return "\n".join(lines) + "\n"
 
 
-def _usual(table: list[Field], values: dict[str, Any], usual: dict[str, float]) -> list[str]:
+def _usual(
+    table: list[Field], values: dict[str, Any], usual: dict[str, float], gearing: str
+) -> list[str]:
     """The lines of the keys that an example sets, or that most people do, with usual values."""
     shown = [field for field in table if field.key in values or field.key in usual]
     settings = [
@@ -136,8 +142,19 @@ def _usual(table: list[Field], values: dict[str, Any], usual: dict[str, float]) 
         for field in shown
     ]
     width = max(map(len, settings), default=0)
-    notes = [field.meaning.partition("; ")[0] for field in shown]
+    notes = [_note(field.meaning, gearing) for field in shown]
     return [f"{s.ljust(width)}  # {note}" for s, note in zip(settings, notes, strict=True)]
+
+
+def _note(meaning: str, gearing: str) -> str:
+    """The part of a meaning that is about a gearing, such as "linear: crank radius", or the first.
+
+    >>> _note("centre distance L; linear: crank radius", "linear")
+    'crank radius'
+    """
+    parts, named = meaning.split("; "), f"{gearing}: "
+    own = next((part for part in parts if part.startswith(named)), parts[0])
+    return own.removeprefix(named)
 
 
 def example(kind: str) -> Example:

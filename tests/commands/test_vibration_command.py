@@ -12,6 +12,7 @@ from geneva_cli import load
 from geneva_cli.app import app
 
 PRESS = str(repo.DESIGNS / "press-straight.toml")
+RACK = str(repo.DESIGNS / "linear.toml")
 UNLOADED = str(repo.DESIGNS / "side-crank-z6.toml")
 NAMES = [
     "spec",
@@ -76,6 +77,7 @@ def test_a_motion_shorter_than_a_natural_period_is_said():
     ("words", "said"),
     [
         ([PRESS], "no stiffness_Nm_rad in [shaft]: set the stiffness"),
+        ([RACK], f"{RACK}:8: a rack has no shaft: use --period-ratio"),
         ([PRESS, "--set", "shaft.stiffness_Nm_rad=-5"], "stiffness_Nm_rad = -5 must be above 0"),
         (
             [PRESS, "--set", "shaft.damping_ratio=1"],

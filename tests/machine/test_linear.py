@@ -241,6 +241,7 @@ def test_what_needs_a_wheel_is_refused_with_the_reason(tmp_path):
             ["check", str(path), "--set", "tolerance.crank_radius_mm=0.1"],
             "not available for a rack",
         ),
+        (["tolerance", str(path)], "computed for a wheel on a shaft, not for a rack"),
         (["check", str(path), "--set", "load.dwell_torque_Nm=1"], "not available for a rack"),
         (
             ["check", str(path), "--set", "motion.law=cycloidal"],

@@ -2,7 +2,7 @@
 
 import math
 
-from geneva_cli.kinematics.registry import DRIVES, LAWS
+from geneva_cli.kinematics.registry import DRIVES, LAWS, drive
 from geneva_cli.machine.spec import LOADED
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Size
@@ -17,6 +17,7 @@ LIMITS = {
     "lock_stress_max_MPa": 800.0, "lock_deflection_max_deg": 0.05,
     "slot_wear_max_mm_per_million": 0.1, "product_acceleration_max_m_s2": 10.0,
 }  # fmt: skip
+WHEELS_ONLY = ("dwell_torque_Nm", "product_acceleration_max_m_s2")
 PRODUCT = {"radius_mm": 300.0, "friction": 0.5, "swing_Hz": 2.0}
 
 
@@ -64,9 +65,8 @@ def clearance(rng, r):
     return rng.choice([0.0, 0.0, 0.01, 0.1, near(rng, 0.02 * r), r * rng.random()])
 
 
-def usual(rng, key, z, L, r, outside):
-    """A likely value of a key of ``[size]``."""
-    R = L * math.sin(math.pi / z)
+def usual(rng, key, L, R, r, outside):
+    """A likely value of a key of ``[size]``, for a centre distance and a crank's radius."""
     if key in ("slot_clearance_mm", "lock_clearance_mm"):
         return clearance(rng, r)
     if key in WORDED:
@@ -76,7 +76,7 @@ def usual(rng, key, z, L, r, outside):
     if key == "gear_teeth":
         return rng.choice([12, 17, 20, 30])
     of = {
-        "wheel_radius_mm": math.sqrt(L * L - R * R if outside else L * L + R * R),
+        "wheel_radius_mm": math.sqrt(L * L - R * R if outside and R < L else L * L + R * R),
         "wheel_outer_radius_mm": L + R + 2.0 * r,
         "slot_bottom_clearance_mm": 0.05 * r,
         "lock_radius_mm": rng.choice([0.0, 0.8 * R, R - r, R]),
@@ -226,6 +226,50 @@ def motion(rng, kind, gearing):
     return lines
 
 
+def sized(rng, L, R, r, outside):
+    """The lines of ``[size]``, but for the centre distance."""
+    text = ["[size]", f"face_width_mm = {near(rng, 2.0 * r)!r}"]
+    if rng.random() < 0.9:
+        text.append(f"roller_radius_mm = {r!r}")
+    often = rng.choice([0.0, 0.05, 0.3, 0.8])
+    for field in fields(Size):
+        if field.key not in TAKEN and rng.random() < often:
+            value = usual(rng, field.key, L, R, r, outside)
+            worded = field.key in WORDED
+            if not worded and rng.random() < 0.03:
+                value = in_range(rng, field.rule, False)
+            text.append(f"{field.key} = " + (f'"{value}"' if worded else repr(value)))
+    return text
+
+
+def loaded(rng):
+    """The lines of loads, materials, product and limits."""
+    text, given = [], {}
+    for about in (LOADS, WEARS, BEARS, LIMITS, PRODUCT):
+        often = rng.choice([0.0, 0.3, 0.8])
+        given |= {k: near(rng, v, 0.5) for k, v in about.items() if rng.random() < often}
+    if given.keys() & set(LOADED) and rng.random() < 0.95:  # which limit nothing without a load
+        given.setdefault("inertia_kgm2", near(rng, LOADS["inertia_kgm2"], 0.5))
+    if "roller_life_min_h" in given:
+        given.setdefault("dynamic_capacity_N", near(rng, BEARS["dynamic_capacity_N"]))
+    if "slot_wear_max_mm_per_million" in given:
+        given.setdefault("wear_mm3_Nm", near(rng, WEARS["wear_mm3_Nm"]))
+    if given.keys() & {"product_acceleration_max_m_s2", *PRODUCT}:
+        given.setdefault("radius_mm", near(rng, PRODUCT["radius_mm"]))
+    tables = (
+        ("load", LOADS),
+        ("material.wheel", WEARS),
+        ("material.roller", BEARS),
+        ("product", PRODUCT),
+        ("limits", LIMITS),
+    )
+    for table, about in tables:
+        text += [f"[{table}]", *[f"{k} = {v!r}" for k, v in given.items() if k in about]]
+        if about is LOADS and rng.random() < 0.3:
+            text.append(f'friction_at = "{rng.choice(["pin", "pin", "slot"])}"')
+    return text
+
+
 def machine_text(rng, kind=None):
     """A machine that a designer might write, or nearly; of any kind of drive, or the one given."""
     # linkages take a hundred times as long to read as others
@@ -251,46 +295,74 @@ def machine_text(rng, kind=None):
             text[-1] = f"rollers = {len(angles)}\nroller_angles_deg = {angles!r}"
     if curved:
         text += ["[motion]", *motion(rng, kind, gearing)]
-    text += ["[size]", f"face_width_mm = {near(rng, 2.0 * r)!r}"]
+    text += sized(rng, L, R, r, gearing == "external")
     if kind not in LINKAGES:
-        text.append(f"center_distance_mm = {L!r}")
-    if rng.random() < 0.9:
-        text.append(f"roller_radius_mm = {r!r}")
-    often = rng.choice([0.0, 0.05, 0.3, 0.8])
-    for field in fields(Size):
-        if field.key not in TAKEN and rng.random() < often:
-            value = usual(rng, field.key, z, L, r, gearing == "external")
-            worded = field.key in WORDED
-            if not worded and rng.random() < 0.03:
-                value = in_range(rng, field.rule, False)
-            text.append(f"{field.key} = " + (f'"{value}"' if worded else repr(value)))
-    given = {}
-    for about in (LOADS, WEARS, BEARS, LIMITS, PRODUCT):
-        often = rng.choice([0.0, 0.3, 0.8])
-        given |= {k: near(rng, v, 0.5) for k, v in about.items() if rng.random() < often}
-    if given.keys() & set(LOADED) and rng.random() < 0.95:  # which limit nothing without a load
-        given.setdefault("inertia_kgm2", near(rng, LOADS["inertia_kgm2"], 0.5))
-    if "roller_life_min_h" in given:
-        given.setdefault("dynamic_capacity_N", near(rng, BEARS["dynamic_capacity_N"]))
-    if "slot_wear_max_mm_per_million" in given:
-        given.setdefault("wear_mm3_Nm", near(rng, WEARS["wear_mm3_Nm"]))
-    if given.keys() & {"product_acceleration_max_m_s2", *PRODUCT}:
-        given.setdefault("radius_mm", near(rng, PRODUCT["radius_mm"]))
-    tables = (
-        ("load", LOADS),
-        ("material.wheel", WEARS),
-        ("material.roller", BEARS),
-        ("product", PRODUCT),
-        ("limits", LIMITS),
-    )
-    for table, about in tables:
-        text += [f"[{table}]", *[f"{k} = {v!r}" for k, v in given.items() if k in about]]
-        if about is LOADS and rng.random() < 0.3:
-            text.append(f'friction_at = "{rng.choice(["pin", "pin", "slot"])}"')
+        text.insert(2 + text.index("[size]"), f"center_distance_mm = {L!r}")
+    text += loaded(rng)
     # last, so that the random numbers of other machines stay as they are
     skewed = any(line.startswith(("offset_mm", "rollers")) for line in text)
     if kind in ("crank", "side-crank") and straight and not skewed and rng.random() < 0.3:
         text.insert(1, "stop = true")
         text.insert(1 + text.index("[load]"), f"winding_torque_Nm = {near(rng, 2.0)!r}")
         text.append(f"stop_stress_max_MPa = {near(rng, 900.0)!r}")
-    return "\n".join(text) + "\n"
+    if kind == "crank" and rng.random() < 0.06:
+        return rack_text(rng)
+    if not drive(kind).FIRST and not curved and kind != "crank" and rng.random() < 0.3:
+        ahead = rng.choice([name for name in DRIVES if drive(name).IN_FRONT])
+        text += ["[drive.before]", f'kind = "{ahead}"', *own_keys(rng, ahead)]
+    if rng.random() < (0.6 if kind == "carousel" else 0.1):
+        text += bodies(rng, L, kind == "carousel")
+    return "\n".join(fitting(text)) + "\n"
+
+
+def fitting(text):
+    """The lines without those of teeth, where the machine has none or they have no module."""
+    kinds = [line[8:-1] for line in text if line.startswith("kind = ")]
+    toothed = any(drive(kind).TOOTHED or drive(kind).GEARED for kind in kinds)
+    if toothed and any(line.startswith("gear_module_mm") for line in text):
+        return text
+    teeth = ("gear_module", "gear_teeth", "gear_shift", "gear_backlash")
+    return [line for line in text if not line.startswith(teeth)]
+
+
+def bodies(rng, L, orbits):
+    """One to three bodies on the wheel, of every shape; of one that orbits with directions."""
+    text = []
+    for _ in range(rng.randint(1, 3)):
+        shape = rng.choice(["disc", "ring", "block", "point"])
+        text += ["[[mass]]", f'shape = "{shape}"', f"mass_kg = {near(rng, 1.0, 1.0)!r}"]
+        across = {"disc": ("diameter",), "ring": ("diameter", "bore"), "block": ("length", "width")}
+        sides = zip(across.get(shape, ()), (0.4 * L, 0.2 * L), strict=False)
+        text += [f"{side}_mm = {near(rng, size)!r}" for side, size in sides]
+        radius = rng.choice([0.0, near(rng, 0.5 * L)])
+        if radius or shape == "point":
+            text.append(f"radius_mm = {radius or near(rng, L)!r}")
+        if rng.random() < 0.3:
+            text.append(f"count = {rng.randint(1, 5)}")
+        if orbits and rng.random() < 0.5:
+            text.append(f"angle_deg = {rng.choice([0, 90, -180, rng.uniform(-360, 360)])!r}")
+    return text
+
+
+def rack_text(rng):
+    """A rack that a crank pushes, the crank's shaft perhaps behind another drive."""
+    R = rng.choice([30.0, 100.0, near(rng, 50.0, 1.0)])
+    r = R * rng.choice([rng.uniform(0.03, 0.4), 0.1, 0.15])
+    kind = rng.choice(["crank", "crank", *(name for name in DRIVES if drive(name).IN_FRONT)])
+    text = ["[wheel]", f"z = {rng.choice([3, 4, 6, 8, 12, 24])}", 'gearing = "linear"']
+    text += ["[drive]", f'kind = "{kind}"', *own_keys(rng, kind)]
+    if rng.random() < 0.5:
+        text.append(f"n_rpm = {near(rng, 60.0, 1.0)!r}")
+    if rng.random() < 0.03:
+        text.append("rollers = 2")  # which jam
+    slots = rng.choice([1.5 * R, 2.0 * R])
+    text += sized(rng, slots, R, r, True)
+    text.insert(2 + text.index("[size]"), f"center_distance_mm = {R!r}")
+    table, pushed = "", {"inertia_kgm2": "mass_kg", "torque_Nm": "force_N"}
+    for line in loaded(rng):
+        key, _, value = line.partition(" = ")
+        table = line if line.startswith("[") else table
+        if table != "[product]" and key not in WHEELS_ONLY:
+            # a wheel's loads, as a mass and a force at the crank's radius, of about the same size
+            text.append(f"{pushed[key]} = {float(value) * 100.0!r}" if key in pushed else line)
+    return "\n".join(fitting(text)) + "\n"

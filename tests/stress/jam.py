@@ -1,14 +1,15 @@
-"""Every flat design's DXF files in a physics engine, Chipmunk: `tests/stress/jam.py`.
+"""DXF files of flat designs and of racks in a physics engine, Chipmunk: `tests/stress/jam.py`.
 
 The engine is told nothing of where the wheel should be: its outline, read from the file, is a free
-body on a pivot, moved by contact alone. Crank and rollers, from the other file, are carried round
-as the design's own drive carries them, for two turns. The wheel must go where the program says, off
-by no more than the play that the program says, and nothing may be squeezed: that is a jam. A roller
-too large for its slot must be found to jam. `make jam` runs it, ten minutes, and installs the
-engine (pymunk).
+body on a pivot, or a rack's in a groove, moved by contact alone. Crank and rollers, from the other
+file, are carried round as the design's own drive carries them, for two turns. The wheel must go
+where the program says, off by no more than the play that the program says, and nothing may be
+squeezed: that is a jam. A roller too large for its slot must be found to jam. `make jam` runs it,
+ten minutes, and installs the engine (pymunk).
 """
 
 import argparse
+import math
 import sys
 import tempfile
 from pathlib import Path
@@ -62,12 +63,52 @@ def rods(body, region, rod):
                 yield pymunk.Segment(body, a, b, rod)
 
 
+class Turning(pymunk.Body):
+    """A wheel: a heavy body of inertia 1, whose axis no push moves, with its angle in radians."""
+
+    def __init__(self):
+        super().__init__(HEAVY, 1.0)
+
+    def joints(self, space):
+        """None: the mass holds the axis."""
+        return ()
+
+    @property
+    def place(self):
+        return self.angle
+
+    def put(self, place, speed):
+        self.angle, self.angular_velocity = place, speed
+
+
+class Sliding(pymunk.Body):
+    """A rack of mass 1 that slides along y, with its travel over the crank's radius."""
+
+    def __init__(self, radius):
+        super().__init__(1.0, math.inf)
+        self.radius = radius
+
+    def joints(self, space):
+        """The groove along y."""
+        far = 100.0 * self.radius  # beyond some turns' travel
+        yield pymunk.GrooveJoint(space.static_body, self, (0.0, -far), (0.0, far), (0.0, 0.0))
+
+    @property
+    def place(self):
+        return self.position.y / self.radius
+
+    def put(self, place, speed):
+        self.position, self.velocity = (0.0, place * self.radius), (0.0, speed * self.radius)
+
+
 class Machine:
     """A design's two files as bodies of the engine."""
 
     def __init__(self, design, folder, larger=0.0):
-        proof = design.drawn(0.001)
-        self.found = found = proof.outlines
+        turns = design.spec.output.turns
+        proof = design.drawn(0.001) if turns else design.parts_model
+        self.play, self.found = proof.turn.play, proof.parts
+        found = self.found
         self.assembly, self.L = found.assembly, found.assembly.L
         for part in ("wheel", "crank"):
             draw(design.drawing(part, of=proof), str(folder / f"{part}.dxf"))
@@ -82,8 +123,8 @@ class Machine:
         self.space.iterations = 20
         self.space.collision_slop = SLOP * self.L
         self.space.collision_bias = LEFT
-        self.wheel = pymunk.Body(HEAVY, 1.0)
-        self.space.add(self.wheel, *rods(self.wheel, wheel, rod))
+        self.wheel = Turning() if turns else Sliding(self.L)
+        self.space.add(self.wheel, *rods(self.wheel, wheel, rod), *self.wheel.joints(self.space))
         self.at = self.assembly.start_deg + self.assembly.turn_deg * np.arange(STEPS + 1) / STEPS
         self.true = self.assembly.wheel(self.at)
         self.each = sum(2.0 * engagement.half_step for engagement, _ in self.assembly.motions)
@@ -93,7 +134,7 @@ class Machine:
             self.held |= (self.at[:-1] > dwell.start) & (self.at[1:] < dwell.end)
         meshed = self.assembly.geared(self.at)
         self.geared = meshed[:-1] | meshed[1:]
-        self.wheel.angle = float(self.true[0])
+        self.wheel.put(float(self.true[0]), 0.0)
         self.carried = [self._carried(self.assembly.crank(self.at))]
         crank_body = self.carried[0][0]
         self.space.add(*rods(crank_body, crank, rod))
@@ -138,12 +179,12 @@ class Machine:
             for step in range(STEPS):
                 self._set(step)
                 if self.held[step]:
-                    self.wheel.angle, self.wheel.angular_velocity = self.place(turn, step), 0.0
+                    self.wheel.put(self.place(turn, step), 0.0)
                 if self.geared[step]:
-                    self.wheel.angle = self.place(turn, step)
-                    self.wheel.angular_velocity = self.true[step + 1] - self.true[step]
+                    speed = self.true[step + 1] - self.true[step]
+                    self.wheel.put(self.place(turn, step), speed)
                 self.space.step(1.0)
-                went.append(self.wheel.angle)
+                went.append(self.wheel.place)
                 self.wheel.each_arbiter(deep)
         return np.array(went), deepest
 
@@ -181,15 +222,14 @@ def turned(path, folder):
     design = widened(path)
     machine = Machine(design, folder)
     went, deepest = machine.run()
-    play = design.drawn(0.001).turn.play
-    out, at = left_play(machine, play, went)
+    out, at = left_play(machine, machine.play, went)
     limit = SQUEEZED * machine.L
     faults = []
     if deepest > limit:
         faults.append(f"squeezed by {deepest:.3g} mm")
     if out > LOST:
         faults.append(f"left its play by {out:.3g} deg at {at:.2f}")
-    spare = machine.found.sizes.half_width - machine.found.sizes.roller
+    spare = machine.found.sizes.half_width - design.mechanism.roller_radius_mm
     if Machine(design, folder, spare + 2.0 * SQUEEZED * machine.L).run(1)[1] <= limit:
         faults.append("a roller that is too large for its slot was not found out")
     line = (

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from geneva_cli.analysis.forces import unbalance_Nm
 from geneva_cli.analysis.motion import check_samples
 from geneva_cli.analysis.vibration.oscillator import NO_INERTIA, Oscillator
 from geneva_cli.analysis.vibration.swing import Swing
@@ -87,6 +88,20 @@ NUMBERS = (*Vibrations._fields, "speeds_to_avoid_rpm")
 
 def _warnings(mechanism: Mechanism, load: Oscillator, least: float) -> list[Notice]:
     out = []
+    moment = math.hypot(*unbalance_Nm(mechanism))
+    if moment:
+        stiffness = mechanism.spec.shaft.stiffness_Nm_rad
+        windup = (
+            f", and winds it up by {math.degrees(moment / stiffness):.4g} deg" if stiffness else ""
+        )
+        out.append(
+            Notice(
+                "unbalance-left-out",
+                "the bodies off the wheel's axis are counted as inertia only: on the carrier their "
+                f"centrifugal force puts up to {moment:.4g} N m on the shaft{windup}. That "
+                "is not counted: balance them",
+            )
+        )
     if least < 1.0:
         out.append(
             Notice(

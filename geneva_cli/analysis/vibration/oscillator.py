@@ -48,6 +48,12 @@ def oscillator(
         if period_ratio not in PERIOD_RATIO:
             raise GenevaError(f"--period-ratio {period_ratio:g}: must be {_ratios()}")
         return Oscillator(period_ratio, zeta)
+    if not mechanism.output.turns:
+        raise GenevaError(
+            f"a {mechanism.output.noun} has no shaft: use --period-ratio, the motion's time over "
+            "the load's natural period",
+            ("wheel", "gearing"),
+        )
     if shaft.stiffness_Nm_rad is None:
         raise GenevaError(
             "no stiffness_Nm_rad in [shaft]: set the stiffness between wheel and load, or use "

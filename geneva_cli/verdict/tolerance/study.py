@@ -122,6 +122,11 @@ def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
         raise GenevaError(f"--samples {cut(samples)}: it must be from 1 to 10000000")
     if seed < 0:
         raise GenevaError(f"--seed {cut(seed)}: it must be 0 or more")
+    if not mechanism.output.turns:
+        raise GenevaError(
+            f"tolerances are computed for a wheel on a shaft, not for a {mechanism.output.noun}",
+            ("wheel", "gearing"),
+        )
     if not any(tolerances(mechanism.spec).values()):
         raise GenevaError(
             "the spec gives no tolerances: set one or more of "
