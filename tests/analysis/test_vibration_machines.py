@@ -265,6 +265,21 @@ def test_a_lobe_is_where_the_slope_of_the_closed_form_vanishes():
     assert found.share == pytest.approx(exact, rel=1e-12)
 
 
+def test_a_lobe_next_to_an_end_is_found():
+    """A maximum half a sample from an end: `sweep` gave another residual than `vibration` there."""
+    form = law_shape(load_law("cycloidal"))
+
+    def share(_, ratio):
+        return shares(form, ratio, 0.0)
+
+    (top,) = lobes(share, np.array([2.0]), np.array([3.0])).ratio
+    for low, high in ((top - 0.004, top + 1.0), (top - 1.0, top + 0.004)):
+        near = lobes(share, np.array([low]), np.array([high])).ratio - top
+        assert np.abs(near).min() < 1e-12  # its own rounding, as in the test above
+    beyond = lobes(share, np.array([top + 0.004]), np.array([top + 0.9])).ratio
+    assert (beyond >= top + 0.004).all()
+
+
 def test_no_residual_is_above_its_bound():
     for machine in (build(Spec(External(4))), build(Spec(External(6), SideCrank(A=0.6)))):
         form = shape(machine.engagements[0])

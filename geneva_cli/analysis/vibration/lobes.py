@@ -37,14 +37,16 @@ def lobes(share_at: Callable[[Whole, Array], Array], low: Array, high: Array) ->
     """
     # 16 samples for each 1 of the period ratio
     count = np.maximum(64, np.ceil(16 * (high - low)).astype(np.intp))
+    apart = (high - low) / count
+    first, last = low - apart, high + apart  # a maximum next to an end has a sample beyond it
     maxima = []
     for number in np.unique(count).tolist():
         some = np.flatnonzero(count == number)
-        ratio = np.linspace(low[some], high[some], number + 1, axis=1)
-        share = share_at(np.repeat(some, number + 1), ratio.ravel()).reshape(ratio.shape)
+        ratio = np.linspace(first[some], last[some], number + 3, axis=1)
+        share = share_at(np.repeat(some, number + 3), ratio.ravel()).reshape(ratio.shape)
         before, here, after = share[:, :-2], share[:, 1:-1], share[:, 2:]
         row, at = np.nonzero((here >= before) & (here > after))
-        maxima.append((some[row], ratio[row, at + 1], ((high - low) / count)[some[row]]))
+        maxima.append((some[row], ratio[row, at + 1], apart[some[row]]))
     which, middle, reach = joined(maxima)
     degree = 12  # of the polynomial between two samples about a maximum: exact to a double there
     nodes = np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
@@ -63,6 +65,8 @@ def lobes(share_at: Callable[[Whole, Array], Array], low: Array, high: Array) ->
         step = np.divide(rate, turn, out=np.zeros_like(x), where=turn < 0.0)
         x = np.clip(x - step, -1.0, 1.0)
     ratios = middle + reach * x
+    inside = (ratios >= low[which]) & (ratios <= high[which])
+    which, ratios = which[inside], ratios[inside]
     return Lobes(which, ratios, share_at(which, ratios))
 
 

@@ -196,9 +196,7 @@ class Oscillators:
                 of, top = np.nonzero((tops.ratio >= low[:, None]) & (tops.ratio <= high[:, None]))
             else:
                 tops = self.lobes(index, low, high)
-                inside = (tops.ratio >= low[tops.which]) & (tops.ratio <= high[tops.which])
-                top = np.flatnonzero(inside)
-                of = tops.which[top]
+                of, top = tops.which, np.arange(len(tops.which))
             np.maximum.at(worst, of, tops.share[top])
         return worst
 
