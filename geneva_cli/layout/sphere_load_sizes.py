@@ -48,10 +48,8 @@ def horn_thickness_mm(mechanism: Mechanism, usual: Ball) -> float | None:
     if fixed or not usual.recess or not all(map(math.isfinite, single_loads(mechanism))):
         return None
     allowed = wheel_material(mechanism.spec).allowed_MPa
-    angles, least = (
-        (usual.half_width, usual.recess, usual.axes),
-        usual.span_mm[1] - usual.span_mm[0],
-    )
+    angles = usual.half_width, usual.recess, usual.axes
+    least = usual.span_mm[1] - usual.span_mm[0]
     # a thicker wheel bends its pins more than its horns
     for thick in rounded_from(least, 2.0 * least):
         each = [sphere_horn(way, *angles, thick) for way in every_way(mechanism)]
