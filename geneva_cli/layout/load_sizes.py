@@ -18,6 +18,7 @@ import numpy as np
 from geneva_cli.layout.arm_sizes import (
     crank_reach_and_hub,
     hole_radius,
+    largest_hub,
     wheel_reach_and_hub,
     within_hub,
 )
@@ -113,7 +114,7 @@ def _pin(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> float:
     """Return the radius of a pin that holds; the arm's eye about it passes the largest hub."""
     eye = math.inf
     if assembly.sign > 0.0 and sizes.arm_bore:
-        hub = max(sizes.wheel_hub, 0.75 * sizes.slot_end)
+        hub = max(sizes.wheel_hub, largest_hub(sizes.slot_end))
         eye = assembly.L - max(roller_reaches(assembly)) - hub - sizes.wall_min
     space = PinSpace(sizes.wheel_thickness, sizes.roller, eye)
     return pin_that_holds(assembly.full.spec, sizes.pin, space, loads.pin_N)
