@@ -185,7 +185,7 @@ def _peak(rate: Formula, quantity: str) -> Formula:
 
     def power(x: Number, order: int) -> Jet:
         speed = rate(x, order + 1)
-        return Jet(speed.c[:-1]) * speed.derivative()
+        return speed.lower * speed.derivative()
 
     def derivative(x: Number, order: int) -> Jet:
         jet = rate(x, order + DERIVED[quantity])

@@ -39,7 +39,7 @@ def not_proved(mechanism: Mechanism, quantity: str) -> str:
     """The reason why a load has no certificate; empty if it has one."""
     if not mechanism.spec.is_loaded:
         return f"no load: set {mechanism.spec.load_keys}"
-    if mechanism.under_load.engagements[0].turned is not None:
+    if mechanism.unbalanced:
         return "a body stands off the axis of a wheel on a carrier"
     if quantity == WHEEL_TORQUE or mechanism.engagements[0].slot.walls_flat:
         return ""

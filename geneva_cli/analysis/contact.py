@@ -173,8 +173,8 @@ def _moving(
     arm = (constant + upright) * touches
     joints = _reactions(engagement, x, lever, offset) if reactions else None
     heading = None
-    if engagement.turned is not None:
-        heading = sin_cos(engagement.motion(x, order) + engagement.turned)
+    if engagement.mid_angle is not None:
+        heading = sin_cos(engagement.motion(x, order) + engagement.mid_angle)
     slot = lever, offset, along, curvature
     return Contact(velocity, acceleration, *slot, spin, arm, touches, joints, heading)
 

@@ -59,9 +59,9 @@ class LoadCase(NamedTuple):
         """The number of designs in the load case."""
         return designs_of(self.design)
 
-    def faster(self, times: float) -> LoadCase:
-        """Return the case with the loads of inertia at so many times the speed."""
-        square = times * times
+    def at_speed(self, ratio: float) -> LoadCase:
+        """Return the case at another speed, over its own: inertia grows with the square."""
+        square = ratio * ratio
         return self._replace(
             inertia_Nm=self.inertia_Nm * square,
             along_Nm=self.along_Nm * square,
@@ -191,12 +191,12 @@ def wheel_torque(case: LoadCase, at: Contact[V]) -> V:
     torque = at.acceleration * case.inertia_Nm + case.resists_Nm
     if at.heading is None:
         return torque
-    sine, cosine = at.heading
-    return torque - (sine * case.along_Nm + cosine * case.across_Nm)
+    _, across = _centrifugal_Nm(case, at.heading)
+    return torque - across
 
 
 def frame_torque(case: LoadCase, at: Contact[V]) -> V:
-    """The torque on the carrier besides that which goes through the wheel's slot, N m.
+    """The torque on the carrier that does not go through the wheel's slot, N m.
 
     It speeds the wheel up against the ground. A body off the wheel's axis also moves away from the
     carrier's axis and back (Coriolis).
@@ -204,13 +204,18 @@ def frame_torque(case: LoadCase, at: Contact[V]) -> V:
     torque = at.acceleration * (case.inertia_Nm * case.frame)
     if at.heading is None:
         return torque
-    sine, cosine = at.heading
-    ahead, beside = (
+    towards, across = _centrifugal_Nm(case, at.heading)
+    turning = at.velocity * (at.velocity * case.frame + 2.0)
+    return torque + across * turning - towards * at.acceleration * case.frame
+
+
+def _centrifugal_Nm(case: LoadCase, heading: tuple[V, V]) -> tuple[V, V]:
+    """The unbalance times L w², towards the carrier's axis and across."""
+    sine, cosine = heading
+    return (
         cosine * case.along_Nm - sine * case.across_Nm,
         sine * case.along_Nm + cosine * case.across_Nm,
     )
-    turning = at.velocity * (at.velocity * case.frame + 2.0)
-    return torque + beside * turning - ahead * at.acceleration * case.frame
 
 
 def gain(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:

@@ -151,7 +151,8 @@ def reversal_impacts(mechanism: Mechanism) -> Impacts:
     """Hardest impacts at a change of sides of m designs."""
     best = np.full((2, 1), np.nan)
     none = (drag_over(mechanism) == np.inf) | (clearance_mm(mechanism) == 0.0)
-    none = none | (mechanism.frame != 0.0 and mechanism.spec.unbalanced)  # coasts otherwise
+    # a body off a carried wheel's axis drives the wheel where it would coast
+    none = none | mechanism.unbalanced
     for engagement in () if all_true(none) else mechanism.engagements:
         best = _harder(best, _reversal(mechanism, engagement))
     return _with_force(mechanism, best)

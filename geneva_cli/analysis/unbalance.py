@@ -23,27 +23,27 @@ if TYPE_CHECKING:
 
 def held_unbalance_Nm(mechanism: Mechanism) -> Array:
     """Return the greatest moment of the bodies in a dwell, N m, (m, 1); 0 without any."""
-    _, beside = _in_dwells(mechanism)
-    out: Array = np.max(np.abs(beside), axis=0)
+    _, across = _in_dwells(mechanism)
+    out: Array = np.max(np.abs(across), axis=0)
     return out
 
 
 def centrifugal_N(mechanism: Mechanism) -> Array:
     """Return the greatest centrifugal force of all bodies on a wheel in a dwell, N, (m, 1)."""
     spec, L = mechanism.spec, mechanism.center_distance_mm / 1000.0
-    towards, beside = _in_dwells(mechanism)
+    towards, across = _in_dwells(mechanism)
     out = carried_kg(spec) * omega(spec.drive.n_rpm) ** 2 * L - towards / L
-    force: Array = np.max(np.hypot(out, beside / L), axis=0)
+    force: Array = np.max(np.hypot(out, across / L), axis=0)
     return force
 
 
 def _in_dwells(mechanism: Mechanism) -> tuple[Array, Array]:
-    """Return the unbalance times L w² in each dwell, towards the carrier's axis and beside it."""
-    along, across = (np.asarray(x, dtype=float) for x in unbalance_Nm(mechanism))
+    """Return the unbalance times L w² in each dwell, towards the carrier's axis and across."""
+    first, ahead = (np.asarray(x, dtype=float) for x in unbalance_Nm(mechanism))
     each = []
     for one in mechanism.under_load.engagements:
-        x = np.atleast_2d((one.turned or 0.0) + one.half_step)
+        x = np.atleast_2d((one.mid_angle or 0.0) + one.half_step)
         sine, cosine = np.sin(x), np.cos(x)
-        each.append((along * cosine - across * sine, along * sine + across * cosine))
-    towards, beside = zip(*each, strict=True)
-    return np.stack(np.broadcast_arrays(*towards)), np.stack(np.broadcast_arrays(*beside))
+        each.append((first * cosine - ahead * sine, first * sine + ahead * cosine))
+    towards, across = zip(*each, strict=True)
+    return np.stack(np.broadcast_arrays(*towards)), np.stack(np.broadcast_arrays(*across))

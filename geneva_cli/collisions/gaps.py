@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from geneva_cli.collisions.contacts import candidates, nearest_pieces
-from geneva_cli.collisions.machine_parts import Pose, Stop
+from geneva_cli.collisions.machine_parts import Lengths, Pose, Stop
 from geneva_cli.collisions.place_index import PlaceIndex
 from geneva_cli.collisions.stops import Stops
 from geneva_cli.curves.distance import Polyarc
@@ -33,16 +33,8 @@ class WorkLimit(GenevaError):
     """Error for a full turn that would take too long."""
 
 
-class Radii(Protocol):
-    """Lengths of wheel and crank from which gaps are sought, mm."""
-
-    @property
-    def roller(self) -> float:
-        """Radius of the roller."""
-
-    @property
-    def rim(self) -> float:
-        """Distance of the rim from the wheel's axis; of a rack's edge from the origin."""
+class PlaneLengths(Lengths, Protocol):
+    """Lengths of the parts of a machine in the plane, mm."""
 
     @property
     def lock(self) -> float:
@@ -61,8 +53,10 @@ class FirstStops(Protocol):
 class Gaps:
     """The gaps between one machine's wheel, crank and rollers at any positions."""
 
-    def __init__(self, assembly: Assembly, sizes: Radii, wheel: Contour, crank: list[Contour]):
-        self.assembly, self.sizes, self.moves = assembly, sizes, assembly.plane_motion
+    def __init__(
+        self, assembly: Assembly, sizes: PlaneLengths, wheel: Contour, crank: list[Contour]
+    ):
+        self.assembly, self.sizes, self.plane_motion = assembly, sizes, assembly.plane_motion
         self.wheel = Polyarc([wheel if assembly.sign > 0.0 else backwards(wheel)])
         self.near = NEAR * assembly.L
         self.left = math.inf
@@ -108,8 +102,8 @@ class Gaps:
         """Return the distance of points in the wheel's frame from its outline, as ``signed``."""
         whole, at = self.wheel, points
         if self.pitch:
-            slot = np.round(self.moves.place(points) / self.pitch)
-            whole, at = self.around, self.moves.into(points, self.pitch * slot)
+            slot = np.round(self.plane_motion.place(points) / self.pitch)
+            whole, at = self.around, self.plane_motion.into(points, self.pitch * slot)
         near = whole.near(at, reach)
         self._work(len(at) * len(near))
         out = near.signed(at)
@@ -134,7 +128,7 @@ class Gaps:
         near = self.near if near is None else near
         turn = pose.wheel + lead
         columns: list[Array] = [
-            self._roller(self.moves.into(pose.pins[:, i], turn), near)
+            self._roller(self.plane_motion.into(pose.pins[:, i], turn), near)
             for i in range(len(self.assembly.rollers))
         ]
         out: Array = np.column_stack(columns)
@@ -143,7 +137,7 @@ class Gaps:
     def _roller(self, centres: Array, near: float) -> Array:
         """Return the gap of a roller centred at points in the wheel's frame."""
         r, sign = self.sizes.roller, self.assembly.sign
-        far = sign * (self.moves.level(centres) - self.sizes.rim) - r
+        far = sign * (self.plane_motion.level(centres) - self.sizes.rim) - r
         out: Array = np.minimum(far, near)
         close = far < near
         if close.any():
@@ -171,8 +165,8 @@ class Gaps:
         axis = self._axis(turn)
         self._work(len(axis) * len(self.wheel))
         reach, (places, size) = self.sizes.lock + near, self._pieces
-        nearby = places.within(-turn, self.moves.half_span(reach + size, self.assembly.L))
-        angle = pose.crank - self.moves.angle(turn)
+        nearby = places.within(-turn, self.plane_motion.half_span(reach + size, self.assembly.L))
+        angle = pose.crank - self.plane_motion.angle(turn)
         nearby = nearest_pieces(self.wheel, nearby, self.crank, axis, angle, reach)
         owner, points = candidates(self.wheel, nearby, self.crank, axis, angle, reach)
         seen = turned_points(points - axis[owner], -angle[owner])
@@ -182,7 +176,7 @@ class Gaps:
         x, y = self.crank.x0, self.crank.y0
         c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
         qx, qy = axis[:, :1] + x * c - y * s, axis[:, 1:] + x * s + y * c
-        level = self.moves.level(np.stack((qx, qy), axis=-1))
+        level = self.plane_motion.level(np.stack((qx, qy), axis=-1))
         inward = self.assembly.sign * (level - self.sizes.rim)
         owner, which = np.nonzero(inward < near)
         points = np.column_stack((qx[owner, which], qy[owner, which]))
@@ -214,7 +208,7 @@ class Gaps:
         reach = self.sizes.lock * (1.0 - 1e-7)
         # Only points near the direction of the crank's axis can be within reach of it.
         points, places = self._wheel_points
-        owner, which = places.within(-turn, self.moves.half_span(reach, self.assembly.L))
+        owner, which = places.within(-turn, self.plane_motion.half_span(reach, self.assembly.L))
         px, py = points.T
         ax, ay = self._axis(turn).T
         x, y = px[which] - ax[owner], py[which] - ay[owner]
@@ -231,18 +225,18 @@ class Gaps:
         # lines: samples at most 0.02 of it apart
         points = self.wheel.samples(2e-6 * L, 0.02 * L)
         points = points[np.hypot(*points.T) >= L - self.sizes.lock]
-        return points, PlaceIndex(self.moves.place(points), self.moves.PERIOD)
+        return points, PlaceIndex(self.plane_motion.place(points), self.plane_motion.PERIOD)
 
     @cached_property
     def _pieces(self) -> tuple[PlaceIndex, float]:
         """Places of the pieces of the wheel's outline, and the size of the largest."""
         middles = np.column_stack((self.wheel.ox, self.wheel.oy))
-        index = PlaceIndex(self.moves.place(middles), self.moves.PERIOD)
+        index = PlaceIndex(self.plane_motion.place(middles), self.plane_motion.PERIOD)
         return index, float(self.wheel.size.max())
 
     def _axis(self, turn: Array) -> Array:
         """Return the crank's axis in the wheel's frame, (n, 2)."""
-        return self.moves.into(np.tile((self.assembly.L, 0.0), (len(turn), 1)), turn)
+        return self.plane_motion.into(np.tile((self.assembly.L, 0.0), (len(turn), 1)), turn)
 
 
 def swept_deg(assembly: Assembly, number: int, step_deg: float) -> Array:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 class PlaceIndex:
     """Places (n,), radians, sorted for quick lookup.
 
-    A finite ``period`` is that of directions, which are from -period/2 to period/2.
+    With a finite ``period`` they are directions, from -period/2 to period/2.
 
     >>> places = PlaceIndex(np.array([0.0, 3.1, -3.1]), math.tau)
     >>> owner, which = places.within(np.array([0.1, math.pi]), 0.2)
@@ -29,7 +29,7 @@ class PlaceIndex:
         self._place = place[self._order]
         if math.isfinite(period):
             turns = np.repeat((-period, 0.0, period), len(place))
-            self._order = np.tile(self._order, 3)  # three periods, of which the middle one is asked
+            self._order = np.tile(self._order, 3)  # three periods; lookups are in the middle one
             self._place = np.tile(self._place, 3) + turns
 
     def within(self, ahead: Array, half: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

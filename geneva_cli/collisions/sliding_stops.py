@@ -52,7 +52,7 @@ class SlidingStops:
         if self.crank is not None:
             axis = np.tile((self.radius, 0.0), (len(pose.wheel), 1))
             crank += self._against(self.crank, axis, pose.crank, pose, most, close)
-            crank += self._edges(pose, most, close)
+            crank.append(self._at_edges(pose, most, close))
         return first_stops(rollers, crank, len(pose.wheel), most)
 
     @property
@@ -116,8 +116,8 @@ class SlidingStops:
         good = other.face(q, 0.0 * lead - 1.0, 0.0 * lead, own.normal[p] - turn[n])
         return Touch((n + len(x) * on)[good], lead[good], np.abs(ny[p])[good])
 
-    def _edges(self, pose: Pose, most: float, close: float) -> Iterator[Touch]:
-        """Yield contacts of the rack's convex arcs with the crank's lines."""
+    def _at_edges(self, pose: Pose, most: float, close: float) -> Touch:
+        """Return contacts of the rack's convex arcs with the crank's lines."""
         own, edges = self.rounds, self.edges
         assert edges is not None
         qs, ps = np.nonzero(np.broadcast_to(own.sense > 0.0, (len(edges.off), len(own.sense))))
@@ -133,7 +133,7 @@ class SlidingStops:
         on, i, lead = self._within(travel, most, ny[n, pair] * WAYS < 0.0)
         n, pair = n[i], pair[i]
         good = own.face(ps[pair], 0.0 * lead - 1.0, 0.0 * lead, normal[n, pair])
-        yield Touch((n + len(pose.wheel) * on)[good], lead[good], 0.0 * lead[good])
+        return Touch((n + len(pose.wheel) * on)[good], lead[good], 0.0 * lead[good])
 
     def _within(
         self, travel: Array, most: float, way: NDArray[np.bool_] | bool = True

@@ -16,8 +16,7 @@ if TYPE_CHECKING:
 
 EXAMPLES = (
     "geneva synth --motion-deg 180 --z 6 --check 0",
-    "geneva synth --dwell-s 0.8.. --cycle 1.5 --z 8 --sort min:jerk.max --check 0",
-    "geneva synth --tau 0.2..0.3 --z 5,6 --external --check 0",
+    "geneva synth --dwell-s 0.8.. --cycle 1.5 --z 8 --check 0",
 )
 
 
@@ -96,7 +95,7 @@ def run(
         str,
         typer.Option(
             metavar="NAME",
-            help="Law of curved slots and cams, or all.",
+            help="Law of curved slots, or all.",
             autocompletion=completion.words(completion.laws),
             rich_help_panel=MACHINES,
         ),
@@ -144,7 +143,6 @@ def run(
     format: Format = "",
 ) -> None:
     """Find the machines that meet all requirements; the lowest peak comes first.
-
     The machines tried, and the columns: `geneva help search`.
     """
     from geneva_cli.synthesis.reading import read_target

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from geneva_cli.kinematics.layout import Joint
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.layout.projection import circle_key, once, outlines_of, placed, shapes, titled
 from geneva_cli.layout.roller_paths import roller_reaches
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.arm import LAYER as ARM
@@ -34,7 +36,8 @@ def machine(parts: FlatParts) -> Drawing:
     """Return the machine at input angle 0, from the frame up to the wheel."""
     outlines, title = parts.outlines, titled(parts.mechanism)
     drawn = [shape for one in (parts.wheel, *parts.orbiting) for shape in _seen(one)]
-    drawn += [*_seen(parts.crank_without_arm), *_arm(parts)]
+    for one in parts.about_wheel(parts.crank_without_arm):
+        drawn += [*_seen(one), *_arm(parts, one)]
     drawn += _links(parts)
     drawn += outlines_of(Group("", parts.gear_pair))
     drawn += shapes(parts.first)
@@ -72,7 +75,8 @@ def _turns(parts: Outlines) -> Iterator[Arc]:
     assembly, sizes = parts.assembly, parts.sizes
     reach = max(math.hypot(*s.start) for s in parts.wheel.segments)
     beyond = (sizes.outer or reach) + BEYOND * assembly.L
-    yield about((0.0, 0.0), beyond, math.radians(115.0), math.radians(50.0))
+    half = math.radians(25.0)
+    yield about((0.0, 0.0), beyond, _free_direction(assembly.full) - half, 2.0 * half)
     frame = assembly.full.frame
     if frame:  # the finger stands, and the carrier turns
         yield about((assembly.L, 0.0), assembly.L + beyond, -frame * 0.5, frame)
@@ -85,7 +89,17 @@ def _turns(parts: Outlines) -> Iterator[Arc]:
     # an internal wheel's crank turns within the wheel, so its arrow is near its shaft
     far = max(roller_reaches(assembly)) + 2.0 * sizes.roller
     radius = far + BEYOND * assembly.L if assembly.sign > 0.0 else 0.5 * sizes.arm
-    yield about((assembly.L, 0.0), radius, -sense * 0.5, sense)
+    for place in assembly.full.crank_places:
+        yield about(place.at, radius, place.turn - sense * 0.5, sense)
+
+
+def _free_direction(mechanism: Mechanism) -> float:
+    """Return the direction of the wheel's arrow: half-way between two cranks, if several."""
+    turns = sorted(place.turn for place in mechanism.crank_places)
+    if len(turns) == 1:
+        return math.radians(140.0)
+    before, after = max(pairwise([*turns, math.tau]), key=lambda ends: ends[1] - ends[0])
+    return 0.5 * (before + after)
 
 
 def _link_turns(parts: Outlines) -> Iterator[Arc]:
@@ -105,13 +119,12 @@ def _link_turns(parts: Outlines) -> Iterator[Arc]:
         yield about((L, 0.0), far, -sense * 0.5, sense)
 
 
-def _arm(parts: FlatParts) -> list[Shape]:
-    """Return the visible part of the crank arm: its outline, and its bore unless the disc's."""
+def _arm(parts: FlatParts, crank: Member) -> list[Shape]:
+    """Return the visible part of a crank's arm: its outline, and its bore unless the disc's."""
     if parts.arm is None:
         return []
     bore = parts.arm.bore
-    hidden = bore in outlines_of(parts.crank_without_arm.part)
-    crank = parts.crank
+    hidden = bore in outlines_of(crank.part)
     visible: list[Shape] = [parts.arm.outline, *([] if hidden else [bore._replace(layer=ARM)])]
     return [placed(shape, crank.at, crank.turn) for shape in visible]
 
@@ -119,13 +132,16 @@ def _arm(parts: FlatParts) -> list[Shape]:
 def _roller_lines(parts: FlatParts) -> list[Shape]:
     """Return the line of centres, and the rollers' paths on their circles and in their slots."""
     assembly = parts.outlines.assembly
-    lines: list[Shape] = [Contour(PITCH, (Line((0.0, 0.0), (assembly.L, 0.0)),), closed=False)]
+    cranks = [place.at for place in assembly.full.crank_places]
+    lines: list[Shape] = [
+        Contour(PITCH, (Line((0.0, 0.0), axis),), closed=False) for axis in cranks
+    ]
     arms = set()
     for number, (engagement, behind) in enumerate(assembly.rollers):
         if not engagement.crank_sense and engagement.groove is None:
             x, y = assembly.pin(number, np.array([behind]))[0]
             arms.add(round(math.hypot(x - assembly.L, y), 9))
-    lines += [Circle(PITCH, (assembly.L, 0.0), arm) for arm in sorted(arms)]
+    lines += [Circle(PITCH, axis, arm) for axis in cranks for arm in sorted(arms)]
     pitches = {s: pitch_lines(parts, s) for s in assembly.kinds}
     lines += [
         turned(line, direction + parts.wheel.turn)

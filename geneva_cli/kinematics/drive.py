@@ -129,6 +129,11 @@ class Drive(SpecTable, kw_only=True):
         return 0
 
     @property
+    def cranks(self) -> tuple[float, ...]:
+        """Places of the cranks about the wheel, in steps from the first one; (0,) for one crank."""
+        return (0.0,)
+
+    @property
     def gears(self) -> Gears | None:
         """Noncircular gears between input and crank; None for a drive without."""
         return None

@@ -318,11 +318,11 @@ ARM = Carrier()
 class Engagement(Batchable):
     """Pin path, slot and motion of one roller in one slot.
 
-    ``mid_deg`` is the machine's input angle at its mid-motion. ``turned`` is the wheel's angle
-    there, radians, if the loads depend on it: where a wheel on a carrier has a body off its axis.
+    ``mid_deg`` is the machine's input angle at its mid-motion. ``mid_angle`` is the wheel's angle
+    there, radians from the first mid-motion, if the loads depend on it (``Mechanism.unbalanced``).
     """
 
-    turned: float | None = None
+    mid_angle: float | None = None
 
     def __init__(
         self, mid_deg: float, path: Path, slot: Slot, motion: WheelMotion, carrier: Carrier = ARM
@@ -354,12 +354,12 @@ class Engagement(Batchable):
     @property
     def mirrored(self) -> bool:
         """True if motion, slot and loads are symmetric about mid-motion."""
-        return self.motion.symmetric and self.slot.mirrored and self.turned is None
+        return self.motion.symmetric and self.slot.mirrored and self.mid_angle is None
 
-    def later(self, mid_deg: float, turned: float) -> Engagement:
-        """The same engagement at another mid-motion, with the wheel turned to an angle."""
+    def later(self, mid_deg: float, mid_angle: float) -> Engagement:
+        """The same engagement at a later mid-motion, at another angle of the wheel."""
         other = copy.copy(self)
-        other.mid_deg, other.turned = mid_deg, turned
+        other.mid_deg, other.mid_angle = mid_deg, mid_angle
         return other
 
     @cached_property

@@ -6,8 +6,11 @@ The wheel's axis is the origin, and the crank's axis is on the x axis, as in the
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from enum import Enum
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+from geneva_cli.numerics.angles import sin_cos_pi
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -71,10 +74,10 @@ class Link(NamedTuple):
     teeth: Teeth = Teeth()
 
 
-class WheelPlace(NamedTuple):
-    """A wheel on a carrier: where it stands from the first wheel, in the carrier's frame.
+class AxisPlace(NamedTuple):
+    """A wheel on a carrier, or a crank about a wheel: where it stands from the first one.
 
-    ``behind_deg`` is the carrier's angle after which it does what the first wheel did.
+    ``behind_deg`` is the input's angle after which it does what the first one did.
     """
 
     number: int  # from 1
@@ -83,17 +86,33 @@ class WheelPlace(NamedTuple):
     at: tuple[float, float]  # of its axis, mm from the first wheel's
 
 
-def wheel_places(count: int, sign: float, L: float) -> tuple[WheelPlace, ...]:
+def wheel_places(count: int, sign: float, L: float) -> tuple[AxisPlace, ...]:
     """Places of evenly spaced wheels about the axis at (L, 0); ``sign`` is -1 for internal ones.
 
     >>> [round(value, 9) for value in wheel_places(2, 1.0, 100.0)[1].at]
     [200.0, 0.0]
     """
     first, *others = (math.tau * k / count for k in range(max(1, count)))
-    out = [WheelPlace(1, 0.0, first, (0.0, 0.0))]
+    out = [AxisPlace(1, 0.0, first, (0.0, 0.0))]
     for k, angle in enumerate(others, 1):
         at = 2.0 * L * math.sin(0.5 * angle) ** 2, sign * L * math.sin(angle)
-        out.append(WheelPlace(k + 1, 360.0 * k / count, -sign * angle, at))
+        out.append(AxisPlace(k + 1, 360.0 * k / count, -sign * angle, at))
+    return tuple(out)
+
+
+def crank_places(steps: Sequence[float], z: int, L: float) -> tuple[AxisPlace, ...]:
+    """Places of cranks that stand ``steps`` steps of a wheel of ``z`` slots from the first.
+
+    They work in turn, evenly over a turn of the input.
+
+    >>> crank_places((0, 3), 6, 100.0)[1].at
+    (-100.0, 0.0)
+    """
+    out = []
+    for k, step in enumerate(steps):
+        sine, cosine = sin_cos_pi(2 * int(step), z)
+        turn = math.tau * step / z
+        out.append(AxisPlace(k + 1, 360.0 * k / len(steps), turn, (L * cosine, L * sine)))
     return tuple(out)
 
 

@@ -84,7 +84,7 @@ class RadialSlot(Slot):
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
         depth = _length(self.path.from_nearest(input_deg, order + 1))
-        return SlotAxis(Jet(depth.c[:-1]), depth.derivative())
+        return SlotAxis(depth.lower, depth.derivative())
 
 
 class MeridianSlot(Slot):
@@ -107,7 +107,7 @@ class MeridianSlot(Slot):
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         """Lever (the pin's distance from the wheel's axis) and the pin's speed along the slot."""
         polar = self(input_deg, order + 1)[0]
-        return SlotAxis(sin_cos(Jet(polar.c[:-1]))[0], polar.derivative())
+        return SlotAxis(sin_cos(polar.lower)[0], polar.derivative())
 
     def upright(self, input_deg: Number, order: int = 0) -> Jet:
         """Cosine of the pin's polar angle: the roller's axis passes through the sphere's centre."""

@@ -10,14 +10,14 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geneva_cli.numerics.arrays import N
+
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
-
-Level = TypeVar("Level", float, "Array")
 
 
 class PlaneMotion(ABC):
@@ -46,7 +46,7 @@ class PlaneMotion(ABC):
         """Return the coordinate of points that the motion changes, radians (n,)."""
 
     @abstractmethod
-    def lever(self, level: Level) -> Level:
+    def lever(self, level: N) -> N:
         """Return how far points at a level move a radian."""
 
     @abstractmethod
@@ -81,7 +81,7 @@ class Turning(PlaneMotion):
         out: Array = np.arctan2(points[..., 1], points[..., 0])
         return out
 
-    def lever(self, level: Level) -> Level:
+    def lever(self, level: N) -> N:
         """Return the distance from the axis."""
         return level
 
@@ -121,7 +121,7 @@ class Sliding(PlaneMotion):
         out: Array = points[..., 1] / self.radius
         return out
 
-    def lever(self, level: Level) -> Level:
+    def lever(self, level: N) -> N:
         """Return the radius, at any level."""
         return 0.0 * level + self.radius
 

@@ -135,7 +135,7 @@ class SolvedPathSlot(Slot):
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         """Lever (the pin's distance from the wheel's axis) and the pin's speed along the slot."""
         rho, _ = self.path.distances(input_deg, order + 1)
-        return SlotAxis(Jet(rho.c[:-1]), rho.derivative())
+        return SlotAxis(rho.lower, rho.derivative())
 
 
 def _stacked(a: Jet, b: Jet) -> Jet:

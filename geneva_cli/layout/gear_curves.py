@@ -169,7 +169,7 @@ def ratio_and_turn(gears: Gears, phi: np.ndarray) -> tuple[Jet, np.ndarray]:
     """
     sine, versine = gears.advance(phi, 3)
     cosine = 1.0 - versine
-    low_cosine, low_sine = Jet(cosine.c[:-1]), Jet(sine.c[:-1])
+    low_cosine, low_sine = cosine.lower, sine.lower
     ratio = sine.derivative() * low_cosine + versine.derivative() * low_sine
     return ratio, array(cosine.c[0]) + 1j * array(sine.c[0])
 

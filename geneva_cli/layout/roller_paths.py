@@ -65,9 +65,13 @@ def rest(assembly: Assembly, engagement: Engagement, end: float) -> tuple[float,
 
 
 def roller_centres(assembly: Assembly) -> list[Point]:
-    """Return the centres of the rollers on the crank, each at its mid-motion."""
+    """Return the centres of the rollers on the crank, each at its mid-motion.
+
+    Of several equal cranks, each has one roller: they are those on the first crank.
+    """
     centres = []
-    for number, (_, behind) in enumerate(assembly.rollers):
+    on_first = slice(1) if len(assembly.full.crank_places) > 1 else slice(None)
+    for number, (_, behind) in enumerate(assembly.rollers[on_first]):
         at = np.array([behind])
         x, y = (assembly.pin(number, at) - (assembly.L, 0.0))[0]
         angle = math.atan2(y, x) - float(assembly.crank(at)[0])

@@ -248,8 +248,8 @@ def _ends(machine: Mechanism, ends: Extremes, window: tuple[float, float]) -> It
 
 def _placed(machine: Mechanism, at_deg: float, window: tuple[float, float]) -> float:
     """An input angle as displayed, moved by whole turns to its first place in the window."""
-    turn = 360.0 * machine.spec.turns
-    return at_deg + turn * math.ceil((window[0] - SAME_INPUT_DEG - at_deg) / turn)
+    whole = machine.whole_deg
+    return at_deg + whole * math.ceil((window[0] - SAME_INPUT_DEG - at_deg) / whole)
 
 
 def _bounds(cycle: Cycle, ends: Mapping[str, Extremes]) -> dict[str, tuple[float, float]]:

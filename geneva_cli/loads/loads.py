@@ -100,10 +100,10 @@ def greatest(mechanism: Mechanism, name: str) -> Peak[float]:
     if one is None:
         return Peak(0.0, 0.0)
     first = mechanism.engagements[0]
-    turn = max(360.0 * mechanism.spec.turns, mechanism.under_load.period_deg)
+    whole = mechanism.under_load.whole_deg
     start = first.mid_deg + first.entry_deg - 1e-9  # less the rounding of an input angle
     ends = [(one.max, one.max_at_deg), (-one.min, one.min_at_deg)]
-    ends.sort(key=lambda end: (end[1] - start) % turn)
+    ends.sort(key=lambda end: (end[1] - start) % whole)
     value, place = np.array(ends).T[..., None]
     most, at_deg = first_greatest(value, place, np.zeros(1))
     return Peak(float(most[0]), float(at_deg[0]))
@@ -175,7 +175,7 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
     """
     mechanism, limited = mechanism.under_load, load_limits(mechanism.spec.limits)
     own = omega(mechanism.spec.drive.n_rpm)
-    at_one = load_case(mechanism).faster(1.0 / own)  # at 1 rad/s
+    at_one = load_case(mechanism).at_speed(1.0 / own)  # at 1 rad/s
     at_one = at_one._replace(inertia_Nm=inertia_kgm2(mechanism.spec))  # with all its digits
     if at_one.hertz is None:
         limited.pop(STRESS, None)
@@ -186,7 +186,7 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
     # Lower speeds may break a limit where inertia helps against the resistance, and so may this
     # speed.
     w = omega(mechanism.spec.drive.n_rpm if math.isinf(rpm) else rpm)
-    tried = at_one.faster(w)
+    tried = at_one.at_speed(w)
     peaks = load_peaks(mechanism, tuple(limited), case=tried)
     # a limit that is reached at the highest speed may be exceeded by rounding
     kept = all(peaks[name].max[0] <= limit * (1.0 + 1e-9) for name, limit in limited.items())
@@ -206,7 +206,7 @@ class Slowness(NamedTuple):
 
     def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
         """The quantity, which is unbounded where the place allows no speed."""
-        unit = self.case.faster(0.0)._replace(resists_Nm=1.0)
+        unit = self.case.at_speed(0.0)._replace(resists_Nm=1.0)
         factor = self.of(Forces(unit, at, i.drives, i.slides))
         load = self.of(Forces(self.case._replace(resists_Nm=0.0), at, i.drives, i.slides))
         left = self.limit - factor * self.case.resists_Nm

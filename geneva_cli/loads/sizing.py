@@ -103,7 +103,7 @@ def sizing(cycle: Cycle) -> tuple[Mapping[str, float | None], tuple[str, ...]]:
         needs.append("flywheel_kgm2, flywheel_to_add_kgm2: need speed_variation in [motor]")
     if not spec.motor.inertia_kgm2:
         needs.append("inertia_ratio, coasting_speed_share: need inertia_kgm2 in [motor]")
-    elif cycle.mechanism.frame and spec.unbalanced:
+    elif cycle.mechanism.unbalanced:
         needs.append("inertia_ratio, coasting_speed_share: need masses on the wheel's axis")
     return out, tuple(needs)
 
@@ -209,7 +209,7 @@ def _rotor(mechanism: Mechanism, velocities: Sequence[float]) -> dict[str, Numbe
     with np.errstate(all="ignore"):
         ratio = inertia_ratio(mechanism, cast("Array", fastest))
     # a body off the wheel's axis stores and returns energy, which these do not count
-    known = (np.asarray(own) > 0.0) & (not (mechanism.frame and mechanism.spec.unbalanced))
+    known = (np.asarray(own) > 0.0) & (not mechanism.unbalanced)
     return {name: np.where(known, x, np.nan) for name, x in zip(ROTOR, ratio, strict=True)}
 
 
@@ -227,9 +227,8 @@ def greatest_form(mechanism: Mechanism, peaks: Sequence[Peaks]) -> tuple[MakersF
         mechanism.frame,
     )
     every = []
-    pattern = max(1, len(spec.wheel.steps))
     for number, (engagement, peak) in enumerate(zip(mechanism.engagements, peaks, strict=True)):
-        step, motion = mechanism.index_deg(number % pattern), engagement.motion_deg
+        step, motion = mechanism.index_deg(number), engagement.motion_deg
         velocity, acceleration, power = peak
         factors = cam_factors(velocity, acceleration, power, motion, step)
         every.append((makers_form(factors, step, motion, spec.drive.n_rpm, load), factors))

@@ -31,6 +31,19 @@ def _several(spec: Spec) -> int:
     return len(spec.wheel.steps or spec.drive.roller_angles_deg or ())
 
 
+def _cranks(spec: Spec) -> int:
+    """Number of cranks that ``crank_steps`` places about the wheel; 0 without it."""
+    return len(spec.drive.cranks) if len(spec.drive.cranks) > 1 else 0
+
+
+def _off_steps(spec: Spec) -> object:
+    """True if cranks do not stand on whole steps, each on one of its own, the first one on 0."""
+    places = spec.drive.cranks
+    whole = all(place == int(place) for place in places)
+    wrong = not whole or places[0] != 0.0 or len({*places}) < len(places)
+    return wrong | (max(places) >= spec.wheel.z)
+
+
 def _table_of_wheels(table: str, spec: Spec) -> bool:
     """True if a rack's spec sets a table that only wheels have."""
     own = getattr(spec, table.strip("[]"))
@@ -143,6 +156,46 @@ CONFLICTS = (
         ("drive", "rollers"),
         "{rollers} rollers on a {drive} move the wheel differently, so one curved slot cannot "
         "serve them all; use rollers = 1, or straight slots (no law)",
+    ),
+    Conflict(
+        lambda s: _cranks(s) and not (s.wheel.FLAT and s.output.turns and s.wheel.SIGN > 0.0),
+        ("drive", "crank_steps"),
+        'crank_steps needs an external wheel, which has cranks around it, not gearing = "{gearing}"'
+        ": remove crank_steps",
+    ),
+    Conflict(
+        _off_steps,
+        ("drive", "crank_steps"),
+        "crank_steps must begin with 0 and hold different whole numbers below z = {z}: one for "
+        "each crank",
+    ),
+    Conflict(
+        lambda s: _cranks(s) and s.wheel.steps,
+        ("wheel", "steps_deg"),
+        "a wheel of unequal steps looks different from each crank of crank_steps: remove one of "
+        "them",
+    ),
+    Conflict(
+        lambda s: _cranks(s) and s.drive.roller_angles_deg,
+        ("drive", "roller_angles_deg"),
+        "the cranks of crank_steps are equal and work in even turns: remove roller_angles_deg",
+    ),
+    Conflict(
+        lambda s: _cranks(s) and s.drive.rollers != _cranks(s),
+        ("drive", "rollers"),
+        "crank_steps places {cranks} cranks with one roller each: set rollers = {cranks}",
+    ),
+    Conflict(
+        lambda s: _cranks(s) and s.unbalanced,
+        ("mass", "radius_mm"),
+        "each crank of crank_steps pushes the wheel from another side, so that a body off its "
+        "axis would give each motion other loads: set count to 2 or more, or radius_mm = 0",
+    ),
+    Conflict(
+        lambda s: _cranks(s) and s.tolerance != type(s.tolerance)(),
+        ("tolerance",),
+        "[tolerance] has no key for the places of the cranks of crank_steps about the wheel, which "
+        "add to each step: remove one of them",
     ),
     Conflict(
         lambda s: s.drive.wheels_on_carrier and s.motion is not None and s.unbalanced,
@@ -267,6 +320,8 @@ def _error(conflict: Conflict, spec: Spec) -> GenevaError:
         gearings=" or ".join(spec.drive.GEARINGS),
         drives=" or ".join(spec.wheel.DRIVES),
         rollers=spec.drive.rollers,
+        cranks=_cranks(spec),
+        z=spec.wheel.z,
         several=_several(spec),
         places="steps" if spec.wheel.steps else "angles",
     )

@@ -59,7 +59,7 @@ class DrivenShaft(Batchable):
         """Reactions of the shaft's bearings, and of the guide, to each load."""
         order = path[0].order - 1
         own_deg, angle = self.angle.at(input_deg, order + 1)
-        reactions = self._own_reactions(own_deg, Jet(angle.c[:-1]), loads)
+        reactions = self._own_reactions(own_deg, angle.lower, loads)
         if self.push is None:
             return reactions
         (x, y), (u, v) = self.push.line(input_deg, order)
@@ -67,7 +67,7 @@ class DrivenShaft(Batchable):
         y, v = y * sense, v * sense
         lever, rate = cross((x, y), (u, v)), angle.derivative()
         velocity = path[0].derivative(), path[1].derivative()
-        spin = composed(self.own.carrier(own_deg, order), Jet(angle.c[:-1])) * rate
+        spin = composed(self.own.carrier(own_deg, order), angle.lower) * rate
         out = []
         for (force, moment), (shaft, guide) in zip(loads, reactions, strict=True):
             power = force[0] * velocity[0] + force[1] * velocity[1] + moment * spin

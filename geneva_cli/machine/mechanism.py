@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from geneva_cli.kinematics.drive import Plan
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.laws.law import Law
-from geneva_cli.kinematics.layout import Layout, WheelPlace, wheel_places
+from geneva_cli.kinematics.layout import AxisPlace, Layout, Pivot, crank_places, wheel_places
 from geneva_cli.machine import compatible
 from geneva_cli.machine.retimed import retimed
 from geneva_cli.machine.size_rules import refuse_sizes
@@ -56,9 +56,14 @@ class Mechanism(NamedTuple):
 
     @property
     def layout(self) -> Layout:
-        """Pivots and dimensions of the drive, and of the one before it about the crank's axis."""
+        """Pivots and dimensions of the drive, and of the one before it about the crank's axis.
+
+        Of several cranks it has the axes behind the first.
+        """
         spec, plan = self.spec, self.plan
         own = spec.drive.layout(plan, spec.wheel.SIGN)
+        _, *others = self.crank_places
+        own = (*own, *(Pivot(f"axis of crank {place.number}", *place.at) for place in others))
         if spec.drive_before is None or spec.drive.CRANKED:
             return own
         return (*own, *spec.drive_before.layout(plan, spec.wheel.SIGN))
@@ -99,14 +104,22 @@ class Mechanism(NamedTuple):
         matched = self.spec.drive.matched_ratio(self.spec.wheel, law, motion_deg)
         return None if math.isnan(matched) else float(matched)
 
+    @property
+    def whole_deg(self) -> float:
+        """Input angle after which all is as before: a turn of the crank.
+
+        Under load that of an unbalanced wheel on a carrier is its period.
+        """
+        if self.engagements[0].mid_angle is not None:
+            return self.period_deg
+        return 360.0 * self.spec.turns
+
     def shown_deg(self, input_deg: float) -> float:
         """Input angle for display: between -180 and 180 degrees from mid-motion.
 
         Over a period of several turns it is counted from the first engagement's entry.
         """
-        whole = 360.0 * self.spec.turns
-        if self.engagements[0].turned is not None:
-            whole = self.period_deg  # the turns of the input differ in their loads
+        whole = self.whole_deg
         m = library(input_deg, whole)
         entry = self.engagements[0].mid_deg + self.engagements[0].entry_deg
         # Rounding may put an angle just before the entry: count it as the entry.
@@ -128,15 +141,26 @@ class Mechanism(NamedTuple):
         """
         return self.spec.wheel.SIGN if self.spec.drive.wheels_on_carrier else 0.0
 
+    @property
+    def unbalanced(self) -> bool:
+        """True if the loads differ in each motion: a body stands off a carried wheel's axis."""
+        return bool(self.spec.drive.wheels_on_carrier) and self.spec.unbalanced
+
     def absolute_deg(self, input_deg: N, wheel_deg: N) -> N:
         """Angle from the ground of a wheel on a carrier, positive as the carrier turns."""
         return input_deg + self.spec.wheel.SIGN * wheel_deg
 
     @property
-    def wheel_places(self) -> tuple[WheelPlace, ...]:
+    def wheel_places(self) -> tuple[AxisPlace, ...]:
         """Places of all wheels; more than one only on a carrier."""
         count = max(1, self.spec.drive.wheels_on_carrier)
         return wheel_places(count, self.spec.wheel.SIGN, self.center_distance_mm)
+
+    @property
+    def crank_places(self) -> tuple[AxisPlace, ...]:
+        """Places of all cranks about the wheel; more than one with ``crank_steps``."""
+        spec = self.spec
+        return crank_places(spec.drive.cranks, spec.wheel.z, self.center_distance_mm)
 
     @property
     def under_load(self) -> Mechanism:
@@ -146,28 +170,27 @@ class Mechanism(NamedTuple):
         the body's direction is another one in each motion.
         """
         wheels, own = self.spec.drive.wheels_on_carrier, self.engagements
-        if not wheels or own[0].turned is not None:
-            return self
-        if not self.spec.unbalanced:
+        if not self.unbalanced:
             return self._replace(period_deg=360.0 / wheels) if wheels > 1 else self
-        steps, turned = [], 0.0  # the wheel's angle at each mid-motion
-        for _ in range(self.spec.wheel.z // len(own)):
-            for i, one in enumerate(own):
-                after = own[(i + 1) % len(own)]
-                steps.append(turned)
-                turned += one.half_step + after.half_step
+        if own[0].mid_angle is not None:  # it is under load already
+            return self
+        z, count = self.spec.wheel.z, len(own)
+        angles, angle = [], 0.0  # the wheel's angle at each mid-motion of its turn
+        for i in range(z):
+            angles.append(angle)
+            angle += own[i % count].half_step + own[(i + 1) % count].half_step
         spacing, each = self.period_deg / wheels, []
         # each finger meets the wheel in every direction that it can
-        whole = math.lcm(len(steps), self.spec.drive.rollers) * wheels
-        for k in range(whole):
-            number, behind = divmod(k, len(own))
-            one, step = own[behind], k // wheels % len(steps)
-            each.append(one.later(one.mid_deg + number * spacing, steps[step]))
-        return self._replace(engagements=tuple(each), period_deg=spacing * len(each) / len(own))
+        for k in range(math.lcm(z, count, self.spec.drive.rollers) * wheels):
+            number, behind = divmod(k, count)
+            mid_deg = own[behind].mid_deg + number * spacing
+            each.append(own[behind].later(mid_deg, angles[k // wheels % z]))
+        return self._replace(engagements=tuple(each), period_deg=spacing * len(each) / count)
 
     def index_deg(self, i: int) -> float:
-        """Wheel step of engagement i, in degrees."""
-        return self.spec.wheel.index_deg(i)
+        """Wheel step of engagement i, in degrees; unequal steps repeat."""
+        wheel = self.spec.wheel
+        return wheel.index_deg(i % len(wheel.steps) if wheel.steps else i)
 
     def dwell_deg(self, i: int) -> float:
         """Input angle in degrees from the exit of engagement i to the next entry."""

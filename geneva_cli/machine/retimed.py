@@ -74,9 +74,9 @@ class Rotation(NamedTuple):
     advance: Displacement
 
     def at(self, input_deg: Number, order: int) -> Jet:
-        """Angle of the driven shaft at input angles in degrees: its value in degrees, too.
+        """Angle of the driven shaft, degrees, at input angles in degrees.
 
-        Derivatives are by the input angle, both in radians.
+        Its derivatives are by the input angle, both in radians.
         """
         turned = self._turned(input_deg, order)
         # the shaft never turns back, so the ends of an enclosure of angles decide
@@ -84,8 +84,7 @@ class Rotation(NamedTuple):
         return Jet((self.own_deg + angle / DEGREE, *turned.c[1:]))
 
     def _turned(self, input_deg: Number, order: int) -> Jet:
-        sine, versine = self.advance(radians(input_deg - self.input_deg), order)
-        return atan2(sine, 1.0 - versine)
+        return _angle(self.advance, radians(input_deg - self.input_deg), order)
 
 
 class Timing(Batchable):
@@ -137,7 +136,7 @@ class Timing(Batchable):
         return own, Jet((radians(own.c[0]), *own.c[1:]))
 
 
-class Composed(NamedTuple):
+class ComposedDisplacement(NamedTuple):
     """A pin's displacement by the input's rotation, through the driven shaft's."""
 
     displacement: PinDisplacement
@@ -146,8 +145,7 @@ class Composed(NamedTuple):
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """Displacement along the anchor's ray and across it, ``tau`` input radians later."""
-        sine, versine = self.advance(tau, order)
-        turned = atan2(sine, 1.0 - versine)
+        turned = _angle(self.advance, tau, order)
         along, across = self.displacement(turned.c[0], order)
         return composed(along, turned), composed(across, turned)
 
@@ -184,7 +182,7 @@ class RetimedMotion(WheelMotion):
         own, first = self.own.entry, self.timing.each[0]
         if own is None:
             return None
-        displacement = Composed(own.displacement, first.advance)
+        displacement = ComposedDisplacement(own.displacement, first.advance)
         return Anchor(self.entry_deg, own.wheel, own.along, displacement)
 
     @property
@@ -240,7 +238,7 @@ class RetimedSlot(Slot):
         axis = self.own.axis(at, order)
         if axis is None:
             return None
-        return SlotAxis(composed(axis.lever, _lower(turned)), _of_rate(axis.along, turned))
+        return SlotAxis(composed(axis.lever, turned.lower), _of_rate(axis.along, turned))
 
     def upright(self, input_deg: Number, order: int = 0) -> Jet | float:
         """Cosine of the angle between the roller's axis and the wheel's."""
@@ -304,11 +302,12 @@ class RetimedEngagement(Engagement):
         return self._own
 
 
+def _angle(advance: Displacement, tau: Number, order: int) -> Jet:
+    """Angle by which the driven shaft advances in ``tau`` input radians, radians."""
+    sine, versine = advance(tau, order)
+    return atan2(sine, 1.0 - versine)
+
+
 def _of_rate(rate: Jet, turned: Jet) -> Jet:
     """A rate per radian of the driven shaft, as one per radian of the input."""
-    return composed(rate, _lower(turned)) * turned.derivative()
-
-
-def _lower(jet: Jet) -> Jet:
-    """The jet without its highest derivative."""
-    return Jet(jet.c[:-1])
+    return composed(rate, turned.lower) * turned.derivative()

@@ -164,8 +164,8 @@ class Spec:
 
         A table that the spec does not have is empty.
 
-        >>> Spec(External(6)).table("drive")
-        {'n_rpm': 60.0, 'rollers': 1, 'roller_angles_deg': None, 'both_ways': False}
+        >>> Spec(External(6)).table("wheel")
+        {'z': 6, 'held_by': None, 'offset_mm': 0.0, 'steps_deg': None, 'stop': False}
         """
         if name == "motion":
             return {} if self.motion is None else self.motion.law.as_dict() | self.motion.as_dict()
@@ -216,14 +216,22 @@ class Spec:
 
     @property
     def gears(self) -> Gears | None:
-        """Noncircular gears on the crank's shaft; None without, and in front of a second crank."""
+        """Noncircular gears on the crank's shaft; None without, and in front of a second crank.
+
+        >>> Spec(External(6), NoncircularGears(A=0.5)).gears.distance_mm
+        100.0
+        """
         before = self.drive_before
         if before is None:
             return self.drive.gears
         return None if self.drive.CRANKED else before.gears
 
     def input_deg(self, crank_deg: float) -> float:
-        """Input angle from mid-motion at a crank angle from mid-motion, degrees."""
+        """Input angle from mid-motion at a crank angle from mid-motion, degrees.
+
+        >>> round(Spec(External(6), SideCrank(A=0.5)).input_deg(90.0), 9)
+        120.0
+        """
         shaft_deg = self.drive.input_deg(crank_deg)
         before = self.drive_before
         return shaft_deg if before is None else before.input_deg(shaft_deg)

@@ -57,6 +57,11 @@ class Jet:
         """The derivatives of a jet at many numbers."""
         return cast("tuple[Array, ...]", self.derivatives())
 
+    @property
+    def lower(self) -> Jet:
+        """The jet without its highest derivative."""
+        return Jet(self.c[:-1])
+
     def derivative(self) -> Jet:
         """The jet of the derivative, one order lower."""
         return Jet([k * c if k > 1 else c for k, c in enumerate(self.c) if k])
@@ -231,7 +236,7 @@ def composed(outer: Jet, inner: Jet) -> Jet:
     """f(g) by the chain rule, from f as a function of g, about g's value, and from g.
 
     >>> composed(Jet((5.0, 6.0, 1.0)), Jet((2.0, 3.0, 0.0))).c  # (g + 1)² - 4 about 2, g = 2 + 3x
-    [5.0, 18.0, 9.0]
+    (5.0, 18.0, 9.0)
     """
     step = Jet((inner.c[0] * 0.0, *inner.c[1:]))
     total = step * 0.0 + outer.c[-1]
@@ -264,7 +269,7 @@ def atan2(y: Jet, x: Jet) -> Jet:
 
 def turning(x: Jet, y: Jet) -> Jet:
     """The rate at which the vector (x, y) turns, one order lower."""
-    low_x, low_y = Jet(x.c[:-1]), Jet(y.c[:-1])
+    low_x, low_y = x.lower, y.lower
     return moment(x, y) / (low_x * low_x + low_y * low_y)
 
 

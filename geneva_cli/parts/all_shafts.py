@@ -5,8 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 
+import numpy as np
+
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Point
+from geneva_cli.kinematics.layout import AxisPlace
 from geneva_cli.layout.link_positions import same
 from geneva_cli.layout.plain_sizes import drawn_thicknesses
 from geneva_cli.machine.mechanism import Mechanism
@@ -45,16 +48,27 @@ def all_shafts(
         stop = crank_stop(outlines, bars)
         has_one = crank_shaft_radius(outlines) > 0.0, wheel_shaft_radius(outlines) > 0.0
         _, *others = mechanism.wheel_places
+        _, *cranks = mechanism.crank_places
         half = mechanism.engagements[0].half_step
         for one in shafts(outlines, lowest, stop, on):
             yield one
             if same(one.at, (0.0, 0.0), L):
                 yield from (one._replace(at=it.at, turn=one.turn + it.turn - half) for it in others)
+            else:
+                yield from (_of_crank(one, it, outlines) for it in cranks)
     size, drawn = mechanism.spec.size, outlines.sizes if outlines else None
     top = drawn_thicknesses(size, L, drawn).wheel
     ends = Ends(lowest, top, stop, *has_one)
     yield from link_shafts(mechanism, bars, ends, on)
     yield from gear_shafts(mechanism, outlines, ends)
+
+
+def _of_crank(first: Shaft, place: AxisPlace, outlines: Outlines) -> Shaft:
+    """Return the shaft of a crank that follows the first; a plain one has no direction."""
+    if first.bore.is_plain:
+        return first._replace(at=place.at)
+    later, now = outlines.assembly.crank(np.array([-place.behind_deg, 0.0]))
+    return first._replace(at=place.at, turn=first.turn + place.turn + float(later - now))
 
 
 def built_shafts(

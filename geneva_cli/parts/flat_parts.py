@@ -191,6 +191,23 @@ class FlatParts(EdgedParts):
         """The crank as it lies in the wheel's plane."""
         return self._crank(None)
 
+    def about_wheel(self, crank: Member) -> tuple[Member, ...]:
+        """Return the first crank, or a part of it, and its copies on all cranks about the wheel."""
+        places = self.mechanism.crank_places
+        before = np.array([-place.behind_deg for place in places])
+        turns = self.outlines.assembly.crank(before) - self.outlines.assembly.crank(np.zeros(1))
+        return tuple(
+            crank._replace(at=place.at, turn=crank.turn + place.turn + float(turn))
+            if place.number > 1
+            else crank
+            for place, turn in zip(places, turns, strict=True)
+        )
+
+    @cached_property
+    def cranks(self) -> tuple[Member, ...]:
+        """All cranks about the wheel."""
+        return self.about_wheel(self.crank)
+
     def _crank(self, arm: Plate | None) -> Member:
         hub, assembly = self.crank_hub, self.outlines.assembly
         below = (Member(plate) for plate in (*self.locking, *([arm] if arm else [])))
@@ -309,7 +326,7 @@ class FlatParts(EdgedParts):
     @property
     def members(self) -> tuple[Member, ...]:
         """All parts; before a spherical wheel only links and gears."""
-        turning = (self.wheel, *self.orbiting, self.crank) if self.drawn else ()
+        turning = (self.wheel, *self.orbiting, *self.cranks) if self.drawn else ()
         moved = *turning, *self.linked, *self.round_gears, *self.gear_pair, *self.first
         if not self.mechanism.spec.wheel.FLAT:
             return moved
@@ -319,10 +336,11 @@ class FlatParts(EdgedParts):
         """Yield all parts in the order of a list, as names and functions that build them."""
         if self.mechanism.spec.is_flat:
             yield "wheel", lambda: [one.part for one in (self.wheel, *self.orbiting)]
-            yield "locking disc", lambda: self.locking
-            yield "arm", lambda: [self.arm_plate] if self.arm_plate else []
-            yield "rollers", lambda: [one.part for one in self.rollers]
-            yield "crank's hub", lambda: [self.crank_hub] if self.crank_hub else []
+            each = len(self.mechanism.crank_places)
+            yield "locking disc", lambda: each * self.locking
+            yield "arm", lambda: each * [self.arm_plate] if self.arm_plate else []
+            yield "rollers", lambda: each * [one.part for one in self.rollers]
+            yield "crank's hub", lambda: each * [self.crank_hub] if self.crank_hub else []
         yield "links", lambda: [one.part for one in self.linked]
         yield "gears", lambda: [one.part for one in (*self.round_gears, *self.gear_pair)]
         if not self.mechanism.spec.wheel.FLAT:

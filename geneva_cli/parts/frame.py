@@ -117,14 +117,14 @@ def _drilled(
     A wheel or a crank without a bore is one piece with its shaft, whose diameter is in [shaft].
     """
     L, shaft = mechanism.center_distance_mm, mechanism.spec.shaft
-    diameters = {0.0: shaft.wheel_diameter_mm, L: shaft.crank_diameter_mm}
+    cranks = [one.at for one in mechanism.crank_places]
     for at in places:
         here = [one.part for one in shafts_ if same(one.at, at, L)]
         for one in here:
             if isinstance(one, Plate | Stack) and one.low < top:
                 yield shaft_hole(one, at, top, mechanism.spec.size.allowances.shaft_fit_mm)
         if not here:
-            diameter = diameters.get(at[0], shaft.wheel_diameter_mm)
+            diameter = shaft.crank_diameter_mm if at in cranks else shaft.wheel_diameter_mm
             yield hole_without_shaft(diameter, at, L)
 
 
@@ -135,7 +135,8 @@ def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
     """
     L = mechanism.center_distance_mm
     wheels = [one.at for one in mechanism.wheel_places]
-    seen = [*(wheels if mechanism.spec.wheel.SIGN > 0.0 else []), (L, 0.0)]
+    cranks = [one.at for one in mechanism.crank_places]
+    seen = [*(wheels if mechanism.spec.wheel.SIGN > 0.0 else []), *cranks]
     if mechanism.spec.gears:
         seen.append((L + mechanism.spec.gears.distance_mm, 0.0))
     yield from seen

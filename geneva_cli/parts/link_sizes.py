@@ -15,7 +15,6 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.layout.arm_sizes import HUB, eye_about, pin_hole
-from geneva_cli.layout.first_sizes import first_sizes
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, half_or, pin_radius, wall_min
 from geneva_cli.layout.sizes import sized
 from geneva_cli.machine.mechanism import Mechanism
@@ -93,7 +92,12 @@ def link_sizes(
     size, links = spec.size, [link for link in links if not link.radius_mm]
     drawn = parts.sizes if parts else None
     wall, thick = wall_min(size, L), drawn_thicknesses(size, L, drawn)
-    first = first_sizes(mechanism, sized) if drawn else None
+    first = None
+    if drawn and spec.is_loaded:
+        # without a load none is needed
+        from geneva_cli.layout.first_sizes import first_sizes
+
+        first = first_sizes(mechanism, sized)
     stands = first.pin if first else pin_radius(size, mechanism.roller_radius_mm, drawn)
     own = None if size.link_bore_mm is None else 0.5 * size.link_bore_mm
     roller = pin_hole(size, stands) if stands else 0.0

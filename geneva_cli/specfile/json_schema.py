@@ -73,7 +73,7 @@ def _of_kinds(word: Field, kinds: Mapping[str, type[SpecTable]]) -> Schema:
 
 
 def _drive(kinds: Mapping[str, type[Drive]]) -> Schema:
-    """A drive, and in it the drive that turns its input shaft."""
+    """The schema of ``[drive]``, with that of ``[drive.before]`` in it."""
     drive = _of_kinds(KIND, kinds)
     keys = {name: tuple(own_fields(kind)) for name, kind in kinds.items() if kind.IN_FRONT}
     before = _cases(BEFORE_KIND, keys, (), (), has_default=False)

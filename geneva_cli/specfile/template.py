@@ -21,6 +21,10 @@ EXAMPLES = {
         "several rollers: more indexes in a turn of the crank",
         {"wheel": {"z": 4}, "drive": {"rollers": 3}},
     ),
+    "cranks": Example(
+        "two cranks about one wheel, which move it in turn",
+        {"wheel": {"z": 8}, "drive": {"rollers": 2, "crank_steps": [0, 3]}},
+    ),
     "curved": Example(
         "curved slots for a motion law, at the mid condition",
         {"wheel": {"z": 6}, "motion": {"law": "modified-sine", "ratio": "matched"}},

@@ -15,6 +15,7 @@ from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import REQUIRED, Points, SpecTable, fields, require, shown, unknown
 from geneva_cli.spec.tables import LISTS, PLAIN
 from geneva_cli.specfile.points import read_pairs
+from geneva_cli.specfile.writer import own_fields
 
 TABLES = ("wheel", "drive", "motion", *dict.fromkeys(t.partition(".")[0] for t in PLAIN))
 
@@ -160,10 +161,21 @@ def _before(values: Any, drives: _Kinds, files: _Files) -> Any:
         raise GenevaError(
             f"{min(shared)} belongs to the machine: set it in [drive]", (*place, min(shared))
         )
+    if values["kind"] in [*registry.DRIVES]:  # a list, as the value may be anything
+        own = ("kind", *(field.key for field in own_fields(registry.drive(values["kind"]))))
+        for key in values:
+            # a key of another kind is refused below, with its kind
+            if key not in own and not _has_key(drives, key):
+                raise unknown(key, BEFORE, own)
     try:
         return _kind(values, drives, files)
     except GenevaError as error:
         raise GenevaError(f"[{BEFORE}]: {error}", (*place, *error.key[1:])) from None
+
+
+def _has_key(kinds: _Kinds, key: str) -> bool:
+    """True if any kind has a key."""
+    return any(field.key == key for _, kind in kinds.all() for field in fields(kind))
 
 
 def _motion(values: dict[str, Any], files: _Files) -> Motion | None:

@@ -56,7 +56,7 @@ def compare(
 
 def differing(table: Table) -> Table:
     """The rows of a comparison whose cells differ; none of a single design."""
-    rows = [row for row in table.rows() if len(row) > 2 and row[-1]]
+    rows = [row for row in table.rows() if row[-1]] if "differs" in table.names else []
     return rows_table(table.names, rows, mixed=True).replaced(reading=table.reading)
 
 

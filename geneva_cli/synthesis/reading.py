@@ -90,8 +90,8 @@ def read_target(
     chosen = dict(zip(GEARINGS, (external, internal, spherical), strict=True))
     requested = tuple(g for g, is_chosen in chosen.items() if is_chosen)
     wheels = _wheels(carousel, frame)
-    gearings = _gearings(requested, linear or bool(index_mm), wheels, frame)
-    racks = not registry.gearing(gearings[0])(3).output(1.0).turns
+    racks = linear or bool(index_mm) or (frame is not None and not frame.output.turns)
+    gearings = _gearings(requested, racks, wheels, frame)
     # families keep a limit on the peak in closed form, but not those of racks and carriers
     peaks = [bound for bound in bounds if _is_peak(bound) and not (racks or wheels)]
     words = ", ".join(phrases) or "the spec alone"
@@ -122,28 +122,29 @@ def _wheels(carousel: str, frame: Spec | None) -> tuple[int, ...]:
         raise GenevaError(
             f'--carousel: the spec has kind = "{frame.drive.NAME}": set kind = "carousel" in it'
         )
-    low, dots, high = carousel.partition("..")
-    least = number("--carousel", low, Range(1, 24))
-    most = number("--carousel", high, Range(1, 24)) if dots else least
-    if least != int(least) or most != int(most) or most < least:
+    low, high = span("--carousel", carousel, Range(1, 24))
+    if not (low.is_integer() and high.is_integer()):
         raise GenevaError(f"--carousel {cut(carousel)}: write a number of wheels, or LOW..HIGH")
-    return tuple(range(int(least), int(most) + 1))
+    return tuple(range(int(low), int(high) + 1))
 
 
 def _gearings(
-    chosen: tuple[str, ...], linear: bool, wheels: tuple[int, ...], frame: Spec | None
+    chosen: tuple[str, ...], racks: bool, wheels: tuple[int, ...], frame: Spec | None
 ) -> tuple[str, ...]:
     """The gearings to try: racks alone, or wheels.
 
     On a carrier they are external or internal, and with a frame that has a stop those that may have
     one.
     """
-    if linear or (frame is not None and not frame.output.turns):
+    if racks:
         if chosen or wheels:
             other = f"--{chosen[0]}" if chosen else "--carousel"
             raise GenevaError(f"{other}: racks are searched alone: leave it out, or the rack")
         if frame is not None and frame.output.turns:
-            raise GenevaError("--from: the spec has a wheel, and a rack is sought: leave one out")
+            raise GenevaError(
+                "--from: the spec has a wheel: leave out --linear and --index-mm, or take the spec "
+                "of a rack"
+            )
         return ("linear",)
     if wheels:
         able = Carousel.GEARINGS

@@ -326,8 +326,8 @@ def _out_of_reach(target: Target, reached: list[float], errors: list[str]) -> st
     if target.wheels:
         return (
             f"{target.words}: out of reach on a carrier: its wheels have straight radial slots, "
-            "whose motion follows from their number; several wheels take one finger, and must "
-            f"not meet in time{first}"
+            "whose number gives the motion. Several wheels share one finger, and each must leave "
+            f"it before the next one arrives{first}"
         )
     if not target.output.turns:
         return (

@@ -161,7 +161,7 @@ def test_beside_a_cusp_nothing_is_rounding():
 
 def test_what_cannot_be_shown():
     bare = Design(External(6))
-    with pytest.raises(GenevaError, match="nothing resists the wheel"):
+    with pytest.raises(GenevaError, match="no force is known"):
         bare.figure(["pin_force_N"])
     with pytest.raises(GenevaError, match=r'--pick jrk.*did you mean "jerk"'):
         bare.figure(["jrk"])

@@ -227,10 +227,33 @@ PAIRS = [
     case("internal", "[wheel]\nz = 4\ngearing = @\n" + PAIR, '"internal"', 2, "135", "60"),
 ]
 
+SEVERAL = "[drive]\nrollers = 2\ncrank_steps = @\n"
+TWO = "[drive]\nrollers = 2\ncrank_steps = [0, 3]\n"
 BODY = '[[mass]]\nshape = "point"\nmass_kg = 1\n'
+CRANKS = [
+    case("beyond", WHEEL + SEVERAL, "[0, 6]", 5, "below z = 6"),
+    case("between", WHEEL + SEVERAL, "[0, 2.5]", 5, "whole numbers"),
+    case("first", WHEEL + SEVERAL, "[1, 3]", 5, "begin with 0"),
+    case("twice", WHEEL + SEVERAL, "[0, 0]", 5, "different"),
+    case("three", WHEEL + SEVERAL, "[0, 2, 4]", 4, "3 cranks", "rollers = 3"),
+    case("inside", INSIDE + "[drive]\ncrank_steps = @\n", "[0, 3]", 5, "external"),
+    case(
+        "side-crank", WHEEL + drive("side-crank", "A = 0.5\ncrank_steps = @"), "[0, 3]", 6, "crank"
+    ),
+    case("angles", WHEEL + TWO + "roller_angles_deg = @", "[0, 150]", 6, "even turns", "remove"),
+    case("tolerance", WHEEL + TWO + "[tolerance]\nlock_radius_mm = @", "0.1", 6, "remove one"),
+    case("body", WHEEL + TWO + BODY + "radius_mm = @", "50", 6, "count to 2"),
+]
 CAROUSELS = [
     case("spherical", "[wheel]\nz = 6\ngearing = @\n" + ORBIT, '"spherical"', 3, "or internal"),
-    case("unbalanced", WHEEL + ORBIT + BODY + "radius_mm = @", "50", 5, "balanced", "count to 2"),
+    case(
+        "unbalanced",
+        WHEEL + ORBIT + BODY + "radius_mm = 50\n[motion]\nlaw = @",
+        '"cycloidal"',
+        5,
+        "balanced",
+        "count to 2",
+    ),
     case(
         "chain",
         WHEEL + ORBIT + "[product]\nsprocket_teeth = 20\npitch_mm = @",
@@ -257,6 +280,7 @@ GROUPS = {
     "slides": SLIDES,
     "noncircular": NONCIRCULAR,
     "pairs": PAIRS,
+    "cranks": CRANKS,
     "carousels": CAROUSELS,
     "sectors": SECTORS,
 }

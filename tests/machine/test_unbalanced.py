@@ -186,6 +186,30 @@ def test_the_lock_and_the_pivot_in_the_dwells(wheel):
     assert held_torque_Nm(design.mechanism) == pytest.approx(max(moments), rel=1e-13)
 
 
+@pytest.mark.parametrize(("wheels", "fingers"), [(1, 1), (2, 1), (1, 2)])
+def test_wheels_move_for_the_same_time_with_a_body_off_their_axis(wheels, fingers):
+    """A motion takes 180° - 360°/z of a turn, for each wheel and each finger."""
+    values = values_of(design_of(External(5), wheels=wheels, rollers=fingers))
+    fraction = wheels * fingers * (0.5 - 1.0 / 5.0)
+    assert values["carousel.moving_fraction"] == pytest.approx(fraction, rel=1e-14)
+
+
+@pytest.mark.parametrize("angle", [0.0, 130.0, 220.0])
+def test_the_place_of_a_horns_stress_names_the_turn(angle):
+    """All horns are equal, and a force bends one most at its mouth: the greatest of five turns."""
+    spec = design_of(External(5), angle=angle).spec.with_("size.face_width_mm", 10.0)
+    design = Design.of(spec)
+    (check,) = (one for one in design.checks if one.name == "horn_stress_MPa")
+    (one,) = design.mechanism.engagements
+    ends = one.entry_deg + 1e-9, one.exit_deg - 1e-9  # inside, as there is no force in the dwell
+    mouths = np.array([360.0 * k + end for k in range(5) for end in ends])
+    forces = abs(design.cycle.states(mouths).pin_force_N)
+    here = abs(mouths - check.at_deg)
+    assert here.min() < 1e-6
+    # equal forces of two turns differ by the nanodegree to their mouths
+    assert forces[np.argmin(here)] == pytest.approx(forces.max(), rel=1e-6)
+
+
 def test_the_fastest_speed_reaches_the_limit():
     """At it the pin force is the limit: inertia and unbalance grow with the square of the speed."""
     spec = design_of(External(5)).spec.with_("limits.pin_force_max_N", 40.0)
@@ -217,6 +241,34 @@ def test_several_wheels_have_the_sum_of_their_torques(wheels):
     assert several.rms == pytest.approx(math.sqrt(wheels) * one.rms, rel=1e-10)
 
 
+@pytest.mark.parametrize("wheels", [1, 3])
+@pytest.mark.parametrize("angle", [0.0, 130.0, 220.0])
+def test_a_figure_marks_a_load_on_its_curve(wheels, angle):
+    """The states at a mark's own input angle have its value: it is in the right turn."""
+    design = design_of(External(4), angle=angle, wheels=wheels)
+    names = ["pin_force_N", "input_torque_Nm"]
+    for name, panel in zip(names, design.figure(names).panels, strict=True):
+        (curve,) = panel.curves
+        assert [mark.word for mark in curve.marks] == ["max", "min"]
+        for mark in curve.marks:
+            state = design.cycle.states(np.array([mark.x]))
+            # the load is flat about its peak, whose place has half of the digits
+            assert getattr(state, name)[0] == pytest.approx(mark.y, rel=1e-9)
+
+
+@pytest.mark.parametrize("z", [4, 5, 6])
+@pytest.mark.parametrize("apart", [None, (0.0, 150.0)])
+def test_two_fingers_meet_the_body_in_all_its_directions(z, apart):
+    """Each step has the torques of one finger, however the two stand; a turn has twice as many."""
+    one = design_of(External(z)).loads["input_torque_Nm"]
+    both = design_of(External(z), rollers=2, roller_angles_deg=apart)
+    loads = both.loads["input_torque_Nm"]
+    assert (loads.max, loads.min) == pytest.approx((one.max, one.min), rel=1e-12)
+    assert loads.rms == pytest.approx(math.sqrt(2.0) * one.rms, rel=1e-10)
+    # finger and direction come together again after lcm(z, 2) motions, two in a turn
+    assert both.mechanism.under_load.period_deg == pytest.approx(180.0 * math.lcm(z, 2))
+
+
 def test_a_batch_is_each_design_alone():
     load = Load(torque_Nm=0.1, friction=0.1)
     spec = design_of(External(5), load).spec
@@ -242,16 +294,31 @@ def test_backwards_the_torque_is_that_of_a_film_that_runs_backwards():
     assert design.backwards.cycle.states(x).wheel_torque_Nm == pytest.approx(-forwards[::-1])
 
 
-def test_friction_follows_the_sign_of_the_torque():
-    """The work of friction is that of the pin force along the slot: a dense scan of one turn."""
-    design = design_of(External(4), Load(friction=0.2))
-    (one,) = design.mechanism.engagements
-    x = np.concatenate(
-        [np.linspace(one.entry_deg, one.exit_deg, 20_001) + 360.0 * k for k in range(4)]
-    )
-    here = design.cycle.states(x)
-    assert design.loads["pin_force_N"].max == pytest.approx(here.pin_force_N.max(), rel=1e-6)
-    assert design.loads["pin_force_N"].min == pytest.approx(here.pin_force_N.min(), rel=1e-6)
+@every
+def test_friction_by_the_forces_on_the_slot(wheel):
+    """A finger presses with F on the wall that drives, and drags it with mu F where it slides.
+
+    The finger is p from the wheel's axis, and the wall r from the middle of the slot. So F turns
+    the wheel by d F (p - mu s r). The finger stands still on the ground, and its side slides by
+    p' + (psi' + 1) d r, or psi' - 1 inside. The input adds the power of friction.
+    """
+    mu, r, l, s = 0.2, 0.05, math.sin(math.pi / wheel.z), wheel.SIGN  # lengths over L
+    design = design_of(wheel, Load(friction=mu))
+    force, shaft = [], []
+    for a, torque, total in dense(design):
+        D = 1.0 - 2.0 * s * l * np.cos(a) + l * l
+        out, spin = s * l * np.sin(a) / np.sqrt(D), s + l * (np.cos(a) - s * l) / D
+        d = np.sign(torque)
+        slide = out + spin * d * r
+        F = abs(torque) / (np.sqrt(D) - mu * np.sign(slide) * r)  # times L
+        force.append(d * F / L)  # signed as the torque
+        shaft.append(total + mu * F * abs(slide))
+    for name, values in (("pin_force_N", force), ("input_torque_Nm", shaft)):
+        values = np.concatenate(values)
+        # a load jumps where friction changes its sign: there the scan's spacing, 5e-6 to 1e-5 rad,
+        # counts in full, and a load changes by up to ten times itself a radian
+        assert design.loads[name].max == pytest.approx(values.max(), rel=1e-4)
+        assert design.loads[name].min == pytest.approx(values.min(), rel=1e-4)
 
 
 def test_what_needs_a_balanced_wheel_is_refused():

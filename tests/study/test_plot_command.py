@@ -151,7 +151,7 @@ def test_one_point_and_a_constant():
     ("arguments", "wants"),
     [
         ([SPEC, "--pick", "velocty"], 'velocty: no quantity of a cycle (did you mean "velocity"?)'),
-        ([SPEC, "--pick", "pin_force_N"], "nothing resists the wheel"),
+        ([SPEC, "--pick", "pin_force_N"], "no force is known"),
         ([SPEC, "--x", "a"], "--x and --y are for a .csv"),
         ([SPEC, SPEC], "given twice"),
         ([SPEC, "-o", "no/such/folder.svg"], "cannot write: No such file or directory"),
@@ -176,7 +176,7 @@ def test_a_quantity_that_one_design_lacks_is_left_out_with_a_word():
     loaded = str(repo.DESIGNS / "turret.toml")
     found = run("plot", SPEC, loaded, "--pick", "pin_force_N", "-o", "a.svg")
     assert found.exit_code == 0
-    assert f"{SPEC}: warning: no curve of pin_force_N: nothing resists" in found.stderr
+    assert f"{SPEC}: warning: no curve of pin_force_N: no force is known" in found.stderr
     with open("a.svg", encoding="utf-8") as file:
         assert 'class="curve c1"' in file.read()
 

@@ -20,13 +20,13 @@ from geneva_cli.verdict.quantities.names import WORDS, group_of, whole_name
 pytestmark = pytest.mark.usefixtures("made_once")
 LISTS = {  # of a report's names those of tables and lists, which are no quantities
     *("stations", "cycle.reversals_deg", "vibration.speeds_to_avoid_rpm", "strength.needs"),
-    *("tolerance.warnings", "wheels", "both_ways"),
+    *("tolerance.warnings", "wheels", "number_wheels", "cranks", "both_ways"),
 }
 # Columns that tell what a machine is by keys of its spec, and of curves that no design has.
 KEYS = {
     *("no", "A", "eccentricity", "phase", "alpha0_deg", "offset_mm", "planet_ratio", "fixed"),
     *("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg"),
-    *("sector_deg", "first_z", "parts", "C_v", "C_a", "C_j", "C_p"),
+    *("wheels", "sector_deg", "first_z", "parts", "C_v", "C_a", "C_j", "C_p"),
 }
 LIMITS = str(repo.DESIGNS / "limits.toml")
 

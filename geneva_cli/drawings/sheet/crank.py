@@ -157,7 +157,8 @@ def draw_assembly(view: View, parts: Outlines, shapes: tuple[Shape, ...]) -> Non
     deviation = parts.assembly.mechanism.spec.tolerance.center_distance_mm
     reach = parts.sizes.outer or parts.sizes.rim
     view.cross((0.0, 0.0), reach)
-    view.cross((L, 0.0), max(parts.sizes.lock, 0.1 * L))
+    for place in parts.assembly.full.crank_places:
+        view.cross(place.at, max(parts.sizes.lock, 0.1 * L))
     view.linear((0.0, 0.0), (L, 0.0), 0.0, sized.plain(L, "L = ", deviation))
 
 

@@ -89,7 +89,7 @@ class Tuned(Law):
 
     def _with_rates(self, y: Jet, sign: float) -> Jet:
         omega = 2.0 * library(y.c[0]).pi * self.period_ratio
-        rate = Jet(y.derivative().c[:-1]) * (sign * 2.0 * self.damping_ratio / omega)
+        rate = y.derivative().lower * (sign * 2.0 * self.damping_ratio / omega)
         return Jet(y.c[:-2]) + rate + y.derivative().derivative() * (1.0 / (omega * omega))
 
 

@@ -55,9 +55,8 @@ class Boxes(NamedTuple):
 
     def taken(self, where: Whole) -> Boxes:
         """Select some of the boxes."""
-        return Boxes._make(
-            part.taken(where) if isinstance(part, tuple) else part.take(where) for part in self
-        )
+        entry, exit_ = self.entry.taken(where), self.exit.taken(where)
+        return Boxes(self.which[where], self.sense[where], entry, exit_, self.turn[where])
 
 
 def _span(width: Array, turn: Array, first: Array, last: Array) -> tuple[Array, Array]:

@@ -29,7 +29,7 @@ class OffsetSlot(Slot):
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
         depth = self._depth(input_deg, order + 1)
-        return SlotAxis(Jet(depth.c[:-1]), depth.derivative())
+        return SlotAxis(depth.lower, depth.derivative())
 
     def _depth(self, input_deg: Number, order: int) -> Jet:
         return _depth(self.skew, self.path.middle.displacement_at(input_deg, order)[0])[0]
@@ -138,4 +138,4 @@ def _turning(x: Jet, y: Jet, lever: Jet, rho2: Jet) -> Jet:
     """Rate of a wheel, (x y' - y x' - e s') / rho², for ``lever`` = e s; one order lower."""
     if not x.order:
         return Jet(())
-    return (moment(x, y) - lever.derivative()) / Jet(rho2.c[:-1])
+    return (moment(x, y) - lever.derivative()) / rho2.lower

@@ -22,6 +22,7 @@ import math
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.analysis.forces import QuantityValue
+from geneva_cli.kinematics.engagement import Peak
 from geneva_cli.loads.summaries import load_peaks
 
 if TYPE_CHECKING:
@@ -31,19 +32,12 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Jet
 
 
-class GuideForce(NamedTuple):
-    """The greatest force at an end of a guide, N, and its input angle."""
-
-    force_N: float
-    at_deg: float
-
-
 class EndForce(NamedTuple):
-    """The squared force at one end, side = 1 or -1, as a row for ``load_peaks``; over R."""
+    """The squared force at one end of a guide, as a quantity of ``load_peaks``."""
 
-    side: float
-    middle: float
-    half: float
+    side: float  # 1 for one end, -1 for the other
+    middle: float  # x0 over R
+    half: float  # h over R
 
     def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
         """The square, and the grip that bounds it."""
@@ -54,13 +48,13 @@ class EndForce(NamedTuple):
         return QuantityValue(force * force, i.grip)
 
 
-def guide_force(mechanism: Mechanism, middle_mm: float, half_mm: float) -> GuideForce:
-    """The greatest force at an end of a guide; infinite if the pin's force has no bound."""
+def guide_force(mechanism: Mechanism, middle_mm: float, half_mm: float) -> Peak[float]:
+    """The greatest force at an end of a guide, N; infinite if the pin's force has no bound."""
     R = mechanism.center_distance_mm
     ends = {str(side): EndForce(side, middle_mm / R, half_mm / R) for side in (1.0, -1.0)}
     first, second = load_peaks(mechanism, tuple(ends), ends).values()
     most = first if first.max.item() >= second.max.item() else second
-    return GuideForce(math.sqrt(most.max.item()), most.at_deg.item())
+    return Peak(math.sqrt(most.max.item()), most.at_deg.item())
 
 
 def locks_at_friction(mechanism: Mechanism, middle_mm: float, half_mm: float) -> float:

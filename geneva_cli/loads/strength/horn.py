@@ -27,7 +27,7 @@ import numpy as np
 
 from geneva_cli.analysis.contact import NEAR_CUSP
 from geneva_cli.kinematics.pitch_curve import pitch
-from geneva_cli.loads.strength.horn_search import HornStress, UnitStress, alike, greatest_stress
+from geneva_cli.loads.strength.horn_search import HornStress, UnitStress, greatest_stress, squeezed
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.arrays import blocks, joined
 
@@ -74,7 +74,7 @@ class Horn(NamedTuple):
 
         At angles (m, k) both are (2, m, k). The origin is the recess's centre.
         """
-        x, y = self.engagement.slot(alike(input_deg), 1)
+        x, y = self.engagement.slot(squeezed(input_deg), 1)
         place = self._turned(self.L * vector(x.c[0], y.c[0]) - self.centre)
         normal = self._turned(vector(-np.asarray(y.c[1]), x.c[1]))
         normal *= np.where(normal[1] > 0.0, -1.0, 1.0) / np.hypot(*normal)

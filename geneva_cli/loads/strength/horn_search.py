@@ -88,8 +88,8 @@ class _SamplePlaces(NamedTuple):
     section: Array  # (m, sections)
 
 
-def alike(input_deg: Number) -> Array:
-    """Input angles (m, k); as (k,) for one row, which takes half the time."""
+def squeezed(input_deg: Number) -> Array:
+    """Input angles (m, k); (k,) if m is 1, which takes half the time."""
     x = np.atleast_2d(input_deg)
     return x[0] if len(x) == 1 else x
 
@@ -122,7 +122,7 @@ def greatest_stress(
             sample, around = _sampled(some[0], one, around, some[3])
             best[:, own] = np.where(np.isnan(sample[0]), best[:, own], sample)
         best[1, own] += np.ravel(one.whole.mid_deg - one.ahead_deg)
-    at_deg = np.ravel(mechanism.shown_deg(parameter(best[1][:, None])))
+    at_deg = np.ravel(mechanism.under_load.shown_deg(parameter(best[1][:, None])))
     return HornStress(*map(parameter, (best[0], at_deg, *best[2:])))
 
 
@@ -168,7 +168,7 @@ def _stress(
     mechanism: Mechanism, side: HornSide, width: float, x: Array, sections: Array
 ) -> UnitStress:
     """Stresses under the machine's load: 0 where the other horn bears."""
-    loads = state(mechanism, side.whole, alike(x - side.ahead_deg))
+    loads = state(mechanism, side.whole, squeezed(x - side.ahead_deg))
     bears = np.asarray(loads.torque_Nm) * side.end < 0.0
     force = np.atleast_2d(np.where(bears, loads.pin_force_N, 0.0))
     own = np.flatnonzero(bears.any(axis=0) if bears.ndim > 1 else bears)  # elsewhere it is 0

@@ -83,7 +83,7 @@ def held_torque_Nm(mechanism: Mechanism) -> float:
     """
     load = mechanism.spec.load
     held = load.torque_Nm if load.dwell_torque_Nm is None else load.dwell_torque_Nm
-    if not (mechanism.frame and mechanism.spec.unbalanced):
+    if not mechanism.unbalanced:
         return held
     return held + parameter(held_unbalance_Nm(mechanism))
 

@@ -1,7 +1,7 @@
 """The horn of a spherical wheel: the wall between a slot and a recess, as a tapered cantilever.
 
 Directions are from the sphere's centre. A point of the wheel is at the angle t from the wheel's
-axis along the slot, and at the angle x beside the slot's middle:
+axis along the slot, and at the angle x from the slot's middle, across it:
 
     p = (cos x sin t, sin x, cos x cos t)
 
@@ -32,7 +32,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.loads.strength.arm import torsion_MPa
-from geneva_cli.loads.strength.horn_search import HornStress, UnitStress, alike, greatest_stress
+from geneva_cli.loads.strength.horn_search import HornStress, UnitStress, greatest_stress, squeezed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -51,6 +51,7 @@ class SphereHorn(NamedTuple):
     half_width: float  # w
     recess: float  # k
     half_step: float  # from the slot's middle to the next horn, about the wheel's axis
+    # as ``HornSide`` describes them
     end: float
     whole: Engagement
     ahead_deg: float
@@ -103,7 +104,7 @@ class SphereHorn(NamedTuple):
 
     def polar(self, input_deg: Array) -> Array:
         """The polar angles of the roller at input angles, (m, k) both."""
-        return np.atleast_2d(self.engagement.slot(alike(input_deg), 0)[0].c[0])
+        return np.atleast_2d(self.engagement.slot(squeezed(input_deg), 0)[0].c[0])
 
 
 def _at(t: Array, x: Array | float) -> Array:

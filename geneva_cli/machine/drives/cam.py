@@ -85,7 +85,7 @@ class Slide:
         """Reactions of the crank's shaft, and of the groove, to each load."""
         x, y = path
         wall = y.derivative() * -1.0, x.derivative()
-        arm = Jet(x.c[:-1]) - 1.0, Jet(y.c[:-1])
+        arm = x.lower - 1.0, y.lower
         across = arm[1] * -1.0, arm[0]
         turning = cross(wall, across)
         out = []

@@ -22,7 +22,7 @@ class PushedCrank(Batchable, ABC):
         self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
     ) -> list[tuple[Vector, Vector]]:
         """Reactions of the crank's shaft, and of the body that pushes the crank, to each load."""
-        x, y = (Jet(jet.c[:-1]) for jet in path)
+        x, y = (jet.lower for jet in path)
         at, direction = self.line(input_deg, x.order)
         lever, out = cross(at, direction), []
         for force, moment in loads:

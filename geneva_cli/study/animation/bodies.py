@@ -28,7 +28,7 @@ WHEEL = "WHEEL"  # layer
 
 def bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
     """Wheel, crank with its arm, the cam's groove and gears, as far as the machine has them."""
-    L, crank = turn.L, turn.crank()
+    L = turn.L
     # parts of a sphere are drawn laid flat: these outlines do not turn about the shaft
     shapes = () if design.spec.wheel.SHELLS else _hollow(_shapes(design, "wheel"))
     flat = bool(shapes)
@@ -39,7 +39,9 @@ def bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
     if flat:
         carried = (*_shapes(design, "arm"), *_shapes(design, "crank"))
         carried = tuple(shape for shape in carried if shape.layer != "ROLLER")
-        yield Body("crank", carried, (L, 0.0), crank)
+        for place in turn.mechanism.crank_places:
+            name = f"crank {place.number}" if place.number > 1 else "crank"
+            yield Body(name, carried, place.at, turn.crank(place))
         yield Body("groove", _shapes(design, "groove"), (L, 0.0), still(0.0))
         if turn.mechanism.frame > 0.0:
             yield Body("carrier", _shapes(design, "frame"), (0.0, 0.0), still(0.0))
@@ -115,7 +117,7 @@ def _gears(design: Design, turn: MachineTurn) -> Iterator[Body]:
 def _toothed(design: Design) -> list[tuple[Shape, ...]]:
     """The driven gear and the driver with their teeth and bores.
 
-    None if no module is set, or where teeth do not fit.
+    Empty if no module is set, or where teeth do not fit.
     """
     if design.spec.size.gear_module_mm is None:
         return []

@@ -40,7 +40,8 @@ def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
         at = (one.mid + local - turn.start)[sound]
         columns = (at, contact[:, 0], contact[:, 1], arrow[:, 0], arrow[:, 1])
         push = Push(*(tuple(column.tolist()) for column in columns))
-        yield push
+        place = turn.on_crank(i)
+        yield moved_push(push, place._replace(behind_deg=0.0), 0.0) if place.turn else push
         for place in turn.mechanism.wheel_places[1:]:
             yield moved_push(push, place, turn.L)
 

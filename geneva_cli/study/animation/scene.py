@@ -89,8 +89,8 @@ def _remark(design: Design, bars: tuple[Bar, ...]) -> str:
     out = " Gears are shown by their pitch circles." if any(bar.radius for bar in bars) else ""
     if design.cycle.mechanism.period_deg > 360.0 * design.spec.turns:
         out += (
-            " The forces are those of the first turn: a body off the wheel's axis gives each turn "
-            "others."
+            " The forces are those of the first turn. A body off the wheel's axis makes them "
+            "different in each turn."
         )
     return out
 
@@ -105,9 +105,11 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
     if design.spec.drive.wheels_on_carrier > 1:
         yield from _wheels_in_turn(design, turn)
         return
-    last = turn.passages[-1]
+    last, cranks = turn.passages[-1], len(design.mechanism.crank_places)
     for one, after in zip(turn.passages, (*turn.passages[1:], None), strict=True):
         which = f"roller {one.roller}" if len(turn.passages) > 1 else "the roller"
+        if cranks > 1:
+            which = f"crank {turn.on_crank(one.roller - 1).number}"
         if not turn.rollers():
             which = "the driver"
         noun = design.mechanism.output.noun

@@ -12,7 +12,8 @@ import numpy as np
 from geneva_cli.curves.plates import Plate
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.kinematics.layout import Joint, Link, WheelPlace
+from geneva_cli.kinematics.layout import AxisPlace, Joint, Link
+from geneva_cli.kinematics.plane_motion import turned_points
 from geneva_cli.layout.groove import roller_in_groove
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.machine.mechanism import Mechanism
@@ -68,7 +69,7 @@ class MachineTurn:
         self.end = self.start + self.whole
         self._links: dict[bytes, tuple[Link, ...]] = {}
 
-    def wheel(self, place: WheelPlace) -> Track:
+    def wheel(self, place: AxisPlace) -> Track:
         """A wheel's angle, with a slot ahead of the crank's axis half-way through its first step.
 
         A wheel behind the first one rests before.
@@ -87,8 +88,17 @@ class MachineTurn:
             turned += after.engagement.half_step if after else 0.0
         return track(pieces, ANGLE_ERROR, self.start, turned + first - place.turn)
 
-    def crank(self) -> Track:
-        """The direction of the crank arm of the first roller about the crank's axis, radians."""
+    def on_crank(self, number: int) -> AxisPlace:
+        """The place of the crank that carries a roller."""
+        places = self.mechanism.crank_places
+        return places[number % len(places)]
+
+    def crank(self, place: AxisPlace | None = None) -> Track:
+        """The direction of a crank's first roller about the crank's axis, radians.
+
+        Without a place it is the first crank.
+        """
+        behind, turned = (place.behind_deg, place.turn) if place else (0.0, 0.0)
         one, sign = self.passages[0], self.mechanism.spec.wheel.SIGN
         sense = one.engagement.crank_sense
         ahead = math.pi if sign > 0.0 else 0.0
@@ -108,7 +118,8 @@ class MachineTurn:
             off: Array = (np.arctan2(v, u) - even(x) + math.pi) % math.tau - math.pi
             return even(x) + off
 
-        return self._sampled(shaft if sense else angle, ANGLE_ERROR, gain)
+        first = shaft if sense else angle
+        return self._sampled(lambda x: turned + first(x - behind), ANGLE_ERROR, gain)
 
     def pin(self, one: RollerPassage, input_deg: Array) -> Array:
         """The centre of the roller that moves the wheel in a passage, mm, (n, 2)."""
@@ -116,7 +127,8 @@ class MachineTurn:
 
     def centre(self, number: int, input_deg: Array) -> Array:
         """The centre of a roller by its number, mm, (n, 2)."""
-        return self._pin(*self._carried[number], input_deg)
+        about_first, place = self._pin(*self._carried[number], input_deg), self.on_crank(number)
+        return turned_points(about_first, np.full(len(input_deg), place.turn))
 
     def rollers(self) -> tuple[Place, ...]:
         """The centres of all rollers over the turn; none where teeth drive from entry to exit."""

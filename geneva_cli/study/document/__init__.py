@@ -38,6 +38,7 @@ def document(design: Design) -> Document:
         *answers.loads(design, left),
         *answers.product(left),
         *answers.carousel(left),
+        *answers.cranks(left),
         *answers.stop(left),
         *answers.sizes(left),
         *answers.strength(left),

@@ -117,6 +117,14 @@ def carousel(left: RemainingValues) -> Iterator[Block]:
         yield grid("When each wheel moves, by the carrier's angle", wheels)
 
 
+def cranks(left: RemainingValues) -> Iterator[Block]:
+    """When each of several cranks moves the wheel, if there are any."""
+    rows = left.one("cranks")
+    if rows is not None:
+        yield Heading("Cranks")
+        yield grid("When each crank moves the wheel, by the input's angle", rows)
+
+
 def stop(left: RemainingValues) -> Iterator[Block]:
     """Where a Geneva stop blocks the crank, if there is one."""
     values = left.take("stop")

@@ -26,7 +26,7 @@ Kind: TypeAlias = Callable[[Target, Sequence[Gearing], list[float]], Iterator[Fa
 def kinds(target: Target) -> list[tuple[Kind, Target]]:
     """Independent kinds of machines: all four-bars; straight slots, and laws, of each gearing.
 
-    Where wheels on a carrier are sought, these of each gearing.
+    If the target has wheels on a carrier: the carousels of each gearing.
     """
     first, last = (
         (below.straight, below.with_laws) if target.only_acceleration else (_straight, _laws)

@@ -91,6 +91,7 @@ STATIC: Checks = {
     "branches_apart_mm": "branches:apart",
     "branches_crossed_mm": "branches:crossed",
     "wheels_apart_mm": "carrier:wheels_apart",
+    "cranks_apart_mm": "cranks:cranks_apart",
     "stop_turns": "stop:turns",
     "stop_overlap_mm": "stop:overlap",
     "stop_stress_max_MPa": "stop:stress",

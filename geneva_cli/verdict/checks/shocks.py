@@ -37,7 +37,7 @@ def reversal_shock(name: str, mechanism: Mechanism) -> Check | None:
         return None
     from geneva_cli.analysis.impacts import reversal_impact
 
-    if mechanism.frame and mechanism.spec.unbalanced:
+    if mechanism.unbalanced:
         why = "not computed where a body off its axis moves a wheel on a carrier"
         return Check(name, None, "at most", mechanism.spec.limits.pin_force_max_N, None, why)
     impact = reversal_impact(mechanism)

@@ -21,7 +21,8 @@ def carousel(of: Designs) -> Columns:
         return {}
     own = sum(2.0 * one.half_step for one in machine.engagements) * (360.0 / machine.period_deg)
     fastest = worst_peaks(machine, ["velocity"])["velocity"].max
-    moving = sum(one.motion_deg for one in machine.engagements) / machine.under_load.period_deg
+    every = machine.under_load  # its period has the motions of all wheels
+    moving = sum(one.motion_deg for one in every.engagements) / every.period_deg
     force = centrifugal_N(machine) if carried_kg(of.spec) else np.inf
     held = held_unbalance_Nm(machine) if of.spec.unbalanced else np.inf
     return {

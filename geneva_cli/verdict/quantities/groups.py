@@ -221,6 +221,7 @@ REPORT = (
         batch="carousel:carousel",
     ),
     _group("", "", "report.carousel:wheels"),
+    _group("", "", "report.cranks:cranks"),
     _group(
         "counter",
         "digits number_step_deg turns_to_zero impulse_Nms energy_J force_N",

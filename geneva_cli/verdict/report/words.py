@@ -21,6 +21,8 @@ def words(mechanism: Mechanism) -> str:
     behind = f", behind {spec.drive_before.IN_FRONT}," if spec.drive_before else ""
     article = "An" if named[0] in "aeiou" else "A"
     driven = f"{drive.WORDS}{behind} with {rollers} at {drive.n_rpm:g} rpm"
+    if len(drive.cranks) > 1:
+        driven = f"{count} cranks with one roller each, in turn, at {drive.n_rpm:g} rpm"
     text = f"{article} {named}, driven by {driven}."
     if spec.motion:
         text += f' The wheel follows the law "{spec.motion.law.NAME}"'

@@ -1,0 +1,73 @@
+"""Cranks about one wheel: the gap between two of them over a whole turn, proved.
+
+All cranks turn at one rate. So seen from one of them, another one does not turn: it moves on a
+circle, whose radius is the distance of their axes. Both are taken as their convex hulls, seen along
+the shafts. Their gap is the greatest over all directions of what separates them there.
+"""
+
+from __future__ import annotations
+
+import math
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.curves.distance import Polyarc
+from geneva_cli.layout.roller_paths import roller_centres
+from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.verdict.checks.check import Check, compared
+
+if TYPE_CHECKING:
+    from geneva_cli.curves.plates import Member
+    from geneva_cli.numerics.jet import Array
+
+
+def cranks_apart(name: str, parts: FlatParts) -> Check | None:
+    """The least gap between two cranks, and where it is."""
+    if len(parts.mechanism.crank_places) < 2:
+        return None
+    edge = _edge(parts)
+    pairs = combinations(parts.cranks, 2)
+    gap, at_deg = min(_least(edge, one, other) for one, other in pairs)
+    return compared(name, gap, "at least", 0.0, parts.mechanism.shown_deg(at_deg))
+
+
+def _edge(parts: FlatParts) -> tuple[Array, Array]:
+    """Return complex points of a crank in its own frame, and how far it reaches about each, mm."""
+    outlines = parts.outlines
+    L, sizes = outlines.assembly.L, outlines.sizes
+    near = 1e-5 * L  # chords of arcs miss the outline by less
+    contours = [*outlines.crank, *([parts.arm.outline] if parts.arm else [])]
+    x, y = Polyarc(contours).samples(near, L).T if contours else np.empty((2, 0))
+    centres = [0.0, *(complex(*at) for at in roller_centres(outlines.assembly))]
+    reach = [sizes.crank_hub, *[sizes.roller] * (len(centres) - 1)]
+    return np.append(x + 1j * y, centres), np.append(np.full(len(x), near), reach)
+
+
+def _least(edge: tuple[Array, Array], one: Member, other: Member) -> tuple[float, float]:
+    """Return a lower bound of the gap of two cranks, mm, and its input angle, degrees."""
+    # directions: the bound is less than a thousandth of the axes' distance below the gap
+    count = 3600
+    step = math.tau / count
+    around: Array = step * np.arange(count, dtype=np.float64)
+    between = complex(*other.at) - complex(*one.at)
+    opposite: Array = around - (other.turn - one.turn) + math.pi
+    taken = _support(edge, around) + _support(edge, opposite)
+    # in each interval of the direction of the other's axis, from its middle to both ends
+    gap = np.full(count, -math.inf)
+    for off in range(-count // 4, count // 4 + 1):
+        least = abs(between) * math.cos((abs(off) + 0.5) * step)
+        gap = np.maximum(gap, least - np.roll(taken, -off))
+    i = int(np.argmin(gap))
+    seen = math.atan2(between.imag, between.real) - one.turn  # at input angle 0
+    # rounded far below the step of the directions
+    return float(gap[i]), round(math.degrees(math.remainder(around[i] - seen, math.tau)), 6)
+
+
+def _support(edge: tuple[Array, Array], around: Array) -> Array:
+    """Return how far a crank reaches from its axis in directions of its own frame, mm."""
+    points, reach = edge
+    along = np.outer(np.cos(around), points.real) + np.outer(np.sin(around), points.imag)
+    out: Array = (along + reach).max(axis=1)
+    return out
