@@ -36,16 +36,14 @@ class Part(NamedTuple):
 
     def drawn_by(self, kind: str) -> str | None:
         """Return the function that draws it among parts of a kind; or None."""
-        own = {"flat": self.drawing or self.sheet, "ball": self.flat, "rack": self.rack}
-        own["counter"] = self.counter
+        plane = self.drawing or self.sheet
+        own = {"flat": plane, "ball": self.flat, "rack": self.rack, "counter": self.counter}
         return own.get(kind)
 
     def is_of(self, kind: str) -> bool:
         """Return True if machines with parts of a kind have it: a sphere may have flat links."""
-        plane = self.drawing or self.sheet or self.table
-        own = {"flat": plane, "ball": self.flat or plane, "rack": self.rack}
-        own["counter"] = self.counter
-        return self.every or own.get(kind) is not None
+        has_plane_parts = kind in ("flat", "ball") and (self.drawing or self.sheet or self.table)
+        return bool(self.every or self.drawn_by(kind) or has_plane_parts)
 
 
 PARTS = {

@@ -90,7 +90,15 @@ def wheel_reach_and_hub(size: Size, bore: float, wall: float, end: float) -> tup
 
     ``end`` is the distance of the slots' ends from the axis.
     """
-    return _reach_and_hub(size, "wheel", bore, wall, min(HUB * bore, 0.75 * end))
+    return _reach_and_hub(size, "wheel", bore, wall, min(HUB * bore, largest_hub(end)))
+
+
+def largest_hub(end: float) -> float:
+    """Return the radius of a wheel's largest default hub, for slots that end at the radius ``end``.
+
+    A quarter of the wheel up to its slots stays free.
+    """
+    return 0.75 * end
 
 
 def crank_reach_and_hub(size: Size, bore: float, wall: float) -> tuple[float, float]:

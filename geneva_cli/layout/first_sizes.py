@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.wheels.external import External
-from geneva_cli.layout.holds import greatest_moment_Nm, shaft_holds
+from geneva_cli.layout.holds import shaft_holds_both
 from geneva_cli.layout.plain_sizes import FirstSizes
 from geneva_cli.layout.stressed import Stressed, stressed
 from geneva_cli.loads.strength.part_loads import single_loads
@@ -100,6 +100,5 @@ def _stressed(spec: Spec, sized: Sized) -> Stressed | None:
 
 def _shaft_holds(spec: Spec, parts: Stressed) -> bool:
     """Return True if the first crank's shaft holds force and torque, greatest at once."""
-    loads, shaft = single_loads(build(spec)), parts.crank_shaft
-    moment = greatest_moment_Nm(spec.shaft, loads.crank_N, loads.crank_Nm, shaft.overhang)
-    return shaft_holds(spec, "crank", shaft.diameter, moment)
+    loads = single_loads(build(spec))
+    return shaft_holds_both(spec, "crank", parts.crank_shaft, loads.crank_N, loads.crank_Nm)

@@ -19,10 +19,10 @@ from geneva_cli.numerics.preferred import rounded_from
 from geneva_cli.spec.default_sizes import value_or
 
 if TYPE_CHECKING:
-    from geneva_cli.layout.stressed import Stressed
+    from geneva_cli.layout.stressed import ShaftSize, Stressed
     from geneva_cli.loads.strength.part_loads import PartLoads
     from geneva_cli.machine.spec import Spec
-    from geneva_cli.spec.tables import Shaft, Size
+    from geneva_cli.spec.tables import Size
 
 
 class PinSpace(NamedTuple):
@@ -54,10 +54,14 @@ def pin_that_holds(spec: Spec, usual: float, space: PinSpace, force_N: float) ->
     return 0.5 * d
 
 
-def greatest_moment_Nm(table: Shaft, force_N: float, torque_Nm: float, overhang_mm: float) -> float:
-    """Return a shaft's equivalent torque, as if force and torque were greatest at once."""
-    bending = table.bending_factor * force_N * overhang_mm / 1000.0
-    return math.hypot(bending, table.torsion_factor * torque_Nm)
+def shaft_holds_both(
+    spec: Spec, part: str, shaft: ShaftSize, force_N: float, torque_Nm: float
+) -> bool:
+    """Return True if the shaft of wheel or crank holds force and torque, greatest at once."""
+    factors = spec.shaft
+    bending = factors.bending_factor * force_N * shaft.overhang / 1000.0
+    moment = math.hypot(bending, factors.torsion_factor * torque_Nm)
+    return shaft_holds(spec, part, shaft.diameter, moment)
 
 
 def shaft_holds(spec: Spec, part: str, diameter: float, moment_Nm: float) -> bool:

@@ -18,6 +18,7 @@ import numpy as np
 from geneva_cli.layout.arm_sizes import (
     crank_reach_and_hub,
     hole_radius,
+    largest_hub,
     wheel_reach_and_hub,
     within_hub,
 )
@@ -26,15 +27,14 @@ from geneva_cli.layout.holds import (
     PinSpace,
     arm_holds,
     arm_trials,
-    greatest_moment_Nm,
     key_holds,
     pin_that_holds,
-    shaft_holds,
+    shaft_holds_both,
 )
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.layout.plain_sizes import FirstSizes, Sizes, drawn_thicknesses
 from geneva_cli.layout.roller_paths import roller_reaches
-from geneva_cli.layout.stressed import ShaftSize, lock_of, stressed
+from geneva_cli.layout.stressed import lock_of, stressed
 from geneva_cli.loads.strength import lock
 from geneva_cli.loads.strength.horn import horn_stresses
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
@@ -114,7 +114,7 @@ def _pin(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> float:
     """Return the radius of a pin that holds; the arm's eye about it passes the largest hub."""
     eye = math.inf
     if assembly.sign > 0.0 and sizes.arm_bore:
-        hub = max(sizes.wheel_hub, 0.75 * sizes.slot_end)
+        hub = max(sizes.wheel_hub, largest_hub(sizes.slot_end))
         eye = assembly.L - max(roller_reaches(assembly)) - hub - sizes.wall_min
     space = PinSpace(sizes.wheel_thickness, sizes.roller, eye)
     return pin_that_holds(assembly.full.spec, sizes.pin, space, loads.pin_N)
@@ -145,7 +145,7 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
     for d in bores_from(2.0 * sizes.wheel_bore, 2.0 * most):
         trial = _with_wheel_bore(assembly, sizes, 0.5 * d)
         parts = stressed(assembly, trial)
-        shaft = _shaft_holds(assembly, "wheel", parts.wheel_shaft, loads[1:3])
+        shaft = shaft_holds_both(spec, "wheel", parts.wheel_shaft, loads.wheel_N, loads.wheel_Nm)
         if shaft and key_holds(spec, parts.wheel_key, loads.wheel_Nm):
             break
     return trial
@@ -197,14 +197,5 @@ def _with_crank_bore(assembly: Assembly, sizes: Sizes, bore: float) -> Sizes:
 
 def _crank_holds(assembly: Assembly, sizes: Sizes, loads: PartLoads, keyed: bool) -> bool:
     parts, spec = stressed(assembly, sizes), assembly.full.spec
-    shaft = _shaft_holds(assembly, "crank", parts.crank_shaft, loads[3:])
+    shaft = shaft_holds_both(spec, "crank", parts.crank_shaft, loads.crank_N, loads.crank_Nm)
     return shaft and (not keyed or key_holds(spec, parts.crank_key, loads.crank_Nm))
-
-
-def _shaft_holds(
-    assembly: Assembly, part: str, shaft: ShaftSize, loads: tuple[float, float]
-) -> bool:
-    """Return True if a shaft holds force and torque, as if both were greatest at once."""
-    spec = assembly.full.spec
-    moment = greatest_moment_Nm(spec.shaft, *loads, shaft.overhang)
-    return shaft_holds(spec, part, shaft.diameter, moment)

@@ -10,7 +10,7 @@ import math
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from geneva_cli.layout.arm_sizes import arm_hub, hole_radius, within_hub
+from geneva_cli.layout.arm_sizes import arm_hub, hole_radius, largest_hub, within_hub
 from geneva_cli.layout.axles import hub_about
 from geneva_cli.layout.ball import Ball, inner_edge
 from geneva_cli.layout.bores import reach_or_bore
@@ -48,10 +48,8 @@ def horn_thickness_mm(mechanism: Mechanism, usual: Ball) -> float | None:
     if fixed or not usual.recess or not all(map(math.isfinite, single_loads(mechanism))):
         return None
     allowed = wheel_material(mechanism.spec).allowed_MPa
-    angles, least = (
-        (usual.half_width, usual.recess, usual.axes),
-        usual.span_mm[1] - usual.span_mm[0],
-    )
+    angles = usual.half_width, usual.recess, usual.axes
+    least = usual.span_mm[1] - usual.span_mm[0]
     # a thicker wheel bends its pins more than its horns
     for thick in rounded_from(least, 2.0 * least):
         each = [sphere_horn(way, *angles, thick) for way in every_way(mechanism)]
@@ -87,7 +85,8 @@ def _pin(mechanism: Mechanism, ball: Ball, loads: PartLoads) -> float:
     """
     spec, L = mechanism.spec, ball.radius_mm
     inside, outside = ball.span_mm
-    hub = max(ball.opening_mm, 0.75 * inside * math.sin(min(ball.slot_end, 0.5 * math.pi)))
+    end = inside * math.sin(min(ball.slot_end, 0.5 * math.pi))
+    hub = max(ball.opening_mm, largest_hub(end))
     eye = min(ball.passing_mm(hub), 0.99 * L * (0.5 * math.pi - ball.arm))
     thinnest = inside * math.sin(ball.roller)
     space = PinSpace(outside - inside, thinnest, eye - wall_min(spec.size, L))
@@ -111,7 +110,7 @@ def _wheel_bored(mechanism: Mechanism, ball: Ball, loads: PartLoads) -> Ball:
     inside, outside = ball.span_mm
     end = inside * math.sin(min(ball.slot_end, 0.5 * math.pi))
     wall = wall_min(size, L)
-    # a hub with flat faces is in its shell
+    # a hub with flat faces stays in its shell, a hundredth short of the outer sphere
     widest = min(end - wall, 0.99 * math.sqrt((outside - inside) * (outside + inside)))
     most = min(end * 2.0 / 3.0, within_hub(size, "wheel"))
     trial = ball

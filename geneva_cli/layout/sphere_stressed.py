@@ -47,7 +47,7 @@ def _arm(spec: Spec, ball: Ball) -> ArmDimensions:
     """Return the dimensions of the flat arm that stands for the bent one; NaN without an arm."""
     size, L = spec.size, ball.radius_mm
     if not ball.arm_bore_mm:
-        return ArmDimensions(*[np.asarray(math.nan)] * len(ArmDimensions._fields))
+        return ArmDimensions.none()
     middle, thick = 0.5 * sum(ball.arm_span_mm), ball.arm_span_mm[1] - ball.arm_span_mm[0]
     wall, hole = wall_min(size, L), hole_radius(size, ball.pin_mm)
     bored = reach_or_bore(size, "crank", ball.arm_bore_mm)

@@ -51,7 +51,7 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     """Return the dimensions of a machine's parts, for parts of these sizes."""
     spec = assembly.full.spec
     size = spec.size
-    contact = sizes.wheel_thickness if size.face_width_mm is None else size.face_width_mm
+    contact = value_or(size.face_width_mm, sizes.wheel_thickness)
     end = ShaftEnd(_to_frame(assembly, sizes), sizes.arm_thickness, assembly.L)
     crank = sizes.arm_bore or sizes.crank_bore
     hub = size.wheel_hub_mm is not None or size.wheel_hub_length_mm is not None
@@ -113,7 +113,7 @@ def _arm(assembly: Assembly, sizes: Sizes, contact: float) -> ArmDimensions:
     """Return the arm's dimensions; NaN without an arm."""
     size = assembly.full.spec.size
     if not (sizes.arm_bore and sizes.pin):
-        return ArmDimensions(*[np.asarray(math.nan)] * len(ArmDimensions._fields))
+        return ArmDimensions.none()
     length = max(roller_reaches(assembly))
     passing = arm_passing(assembly, sizes, length)
     standing = 0.0 if is_whole(assembly, sizes) else sizes.lock
@@ -140,6 +140,6 @@ def key_of(standard: str | None, bore: float, length: float) -> KeyDimensions:
     except GenevaError:  # reported where the part is cut
         fitted = None
     if fitted is None:
-        return KeyDimensions(*[np.asarray(math.nan)] * len(KeyDimensions._fields))
+        return KeyDimensions.none()
     bearing = fitted.height - fitted.in_shaft
     return KeyDimensions(*map(np.asarray, (2.0 * bore, fitted.width, bearing, length)))

@@ -105,7 +105,9 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
         )
     # the holes of its screws take at most half of the bar, and leave a wall on either side
     bar, slide = max(arm / 10.0, 4.0 * wall_min(size, arm)), allowed.slot_clearance_mm
-    # the guide's rail, as wide as the bar, stands in front of it, and the arm's eye passes the rail
+    # The guide's rail, as wide as the bar, stands in front of it. The arm's eye passes the rail, a
+    # quarter of a bar away. Rail, clearance and bar lie behind the rail's front, and a tenth of the
+    # bar stands out behind the rack.
     rail = max(bottom + w, _eye(mechanism, arm) + 0.25 * bar)
     back = rail + 1.9 * bar + slide - (bottom + w)
     return RackSizes(arm, r, w, edge, bottom, lock, floor, recess, back, bar, slide)

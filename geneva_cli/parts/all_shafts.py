@@ -72,12 +72,13 @@ def _of_crank(first: Shaft, place: AxisPlace, outlines: Outlines) -> Shaft:
 
 
 def built_shafts(
-    size: Size, own: list[Shaft], beside: list[Seat], heights: tuple[float, float, float]
+    size: Size, own: list[Shaft], adjacent: list[Seat], heights: tuple[float, float, float]
 ) -> tuple[list[Member], float]:
     """Return the shafts, plain or turned, and the frame's lower face.
 
-    Turned are those that turn in the frame and reach its lower face. ``heights`` are that of the
-    frame of plain shafts, its upper face, and the lowest height at which parts pass.
+    Shafts that turn in the frame and reach its lower face are turned. ``adjacent`` are the faces of
+    parts that pass them. ``heights`` are the lower face of a frame of plain shafts, the upper face,
+    and the lowest height at which parts pass.
     """
     usual, top, free = heights
     turned = [size.shafts == "turned" and one.turns and one.low <= usual for one in own]
@@ -86,7 +87,7 @@ def built_shafts(
     axles = []
     for one, steps in zip(own, turned, strict=True):
         if steps:
-            axles.append(turned_shaft(size, one, top, free if _is_passed(one, beside) else None))
+            axles.append(turned_shaft(size, one, top, free if _is_passed(one, adjacent) else None))
         else:
             axles.append(one._replace(low=bottom if one.low == usual else one.low).plain(size))
     return axles, bottom
@@ -102,7 +103,7 @@ def passing(
         yield from (Seat(name, *gear_span(mechanism, outlines)) for name in NAMES)
 
 
-def arm_beside(outlines: Outlines, own: Iterable[Shaft]) -> Iterator[Seat]:
+def passing_arm(outlines: Outlines, own: Iterable[Shaft]) -> Iterator[Seat]:
     """Yield the faces of an arm whose end passes a wheel's shaft nearer than its shoulder."""
     if not has_arm(outlines):
         return
@@ -119,8 +120,8 @@ def _span(member: Member) -> Seat:
     return Seat(member.part.name, member.part.low, member.part.high)
 
 
-def _is_passed(shaft: Shaft, beside: Iterable[Seat]) -> bool:
+def _is_passed(shaft: Shaft, adjacent: Iterable[Seat]) -> bool:
     """Return True if parts on other axes are lower than what a shaft carries."""
     low = shaft.seats[0].low if shaft.seats else shaft.high
     own = {seat.part for seat in shaft.seats}
-    return any(one.low < low and one.part not in own for one in beside)
+    return any(one.low < low and one.part not in own for one in adjacent)

@@ -6,16 +6,15 @@ use. Drawing, solid, list of parts, sheet and the checks of shafts are projectio
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.curves import fit
-from geneva_cli.curves.edges import Edge
 from geneva_cli.curves.hole_walls import require_faces
-from geneva_cli.curves.plates import Group, Member, Plate, edged, plates
+from geneva_cli.curves.plates import Group, Member, Plate, plates
 from geneva_cli.curves.shapes import Contour, Point
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.layout import Dimension, Joint
@@ -27,6 +26,7 @@ from geneva_cli.outlines.crank import roller_centres
 from geneva_cli.outlines.outlines import Outlines, outlines, slot_walls
 from geneva_cli.outlines.wheel import wheel_contour
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
+from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.first_pair import first_pair, in_front
 from geneva_cli.parts.frame import FrameAndShafts, framed
 from geneva_cli.parts.gear_blanks import Gear
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from geneva_cli.curves.gear_teeth import Writer
 
 
-class FlatParts:
+class FlatParts(EdgedParts):
     """The parts of a machine in the wheel's frame.
 
     A part that the sizes leave no place for raises GenevaError, naming the key. Curved outlines
@@ -59,7 +59,7 @@ class FlatParts:
         tolerance: float | None = None,
         curves: str = "arcs",
     ) -> None:
-        self.mechanism = mechanism
+        super().__init__(mechanism)
         self.tolerance, self.curves = tolerance, curves
         self._known = known
 
@@ -101,20 +101,6 @@ class FlatParts:
             contour = wheel_contour(parts.assembly, parts.sizes, walls, stopped)
         turn = float(parts.assembly.wheel(np.zeros(1))[0])
         return self._edged([Member(wheel_part(parts, contour), turn=turn)])[0]
-
-    @property
-    def _edge(self) -> Edge:
-        """The edges of all plates but gears, whose edges are teeth."""
-        size = self.mechanism.spec.size
-        return Edge(size.edge_mm, rounded=size.edge_chamfer_mm is None)
-
-    def _plate(self, plate: Plate) -> Plate:
-        """Return a plate with the spec's edges."""
-        return plate._replace(edge=self._edge)
-
-    def _edged(self, members: Iterable[Member]) -> tuple[Member, ...]:
-        """Return members with the spec's edges."""
-        return tuple(edged(one, self._edge) for one in members)
 
     @cached_property
     def orbiting(self) -> tuple[Member, ...]:

@@ -27,7 +27,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import wheel_hub
-from geneva_cli.parts.all_shafts import all_shafts, arm_beside, built_shafts, passing
+from geneva_cli.parts.all_shafts import all_shafts, built_shafts, passing, passing_arm
 from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.gear_pair import gear_span
 from geneva_cli.parts.link_shafts import outside_links
@@ -86,10 +86,10 @@ def framed(
     top = free - shoulder_length(size, L)
     own = list(all_shafts(mechanism, outlines, bars, top - thick, first))
     others = (*first, *([Member(base)] if base else []))
-    beside = list(passing(mechanism, outlines, bars, others))
+    adjacent = list(passing(mechanism, outlines, bars, others))
     if size.shafts == "turned" and outlines:
-        beside += arm_beside(outlines, own)
-    axles, bottom = built_shafts(size, own, beside, (top - thick, top, free))
+        adjacent += passing_arm(outlines, own)
+    axles, bottom = built_shafts(size, own, adjacent, (top - thick, top, free))
     places = list(_standing(mechanism, bars))
     drilled = list(_drilled(mechanism, axles, places, top))
     _require_walls(drilled, wall_min(size, L), axles)

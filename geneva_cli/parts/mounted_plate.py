@@ -46,6 +46,7 @@ def shaft_hole(shaft: Plate | Stack, at: Point, top: float, fit_mm: float) -> Ci
     It is as wide as the bearing on a turned shaft, or as a bore for a plain one.
     """
     if isinstance(shaft, Stack):
+        # both are exactly the numbers of which the steps were made
         seat = next(step for step in shaft.plates if step.high == top)
         bearing = next(one for one in SERIES_60 if one.bore == 2.0 * around(seat.outline))
         return Circle(HOLES, at, 0.5 * bearing.outside)

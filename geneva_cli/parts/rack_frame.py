@@ -60,7 +60,8 @@ def rack_frame(mechanism: Mechanism) -> RackFrame:
         top -= shoulder_length(size, 2.0 * R)  # as on a wheel of 6 slots, whose L is 2 R
         bearing = bearing_up_to(2.0 * rack_bore(mechanism), "crank's shaft", "arm_bore_mm")
         thickness = max(thickness, bearing.width)
-    return RackFrame(top - thickness, top, arm, 0.0 - gap, thick.wheel, thick.arm)
+    stands = 0.0 - gap  # no -0.0
+    return RackFrame(top - thickness, top, arm, stands, thick.wheel, thick.arm)
 
 
 def has_arm(mechanism: Mechanism) -> bool:
@@ -83,7 +84,7 @@ def rack_shaft(mechanism: Mechanism) -> Member | None:
     # the keyway is on the side of the locking sector, as in the arm
     one = Shaft("crank's shaft", "crank", bore, seats, low, high, axis, math.pi, math.pi)
     if size.shafts == "turned" and low <= heights.bottom:
-        return turned_shaft(size, one, heights.top, None)
+        return turned_shaft(size, one, heights.top)
     return one.plain(size)
 
 
@@ -119,6 +120,7 @@ def guide(mechanism: Mechanism) -> tuple[Plate, ...]:
     on_rail, on_wall = (tuple(_row(sizes, at)) for at in _rows(sizes))
     rail = rectangle(LAYER, x + bar + slide, -half, x + 2.0 * bar + slide, half)
     wall = rectangle(LAYER, x - slide - 2.0 * bar, -half, x - slide, half)
+    # the cover ends a tenth of a bar inside the edges of wall and bar
     cover = rectangle(LAYER, x - slide - 1.9 * bar, -half, x + 0.9 * bar, half)
     return (
         Plate("guide rail", LAYER, rail, on_rail, heights.top, 0.0),

@@ -8,19 +8,18 @@ are projections of them. Their outlines are lines and arcs, so that no tolerance
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import cached_property
 from typing import Self
 
-from geneva_cli.curves.edges import Edge
 from geneva_cli.curves.hole_walls import require_faces
-from geneva_cli.curves.plates import Group, Member, Plate, edged, plates
+from geneva_cli.curves.plates import Group, Member, Plate, plates
 from geneva_cli.curves.shapes import Point
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.missing import NamedParts
 from geneva_cli.layout.plain_sizes import drawn_thicknesses
-from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.rack import RackSizes, rack_contour, rack_sizes
+from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.rack_arm import rack_arm, rack_crank
 from geneva_cli.parts.rack_frame import (
     bar_bolts,
@@ -32,14 +31,11 @@ from geneva_cli.parts.rack_frame import (
 )
 
 
-class RackParts:
+class RackParts(EdgedParts):
     """The parts of a machine, in its frame.
 
     A part that the sizes leave no place for raises GenevaError, naming the key.
     """
-
-    def __init__(self, mechanism: Mechanism) -> None:
-        self.mechanism = mechanism
 
     def within(self, tolerance: float, curves: str) -> Self:
         """Return these parts, which have no curves to fit."""
@@ -73,7 +69,7 @@ class RackParts:
         """The crank's arm; None without a pin for the roller."""
         if not has_arm(self.mechanism):
             return None
-        return rack_arm(self.mechanism)._replace(edge=self._edge)
+        return self._plate(rack_arm(self.mechanism))
 
     @cached_property
     def crank_without_arm(self) -> Member:
@@ -117,16 +113,6 @@ class RackParts:
         """
         if reason := self.mechanism.spec.no_parts:
             raise GenevaError(reason, ("drive", "kind"))
-
-    def _edged(self, members: Iterable[Member]) -> tuple[Member, ...]:
-        """Return members with the spec's edges."""
-        return tuple(edged(one, self._edge) for one in members)
-
-    @property
-    def _edge(self) -> Edge:
-        """The edges of all plates."""
-        size = self.mechanism.spec.size
-        return Edge(size.edge_mm, rounded=size.edge_chamfer_mm is None)
 
     @property
     def outside_mm(self) -> float | None:

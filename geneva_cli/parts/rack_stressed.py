@@ -35,7 +35,7 @@ def rack_stressed(mechanism: Mechanism) -> Stressed:
         ShaftSize(math.nan, math.nan),
         shaft_of(mechanism.spec, "crank", bore, end),
         _arm(mechanism, contact),
-        KeyDimensions(*[np.asarray(math.nan)] * len(KeyDimensions._fields)),
+        KeyDimensions.none(),
         key_of(size.crank_keyway, bore, thick),
     )
 
@@ -43,7 +43,7 @@ def rack_stressed(mechanism: Mechanism) -> Stressed:
 def _arm(mechanism: Mechanism, contact: float) -> ArmDimensions:
     """Return the arm's dimensions; NaN without an arm."""
     if not has_arm(mechanism):
-        return ArmDimensions(*[np.asarray(math.nan)] * len(ArmDimensions._fields))
+        return ArmDimensions.none()
     size, arm, heights = mechanism.spec.size, crank_arm(mechanism), rack_frame(mechanism)
     thick, hole = heights.stands - heights.arm, arm.pins[0].radius
     bored = reach_or_bore(size, "crank", rack_bore(mechanism))

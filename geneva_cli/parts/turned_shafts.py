@@ -16,7 +16,7 @@ from typing import NamedTuple
 from geneva_cli.curves.plates import Member, Plate, Stack
 from geneva_cli.curves.shapes import ORIGIN, Circle, Shape
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.bearings import Bearing, Circlip, bearing_up_to, circlip_up_to
+from geneva_cli.layout.bearings import Bearing, bearing_up_to, circlip_up_to
 from geneva_cli.layout.bores import Bore, fitted, rounded
 from geneva_cli.parts.shaft import SHAFT, Seat, Shaft
 from geneva_cli.spec.tables import Size
@@ -101,7 +101,7 @@ def _on_part(own: Bore, seat: Seat, section: Shape, ends_here: bool) -> Iterator
     else:
         yield Step(f"{name}, {own.shaft_note}".removesuffix(", "), section, seat.high)
     if own.end_diameter and not ends_here:
-        ring: Circlip = circlip_up_to(own.end_diameter)
+        ring = circlip_up_to(own.end_diameter)
         yield Step("circlip groove, DIN 471", _circle(ring.groove), seat.high + ring.width)
         yield Step("end", _circle(ring.shaft), seat.high + ring.width + ring.edge)
 

@@ -236,7 +236,7 @@ def test_printed_parts_are_of_pla() -> None:
     own = turret("size.process=print", "material.wheel.stress_max_MPa=30")
     assert named(own)["horn_stress_MPa"].limit == 30.0
     other = turret("size.process=print", "material.wheel.youngs_modulus_GPa=3")
-    assert "horn_stress_MPa" not in named(other) or named(other)["horn_stress_MPa"].passes
+    assert "horn_stress_MPa" not in named(other)  # of no known strength
 
 
 def test_default_sizes_of_a_print_hold_as_pla() -> None:

@@ -17,6 +17,7 @@ are neglected.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple, cast
 
 import numpy as np
@@ -36,6 +37,11 @@ class ArmDimensions(NamedTuple):
     hole: Array  # of the pin
     thickness: Array
     offset: Array  # c, from the force to the arm's mid-plane
+
+    @classmethod
+    def none(cls) -> ArmDimensions:
+        """Return the dimensions of a machine without an arm, all NaN."""
+        return cls(*[np.asarray(math.nan)] * len(cls._fields))
 
 
 def arm_stress_MPa(arm: ArmDimensions, force_N: Array) -> Array:

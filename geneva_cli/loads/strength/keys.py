@@ -8,6 +8,7 @@ fit between hub and shaft are neglected.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -22,6 +23,11 @@ class KeyDimensions(NamedTuple):
     width: Array
     bearing: Array  # height that stands in the hub, h - t1
     length: Array
+
+    @classmethod
+    def none(cls) -> KeyDimensions:
+        """Return the dimensions of a part without a key, all NaN."""
+        return cls(*[np.asarray(math.nan)] * len(cls._fields))
 
 
 class KeyStress(NamedTuple):
