@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -32,7 +33,9 @@ from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.gear_pair import FINE
 from geneva_cli.parts.plates import arm_plate
-from geneva_cli.parts.rack_parts import RackParts
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.rack_parts import RackParts
 
 PITCH = "PITCH"
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.measure import bounds
@@ -11,7 +12,9 @@ from geneva_cli.drawings.sheet.pack import packed_apart
 from geneva_cli.drawings.sheet.view import Block
 from geneva_cli.layout.projection import outlines_of, titled
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.rack_parts import RackParts
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.rack_parts import RackParts
 
 APART = 5.0  # mm between parts, and round them
 

@@ -10,7 +10,6 @@ from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.laws.law import Law
 from geneva_cli.kinematics.layout import AxisPlace, Layout, Pivot, crank_places, wheel_places
 from geneva_cli.machine import compatible
-from geneva_cli.machine.retimed import retimed
 from geneva_cli.machine.size_rules import refuse_sizes
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.tolerance_rules import refuse_tolerances
@@ -210,7 +209,10 @@ def build(spec: Spec) -> Mechanism:
     """
     compatible.refuse_conflicts(spec)
     plan = spec.drive.plan(spec.wheel, spec.motion, spec.given_distance_mm)
-    plan = retimed(plan, spec)
+    if spec.drive_before:
+        from geneva_cli.machine.retimed import retimed  # few machines have drives in series
+
+        plan = retimed(plan, spec, spec.drive_before)
     refuse_sizes(spec, plan.center_distance_mm, plan.ratio)
     refuse_tolerances(spec, plan.center_distance_mm, plan.ratio)
     return Mechanism(spec, *plan)

@@ -36,16 +36,15 @@ from geneva_cli.numerics.jet import Jet, Number, atan2, composed, piecewise
 from geneva_cli.numerics.latest import Latest
 
 if TYPE_CHECKING:
+    from geneva_cli.kinematics.drive import Drive
     from geneva_cli.machine.drives.transmission import Transmission
     from geneva_cli.machine.spec import Spec
     from geneva_cli.numerics.jet import Array
 
 
-def retimed(plan: Plan, spec: Spec) -> Plan:
-    """Return the plan of a spec's drive behind the drive before it; unchanged without one."""
-    if spec.drive_before is None:
-        return plan
-    before = cast("Transmission", spec.drive_before)  # ``compatible`` requires one
+def retimed(plan: Plan, spec: Spec, in_front: Drive) -> Plan:
+    """Return the plan of a spec's drive behind the drive in front of it."""
+    before = cast("Transmission", in_front)  # ``compatible`` requires one
     turn = 360.0 * spec.drive.turns
     each = tuple(
         _engagement(own, Timing(before, own, k * plan.period_deg), spec, plan.center_distance_mm)

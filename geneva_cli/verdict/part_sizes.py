@@ -18,7 +18,6 @@ from geneva_cli.layout.sphere_stressed import sphere_stressed
 from geneva_cli.layout.stressed import Stressed, stressed
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
-from geneva_cli.parts.rack_stressed import rack_stressed
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
@@ -63,7 +62,7 @@ def stressed_parts(machine: Mechanism, layout: Layout | None) -> Stressed | None
     """The stressed parts of a design, flat ones by their layout; None if they do not fit."""
     if layout or machine.spec.is_flat or not machine.spec.has_parts:
         return stressed(*layout) if layout else None
-    of = {"ball": _of_sphere, "rack": rack_stressed}
+    of = {"ball": _of_sphere, "rack": _of_rack}
     try:
         return of[machine.spec.wheel.PARTS](machine)
     except GenevaError:  # the check of the parts reports the error
@@ -73,6 +72,13 @@ def stressed_parts(machine: Mechanism, layout: Layout | None) -> Stressed | None
 def _of_sphere(machine: Mechanism) -> Stressed | None:
     ball = sized_ball(machine)
     return sphere_stressed(machine.spec, ball) if ball else None
+
+
+def _of_rack(machine: Mechanism) -> Stressed:
+    # no other machine needs a rack's parts
+    from geneva_cli.parts.rack_stressed import rack_stressed
+
+    return rack_stressed(machine)
 
 
 def _numbers(of: Stressed) -> list[float]:

@@ -62,7 +62,7 @@ COUPLER = FourBar(
 def test_a_retimed_crank_is_the_crank_behind_that_drive(wheel, front):
     """The drive's own machine writes the same path about its own anchors, without a chain rule."""
     plain = Crank().plan(wheel, None, 100.0)
-    (ours,) = retimed(plain, Spec(wheel, drive_before=front)).engagements
+    (ours,) = retimed(plain, Spec(wheel, drive_before=front), front).engagements
     (own,) = front.plan(wheel, None, 100.0).engagements
     assert (ours.entry_deg, ours.exit_deg) == (own.entry_deg, own.exit_deg)
     x = np.linspace(own.entry_deg, own.exit_deg, 41)
