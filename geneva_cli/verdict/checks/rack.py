@@ -1,4 +1,4 @@
-"""The check of a rack's horns."""
+"""The checks of a rack's horns and guide."""
 
 from __future__ import annotations
 
@@ -26,7 +26,9 @@ def rack_horn(name: str, mechanism: Mechanism) -> Check | None:
 
 
 def guide_locks(name: str, mechanism: Mechanism) -> Check | None:
-    """The coefficient of friction from which the guide locks, above that of roller and slot."""
+    """The coefficient of friction from which a rack's guide locks, above that of roller and slot."""
     friction = mechanism.spec.load.friction
+    if mechanism.output.turns or not friction:
+        return None
     value = strength(mechanism)["guide.locks_at_friction"]
-    return compared(name, value, "at least", friction) if value and friction else None
+    return compared(name, value, "at least", friction) if value else None
