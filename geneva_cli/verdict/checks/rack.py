@@ -26,7 +26,7 @@ def rack_horn(name: str, mechanism: Mechanism) -> Check | None:
 
 
 def guide_locks(name: str, mechanism: Mechanism) -> Check | None:
-    """The coefficient of friction from which a rack's guide locks, above that of roller and slot."""
+    """The friction from which a rack's guide locks, above that of roller and slot."""
     friction = mechanism.spec.load.friction
     if mechanism.output.turns or not friction:
         return None
