@@ -319,7 +319,7 @@ class Spec:
         'wheels of more than 360 slots are not drawn'
         """
         if not self.wheel.PARTS:
-            return f'the parts of gearing = "{self.wheel.NAME}" are not built'
+            return f'shafts and frame of gearing = "{self.wheel.NAME}" are not built'
         before = self.drive_before
         if before is not None and (self.drive.CRANKED or not before.GEARED):
             return (
