@@ -120,7 +120,7 @@ def test_the_bounds_hold_friction_of_fifty_digits(name, share):
             assert here <= found.high
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("design", STRAIGHT)
 @pytest.mark.parametrize("carried", [
     Load(0.4, 15, friction=0.1), Load(0.0, 15, friction=0.2, efficiency=0.8),

@@ -14,7 +14,7 @@ import repo
 from drawing_witness import vertices
 from py_mini_racer import MiniRacer
 from sampling import some
-from shapely import Polygon, affinity
+from shapely import LineString, Polygon, affinity
 from typer.testing import CliRunner
 
 from geneva_cli import Design, EllipticalGears, Linear, Load, Size, load
@@ -416,14 +416,15 @@ def test_teeth_of_gears_mesh_on_a_page(name, module):
             for body in scene(load(str(repo.DESIGNS / f"{name}.toml"), keys)).bodies
             if body.name.endswith("gear")
         )
+        outlines = [Polygon(vertices(gear.shapes[0], 1e-3)) for gear in (driver, driven)]
+        mesh = LineString([driver.centre, driven.centre]).buffer(20.0)  # three modules and more wide
         apart, common = math.inf, 0.0
         for t in np.linspace(0.0, 360.0, 61):
             placed = []
-            for gear in (driver, driven):
+            for gear, outline in zip((driver, driven), outlines, strict=True):
                 x, y, angle = body_pose(gear, t)
-                own = Polygon(vertices(gear.shapes[0], 1e-3))
-                own = affinity.rotate(own, angle, origin=(0, 0), use_radians=True)
-                placed.append(affinity.translate(own, x, y))
+                own = affinity.rotate(outline, angle, origin=(0, 0), use_radians=True)
+                placed.append(affinity.translate(own, x, y).intersection(mesh))
             apart = min(apart, placed[0].distance(placed[1]))
             common = max(common, placed[0].intersection(placed[1]).area)
         if backlash:

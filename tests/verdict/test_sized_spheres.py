@@ -184,7 +184,7 @@ def test_no_default_on_a_sphere_passes_beyond_its_steel(seed):
     Loads add no other failure than that of a strength.
     """
     draw = random.Random(seed)
-    for _ in range(some(30, 6)):
+    for _ in range(some(30, 2)):
         wheel = Spherical(draw.randint(3, 12), axes_deg=draw.choice((45.0, 60.0, 90.0, 100.0)))
         keyway = draw.choice((None, "DIN 6885-1"))
         size = Size(center_distance_mm=10.0 ** draw.uniform(1.3, 3.0), crank_keyway=keyway)
@@ -224,13 +224,13 @@ def test_no_default_on_a_sphere_passes_beyond_its_steel(seed):
 
 
 def test_a_batch_of_spheres_has_the_numbers_of_its_designs():
-    """Eight loads over decades; a design of a batch is sized as alone, to the last digits."""
+    """Loads over decades; a design of a batch is sized as alone, to the last digits."""
     spec = Spec(
         Spherical(6),
         size=Size(center_distance_mm=160.0, crank_keyway="DIN 6885-1"),
         load=Load(1e-9),
     )
-    torques = np.geomspace(0.01, 3e3, 8)
+    torques = np.geomspace(0.01, 3e3, some(8, 3))
     batch = many(spec, {"load.torque_Nm": torques}).machine
     for quantity in (pin, horn, wheel_shaft, crank_shaft, arm, crank_key):
         together = quantity(Designs(batch))
@@ -238,7 +238,7 @@ def test_a_batch_of_spheres_has_the_numbers_of_its_designs():
             alone = quantity(Designs(build(spec.with_("load.torque_Nm", float(torque)))))
             assert together.keys() == alone.keys()
             for name, column in together.items():
-                value = np.broadcast_to(np.ravel(column), (8,))[i]
+                value = np.broadcast_to(np.ravel(column), torques.shape)[i]
                 # a batch and a single design search the same peaks to some units in the last place
                 assert value == pytest.approx(np.ravel(alone[name])[0], rel=1e-12), (quantity, name)
 
