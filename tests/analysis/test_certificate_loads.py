@@ -64,7 +64,7 @@ def test_the_bounds_hold_formulas_of_fifty_digits(name):
             assert abs(exact(name, mpmath.radians(i))) <= found.high
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("design", STRAIGHT)
 @pytest.mark.parametrize("name", LOADS)
 def test_the_search_is_confirmed(design, name):

@@ -194,7 +194,7 @@ def test_the_same_torque_fits_a_larger_machine():
         assert 0.0 < found[name].value <= found[name].limit
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("seed", range(8))
 def test_no_default_passes_beyond_its_steel(seed):
     """Machines over decades of size and load: what passes has stresses below the steel's.
