@@ -20,6 +20,7 @@ FRONTS = (
 )
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", ["epicyclic-z4", "four-bar-z4", "slider-crank"])
 @pytest.mark.parametrize("front", FRONTS, ids=lambda front: front.NAME)
 def test_loads_of_drives_in_series(name, front):

@@ -346,6 +346,7 @@ def tried(words, given):
     return found
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.usefixtures("made_once")
 @pytest.mark.parametrize("name", COMMANDS)
 def test_command_lines(name, tmp_path, monkeypatch):
