@@ -19,7 +19,6 @@ from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Part, Shell, Solid
 from geneva_cli.curves.sphere import opposite
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.drawings.sphere.dimensions import dimensions
 from geneva_cli.kinematics.layout import Dimension, Pivot
 from geneva_cli.layout.alike import alike
 from geneva_cli.layout.missing import Missing, built_of, or_missing
@@ -29,13 +28,12 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
 from geneva_cli.outlines.sphere_wheel import POLE
-from geneva_cli.parts.rack_frame import rack_dimensions
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.spec.tables import Size
 from geneva_cli.table import Reading, Table, rows_table
 
 if TYPE_CHECKING:
-    from geneva_cli.drawings.model import PartsOfMachine
+    from geneva_cli.parts.parts_of_machine import PartsOfMachine
 
 # columns of a row of each kind
 KINDS = {
@@ -171,12 +169,7 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
     ]
     entries += _screws_and_edges(spec.size)
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
-    own_dimensions = {
-        "ball": ("dimensions of the shells", lambda: dimensions(model.ball)),
-        "rack": ("dimensions of the rack", lambda: rack_dimensions(model.rack.sizes)),
-    }
-    if spec.wheel.PARTS in own_dimensions:
-        entries += or_missing(*own_dimensions[spec.wheel.PARTS])
+    entries += model.kind.dimensions(model)
     if mechanism.law is None and spec.drive.CRANKED:
         entries += _straight(mechanism)
     elif spec.drive.CRANKED:

@@ -7,9 +7,10 @@ from collections.abc import Iterable
 from geneva_cli.curves.edges import Edge
 from geneva_cli.curves.plates import Member, Plate, edged
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.parts_of_machine import PartsOfMachine
 
 
-class EdgedParts:
+class EdgedParts(PartsOfMachine):
     """The parts of a machine whose plates have the edges of ``[size]``."""
 
     def __init__(self, mechanism: Mechanism) -> None:

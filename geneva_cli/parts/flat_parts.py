@@ -166,11 +166,6 @@ class FlatParts(EdgedParts):
         return self._plate(hub) if hub else None
 
     @property
-    def outside_mm(self) -> float | None:
-        """None: heights count from the wheel's lower face."""
-        return None
-
-    @property
     def horn_mm(self) -> float | None:
         """Thickness of the horns between slots and recesses; None without a lock."""
         return self.outlines.sizes.horn if self.outlines.crank else None

@@ -15,8 +15,9 @@ from geneva_cli.verdict.checks.check import Check
 if TYPE_CHECKING:
     from geneva_cli.collisions.full_turn import FullTurn
     from geneva_cli.collisions.machine_parts import MachineParts
-    from geneva_cli.drawings.model import PartsModel, PartsOfMachine
+    from geneva_cli.drawings.model import PartsModel
     from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.parts.parts_of_machine import PartsOfMachine
 
 Checks: TypeAlias = dict[str, str]  # name -> module:function in this folder
 
