@@ -10,7 +10,7 @@ sphere inwards from the wheel's outer face.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.analysis.timing import timings
@@ -109,7 +109,13 @@ def part_rows(spec: Spec, parts: Iterable[Part], outside: float | None = None) -
             "material": f"material.{name}",
             "density_kgm3": density,
             **_properties(solid, density, outside),
+            **({} if _at_one_height(kind) else {"z_low_mm": None, "z_high_mm": None}),
         }
+
+
+def _at_one_height(kind: Sequence[Solid]) -> bool:
+    """Return True if parts of a kind have the same height along the axis."""
+    return len({one.low for one in kind if not isinstance(one, Shell)}) < 2
 
 
 def _properties(solid: Solid, density: float, outside: float | None) -> Row:

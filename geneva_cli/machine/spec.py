@@ -308,8 +308,11 @@ class Spec:
         >>> Spec(Linear(6)).is_turned, Spec(External(400)).is_turned
         (True, False)
         """
+        # Teeth have checks of their own: their free angles.
+        if not self.wheel.PARTS or self.wheel.TOOTH_N_mm2:
+            return False
         # A rack of any length is checked by the slots that the crank reaches in a turn.
-        return bool(self.wheel.PARTS) and (not self.output.turns or self.wheel.z <= Z_DRAWN)
+        return not self.output.turns or self.wheel.z <= Z_DRAWN
 
     @property
     def no_parts(self) -> str:

@@ -8,11 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.curves import fit
 from geneva_cli.curves.hole_walls import require_faces
 from geneva_cli.curves.plates import Group, Member, Plate, plates
 from geneva_cli.curves.shapes import Contour, Point
@@ -38,9 +36,6 @@ from geneva_cli.parts.pair_teeth import pair_teeth
 from geneva_cli.parts.plates import arm_plate, locking_plates, roller_plates, wheel_part
 from geneva_cli.parts.shafts import crank_hub
 
-if TYPE_CHECKING:
-    from geneva_cli.curves.gear_teeth import Writer
-
 
 class FlatParts(EdgedParts):
     """The parts of a machine in the wheel's frame.
@@ -59,8 +54,7 @@ class FlatParts(EdgedParts):
         tolerance: float | None = None,
         curves: str = "arcs",
     ) -> None:
-        super().__init__(mechanism)
-        self.tolerance, self.curves = tolerance, curves
+        super().__init__(mechanism, tolerance, curves)
         self._known = known
 
     def within(self, tolerance: float, curves: str) -> FlatParts:
@@ -243,13 +237,6 @@ class FlatParts(EdgedParts):
     def round_gears(self) -> tuple[Member, ...]:
         """Those gears in the machine."""
         return tuple(gear.member for gear in self.toothed)
-
-    def writer(self, fine: float) -> Writer:
-        """Return a function that fits curves: within ``fine`` mm where no tolerance is set."""
-        if self.tolerance is None:
-            return lambda curve, a, b: fit.cubics(curve, a, b, fine)
-        kind, tolerance = fit.KINDS[self.curves], self.tolerance
-        return lambda curve, a, b: kind(curve, a, b, tolerance)
 
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:

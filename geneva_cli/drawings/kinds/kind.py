@@ -97,7 +97,6 @@ def kind_of(mechanism: Mechanism) -> PartsKind:
         "rack": "rack:Rack",
         "counter": "counter:Counter",
     }
-    wheel = mechanism.spec.wheel
-    name = kinds.get(wheel.PARTS or wheel.NAME, "unbuilt:Unbuilt")
+    name = kinds.get(mechanism.spec.wheel.PARTS, "unbuilt:Unbuilt")
     kind: PartsKind = load_named(f"drawings.kinds.{name}")()
     return kind

@@ -50,7 +50,7 @@ class Counter(Gearing):
         {"wheel": {"z": 4, "driver_teeth": 20}},
     )
     FLAT: ClassVar[bool] = False
-    PARTS: ClassVar[str] = ""
+    PARTS: ClassVar[str] = "counter"
     JUMPS: ClassVar[bool] = True
     TOOTH_N_mm2: ClassVar[float] = 14e3  # ISO 6336-1, method C: 14 N/(mm µm)
     DRIVES: ClassVar[tuple[str, ...]] = ("crank",)

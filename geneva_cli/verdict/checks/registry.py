@@ -121,7 +121,16 @@ RACK: Checks = {
     "cut_slot_mm": "process:width_in_rack",
     "parts": "buildable:plates",
 }
-STANDING = {"flat": STATIC, "ball": SPHERE, "rack": RACK}  # by ``Gearing.PARTS``
+# The checks of parts at rest, by ``Gearing.PARTS``; those of a counter's teeth are in MOTION.
+STANDING = {
+    "flat": STATIC,
+    "ball": SPHERE,
+    "rack": RACK,
+    "counter": {
+        "cut_plate_mm": "process:thickest_of_counter",
+        "parts": "buildable:plates",
+    },
+}
 # Checks of plates or shells in a whole turn.
 TURNING: Checks = {
     "dwell_hold": "play:dwell_hold",
