@@ -16,7 +16,7 @@ def counter_mesh(mechanism: Mechanism, sizes: CounterSizes) -> GearMesh:
     wide tooth of the pinion is on the x axis.
     """
     driver, pinion = sizes.driver, sizes.pinion
-    count, half = mechanism.spec.wheel.driver_teeth, sizes.half_space
+    count, half = round(math.tau / driver.step), sizes.half_space
     thinner = 0.25 * mechanism.spec.size.gear_backlash_mm / math.tan(driver.rack.angle)
     shifts = [teeth.rack.shift + thinner / teeth.rack.module for teeth in (driver, pinion)]
     ahead = tuple(half + k * driver.step for k in range(count))

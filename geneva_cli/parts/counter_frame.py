@@ -64,13 +64,15 @@ def heights(mechanism: Mechanism) -> Heights:
 def bore(mechanism: Mechanism, sizes: CounterSizes, part: str) -> Bore:
     """Return the bore of the pinion, "wheel", or of the driver, "crank".
 
-    It is that of the spec, or of a standard bearing up to half the root circle. Raises GenevaError,
-    naming the key, for a bore that leaves too thin a wall, or whose shape several pinions share.
+    It is that of the spec, or of a standard bearing up to L/6 or half the root circle. Raises
+    GenevaError, naming the key, for a bore that leaves too thin a wall, or whose shape several
+    pinions share.
     """
     size, key = mechanism.spec.size, f"{part}_bore_mm"
-    root = (sizes.pinion if part == "wheel" else sizes.driver).root
-    own, least = getattr(size, key), wall_min(size, mechanism.center_distance_mm)
-    radius = (bore_radius(0.5 * root) or 0.5 * root) if own is None else 0.5 * own
+    root, L = (sizes.pinion if part == "wheel" else sizes.driver).root, sizes.distance
+    own, least = getattr(size, key), wall_min(size, L)
+    most = min(0.5 * root, L / 12.0)
+    radius = (bore_radius(most) or most) if own is None else 0.5 * own
     if not radius:
         raise GenevaError(f"{key} = 0: a counter's gears stand on shafts; remove it", ("size", key))
     form = bore_of(size, part, radius)

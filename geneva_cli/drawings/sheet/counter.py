@@ -79,8 +79,7 @@ def _draw(view: View, parts: CounterParts, gear: str, member: Member, part: str)
         view.diameter([circle], sized.bore(view.fits, circle.radius))
     if gear == "driver":
         rim = Circle("", (0.0, 0.0), parts.sizes.rim)
-        view.diameter([rim], sized.lock(view.fits, parts.mechanism, rim.radius))
-        view.remark(f"rim {sized.plain(2.0 * rim.radius, 'Ø ')}")
+        view.diameter([rim], f"rim {sized.lock(view.fits, parts.mechanism, rim.radius)}")
     if gear == "pinion":
         wide = own[-1]
         view.remark(f"every second tooth is wide: {length(wide.high - own[0].low)}")

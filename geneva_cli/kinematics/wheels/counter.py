@@ -96,6 +96,10 @@ class Counter(Gearing):
         """The pinion in words."""
         return f"counter pinion of {self.z} wide and {self.z} narrow teeth"
 
+    def driven_by(self, drive: str, behind: str, rollers: str) -> str:
+        """The two teeth of its driver in words."""
+        return f"a driver{behind} with two of its {self.driver_teeth} teeth"
+
     def half_motion_deg(self, step: HalfStep) -> float:
         """Crank angle of one of the driver's teeth, 360°/N."""
         return 360.0 / self.driver_teeth

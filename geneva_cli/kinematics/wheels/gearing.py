@@ -190,6 +190,14 @@ class Gearing(SpecTable):
         """
         return f"{self.NAME} wheel of {self.z} {slots} slots"
 
+    def driven_by(self, drive: str, behind: str, rollers: str) -> str:
+        """What drives the wheel in words: a drive, what is in front of it, and its rollers.
+
+        >>> External(6).driven_by("a crank", "", "one roller")
+        'a crank with one roller'
+        """
+        return f"{drive}{behind} with {rollers}"
+
     @property
     def own_sizes(self) -> dict[str, float]:
         """Values by name that a report shows for this kind of wheel only."""
