@@ -63,7 +63,7 @@ class CounterParts(EdgedParts):
     @cached_property
     def mesh(self) -> GearMesh:
         """The teeth of all gears."""
-        return counter_mesh(self.mechanism, self.sizes)
+        return counter_mesh(self.sizes)
 
     @cached_property
     def heights(self) -> Heights:
