@@ -291,6 +291,7 @@ def test_masses_and_counts_of_the_list():
             assert row["mass_kg"] == pytest.approx(mass, abs=7850e-9 * 1e-3 * shape.length * high)
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_what_does_not_fit_is_refused_with_its_key():
     for spec, size, text in (
         (Counter(4), Size(crank_bore_mm=130.0), "crank_bore_mm = 130: the teeth begin at"),
