@@ -28,7 +28,7 @@ def links_at(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
     L, m, still = mechanism.center_distance_mm, mechanism.spec.drive.rollers, 0.0 * input_deg
     joints = [(still + L, still)]
     for k in range(m):
-        x, y = L * roller_in_groove(groove, input_deg - 360.0 * k / m).T
+        x, y = L * roller_in_groove(groove, own_deg - 360.0 * k / m).T
         joints.append((x, y))
     return (*own, Link("crank", tuple(joints), (Joint.SHAFT, *[Joint.CARRIED] * m), 1))
 

@@ -76,8 +76,8 @@ class Mechanism(NamedTuple):
 
     @property
     def law(self) -> Law | None:
-        """Motion law, or None if the motion follows from path and slot."""
-        return self.engagements[0].motion.law
+        """Motion law by the angle of the drive's own input shaft; None for straight slots."""
+        return self.engagements[0].own.motion.law
 
     @property
     def output(self) -> Output:
@@ -99,7 +99,7 @@ class Mechanism(NamedTuple):
         law = self.law
         if law is None:
             return None
-        motion_deg = self.engagements[0].motion_deg
+        motion_deg = self.engagements[0].own.motion_deg
         matched = self.spec.drive.matched_ratio(self.spec.wheel, law, motion_deg)
         return None if math.isnan(matched) else float(matched)
 

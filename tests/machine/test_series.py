@@ -37,6 +37,7 @@ from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.retimed import retimed
 from geneva_cli.machine.spec import Spec
+from geneva_cli.outlines.outlines import outlines
 from geneva_cli.specfile.tree import spec_of
 from geneva_cli.specfile.writer import spec_lines
 from geneva_cli.study.animation.bodies import bodies
@@ -44,6 +45,7 @@ from geneva_cli.study.animation.turn import MachineTurn
 
 GEARS = EllipticalGears(eccentricity=0.2, gear_distance_mm=50.0)
 PLANET = Epicyclic(planet_ratio="shockless")
+TWO_CRANKS = Crank(rollers=2, crank_steps=(0, 3))
 COUPLER = FourBar(
     crank_mm=40.0,
     ground_mm=90.0,
@@ -99,6 +101,9 @@ def test_speed_and_jump_scale_with_the_ratio_of_the_gears(drive):
         (Epicyclic(planet_ratio=0.01), "drive.planet_ratio", (-0.02, 0.0, 0.02)),
         (COUPLER, "drive.point_mm", (160.0, 161.5, 163.0)),
         (SideCrank(A=0.3), "drive.A", (0.1, 0.5)),
+        (GearSector(sector_deg=40.0), "drive.sector_deg", (30.0, 60.0)),
+        (Cam(), "motion.alpha0_deg", (0.0, 8.0)),
+        (Crank(rollers=2), "drive.before.eccentricity", (0.0, 0.3)),
         (
             EllipticalGears(eccentricity=0.1, rollers=2),
             "drive.before.gear_distance_mm",
@@ -108,7 +113,9 @@ def test_speed_and_jump_scale_with_the_ratio_of_the_gears(drive):
     ids=lambda value: value if isinstance(value, str) else "",
 )
 def test_a_batch_has_the_numbers_of_single_designs(drive, key, values):
-    spec = Spec(External(4), drive, drive_before=GEARS)
+    law = Motion(Cycloidal()) if drive.NAME in ("cam", "crank") else None
+    wheel = External(8 if law and drive.rollers > 1 else 4)
+    spec = Spec(wheel, drive, law, drive_before=GEARS)
     batch = many(spec, {key: np.array(values)})
     built = [x for x, refused in zip(values, batch.refused.tolist(), strict=True) if not refused]
     assert built == [x for x in values if x != 1.5]
@@ -127,14 +134,43 @@ def test_a_batch_has_the_numbers_of_single_designs(drive, key, values):
                 assert abs(a - b).max() <= 1e-14 * abs(b).max()
 
 
+LAWFUL = (
+    Spec(External(6), motion=Motion(Cycloidal(), ratio="matched")),
+    Spec(External(6), Cam(), Motion(Cycloidal())),
+    Spec(External(3), GearSector(sector_deg=60.0)),
+)
+
+
+@pytest.mark.parametrize("spec", LAWFUL, ids=lambda spec: spec.drive.NAME)
+def test_the_parts_of_wheel_and_crank_do_not_change(spec):
+    """A law holds by the crank's angle, so that gears change when it is reached, not the slot."""
+    plain, geared = (build(spec.replace(drive_before=before)) for before in (None, GEARS))
+    assert geared.ratio == plain.ratio
+    (here,), (own,) = geared.engagements, plain.engagements
+    x = np.linspace(here.entry_deg, here.exit_deg, 61)[1:-1]
+    for a, b in zip(here.slot(x, 0), own.slot(here.own_deg(x), 0), strict=True):
+        assert np.abs(a.c[0] - b.c[0]).max() <= 1e-15
+    assert here.inputs_deg(here.own_deg(x)) == pytest.approx(x, abs=1e-12)
+    assert outlines(geared).wheel == outlines(plain).wheel
+
+
+def test_both_rollers_of_gear_sectors_have_their_own_phase():
+    """Each crosses the line of centres when gears have turned its own angle: Kepler's, by hand."""
+    machine = build(LAWFUL[2].replace(drive_before=GEARS))
+    (here,), k = machine.engagements, (1.0 + 0.2) / (1.0 - 0.2)
+    for (passage, ahead), at in zip(here.passages, (-30.0, 30.0), strict=True):
+        middle = 2.0 * math.degrees(math.atan(k * math.tan(math.radians(0.5 * at))))
+        assert -ahead == pytest.approx(middle, rel=1e-14)
+        y = passage.path(0.0, 0)[1].c[0]
+        assert abs(y) <= 1e-16
+
+
 @pytest.mark.parametrize(
     "wheel, drive, before, motion, message",
     [
-        (External(6), Crank(), GEARS, None, "its crank is on the shaft: set that kind in"),
+        (External(6), Crank(), GEARS, None, 'set kind = "elliptical-gears" in .drive. instead'),
+        (External(6), TWO_CRANKS, GEARS, Motion(Cycloidal()), "work in even turns of the input"),
         (External(6), Carousel(), GEARS, None, "its carrier turns at a constant speed"),
-        (External(3), GearSector(sector_deg=60.0), GEARS, None, "two rollers would run in diff"),
-        (External(6), Cam(), GEARS, Motion(Cycloidal()), "its groove gives any law without gears"),
-        (External(6), SideCrank(A=0.2), GEARS, Motion(Cycloidal()), "would only change the slots"),
         (External(4), PLANET, GenevaPair(first_z=4), None, "cannot turn the shaft of another"),
         (External(4), PLANET, COUPLER, None, "cannot turn the shaft of another"),
         (External(4), PLANET, GEARS.replace(n_rpm=30.0), None, "set them in .drive., not in"),

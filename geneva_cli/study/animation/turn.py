@@ -61,9 +61,9 @@ class MachineTurn:
             for i, one in enumerate(each)
         )
         self._carried = [
-            (one.engagement.through, one.mid - ahead)
+            (passage, one.mid - ahead)
             for one in self.passages
-            for ahead in one.engagement.ahead_deg
+            for passage, ahead in one.engagement.passages
         ]
         self.start = self.passages[0].entry
         self.end = self.start + self.whole
@@ -140,7 +140,7 @@ class MachineTurn:
         half = 0.5 * self.whole
         at = (input_deg - mid + half) % self.whole - half
         if engagement.groove is not None:
-            return self.L * roller_in_groove(engagement.groove, at)
+            return self.L * roller_in_groove(engagement.groove, engagement.own_deg(at))
         x, y = (along.c[0] + 0.0 * at for along in engagement.path(at, 0))
         return self.L * np.column_stack((x, y))
 
