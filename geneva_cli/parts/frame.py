@@ -137,7 +137,7 @@ def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
     cranks = [one.at for one in mechanism.crank_places]
     seen = [*(wheels if mechanism.spec.wheel.SIGN > 0.0 else []), *cranks]
     if mechanism.spec.gears:
-        seen.append((L + mechanism.spec.gears.distance_mm, 0.0))
+        seen.append((mechanism.gear_shaft.x_mm + mechanism.spec.gears.distance_mm, 0.0))
     yield from seen
     for axis in bars.axes:
         if axis.stands and not any(same(axis.at, one, L) for one in seen):

@@ -47,10 +47,11 @@ def law_peaks(machine: Mechanism) -> dict[str, Any]:
 
     For a batch they are arrays (n, 1).
     """
-    if machine.law is None:
+    law = machine.engagements[0].motion.law
+    if law is None:
         return {}
     (engagement,) = machine.engagements
-    C_v, C_a, C_j, C_p = law_costs(machine.law)
+    C_v, C_a, C_j, C_p = law_costs(law)
     step, rate = 2.0 * engagement.half_step, 1.0 / (engagement.motion_deg * (math.pi / 180.0))
     speed = omega(machine.spec.drive.n_rpm)
     entry = engagement.motion(engagement.entry_deg, 2).derivatives()[2]
