@@ -12,8 +12,9 @@ from geneva_cli.curves.drawing import Annotations, Drawing, LevelDistance
 from geneva_cli.curves.plates import Group, Member, Plate
 from geneva_cli.curves.shapes import ORIGIN, Circle, Contour
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.plain_sizes import drawn_thicknesses, wall_min
+from geneva_cli.layout.plain_sizes import drawn_thicknesses
 from geneva_cli.layout.projection import outlines_of, placed, titled
+from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.outlines.counter import (
     CounterSizes,
