@@ -300,6 +300,15 @@ class Spec:
         return not self.no_parts
 
     @property
+    def guided(self) -> bool:
+        """True if a rack slides in a guide, which stands on the frame of its crank.
+
+        >>> Spec(Linear(6)).guided, Spec(External(6)).guided
+        (True, False)
+        """
+        return not self.output.turns and self.drive.direct
+
+    @property
     def is_turned(self) -> bool:
         """True if wheel and crank can be checked for collisions in a full turn of the crank.
 

@@ -20,7 +20,8 @@ from geneva_cli.curves.shapes import ORIGIN, Circle, Point
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bearings import shoulder_length
 from geneva_cli.layout.link_positions import same
-from geneva_cli.layout.plain_sizes import drawn_thicknesses, wall_min
+from geneva_cli.layout.plain_sizes import drawn_thicknesses
+from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
