@@ -7,8 +7,6 @@ from geneva_cli.curves.plates import Group, Member
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.layout.projection import circle_key, once, outlines_of, shapes, titled
 from geneva_cli.parts.counter_parts import CounterParts
-from geneva_cli.layout.plain_sizes import drawn_thicknesses
-from geneva_cli.machine.least_wall import wall_min
 
 
 def wheel(parts: CounterParts) -> Drawing:

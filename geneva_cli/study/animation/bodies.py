@@ -14,7 +14,7 @@ from geneva_cli.curves.shapes import Circle, Contour, Line, Shape, closed
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.gear_curves import gears_table
-from geneva_cli.scene import Body
+from geneva_cli.scene import Body, Track
 from geneva_cli.study.animation.rack import rack
 from geneva_cli.study.animation.tracks import still
 from geneva_cli.study.animation.turn import MachineTurn
