@@ -17,7 +17,8 @@ from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bearings import shoulder_length
 from geneva_cli.layout.bores import Bore, bore_of, has_shape
-from geneva_cli.layout.plain_sizes import drawn_thicknesses, wall_min
+from geneva_cli.layout.plain_sizes import drawn_thicknesses
+from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.outlines.counter import CounterSizes

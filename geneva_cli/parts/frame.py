@@ -20,7 +20,8 @@ from geneva_cli.curves.shapes import ORIGIN, Circle, Point
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bearings import shoulder_length
 from geneva_cli.layout.link_positions import same
-from geneva_cli.layout.plain_sizes import drawn_thicknesses, wall_min
+from geneva_cli.layout.plain_sizes import drawn_thicknesses
+from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
@@ -137,7 +138,7 @@ def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
     cranks = [one.at for one in mechanism.crank_places]
     seen = [*(wheels if mechanism.spec.wheel.SIGN > 0.0 else []), *cranks]
     if mechanism.spec.gears:
-        seen.append((L + mechanism.spec.gears.distance_mm, 0.0))
+        seen.append((mechanism.gear_shaft.x_mm + mechanism.spec.gears.distance_mm, 0.0))
     yield from seen
     for axis in bars.axes:
         if axis.stands and not any(same(axis.at, one, L) for one in seen):

@@ -12,7 +12,8 @@ from geneva_cli.curves.shapes import Circle, Point
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bearings import SERIES_60
 from geneva_cli.layout.bores import around
-from geneva_cli.layout.plain_sizes import half_or, wall_min
+from geneva_cli.layout.plain_sizes import half_or
+from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.spec.tables import Size
 
