@@ -48,7 +48,9 @@ class PartsModel:
 
     def over(self, mechanism: Mechanism) -> PartsModel:
         """Return the model of a machine whose parts have the same outlines and positions."""
-        to_input = mechanism.spec.input_deg
+        from geneva_cli.layout.assembly import input_of
+
+        to_input = input_of(mechanism)
         assembly = self.parts.assembly._replace(full=mechanism, to_input=to_input)
         if mechanism.spec.wheel.FLAT:
             return PartsModel(mechanism, self.outlines.over(assembly), self.advice)
