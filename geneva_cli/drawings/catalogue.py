@@ -91,7 +91,12 @@ PARTS = {
         rack="drawings.rack:assembly",
         counter="drawings.counter:assembly",
     ),
-    "gears": Part("layout.gear_curves:gears_table", "drawings.part_drawings:gears", alone=True),
+    "gears": Part(
+        "layout.gear_curves:gears_table",
+        "drawings.part_drawings:gears",
+        alone=True,
+        rack="drawings.part_drawings:gears",
+    ),
     "groove": Part("layout.groove:groove_table", "drawings.part_drawings:groove"),
     "groove-plate": Part(drawing="drawings.part_drawings:groove_plate", cut=True),
     "coupon": Part(drawing="drawings.coupon:coupon", cut=True),

@@ -148,8 +148,11 @@ class PartsModel:
     @property
     def all_built(self) -> list[tuple[str, Callable[[], PartsOfMachine]]]:
         """Names and functions of all parts: before a sphere or a rack links and gears are flat."""
-        wheel = self.mechanism.spec.wheel
+        spec = self.mechanism.spec
+        wheel = spec.wheel
         apart = wheel.PARTS and not wheel.FLAT
+        if not spec.output.turns and spec.has_parts:  # a rack's frame holds its gears, too
+            return [("all parts", lambda: self.built)]
         own = [("wheel and crank", lambda: self.built)] if apart else []
         return [*own, ("all parts", lambda: self.flat)]
 

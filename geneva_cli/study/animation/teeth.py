@@ -36,7 +36,10 @@ def drawn_teeth(design: Design) -> DrawnTeeth:
         return DrawnTeeth((), {})
     try:
         # a hundredth of a millimetre is less than a screen shows
-        flat = design.parts_model.flat.within(0.01, "arcs")
+        model = design.parts_model
+        if not design.mechanism.output.turns:
+            return DrawnTeeth(tuple(map(_shapes, model.rack.within(0.01, "arcs").gear_pair)), {})
+        flat = model.flat.within(0.01, "arcs")
         pair = tuple(map(_shapes, flat.gear_pair))
         return DrawnTeeth(pair, {one.name: _shapes(one.member) for one in flat.toothed if one.cut})
     except GenevaError as error:
