@@ -307,7 +307,7 @@ def machine_text(rng, kind=None):
         text.append(f"stop_stress_max_MPa = {near(rng, 900.0)!r}")
     if kind == "crank" and rng.random() < 0.06:
         return rack_text(rng)
-    if not drive(kind).FIRST and not curved and kind != "crank" and rng.random() < 0.3:
+    if not drive(kind).FIRST and (curved or kind != "crank") and rng.random() < 0.3:
         ahead = rng.choice([name for name in DRIVES if drive(name).IN_FRONT])
         text += ["[drive.before]", f'kind = "{ahead}"', *own_keys(rng, ahead)]
     if rng.random() < (0.6 if kind == "carousel" else 0.1):
