@@ -142,6 +142,8 @@ class _Search:
         self.mechanism, self.parts = adviser.mechanism, adviser.parts
         self.wanted = sorted(wanted, key=_needs_parts)  # the quick ones first
         self.turned = any(c.name in TURNED for c in wanted)
+        # a trial searches the loads of each motion of a period: three take 30 ms
+        self.glance = GLANCE * math.ceil(len(self.mechanism.under_load.engagements) / 3)
         self.may_fail = {c.name for c in adviser.failing} - {c.name for c in wanted}
         now = list(self._margins(self.mechanism))
         self.units = [max(abs(left), 1e-300) for left in now]
@@ -206,7 +208,7 @@ class _Search:
         It is the first that is negative, or else the least. Only quick checks are made. A value
         that makes no machine has -inf.
         """
-        self._spend(GLANCE)
+        self._spend(self.glance)
         spec = changed(self.mechanism.spec, change.table, change.key, value)
         if spec is None:
             return -math.inf

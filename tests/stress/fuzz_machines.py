@@ -312,7 +312,40 @@ def machine_text(rng, kind=None):
         text += ["[drive.before]", f'kind = "{ahead}"', *own_keys(rng, ahead)]
     if rng.random() < (0.6 if kind == "carousel" else 0.1):
         text += bodies(rng, L, kind == "carousel")
+    if kind == "crank" and rng.random() < 0.05:
+        return counter_text(rng)
+    if kind == "crank" and straight and not skewed and "stop = true" not in text:
+        at = text.index("[drive]") + 2
+        text[at:at] = cranks(rng, z) if rng.random() < 0.6 else []
     return "\n".join(fitting(text)) + "\n"
+
+
+def cranks(rng, z):
+    """The lines of several cranks about a wheel, which mostly fit beside each other."""
+    steps = [0, *sorted(rng.sample(range(1, z), rng.choice([1, 1, 1, 2])))]
+    if rng.random() < 0.05:
+        steps[0] = 0.5  # which is refused
+    return [f"rollers = {len(steps)}", f"crank_steps = {steps}"]
+
+
+def counter_text(rng):
+    """A counter's pinion and driver, mostly as the default has them."""
+    text = ["[wheel]", f"z = {rng.choice([3, 4, 4, 5, 6, 10, rng.randint(3, 60)])}"]
+    text.append('gearing = "counter"')
+    if rng.random() < 0.8:
+        text.append(f"driver_teeth = {rng.choice([20, 20, 10, 12, 40, rng.randint(6, 200)])}")
+    if rng.random() < 0.5:
+        text.append(f"number_wheels = {rng.choice([2, 3, 4, 6, 24])}")
+    text += ["[drive]", f"n_rpm = {near(rng, 60.0, 1.0)!r}", "[size]"]
+    text.append(f"center_distance_mm = {near(rng, 30.0, 0.6)!r}")
+    sizes = {"face_width_mm": 4.0, "gear_backlash_mm": 0.05, "lock_clearance_mm": 0.05}
+    sizes |= {"wheel_bore_mm": 3.0, "crank_bore_mm": 4.0}
+    text += [f"{key} = {near(rng, v)!r}" for key, v in sizes.items() if rng.random() < 0.4]
+    if rng.random() < 0.4:
+        text.append(f'process = "{rng.choice(WORDED["process"])}"')
+    if rng.random() < 0.7:
+        text += ["[load]", f"inertia_kgm2 = {near(rng, 1e-5, 1.0)!r}"]
+    return "\n".join(text) + "\n"
 
 
 def fitting(text):
