@@ -11,7 +11,7 @@ import heapq
 import math
 from collections.abc import Iterable
 
-from geneva_cli.curves.sphere import Vector, cross, dot, unit
+from geneva_cli.curves.sphere import Vector, unit
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.mesh.polygons import CORNERS_MAX, Triangle
 
@@ -91,13 +91,21 @@ class SphereFace:
         return tried
 
     def _is_below(self, a: int, b: int, c: int, d: int) -> bool:
-        """Return True if the plane of a, b and c is below the corner d."""
-        p, q, r, s = (self.corners[i] for i in (a, b, c, d))
-        u, v, w = _less(q, p), _less(r, p), _less(s, p)
-        normal = cross(u, v)
+        """Return True if the plane of a, b and c is below the corner d.
+
+        Number by number, since a fine mesh asks a million times.
+        """
+        corners = self.corners
+        px, py, pz = corners[a]
+        qx, qy, qz = corners[b]
+        rx, ry, rz = corners[c]
+        sx, sy, sz = corners[d]
+        ux, uy, uz = qx - px, qy - py, qz - pz
+        vx, vy, vz = rx - px, ry - py, rz - pz
+        wx, wy, wz = sx - px, sy - py, sz - pz
+        volume = (uy * vz - uz * vy) * wx + (uz * vx - ux * vz) * wy + (ux * vy - uy * vx) * wz
+        if volume <= 0.0:
+            return False
         # four corners within 1e-9 of the product of three sides are in one plane
-        return dot(normal, w) > 1e-9 * math.hypot(*u) * math.hypot(*v) * math.hypot(*w)
-
-
-def _less(p: Vector, q: Vector) -> Vector:
-    return p[0] - q[0], p[1] - q[1], p[2] - q[2]
+        sides = math.hypot(ux, uy, uz) * math.hypot(vx, vy, vz) * math.hypot(wx, wy, wz)
+        return volume > 1e-9 * sides
