@@ -17,6 +17,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import assembled
 from geneva_cli.outlines.rack import locking_sector, rack_contour, rack_sizes
 from geneva_cli.outlines.rack_outlines import turned_rack
+from geneva_cli.parts.rack_parts import RackParts
 from geneva_cli.parts.rack_stressed import rack_stressed
 
 R, r = 50.0, 6.0
