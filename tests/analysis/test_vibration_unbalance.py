@@ -149,7 +149,7 @@ def test_a_shaft_too_soft_for_the_force_has_no_values():
     table = carousel(1.5).vibration().to_dict()
     assert table["residual_share"] is None
     (text,) = table["warnings"]
-    assert "above 0.2 its mean does not count for it: use a stiffer shaft" in text
+    assert "times the shaft's stiffness, above 0.2: use a stiffer shaft" in text
 
 
 def test_on_the_ground_and_in_balance_nothing_pulls():

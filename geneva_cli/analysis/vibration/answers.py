@@ -66,9 +66,8 @@ def _unknown(mechanism: Mechanism, load: Oscillator | None) -> str:
     if share <= MOST:
         return ""
     return (
-        f"the centrifugal force of bodies off the wheel's axis turns the load as if by {share:.3g} "
-        f"times the shaft's stiffness, and above {MOST:g} its mean does not count for it: use a "
-        "stiffer shaft"
+        "the centrifugal force of bodies off the wheel's axis acts as a spring of "
+        f"{share:.3g} times the shaft's stiffness, above {MOST:g}: use a stiffer shaft"
     )
 
 
