@@ -76,7 +76,7 @@ CONFLICTS = (
         'kind = "{before}" cannot turn the shaft of another drive: remove [drive.before]',
     ),
     Conflict(
-        lambda s: s.drive_before and s.drive.FIRST,
+        lambda s: s.drive_before and s.drive.FIRST and not _cranks(s),
         ("drive", "before"),
         'kind = "{before}" cannot stand before kind = "{drive}": {first}',
     ),
