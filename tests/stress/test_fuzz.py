@@ -62,7 +62,7 @@ def here():
         yield
 
 
-@fuzz(some(8, 2))
+@fuzz(some(8, 1))
 @given(seeds)
 def test_random_machines_are_certified(seed):
     """`make certify` is the long version."""

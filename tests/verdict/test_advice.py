@@ -117,7 +117,7 @@ def stands(text: str, folder: Path, rows: list[Check], parts: bool) -> None:
     assert all_pass(checks(taken, parts=parts)), said
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("name", [name for name in ALL if name not in HELPLESS])
 def test_advice_passes_when_it_is_taken(name: str, tmp_path: Path) -> None:
     parts = name in PARTS  # of the others the motion and the limits: their parts take their time
@@ -149,7 +149,7 @@ NEAREST = {
 }
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", NEAREST)
 def test_no_nearer_value_passes(name: str, tmp_path: Path) -> None:
     """Values between the present one and the advice all fail, up to 3% of the change from it."""
