@@ -16,8 +16,9 @@ from py_mini_racer import MiniRacer
 from sampling import some
 from shapely import LineString, Polygon, affinity
 from typer.testing import CliRunner
+from words import law
 
-from geneva_cli import Design, EllipticalGears, Linear, Load, Size, load
+from geneva_cli import Design, EllipticalGears, External, Linear, Load, Motion, Size, load
 from geneva_cli.app import app
 from geneva_cli.collisions.gaps import Gaps
 from geneva_cli.collisions.machine_parts import Pose
@@ -201,6 +202,16 @@ def test_the_force_is_the_pin_force_and_pushes_the_wheel_the_way_it_is_driven():
         # friction turns with the normal's torque: 0.05 of it, on the wall's arm of a roller
         assert 1e-3 * (x * fy - y * fx) == pytest.approx(torque, rel=0.02)
     assert engine.eval("pushAt(scene.pushes[0], 200)") is None
+
+
+def test_a_place_without_a_bound_on_the_force_has_no_arrow():
+    """At mid-motion of an unmatched law the slot stands still on one of the 73 places."""
+    design = Design(
+        External(24), motion=Motion(law("4-5-6-7"), alpha0_deg=-60.0), load=Load(torque_Nm=3.0)
+    )
+    (push,) = scene(design).pushes
+    assert len(push.at) == 72
+    assert all(map(math.isfinite, (*push.force_x, *push.force_y)))
 
 
 def test_a_gif_moves_as_the_page_does(tmp_path, monkeypatch):

@@ -17,7 +17,7 @@ from sampling import some
 from turn_witness import ROUNDING, TO_MM, check_bounds, least_gap, turn_of
 from words import load
 
-from geneva_cli.collisions import settled as halving
+from geneva_cli.collisions import certificate as halving
 from geneva_cli.collisions.certificate import certificate
 from geneva_cli.collisions.full_turn import full_turn
 from geneva_cli.curves.distance import Polyarc
