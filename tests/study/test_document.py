@@ -121,7 +121,7 @@ def has(cells: set[str], told: str, value: Any) -> bool:
     return value_text(value).replace("\u00a0", " ") in cells
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", KINDS)
 def test_every_value_of_the_report_is_on_the_page(name: str) -> None:
     design, found = of(name)

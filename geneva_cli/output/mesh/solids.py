@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -142,7 +143,9 @@ def _place(member: Member) -> Place:
     return Place(turn, np.array([*member.at, 0.0]))
 
 
+@lru_cache(maxsize=32)  # an export writes each solid by itself, and all of them together
 def _surface(solid: Solid, tolerance: float) -> Surface:
+    """Return the surface of a solid, which must not be changed."""
     if not tolerance > 0.0:
         raise GenevaError(f"--tolerance {tolerance:g}: it must be above 0 mm")
     if isinstance(solid, Shell):
