@@ -35,6 +35,7 @@ from geneva_cli.parts.gear_pair import FINE
 from geneva_cli.parts.plates import arm_plate
 
 if TYPE_CHECKING:
+    from geneva_cli.parts.counter_parts import CounterParts
     from geneva_cli.parts.rack_parts import RackParts
 
 PITCH = "PITCH"
@@ -110,7 +111,7 @@ def _side_by_side(plates: Iterable[Plate], between: float) -> Iterator[Member]:
         top += box.y1 - box.y0 + between
 
 
-def frame(parts: FlatParts | RackParts) -> Drawing:
+def frame(parts: FlatParts | RackParts | CounterParts) -> Drawing:
     """Return the frame as it is drilled."""
     solid = parts.frame.part
     return Drawing(titled(parts.mechanism, "frame"), outlines_of(solid), solid=solid)

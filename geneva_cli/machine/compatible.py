@@ -240,6 +240,11 @@ CONFLICTS = (
         "inertia_kgm2 and torque_Nm are of a wheel that turns; a rack has mass_kg and force_N",
     ),
     Conflict(
+        lambda s: not s.guided and s.load.guide_friction is not None,
+        ("load", "guide_friction"),
+        "guide_friction is of the guide of a rack that a plain crank drives: remove it",
+    ),
+    Conflict(
         lambda s: not s.output.turns and s.load.dwell_torque_Nm is not None,
         ("load", "dwell_torque_Nm"),
         "dwell_torque_Nm acts on a wheel's shaft, and is not available for a rack: remove it",

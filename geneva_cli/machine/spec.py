@@ -300,14 +300,26 @@ class Spec:
         return not self.no_parts
 
     @property
+    def guided(self) -> bool:
+        """True if a rack slides in a guide, which stands on the frame of its crank.
+
+        >>> Spec(Linear(6)).guided, Spec(External(6)).guided
+        (True, False)
+        """
+        return not self.output.turns and self.drive.direct
+
+    @property
     def is_turned(self) -> bool:
         """True if wheel and crank can be checked for collisions in a full turn of the crank.
 
         >>> Spec(Linear(6)).is_turned, Spec(External(400)).is_turned
         (True, False)
         """
+        # Teeth have checks of their own: their free angles.
+        if not self.wheel.PARTS or self.wheel.TOOTH_N_mm2:
+            return False
         # A rack of any length is checked by the slots that the crank reaches in a turn.
-        return bool(self.wheel.PARTS) and (not self.output.turns or self.wheel.z <= Z_DRAWN)
+        return not self.output.turns or self.wheel.z <= Z_DRAWN
 
     @property
     def no_parts(self) -> str:

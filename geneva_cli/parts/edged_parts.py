@@ -9,12 +9,13 @@ from geneva_cli.curves import fit
 from geneva_cli.curves.edges import Edge
 from geneva_cli.curves.plates import Member, Plate, edged
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.parts_of_machine import PartsOfMachine
 
 if TYPE_CHECKING:
     from geneva_cli.curves.gear_teeth import Writer
 
 
-class EdgedParts:
+class EdgedParts(PartsOfMachine):
     """The parts of a machine whose plates have the edges of ``[size]``.
 
     Curved outlines are ``curves``, "arcs" or "cubics", within ``tolerance`` mm. Without a tolerance

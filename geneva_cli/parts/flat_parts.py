@@ -141,25 +141,20 @@ class FlatParts(EdgedParts):
         centres = roller_centres(self.drawn.assembly) if self.drawn else self._on_links()
         return self._edged(Member(plate, centre) for centre in centres for plate in plates)
 
-    def _on_links(self) -> list[Point]:
+    def _on_links(self) -> tuple[Point, ...]:
         """Return the centres of rollers on links in the plane below the wheel."""
-        return [
+        return tuple(
             (float(joint[0].real), float(joint[0].imag))
             for link in links_at(self.mechanism, np.zeros(1))
             for joint, kind in zip(places(link), link.kinds, strict=True)
             if link.plane == 1 and kind in (Joint.ROLLER, Joint.CARRIED)
-        ]
+        )
 
     @cached_property
     def crank_hub(self) -> Plate | None:
         """The crank's hub above the disc or the arm, if the spec has one."""
         hub = crank_hub(self.outlines)
         return self._plate(hub) if hub else None
-
-    @property
-    def outside_mm(self) -> float | None:
-        """None: heights count from the wheel's lower face."""
-        return None
 
     @property
     def horn_mm(self) -> float | None:

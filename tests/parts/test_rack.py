@@ -320,7 +320,7 @@ def test_a_rack_behind_gears_has_a_lower_frame():
     """Heights by hand: arm, gears and frame of R/10. Focal gears reach C (1 + e)/2."""
     gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=60.0)
     geared = design().spec.replace(drive=gears)
-    parts = Design.of(geared).parts_model.rack
+    parts = Design.of(geared).parts_model.built
     assert [(one.part.low, one.part.high) for one in parts.gear_pair] == [(-10.0, -5.0)] * 2
     assert (parts.frame.part.low, parts.frame.part.high) == (-15.0, -10.0)
     crank, driver = parts.shafts
@@ -345,7 +345,7 @@ def test_a_gear_that_reaches_the_guide_fails():
     gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=110.0)
     wide = Design.of(design().spec.replace(drive=gears))
     (check,) = (check for check in wide.checks if check.name == "gear_gap_mm")
-    rail = next(p for p in wide.parts_model.rack.guide if p.part.name == "guide rail").part
+    rail = next(p for p in wide.parts_model.built.guide if p.part.name == "guide rail").part
     gap = R - bounds(rail.outline).x1 - 0.5 * 110.0 * 1.2
     assert gap < 0.0 and not check.passes
     assert check.value == pytest.approx(gap, rel=1e-9)
@@ -420,7 +420,7 @@ def ends_by_equilibrium(a: float, loaded: Design, x0: float, half: float) -> tup
     ("mass", "force", "mu"), [(4.0, 30.0, 0.1), (4.0, 0.0, 0.3), (0.0, 9.0, 0)]
 )
 def test_the_guide_bears_what_balances_the_roller(mass, force, mu):
-    load = Load(mass_kg=mass, force_N=force, friction=mu)
+    load = Load(mass_kg=mass, force_N=force, friction=mu, guide_friction=0.0)
     loaded = Design(Linear(6), size=design(**PARTS).spec.size, load=load)
     values = loaded.report.table.to_dict()
     bar, half = span(solids_of()["guide bar"]), 0.5 * values["guide.length_mm"]

@@ -36,12 +36,10 @@ def drawn_teeth(design: Design) -> DrawnTeeth:
         return DrawnTeeth((), {})
     try:
         # a hundredth of a millimetre is less than a screen shows
-        model = design.parts_model
-        if not design.mechanism.output.turns:
-            return DrawnTeeth(tuple(map(_shapes, model.rack.within(0.01, "arcs").gear_pair)), {})
-        flat = model.flat.within(0.01, "arcs")
-        pair = tuple(map(_shapes, flat.gear_pair))
-        return DrawnTeeth(pair, {one.name: _shapes(one.member) for one in flat.toothed if one.cut})
+        *_, (_, built) = design.parts_model.all_built
+        parts = built().within(0.01, "arcs")
+        pair = tuple(map(_shapes, parts.gear_pair))
+        return DrawnTeeth(pair, {one.name: _shapes(one.member) for one in parts.toothed if one.cut})
     except GenevaError as error:
         return DrawnTeeth((), {}, str(error))
 
