@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 
 def guide(of: Designs) -> Columns:
-    """The guides of racks; none for a wheel, and for a rack that has no guide."""
-    if of.spec.output.turns or not of.spec.has_parts:
+    """The guides of racks; none for a wheel."""
+    if of.spec.output.turns:
         return {}
     names = "length_mm", "locks_at_friction", "force_N", "at_deg"
     rows = [_guide(one) for one in of.each]
@@ -28,6 +28,8 @@ def guide(of: Designs) -> Columns:
 
 def _guide(machine: Mechanism) -> tuple[float, float, float, float]:
     """Length, friction that locks, force and its angle; infinite for what a design lacks."""
+    if not machine.spec.has_parts:
+        return (math.inf,) * 4
     try:
         sizes = rack_sizes(machine)
     except GenevaError:  # the check of the horn reports the error
