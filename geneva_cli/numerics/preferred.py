@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
+from collections.abc import Callable
 from functools import cache
 
 from geneva_cli.numerics.tolerances import ROUNDED
@@ -20,7 +21,8 @@ def rounded_below(most: float) -> float:
     """
     if most <= 0.0:
         return 0.0
-    return max(n for n in _rounded(most, most) if n <= most * (1.0 + ROUNDED))
+    numbers = _rounded(most, most)
+    return numbers[bisect_right(numbers, most * (1.0 + ROUNDED)) - 1]
 
 
 def rounded_from(least: float, most: float) -> list[float]:
@@ -93,10 +95,16 @@ def bore_radius(most: float) -> float:
 
 def _rounded(low: float, high: float) -> list[float]:
     """Return the rounded numbers of all decades from that of ``low`` to that of ``high``."""
-    tens = (10, 11, 12, 14, 16, 18, 20, 22, 25, 28, 30, 35, 40, 45, 50, 55, 60, 70, 80, 90)
     # decades by their powers of ten; one more at either end, for powers that are rounded
     first, last = math.floor(math.log10(low)) - 2, math.ceil(math.log10(high))
-    return [float(f"{n}e{k}") for k in range(first, last + 1) for n in tens]
+    return [n for k in range(first, last + 1) for n in _decade(k)]
+
+
+@cache
+def _decade(power: int) -> tuple[float, ...]:
+    """Return the rounded numbers from 10 to 90 times a power of ten."""
+    tens = (10, 11, 12, 14, 16, 18, 20, 22, 25, 28, 30, 35, 40, 45, 50, 55, 60, 70, 80, 90)
+    return tuple(float(f"{n}e{power}") for n in tens)
 
 
 @cache
@@ -105,3 +113,17 @@ def _bores() -> tuple[float, ...]:
     small = (1, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9, 10, 12, 15, 17)
     large = (*range(20, 110, 5), *range(110, 200, 10), *range(200, 501, 20))
     return tuple(float(d) for d in (*small, *large))
+
+
+def to_digits(value: float, digits: int, way: Callable[[float], int]) -> float:
+    """Return a value with some significant digits; 0 for a value that is not above 0.
+
+    ``way`` is ``math.floor``, ``math.ceil`` or ``round``.
+
+    >>> to_digits(0.12378, 3, math.floor), to_digits(0.12378, 3, math.ceil)
+    (0.123, 0.124)
+    """
+    if value <= 0.0:
+        return 0.0
+    unit = 10.0 ** (math.floor(math.log10(value)) + 1 - digits)
+    return float(f"{unit * way(value / unit):.{digits}g}")

@@ -461,7 +461,7 @@ def once(read):
     return lambda path, given=(), reverse=False: read(path, tuple(given), reverse)
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("command", PRINTED)
 def test_hostile_title(command, monkeypatch):
     plain = {}

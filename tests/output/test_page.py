@@ -14,7 +14,7 @@ import repo
 from drawing_witness import vertices
 from py_mini_racer import MiniRacer
 from sampling import some
-from shapely import Polygon, affinity
+from shapely import LineString, Polygon, affinity
 from typer.testing import CliRunner
 from words import law
 
@@ -78,7 +78,7 @@ def wheel_by_core(design, at):
     return out - first, turned
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_the_wheel_and_the_rollers_are_where_the_core_has_them(name):
     design = design_of(name)
@@ -101,7 +101,7 @@ def test_the_wheel_and_the_rollers_are_where_the_core_has_them(name):
         assert np.abs(rollers[:, i] - there).max() < PLACE * data["size"]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_the_roller_runs_in_the_slot_that_is_drawn(name):
     """In the wheel's frame its centre keeps to the slot's axis, or to the pitch curve."""
@@ -427,14 +427,15 @@ def test_teeth_of_gears_mesh_on_a_page(name, module):
             for body in scene(load(str(repo.DESIGNS / f"{name}.toml"), keys)).bodies
             if body.name.endswith("gear")
         )
+        outlines = [Polygon(vertices(gear.shapes[0], 1e-3)) for gear in (driver, driven)]
+        mesh = LineString([driver.centre, driven.centre]).buffer(20.0)  # three modules and more wide
         apart, common = math.inf, 0.0
         for t in np.linspace(0.0, 360.0, 61):
             placed = []
-            for gear in (driver, driven):
+            for gear, outline in zip((driver, driven), outlines, strict=True):
                 x, y, angle = body_pose(gear, t)
-                own = Polygon(vertices(gear.shapes[0], 1e-3))
-                own = affinity.rotate(own, angle, origin=(0, 0), use_radians=True)
-                placed.append(affinity.translate(own, x, y))
+                own = affinity.rotate(outline, angle, origin=(0, 0), use_radians=True)
+                placed.append(affinity.translate(own, x, y).intersection(mesh))
             apart = min(apart, placed[0].distance(placed[1]))
             common = max(common, placed[0].intersection(placed[1]).area)
         if backlash:

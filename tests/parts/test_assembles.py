@@ -287,7 +287,7 @@ def test_the_machine_assembles(kind, tmp_path):
     assert whole > SAMPLES / 2
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(6)
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("process", PROCESSES)
 @pytest.mark.parametrize("kind", registry.DRIVES)

@@ -307,25 +307,23 @@ def machine_text(rng, kind=None):
         text.append(f"stop_stress_max_MPa = {near(rng, 900.0)!r}")
     if kind == "crank" and rng.random() < 0.06:
         return rack_text(rng)
-    if not drive(kind).FIRST and not curved and kind != "crank" and rng.random() < 0.3:
+    if kind == "crank" and straight and not skewed and rng.random() < 0.15:
+        steps = [0, *rng.sample(range(1, z), min(z - 1, rng.choice([1, 1, 2, 3])))]
+        text.insert(1 + text.index("[drive]"), f"rollers = {len(steps)}\ncrank_steps = {steps}")
+        if rng.random() < 0.2:
+            ahead = rng.choice([name for name in DRIVES if drive(name).IN_FRONT])
+            text += ["[drive.before]", f'kind = "{ahead}"', *own_keys(rng, ahead)]
+    if not drive(kind).FIRST and (curved or kind != "crank") and rng.random() < 0.3:
         ahead = rng.choice([name for name in DRIVES if drive(name).IN_FRONT])
         text += ["[drive.before]", f'kind = "{ahead}"', *own_keys(rng, ahead)]
     if rng.random() < (0.6 if kind == "carousel" else 0.1):
         text += bodies(rng, L, kind == "carousel")
+        if rng.random() < 0.5:
+            stiffness, damping = near(rng, 500.0, 3.0), rng.choice([0.0, 0.02, rng.random()])
+            text += ["[shaft]", f"stiffness_Nm_rad = {stiffness!r}", f"damping_ratio = {damping!r}"]
     if kind == "crank" and rng.random() < 0.05:
         return counter_text(rng)
-    if kind == "crank" and straight and not skewed and "stop = true" not in text:
-        at = text.index("[drive]") + 2
-        text[at:at] = cranks(rng, z) if rng.random() < 0.6 else []
     return "\n".join(fitting(text)) + "\n"
-
-
-def cranks(rng, z):
-    """The lines of several cranks about a wheel, which mostly fit beside each other."""
-    steps = [0, *sorted(rng.sample(range(1, z), rng.choice([1, 1, 1, 2])))]
-    if rng.random() < 0.05:
-        steps[0] = 0.5  # which is refused
-    return [f"rollers = {len(steps)}", f"crank_steps = {steps}"]
 
 
 def counter_text(rng):
@@ -398,4 +396,9 @@ def rack_text(rng):
         if table != "[product]" and key not in WHEELS_ONLY:
             # a wheel's loads, as a mass and a force at the crank's radius, of about the same size
             text.append(f"{pushed[key]} = {float(value) * 100.0!r}" if key in pushed else line)
+    if kind == "crank" and rng.random() < 0.5:
+        text.insert(1 + text.index("[load]"), f"guide_friction = {near(rng, 0.2, 1.0)!r}")
+    if rng.random() < 0.2:
+        keys = {"crank_diameter_mm": 0.2 * R, "crank_overhang_mm": 0.4 * R, "crank_span_mm": R}
+        text += ["[shaft]", *(f"{key} = {near(rng, size)!r}" for key, size in keys.items())]
     return "\n".join(fitting(text)) + "\n"
