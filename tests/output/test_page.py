@@ -428,7 +428,9 @@ def test_teeth_of_gears_mesh_on_a_page(name, module):
             if body.name.endswith("gear")
         )
         outlines = [Polygon(vertices(gear.shapes[0], 1e-3)) for gear in (driver, driven)]
-        mesh = LineString([driver.centre, driven.centre]).buffer(20.0)  # three modules and more wide
+        mesh = LineString([driver.centre, driven.centre]).buffer(
+            20.0
+        )  # three modules and more wide
         apart, common = math.inf, 0.0
         for t in np.linspace(0.0, 360.0, 61):
             placed = []
