@@ -10,8 +10,8 @@ import math
 import numpy as np
 import pytest
 import repo
-from shapely.geometry import Polygon
 from sampling import some
+from shapely.geometry import Polygon
 
 from geneva_cli import Counter, Design, Size, load
 from geneva_cli.curves import fit
