@@ -34,9 +34,9 @@ from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.loads.groups import parts
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import Jet
+from geneva_cli.numerics.quadrature import Integrands, span_integrals
 from geneva_cli.numerics.search import search
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def fluctuations(mechanism: Mechanism, mean: Array) -> Swings:
     The mean of an unbounded torque must be infinite.
     """
     energy, returned = np.empty((2, len(mean)))
-    for part in parts(load_case(mechanism).friction, len(mean)):
+    for part in parts(load_case(mechanism).all_friction, len(mean)):
         energy[part], returned[part] = _group(taken(mechanism, part), mean[part])
     return Swings(energy, returned)
 

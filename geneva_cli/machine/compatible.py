@@ -10,6 +10,7 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Drive, Needs
 from geneva_cli.spec.rules import is_array
 from geneva_cli.spec.schema import fields
+from geneva_cli.spec.tables import Shaft
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
@@ -50,6 +51,12 @@ def _table_of_wheels(table: str, spec: Spec) -> bool:
     return not spec.output.turns and bool(own != type(own)())
 
 
+def _shaft_of_wheels(key: str, spec: Spec) -> object:
+    """True if a rack's spec sets a key of the shaft that only wheels have."""
+    value = getattr(spec.shaft, key)
+    return not spec.output.turns and value is not None and value != getattr(Shaft(), key)
+
+
 def _set_on(before: Drive) -> list[str]:
     """Keys of the machine's input that are set on the drive before it."""
     own = before.as_dict()
@@ -69,7 +76,7 @@ CONFLICTS = (
         'kind = "{before}" cannot turn the shaft of another drive: remove [drive.before]',
     ),
     Conflict(
-        lambda s: s.drive_before and s.drive.FIRST,
+        lambda s: s.drive_before and s.drive.FIRST and not _cranks(s),
         ("drive", "before"),
         'kind = "{before}" cannot stand before kind = "{drive}": {first}',
     ),
@@ -80,10 +87,15 @@ CONFLICTS = (
         "[drive], not in [drive.before]",
     ),
     Conflict(
-        lambda s: s.drive_before and s.motion is not None,
-        ("motion", "law"),
-        "a law gives the motion by the input's angle, so that [drive.before] would only change "
-        "the slots: remove law or [drive.before]",
+        lambda s: s.drive_before and s.drive.direct and s.motion is None,
+        ("drive", "before"),
+        'the crank of kind = "{drive}" is on the shaft: set kind = "{before}" in [drive] instead',
+    ),
+    Conflict(
+        lambda s: s.drive_before and _cranks(s),
+        ("drive", "crank_steps"),
+        "the cranks of crank_steps work in even turns of the input, which [drive.before] makes "
+        "uneven: remove one of them",
     ),
     Conflict(
         lambda s: s.drive.RADIAL and (s.drive.roller_angles_deg or s.wheel.skewed),
@@ -235,6 +247,11 @@ CONFLICTS = (
         "inertia_kgm2 and torque_Nm are of a wheel that turns; a rack has mass_kg and force_N",
     ),
     Conflict(
+        lambda s: not s.guided and s.load.guide_friction is not None,
+        ("load", "guide_friction"),
+        "guide_friction is of the guide of a rack that a plain crank drives: remove it",
+    ),
+    Conflict(
         lambda s: not s.output.turns and s.load.dwell_torque_Nm is not None,
         ("load", "dwell_torque_Nm"),
         "dwell_torque_Nm acts on a wheel's shaft, and is not available for a rack: remove it",
@@ -253,7 +270,18 @@ CONFLICTS = (
             (table.strip("[]"),),
             f"{table} is for a wheel on a shaft, and not available for a rack: remove it",
         )
-        for table in ("[shaft]", "[tolerance]", "[product]")
+        for table in ("[tolerance]", "[product]")
+    ),
+    *(
+        Conflict(
+            partial(_shaft_of_wheels, key),
+            ("shaft", key),
+            f"{key} is of a wheel's shaft, and a rack has none: remove it",
+        )
+        for key in (
+            *("stiffness_Nm_rad", "damping_ratio"),
+            *("wheel_diameter_mm", "wheel_overhang_mm", "wheel_span_mm"),
+        )
     ),
     Conflict(
         lambda s: s.wheel.stopped and (not s.drive.CRANKED or s.drive.IN_SERIES or s.motion),

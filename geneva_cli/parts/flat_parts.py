@@ -8,11 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.curves import fit
 from geneva_cli.curves.hole_walls import require_faces
 from geneva_cli.curves.plates import Group, Member, Plate, plates
 from geneva_cli.curves.shapes import Contour, Point
@@ -38,18 +36,13 @@ from geneva_cli.parts.pair_teeth import pair_teeth
 from geneva_cli.parts.plates import arm_plate, locking_plates, roller_plates, wheel_part
 from geneva_cli.parts.shafts import crank_hub
 
-if TYPE_CHECKING:
-    from geneva_cli.curves.gear_teeth import Writer
-
 
 class FlatParts(EdgedParts):
     """The parts of a machine in the wheel's frame.
 
-    A part that the sizes leave no place for raises GenevaError, naming the key. Curved outlines
-    are ``curves``, "arcs" or "cubics", within ``tolerance`` mm. Without a tolerance they are as
-    accurate as the checks need them. ``known`` are the outlines of wheel and crank, if they are
-    computed already. A wheel with too many slots is not drawn: then there are links and gears, with
-    shafts and frame, and the rollers on links.
+    A part that the sizes leave no place for raises GenevaError, naming the key. ``known`` are the
+    outlines of wheel and crank, if they are computed already. A wheel with too many slots is not
+    drawn: then there are links and gears, with shafts and frame, and the rollers on links.
     """
 
     def __init__(
@@ -59,8 +52,7 @@ class FlatParts(EdgedParts):
         tolerance: float | None = None,
         curves: str = "arcs",
     ) -> None:
-        super().__init__(mechanism)
-        self.tolerance, self.curves = tolerance, curves
+        super().__init__(mechanism, tolerance, curves)
         self._known = known
 
     def within(self, tolerance: float, curves: str) -> FlatParts:
@@ -69,8 +61,7 @@ class FlatParts(EdgedParts):
 
     def finer(self, tolerance: float) -> FlatParts:
         """Return these parts with curves that are at least so accurate, mm."""
-        fine = tolerance if self.tolerance is None else min(tolerance, self.tolerance)
-        return self.within(fine, self.curves)
+        return self.within(self.finer_mm(tolerance), self.curves)
 
     @cached_property
     def outlines(self) -> Outlines:
@@ -166,11 +157,6 @@ class FlatParts(EdgedParts):
         return self._plate(hub) if hub else None
 
     @property
-    def outside_mm(self) -> float | None:
-        """None: heights count from the wheel's lower face."""
-        return None
-
-    @property
     def horn_mm(self) -> float | None:
         """Thickness of the horns between slots and recesses; None without a lock."""
         return self.outlines.sizes.horn if self.outlines.crank else None
@@ -249,22 +235,10 @@ class FlatParts(EdgedParts):
         """Those gears in the machine."""
         return tuple(gear.member for gear in self.toothed)
 
-    def writer(self, fine: float) -> Writer:
-        """Return a function that fits curves: within ``fine`` mm where no tolerance is set."""
-        if self.tolerance is None:
-            return lambda curve, a, b: fit.cubics(curve, a, b, fine)
-        kind, tolerance = fit.KINDS[self.curves], self.tolerance
-        return lambda curve, a, b: kind(curve, a, b, tolerance)
-
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
         """The noncircular gears in front of a crank, with teeth or up to their pitch curves."""
-        pair, size = self.mechanism.spec.gears, self.mechanism.spec.size
-        if pair is None:
-            return ()
-        # teeth are spaced along the pitch curves, whose lengths must agree better than the teeth
-        fine = FINE["cubics"] if size.gear_module_mm is None else 1e-6
-        return gear_pair(self.mechanism, self.drawn, self.writer(fine * pair.distance_mm))
+        return gear_pair(self.mechanism, self.drawn, self.writer)
 
     @cached_property
     def _base(self) -> Plate | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from geneva_cli.layout.plain_sizes import wall_min
+from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.synthesis.parts import SPARE, USUAL, exact, parts, with_roller

@@ -21,9 +21,9 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.roots import Falsi
 from geneva_cli.numerics.work import counted
 from geneva_cli.verdict.changes import Change, Value, value_now
-from geneva_cli.verdict.checks import checks, checks_at_rest, checks_turning, single_check
+from geneva_cli.verdict.checks import checks, checks_at_rest, single_check
 from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
-from geneva_cli.verdict.checks.registry import SPHERE, STATIC
+from geneva_cli.verdict.checks.registry import SPHERE, STATIC, turn_checks
 from geneva_cli.verdict.failures import JAMS
 from geneva_cli.verdict.remedies import remedies
 
@@ -289,7 +289,7 @@ class _Search:
         if model is None or not turn:
             return True
         self._spend(TURN)
-        return self._pass(checks_turning(model))
+        return self._pass(turn_checks(model.parts, model.turn))
 
     def _pass(self, rows: Iterable[Check]) -> bool:
         return all(c.passes is not False or c.name in self.may_fail for c in rows)

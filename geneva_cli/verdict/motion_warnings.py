@@ -14,7 +14,7 @@ from geneva_cli.kinematics.pitch_curve import retraces
 from geneva_cli.layout.fits import loosest_mm
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
-from geneva_cli.numerics.keeps import keeps
+from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.spec.tables import Z_USUAL
 
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
@@ -163,6 +163,7 @@ def _rounded_points(mechanism: Mechanism) -> list[Notice]:
     if ratio:
         decimals, move = ratio.decimals, ratio.move * top.max
     elif points:
+        engagement = engagement.own  # the law holds by the angle of its shaft
         whole = (engagement.motion_deg * DEGREE) ** 3
         decimals, move = points.decimals, points.move * 2.0 * engagement.half_step / whole
     else:

@@ -66,17 +66,6 @@ def checks_at_rest(mechanism: Mechanism, model: PartsModel | None) -> Iterator[C
         yield from standing_checks(model.built)
 
 
-def checks_turning(model: PartsModel) -> Iterator[Check]:
-    """The checks of the turn, repeated with ever closer sampling.
-
-    A check that fails once fails in the end. Raises WorkLimit if the sampling takes too long.
-    """
-    from geneva_cli.collisions.full_turn import turning
-
-    for closer in turning(model.parts):
-        yield from turn_checks(model.parts, closer)
-
-
 def proofs(model: PartsModel, to_mm: float | None = None) -> list[Check]:
     """The proof that no parts collide in a whole turn; none if they cannot be made or turned.
 
@@ -118,21 +107,21 @@ def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iter
     spec, none = mechanism.spec, list[Check]()
     if not spec.has_parts:
         none = [Check("parts", None, "proved", None, None, spec.no_parts)]
-    if not spec.is_turned:
+    if not (spec.has_parts or spec.is_turned):
         yield from none
         return
-    from geneva_cli.collisions.gaps import WorkLimit
-
     model = model or _model(mechanism)
     try:
         rows = none or list(standing_checks(model.built))
-        parts = model.parts
+        parts = model.parts if spec.is_turned else None
     except GenevaError as error:
         yield refused("parts", error)
         return
     yield from rows
-    if not turned:
+    if not turned or parts is None:
         return
+    from geneva_cli.collisions.gaps import WorkLimit
+
     try:
         turn = model.turn
     except WorkLimit as error:
