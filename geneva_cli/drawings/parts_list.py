@@ -10,7 +10,7 @@ sphere inwards from the wheel's outer face.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.analysis.timing import timings
@@ -19,7 +19,6 @@ from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Part, Shell, Solid
 from geneva_cli.curves.sphere import opposite
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.drawings.sphere.dimensions import dimensions
 from geneva_cli.kinematics.layout import Dimension, Pivot
 from geneva_cli.layout.alike import alike
 from geneva_cli.layout.missing import Missing, built_of, or_missing
@@ -29,13 +28,12 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
 from geneva_cli.outlines.sphere_wheel import POLE
-from geneva_cli.parts.rack_frame import rack_dimensions
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.spec.tables import Size
 from geneva_cli.table import Reading, Table, rows_table
 
 if TYPE_CHECKING:
-    from geneva_cli.drawings.model import PartsOfMachine
+    from geneva_cli.parts.parts_of_machine import PartsOfMachine
 
 # columns of a row of each kind
 KINDS = {
@@ -111,7 +109,13 @@ def part_rows(spec: Spec, parts: Iterable[Part], outside: float | None = None) -
             "material": f"material.{name}",
             "density_kgm3": density,
             **_properties(solid, density, outside),
+            **({} if _at_one_height(kind) else {"z_low_mm": None, "z_high_mm": None}),
         }
+
+
+def _at_one_height(kind: Sequence[Solid]) -> bool:
+    """Return True if parts of a kind have the same height along the axis."""
+    return len({one.low for one in kind if not isinstance(one, Shell)}) < 2
 
 
 def _properties(solid: Solid, density: float, outside: float | None) -> Row:
@@ -164,22 +168,19 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
         Dimension("wheel", spec.wheel.NAME),
         Dimension("drive", spec.drive.NAME),
         *([Dimension("drive before it", spec.drive_before.NAME)] if spec.drive_before else []),
-        Dimension("slots", spec.wheel.z),
+        Dimension("wide teeth" if spec.wheel.toothed else "slots", spec.wheel.z),
         Dimension(spec.wheel.DISTANCE, L, "mm"),
-        Dimension("roller radius", r, "mm"),
-        Dimension("slot width", 2.0 * (r + clear), "mm"),
     ]
+    if not spec.wheel.toothed:
+        entries.append(Dimension("roller radius", r, "mm"))
+        entries.append(Dimension("slot width", 2.0 * (r + clear), "mm"))
     entries += _screws_and_edges(spec.size)
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
-    own_dimensions = {
-        "ball": ("dimensions of the shells", lambda: dimensions(model.ball)),
-        "rack": ("dimensions of the rack", lambda: rack_dimensions(model.rack.sizes)),
-    }
-    if spec.wheel.PARTS in own_dimensions:
-        entries += or_missing(*own_dimensions[spec.wheel.PARTS])
-    if mechanism.law is None and spec.drive.CRANKED:
+    entries += model.kind.dimensions(model)
+    cranked = spec.drive.CRANKED and not spec.wheel.toothed
+    if mechanism.law is None and cranked:
         entries += _straight(mechanism)
-    elif spec.drive.CRANKED:
+    elif cranked:
         entries.append(Dimension("crank radius", mechanism.ratio * L, "mm"))
         entries.append(Dimension("rollers, evenly", spec.drive.rollers))
     elif spec.drive.rollers > 1:

@@ -87,10 +87,15 @@ CONFLICTS = (
         "[drive], not in [drive.before]",
     ),
     Conflict(
-        lambda s: s.drive_before and s.motion is not None,
-        ("motion", "law"),
-        "a law gives the motion by the input's angle, so that [drive.before] would only change "
-        "the slots: remove law or [drive.before]",
+        lambda s: s.drive_before and s.drive.direct and s.motion is None,
+        ("drive", "before"),
+        'the crank of kind = "{drive}" is on the shaft: set kind = "{before}" in [drive] instead',
+    ),
+    Conflict(
+        lambda s: s.drive_before and _cranks(s),
+        ("drive", "crank_steps"),
+        "the cranks of crank_steps work in even turns of the input, which [drive.before] makes "
+        "uneven: remove one of them",
     ),
     Conflict(
         lambda s: s.drive.RADIAL and (s.drive.roller_angles_deg or s.wheel.skewed),

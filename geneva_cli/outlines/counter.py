@@ -4,8 +4,9 @@ Both have involute teeth of one rack. The driver keeps two of its N. The pinion 
 second one is wide: it also lies in the plane of the driver's rim. At input angle 0 a wide tooth is
 on the line of centres, between the driver's two.
 
-Profile shifts keep both from undercut, x = max(0, 1 - z sin² 20°) of the pinion. Where their sum is
-above 0, the gears work at a larger pressure angle w, and the module is smaller:
+Profile shifts keep both from undercut, x = max(0, 1 - z sin² 20°) of the pinion, and more where a
+backlash thins the teeth. Where their sum is above 0, the gears work at a larger pressure angle w,
+and the module is smaller:
 
     inv w = inv 20° + 2 (x1 + x2) tan 20°/(N + 2 z),    m = 2 L cos w/((N + 2 z) cos 20°)
 
@@ -41,6 +42,7 @@ class CounterSizes(NamedTuple):
     driver: RoundTeeth
     pinion: RoundTeeth
     distance: float  # of the axes
+    shifts: tuple[float, float]  # of driver and pinion in modules, without backlash
     pressure_angle: float  # at work
     touch: float  # radius of the circle that touches the wide teeth at rest
     rim: float
@@ -58,16 +60,17 @@ def counter_sizes(mechanism: Mechanism) -> CounterSizes:
     large = round(2 * z * mechanism.ratio / (1.0 - mechanism.ratio))
     counts = large, 2 * z
     plain = Rack(1.0)
-    off = 0.25 * spec.size.gear_backlash_mm / math.tan(plain.angle)
+    total = sum(counts)
+    # modules by which a backlash along the pitch circles at work thins both, a half each
+    thinner = spec.size.gear_backlash_mm * total / (8.0 * L * math.tan(plain.angle))
     # no undercut: the rack's straight flank ends above the base circle's tangent
-    least = [1.0 - 0.5 * count * math.sin(plain.angle) ** 2 for count in counts]
+    least = [1.0 - 0.5 * n * math.sin(plain.angle) ** 2 + thinner for n in counts]
     own = max(0.0, least[1])
     shifts = max(-own, least[0]), own
-    total = sum(counts)
     rolled = involute(plain.angle) + 2.0 * sum(shifts) * math.tan(plain.angle) / total
     angle = boundary(lambda w: involute(w) <= rolled, plain.angle, 1.2)
     m = 2.0 * L * math.cos(angle) / (total * math.cos(plain.angle))
-    racks = [Rack(m, x - off / m) for x in shifts]
+    racks = [Rack(m, x - thinner) for x in shifts]
     radii = [0.5 * m * count for count in counts]
     # a quarter of a module from the other gear's root, and no farther than its flank reaches
     ends = [
@@ -93,7 +96,7 @@ def counter_sizes(mechanism: Mechanism) -> CounterSizes:
             "lock_clearance_mm",
             ("wheel", "z"),
         )
-    return CounterSizes(driver, pinion, L, angle, touch, rim)
+    return CounterSizes(driver, pinion, L, shifts, angle, touch, rim)
 
 
 def _blunt(rack: Rack, radius: float, tip: float) -> float:
@@ -105,17 +108,26 @@ def _blunt(rack: Rack, radius: float, tip: float) -> float:
 def _touching_circle(pinion: RoundTeeth, L: float) -> float:
     """Return the radius of the circle about the driver's axis that touches the wide teeth at rest.
 
-    It keeps a tenth of a module from the pinion's root circle. The sides of the teeth are sampled
-    so closely that the least distance is missed by less than 1e-8 L.
+    Its normal at the touching point of a flank is a tangent of the base circle, through the
+    driver's axis. The tangent's length down to the flank, from the base circle, is the arc from
+    the flank's beginning. A flank that ends before is touched at its end. A fillet is concave, so
+    its nearest point is one of its ends. The circle keeps a tenth of a module from the root circle.
     """
-    r = np.linspace(pinion.root, pinion.tip, 20001)
-    away = pinion.step - half_angles(pinion, r)
-    least = np.sqrt(L * L + r * r - 2.0 * L * r * np.cos(away)).min()
-    return min(float(least), L - pinion.root - 0.1 * pinion.rack.module)
+    rack, base = pinion.rack, pinion.base
+    begins = pinion.step - pinion.half_angle(base)
+    shortest = pinion.radius * math.sin(rack.angle) - rack.straight / math.sin(rack.angle)
+    along = base * (math.acos(base / L) - begins)
+    along = min(max(along, shortest), pinion.tangent(pinion.tip))
+    r = math.hypot(base, along)
+    least = math.sqrt(L * L + r * r - 2.0 * L * r * math.cos(pinion.step - pinion.half_angle(r)))
+    return min(least, L - pinion.root - 0.1 * rack.module)
 
 
 def half_angles(teeth: RoundTeeth, r: Array) -> Array:
-    """Return the angles between middle and side of a tooth at radii: flank, and fillet below it."""
+    """Return the angles between middle and side of a tooth at radii: flank, and fillet below it.
+
+    A thousand chords of a fillet, which is about a module long, miss it by 1e-7 modules.
+    """
     rack = teeth.rack
     u = np.linspace(-rack.end, -rack.corner[0], 1001)
     points, _ = fillet(circle(teeth.radius), rack, 0.0, 1)(u)

@@ -170,9 +170,8 @@ def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[
     L, sides = mechanism.center_distance_mm, []
     moving = mechanism.spec.wheel.plane_motion(parameter(np.ravel(L)))
     for whole in mechanism.under_load.engagements:
-        engagement, aheads = whole.through, whole.ahead_deg
-        ends = engagement.entry_deg, engagement.exit_deg
-        for end, mouth, ahead in zip((-1.0, 1.0), ends, (aheads[0], aheads[-1]), strict=True):
+        for end, (engagement, ahead) in ((-1.0, whole.passages[0]), (1.0, whole.passages[-1])):
+            mouth = engagement.entry_deg if end < 0.0 else engagement.exit_deg
             turn = np.ravel(end * engagement.half_step)  # of the wheel at rest
             axes = np.column_stack(np.broadcast_arrays(np.ravel(L), 0.0, turn))
             centre = moving.into(axes[:, :2], axes[:, 2])

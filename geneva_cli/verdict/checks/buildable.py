@@ -11,10 +11,11 @@ from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.verdict.checks.check import Check, refused
 
 if TYPE_CHECKING:
+    from geneva_cli.parts.counter_parts import CounterParts
     from geneva_cli.parts.rack_parts import RackParts
 
 
-def plates(name: str, parts: FlatParts | RackParts) -> Check | None:
+def plates(name: str, parts: FlatParts | RackParts | CounterParts) -> Check | None:
     """The check that fails if a plate of a machine cannot be built; else None."""
     return _refusal(name, parts.require)
 
