@@ -76,7 +76,7 @@ CONFLICTS = (
         'kind = "{before}" cannot turn the shaft of another drive: remove [drive.before]',
     ),
     Conflict(
-        lambda s: s.drive_before and s.drive.FIRST and not _cranks(s),
+        lambda s: s.drive_before and s.drive.FIRST,
         ("drive", "before"),
         'kind = "{before}" cannot stand before kind = "{drive}": {first}',
     ),
@@ -87,15 +87,9 @@ CONFLICTS = (
         "[drive], not in [drive.before]",
     ),
     Conflict(
-        lambda s: s.drive_before and s.drive.direct and s.motion is None,
+        lambda s: s.drive_before and s.drive.direct and not (s.motion or _cranks(s)),
         ("drive", "before"),
         'the crank of kind = "{drive}" is on the shaft: set kind = "{before}" in [drive] instead',
-    ),
-    Conflict(
-        lambda s: s.drive_before and _cranks(s),
-        ("drive", "crank_steps"),
-        "the cranks of crank_steps work in even turns of the input, which [drive.before] makes "
-        "uneven: remove one of them",
     ),
     Conflict(
         lambda s: s.drive.RADIAL and (s.drive.roller_angles_deg or s.wheel.skewed),
