@@ -5,12 +5,14 @@ turn, crank j after an j-th part of a turn. The program's machine is one crank w
 rollers.
 """
 
+import functools
 import math
 from itertools import combinations
 
 import numpy as np
 import pytest
 from drawing_witness import vertices
+from sampling import some
 from shapely import Polygon, affinity
 from shapely.ops import unary_union
 
@@ -19,6 +21,8 @@ from geneva_cli.drawings.parts_list import parts_list
 from geneva_cli.machine.spec import Spec
 from geneva_cli.scene import place_at, value_at
 from geneva_cli.study.animation.scene import scene
+
+pytestmark = pytest.mark.usefixtures("no_advice")
 
 # steps in a revolution, places of the cranks in steps, and the slots that they enter
 MACHINES = [
@@ -68,6 +72,7 @@ BUILT = [(6, (0, 3)), (6, (0, 1)), (12, (0, 5)), (5, (0, 4, 3)), (3, (0, 1, 2))]
 LOAD = Load(inertia_kgm2=0.02, torque_Nm=0.3, friction=0.1)
 
 
+@functools.cache
 def with_cranks(z, places):
     """The machine with a crank for each roller, under a load."""
     return Design(External(z), Crank(rollers=len(places), crank_steps=places), load=LOAD)
@@ -149,7 +154,7 @@ def test_no_crank_meets_the_wheel_or_another_one(design):
     plates, wheel = polygons(parts.crank.part), Polygon(vertices(parts.wheel.part.outline, 1e-3))
     hull = unary_union([shape for shape, _, _ in plates]).convex_hull
     spacing, gap = 360.0 / len(places), math.inf
-    for x in np.arange(0.0, 360.0, 1.5):
+    for x in np.arange(0.0, 360.0, some(1.5, 4.5)):
         number = round(x / spacing)
         own = np.clip(x - number * spacing, engagement.entry_deg, engagement.exit_deg)
         psi = number * math.tau / z + engagement.motion(np.array([own]), 0).c[0][0]

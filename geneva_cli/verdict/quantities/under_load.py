@@ -21,8 +21,14 @@ from geneva_cli.loads.strength.part_loads import PartLoads, own_loads, part_load
 from geneva_cli.loads.strength.sphere_horn import sphere_horn
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.numerics.arrays import parameter
-from geneva_cli.verdict.lock_sizes import LockSizes, design_lock_sizes, layouts_lock_sizes
-from geneva_cli.verdict.part_sizes import PartSizes, part_sizes, stressed_parts
+from geneva_cli.verdict.part_sizes import (
+    LockSizes,
+    PartSizes,
+    design_lock_sizes,
+    layouts_lock_sizes,
+    part_sizes,
+    stressed_parts,
+)
 
 if TYPE_CHECKING:
     from geneva_cli.loads.strength.lock import LockUnderTorque
