@@ -243,7 +243,7 @@ CONFLICTS = (
     Conflict(
         lambda s: not s.guided and s.load.guide_friction is not None,
         ("load", "guide_friction"),
-        "guide_friction is of the guide of a rack that a plain crank drives: remove it",
+        "guide_friction is of the guide of a rack that a plain crank or gears drive: remove it",
     ),
     Conflict(
         lambda s: not s.output.turns and s.load.dwell_torque_Nm is not None,
