@@ -81,6 +81,15 @@ def test_peaks_have_no_bound():
     assert set(ends) == {math.inf}
 
 
+def test_certificates():
+    """The velocity is proved, to a last digit; nothing is claimed of rates without a bound."""
+    velocity = ODOMETER.certificate("velocity")
+    assert velocity.proved and velocity.confirms(2.5, -18.0)
+    for name in ("acceleration", "jerk", "power"):
+        assert not ODOMETER.certificate(name).proved
+        assert "no bound is known there" in ODOMETER.certificate(name).text
+
+
 def test_the_impact():
     """J dw and J dw²/2 by hand, and the force of a spring of 14 N/(mm µm) 3 mm wide.
 
