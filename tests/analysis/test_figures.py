@@ -69,7 +69,7 @@ def test_marks_are_the_answers_and_nothing_is_beyond_them(path):
             assert max(values) > want.max * (1.0 - 2e-3)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_every_point_is_the_cycle_s(path):
     """Held against the rows of `geneva loads` and `geneva motion` at the same input angles."""
