@@ -18,7 +18,6 @@ from geneva_cli.layout.assembly import assembled
 from geneva_cli.machine.many import many
 from geneva_cli.outlines.rack import locking_sector, rack_contour, rack_sizes
 from geneva_cli.outlines.rack_outlines import turned_rack
-from geneva_cli.parts.rack_parts import RackParts
 from geneva_cli.parts.rack_stressed import rack_stressed
 from geneva_cli.verdict.quantities.designs import Designs
 from geneva_cli.verdict.quantities.guide import guide
@@ -324,7 +323,7 @@ def test_a_rack_behind_gears_has_a_lower_frame():
     """Heights by hand: arm, gears and frame of R/10. Focal gears reach C (1 + e)/2."""
     gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=60.0)
     geared = design().spec.replace(drive=gears)
-    parts = RackParts(Design.of(geared).mechanism)
+    parts = Design.of(geared).parts_model.built
     assert [(one.part.low, one.part.high) for one in parts.gear_pair] == [(-10.0, -5.0)] * 2
     assert (parts.frame.part.low, parts.frame.part.high) == (-15.0, -10.0)
     crank, driver = parts.shafts
@@ -349,7 +348,7 @@ def test_a_gear_that_reaches_the_guide_fails():
     gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=110.0)
     wide = Design.of(design().spec.replace(drive=gears))
     (check,) = (check for check in wide.checks if check.name == "gear_gap_mm")
-    rail = next(p for p in RackParts(wide.mechanism).guide if p.part.name == "guide rail").part
+    rail = next(p for p in wide.parts_model.built.guide if p.part.name == "guide rail").part
     gap = R - bounds(rail.outline).x1 - 0.5 * 110.0 * 1.2
     assert gap < 0.0 and not check.passes
     assert check.value == pytest.approx(gap, rel=1e-9)

@@ -162,11 +162,6 @@ def checks_of_turn() -> tuple[str, ...]:
     return ("full_turn", *TURNING)
 
 
-def every_check() -> tuple[str, ...]:
-    """The names of all checks."""
-    return (*checks_before_turn(), *checks_of_turn())
-
-
 def motion_checks(among: Checks, mechanism: Mechanism) -> Iterator[Check]:
     """The checks of MOTION or LIMITS that apply to a machine."""
     yield from _applicable(among, mechanism)
