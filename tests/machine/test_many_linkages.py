@@ -82,6 +82,7 @@ def test_the_same_designs_are_refused(case):
     assert 10 < len(found.which) < len(singles) or not found.refused.any()
 
 
+@pytest.mark.sampled(2)
 def test_the_same_wheels_and_motions(case):
     found, singles = case
     m, singles = found.machine, [one for one in singles if one is not None]

@@ -78,6 +78,7 @@ def gap(sizes, input_deg, pinion_deg):
     return min(out)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("z", "teeth", "clearance"), CASES)
 def test_the_outlines_touch_at_the_ends_of_the_free_angles(z, teeth, clearance):
     """At both ends the least distance is 0: arcs and samples leave 1e-5 L, and between them none

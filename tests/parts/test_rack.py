@@ -145,6 +145,7 @@ def test_sizes_that_leave_no_lock_are_refused(size, text):
     assert not made.passes
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "name",
     [
@@ -419,6 +420,7 @@ def ends_by_equilibrium(a: float, loaded: Design, x0: float, half: float) -> tup
     return upper, lower
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("mass", "force", "mu"), [(4.0, 30.0, 0.1), (4.0, 0.0, 0.3), (0.0, 9.0, 0)]
 )
