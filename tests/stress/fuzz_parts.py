@@ -15,7 +15,7 @@ from fuzzing import campaign, strictly
 
 from geneva_cli.curves.pieces import pieces_table
 from geneva_cli.design import Design
-from geneva_cli.drawings.catalogue import DRAWINGS, PARTS, part_drawing, part_table
+from geneva_cli.drawings.catalogue import DRAWINGS, PARTS, is_table, part_drawing, part_table
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.study.batch import Verdict, checks_table
