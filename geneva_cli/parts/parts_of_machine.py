@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Self
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from geneva_cli.curves.plates import Member
     from geneva_cli.layout.missing import NamedParts
     from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.parts.gear_blanks import Gear
 
 
 class PartsOfMachine(ABC):
@@ -24,6 +26,16 @@ class PartsOfMachine(ABC):
     @abstractmethod
     def by_name(self) -> Iterator[NamedParts]:
         """Yield all parts in the order of a list, as names and functions that build them."""
+
+    @property
+    def gear_pair(self) -> tuple[Member, ...]:
+        """The noncircular gears before the crank; none without."""
+        return ()
+
+    @property
+    def toothed(self) -> tuple[Gear, ...]:
+        """Gears with round pitch circles, with teeth if they have a module; none without."""
+        return ()
 
     @property
     def outside_mm(self) -> float | None:

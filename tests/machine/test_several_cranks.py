@@ -292,6 +292,19 @@ def test_gears_before_the_cranks_turn_all_of_them(z, places):
         assert min(errors) < 2e-3
 
 
+def test_gears_turn_cranks_whose_slots_a_law_gives():
+    """The law holds by the shaft's angle: the wheel is where it is behind one crank then."""
+    law = Motion(Cycloidal())
+    alone = Design(External(6), Crank(rollers=2, crank_steps=(0, 3)), law)
+    spec = alone.spec.replace(drive_before=EllipticalGears(**BEFORE))
+    behind = Design.of(spec).mechanism.engagements
+    (own,) = alone.mechanism.engagements
+    for one in behind:
+        x = np.linspace(one.entry_deg, one.exit_deg, 31)
+        turned = one.motion(x, 0).c[0]
+        assert turned == pytest.approx(own.motion(one.own_deg(x), 0).c[0], abs=1e-14)
+
+
 def test_the_report_lists_when_each_crank_moves_the_wheel_behind_gears():
     design = eased(8, (0, 3))
     rows = design.report.table.to_dict()["cranks"]

@@ -15,10 +15,12 @@ from geneva_cli.curves.moments import moments
 from geneva_cli.curves.plates import solids
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import assembled
+from geneva_cli.machine.many import many
 from geneva_cli.outlines.rack import locking_sector, rack_contour, rack_sizes
 from geneva_cli.outlines.rack_outlines import turned_rack
-from geneva_cli.parts.rack_parts import RackParts
 from geneva_cli.parts.rack_stressed import rack_stressed
+from geneva_cli.verdict.quantities.designs import Designs
+from geneva_cli.verdict.quantities.guide import guide
 
 R, r = 50.0, 6.0
 
@@ -322,7 +324,7 @@ def test_a_rack_behind_gears_has_a_lower_frame():
     """Heights by hand: arm, gears and frame of R/10. Focal gears reach C (1 + e)/2."""
     gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=60.0)
     geared = design().spec.replace(drive=gears)
-    parts = RackParts(Design.of(geared).mechanism)
+    parts = Design.of(geared).parts_model.built
     assert [(one.part.low, one.part.high) for one in parts.gear_pair] == [(-10.0, -5.0)] * 2
     assert (parts.frame.part.low, parts.frame.part.high) == (-15.0, -10.0)
     crank, driver = parts.shafts
@@ -347,7 +349,7 @@ def test_a_gear_that_reaches_the_guide_fails():
     gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=110.0)
     wide = Design.of(design().spec.replace(drive=gears))
     (check,) = (check for check in wide.checks if check.name == "gear_gap_mm")
-    rail = next(p for p in RackParts(wide.mechanism).guide if p.part.name == "guide rail").part
+    rail = next(p for p in wide.parts_model.built.guide if p.part.name == "guide rail").part
     gap = R - bounds(rail.outline).x1 - 0.5 * 110.0 * 1.2
     assert gap < 0.0 and not check.passes
     assert check.value == pytest.approx(gap, rel=1e-9)
@@ -434,6 +436,14 @@ def test_the_guide_bears_what_balances_the_roller(mass, force, mu):
     # the scan's spacing of 0.009 degrees is within 1e-7 of a smooth peak, and has both ends
     assert values["guide.force_N"] == pytest.approx(max(ends), rel=1e-7)
     assert values["guide.locks_at_friction"] == pytest.approx(half / (R - x0), rel=1e-14)
+
+
+def test_racks_of_a_batch_have_the_guides_of_each():
+    """A sweep of the number of slots ended in a traceback."""
+    racks = np.array([8, 400])
+    values = many(design().mechanism.spec, {"wheel.z": racks}).machine
+    length = guide(Designs(values))["length_mm"]
+    assert length.tolist() == [2.0 * sizes_of().guide.half] * 2
 
 
 def test_a_guide_locks_where_its_friction_takes_all_of_the_push():

@@ -43,10 +43,9 @@ class Rack(PartsKind):
         return RackParts(model.mechanism)
 
     def all_built(self, model: SharedParts) -> list[tuple[str, Callable[[], PartsOfMachine]]]:
-        """Return name and function of all parts: a frame holds the gears before a rack, too."""
-        if model.mechanism.spec.has_parts:
-            return [("all parts", lambda: model.built)]
-        return super().all_built(model)
+        """Return names and functions of all parts; its frame holds its gears, but not links."""
+        framed = model.mechanism.spec.has_parts
+        return [("all parts", lambda: model.built)] if framed else super().all_built(model)
 
     def turned(self, model: SharedParts) -> RackOutlines:
         """Return the outlines of the rack and its crank."""

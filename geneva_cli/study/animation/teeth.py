@@ -17,7 +17,6 @@ from geneva_cli.layout.link_positions import links_at, same
 from geneva_cli.layout.projection import placed
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.link_sizes import places
-from geneva_cli.parts.rack_parts import RackParts
 from geneva_cli.scene import Body, Track
 from geneva_cli.study.animation.tracks import still
 from geneva_cli.study.animation.turn import MachineTurn
@@ -37,11 +36,10 @@ def drawn_teeth(design: Design) -> DrawnTeeth:
         return DrawnTeeth((), {})
     try:
         # a hundredth of a millimetre is less than a screen shows
-        if not design.mechanism.output.turns:
-            return DrawnTeeth(tuple(map(_shapes, RackParts(design.mechanism, 0.01).gear_pair)), {})
-        flat = design.parts_model.flat.within(0.01, "arcs")
-        pair = tuple(map(_shapes, flat.gear_pair))
-        return DrawnTeeth(pair, {one.name: _shapes(one.member) for one in flat.toothed if one.cut})
+        *_, (_, built) = design.parts_model.all_built
+        parts = built().within(0.01, "arcs")
+        pair = tuple(map(_shapes, parts.gear_pair))
+        return DrawnTeeth(pair, {one.name: _shapes(one.member) for one in parts.toothed if one.cut})
     except GenevaError as error:
         return DrawnTeeth((), {}, str(error))
 
