@@ -6,7 +6,7 @@ Points are (x, y).
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple, TypeAlias
 
 Point: TypeAlias = tuple[float, float]
@@ -116,6 +116,16 @@ def closed(layer: str, segments: Iterable[Segment]) -> Contour:
     """A closed contour: ends that differ by rounding become one point."""
     pieces = joined(segments)
     return Contour(layer, (*pieces[:-1], pieces[-1]._replace(end=pieces[0].start)))
+
+
+def polygon(layer: str, corners: Sequence[Point]) -> Contour:
+    """A closed contour of lines between corners.
+
+    >>> len(polygon("", [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]).segments)
+    3
+    """
+    after = [*corners[1:], corners[0]]
+    return closed(layer, [Line(p, q) for p, q in zip(corners, after, strict=True)])
 
 
 def backwards(contour: Contour) -> Contour:

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.plates import Group, Member, Plate
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, closed
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, closed, polygon
 from geneva_cli.layout.projection import titled
 from geneva_cli.parts.flat_parts import FlatParts
 
@@ -65,8 +65,7 @@ def coupon(parts: FlatParts) -> Drawing:
     width = wall + len(clearances) * each
     top = up + height + 2.0 * (wall + widest + r)
     corners = [(0.0, 0.0), (width, 0.0), (width, top), (0.0, top)]
-    sides = [Line(p, q) for p, q in zip(corners, [*corners[1:], corners[0]], strict=True)]
-    outline = closed(LAYER, sides)
+    outline = polygon(LAYER, corners)
     centre = width + 10.0 + r, 0.5 * top  # 10 mm from the plate: wider than any cut
     disc = Circle("ROLLER", centre, r)
     bore = (Circle(HOLES, centre, pin),) if pin else ()

@@ -41,13 +41,17 @@ if TYPE_CHECKING:
 PITCH = "PITCH"
 
 
-def wheel(parts: FlatParts) -> Drawing:
-    """Return the wheel; its axis is the origin, and x is along the first slot."""
+def wheel(parts: FlatParts | RackParts) -> Drawing:
+    """Return the wheel or rack; x is along the first slot.
+
+    The origin is the wheel's axis, or the roller's at mid-motion of a rack.
+    """
     solid = parts.wheel.part
-    return Drawing(titled(parts.mechanism, "wheel"), outlines_of(solid), solid=solid)
+    title = titled(parts.mechanism, parts.mechanism.output.noun)
+    return Drawing(title, outlines_of(solid), solid=solid)
 
 
-def crank(parts: FlatParts) -> Drawing:
+def crank(parts: FlatParts | RackParts) -> Drawing:
     """Return the crank in the wheel's plane; its axis is the origin, x is to the first roller."""
     solid = parts.crank_without_arm.part
     return Drawing(titled(parts.mechanism, "crank"), outlines_of(solid), solid=solid)

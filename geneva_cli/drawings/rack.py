@@ -11,18 +11,6 @@ from geneva_cli.parts.rack_arm import rack_arm
 from geneva_cli.parts.rack_parts import RackParts
 
 
-def wheel(parts: RackParts) -> Drawing:
-    """Return the rack; a slot is along x, with its roller at the origin at mid-motion."""
-    solid = parts.wheel.part
-    return Drawing(titled(parts.mechanism, "rack"), outlines_of(solid), solid=solid)
-
-
-def crank(parts: RackParts) -> Drawing:
-    """Return locking sector and roller, without the arm; x is from the axis to the roller."""
-    solid = parts.crank_without_arm.part
-    return Drawing(titled(parts.mechanism, "crank"), outlines_of(solid), solid=solid)
-
-
 def arm(parts: RackParts) -> Drawing:
     """Return the arm, whose x is from the crank's axis to the roller."""
     # without an arm the error says why

@@ -10,7 +10,7 @@ import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 
-from geneva_cli.curves.shapes import ORIGIN, Arc, Circle, Line, Point, Shape, about, closed
+from geneva_cli.curves.shapes import ORIGIN, Arc, Circle, Line, Point, Shape, about, closed, polygon
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.keyways import ParallelKey, key
 from geneva_cli.layout.written import length
@@ -200,8 +200,7 @@ class HexBore(Bore):
         corners = [
             _turned(self.reach, 0.0, direction + (2 * k - 1) * math.pi / 6.0) for k in range(6)
         ]
-        after = [*corners[1:], corners[0]]
-        return closed(layer, [Line(p, q) for p, q in zip(corners, after, strict=True)])
+        return polygon(layer, corners)
 
 
 def bore_of(size: Size, part: str, radius: float) -> Bore:

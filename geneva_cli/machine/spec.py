@@ -316,7 +316,7 @@ class Spec:
         (True, False)
         """
         # Teeth have checks of their own: their free angles.
-        if not self.wheel.PARTS or self.wheel.TOOTH_N_mm2:
+        if not self.wheel.PARTS or self.wheel.toothed:
             return False
         # A rack of any length is checked by the slots that the crank reaches in a turn.
         return not self.output.turns or self.wheel.z <= Z_DRAWN

@@ -241,15 +241,8 @@ def _refined(
     return pairs.taken(_turns(pairs.left[2], pairs.right[2]))
 
 
-def unpredicted(
-    left: Sample,
-    middle: Sample,
-    right: Sample,
-    low: Array,
-    high: Array,
-    fraction: float = PREDICTED,
-) -> Mask:
-    """Masks of the pairs whose cubic misses the sample midway by a ``fraction`` of the range.
+def unpredicted(left: Sample, middle: Sample, right: Sample, low: Array, high: Array) -> Mask:
+    """Masks of the pairs whose cubic misses the sample midway by ``PREDICTED`` of the range.
 
     Pairs are included whose cubic turns twice between slopes of the same sign.
     """
@@ -257,7 +250,7 @@ def unpredicted(
     predicted = 0.5 * (left[1] + right[1]) + width * (left[2] - right[2]) / 8.0
     # the rounding of a value, which no sampling improves
     rounding = 1e-13 * np.maximum(np.abs(low), np.abs(high))
-    missed: Mask = np.abs(middle[1] - predicted) > fraction * (high - low) + rounding
+    missed: Mask = np.abs(middle[1] - predicted) > PREDICTED * (high - low) + rounding
     missed |= goes_back(left, middle, rounding)
     return missed | goes_back(middle, right, rounding)
 

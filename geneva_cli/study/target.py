@@ -50,7 +50,6 @@ class Target(NamedTuple):
     bounds: tuple[Constraint, ...] = ()
     space: float = SPACE  # of a linkage: its joints' distance from the crank's axis, over L
     bounded: frozenset[str] = frozenset()  # names of the ranges that bounds have narrowed
-    strict: bool = False  # whether its bounds include the frame's limits, which many families break
     # numbers of wheels on a carrier; without any, cranks on the ground are sought
     wheels: tuple[int, ...] = ()
 

@@ -17,7 +17,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.study.batches import numbers
 from geneva_cli.study.goals import Objective
 from geneva_cli.study.target import Target
-from geneva_cli.synthesis.bounds import known_bounds, known_sort, of_motion
+from geneva_cli.synthesis.bounds import known_bounds, known_sort
 from geneva_cli.synthesis.families.family import Family
 
 INTERVALS = 24  # intervals of a family's span that are sampled first
@@ -38,11 +38,7 @@ def best(
     The others break the bounds least, with ``how_near`` to the last digit.
     """
     free = [f for f in families if f.is_free and math.isnan(f.best)]
-    chosen = {id(f): NONE for f in free}
-    first = of_motion(target) if not how_near else None
-    if first:
-        free = [f for f, at in zip(free, _places(free, first, how_near), strict=True) if at.keeps]
-    chosen |= {id(f): at for f, at in zip(free, _places(free, target, how_near), strict=True)}
+    chosen = {id(f): at for f, at in zip(free, _places(free, target, how_near), strict=True)}
     kept: list[FamilyMachine] = []
     broken: list[FamilyMachine] = []
     for f in families:

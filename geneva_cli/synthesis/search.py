@@ -126,7 +126,7 @@ def _within_limits(
     target: Target, request: QuantityRequest, which: Sequence[bool]
 ) -> list[MachineRow]:
     """The rows of those kinds whose machines keep the frame's limits too."""
-    strict = target._replace(bounds=(*target.bounds, *frame_limits(target)), strict=True)
+    strict = target._replace(bounds=(*target.bounds, *frame_limits(target)))
     by_kind = _all_kinds(strict, request.names, which=which)
     pairs = [pair for kind in by_kind for pair in zip(kind.rows, kind.requested, strict=True)]
     kept = [(row, cells) for row, cells in pairs if not breaks_limit(row)]

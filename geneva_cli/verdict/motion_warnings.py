@@ -14,7 +14,7 @@ from geneva_cli.kinematics.pitch_curve import retraces
 from geneva_cli.layout.fits import loosest_mm
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
-from geneva_cli.numerics.keeps import keeps
+from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.spec.tables import Z_USUAL
 
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance

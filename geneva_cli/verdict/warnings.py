@@ -10,9 +10,8 @@ from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.wheel_inertia import known_wheel_body
 from geneva_cli.verdict.carried_warnings import carried_warnings
-from geneva_cli.verdict.cycle_warnings import cycle_warnings
+from geneva_cli.verdict.cycle_warnings import cycle_warnings, load_warnings
 from geneva_cli.verdict.direction_warnings import direction_warnings
-from geneva_cli.verdict.load_warnings import load_warnings
 from geneva_cli.verdict.motion_warnings import motion_warnings
 from geneva_cli.verdict.process_warnings import process_warnings
 from geneva_cli.verdict.strength import strength

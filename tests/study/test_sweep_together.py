@@ -10,7 +10,7 @@ from geneva_cli.specfile.reader import read
 from geneva_cli.study.sweep.plan import plan
 from geneva_cli.study.sweep.run import sweep
 from geneva_cli.study.sweep.values import axis
-from geneva_cli.verdict.checks.registry import every_check
+from geneva_cli.verdict.checks.registry import checks_before_turn, checks_of_turn
 
 DESIGNS = os.path.join(os.path.dirname(__file__), os.pardir, os.pardir, "designs")
 LIMITED = (
@@ -37,7 +37,7 @@ def test_the_checks_of_a_batch_are_those_of_each_design(name):
     """Whatever a batch computes for all is what each design finds alone, apart from rounding."""
     varied, keys = CASES[name]
     text = read(os.path.join(DESIGNS, name), keys)
-    picks = [f"checks.{check}" for check in every_check()]
+    picks = [f"checks.{check}" for check in (*checks_before_turn(), *checks_of_turn())]
     checked = sweep(text, plan([axis(varied)], None, 0), picks=picks, check=True)
     together = checked.rows(0, len(checked.plan))
     for row in together:

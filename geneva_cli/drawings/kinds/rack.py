@@ -25,8 +25,8 @@ class Rack(PartsKind):
 
     DRAWN: ClassVar[Mapping[str, str]] = {
         "slot": "drawings.rack:slot",
-        "wheel": "drawings.rack:wheel",
-        "crank": "drawings.rack:crank",
+        "wheel": "drawings.part_drawings:wheel",
+        "crank": "drawings.part_drawings:crank",
         "arm": "drawings.rack:arm",
         "frame": "drawings.part_drawings:frame",
         "guide": "drawings.rack:guide",

@@ -6,7 +6,15 @@ import math
 
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Plate, Stack
-from geneva_cli.curves.shapes import ORIGIN, Arc, Circle, Contour, Line, Point, Shape, closed
+from geneva_cli.curves.shapes import (
+    ORIGIN,
+    Arc,
+    Circle,
+    Contour,
+    Point,
+    Shape,
+    polygon,
+)
 from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, circle_of
@@ -92,8 +100,7 @@ def draw_shaft(view: View, shaft: Plate | Stack) -> None:
     for step in steps:
         low, high, radius = step.low - shaft.low, step.high - shaft.low, around(step.outline)
         corners = [(low, -radius), (high, -radius), (high, radius), (low, radius)]
-        sides = [Line(p, q) for p, q in zip(corners, [*corners[1:], corners[0]], strict=True)]
-        view.draw(closed("", sides), OUTLINE)
+        view.draw(polygon("", corners), OUTLINE)
     view.centre_line((0.0, 0.0), (long, 0.0))
     view.linear((0.0, -first), (long, -first), 0.0, length(long))
     if isinstance(shaft, Plate):

@@ -19,8 +19,7 @@ from geneva_cli.layout.written import length, unit
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 
 if TYPE_CHECKING:
-    from geneva_cli.layout.written import length, unit
-from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.jet import Array
 
 
 class Cone(NamedTuple):

@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 from geneva_cli.curves.measure import at
 from geneva_cli.curves.plates import Plate, plates, steps_of
-from geneva_cli.curves.shapes import Arc, Contour, Line, Point, about, closed
+from geneva_cli.curves.shapes import Arc, Contour, Line, Point, about, closed, polygon
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE, polar
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.view import View
@@ -143,7 +143,7 @@ def _along(plate: Plate, angle: float) -> Iterator[Contour]:
         corners = [(low, plate.low), (high, plate.low), (high, plate.high), (low, plate.high)]
         c, s = math.cos(angle), math.sin(angle)
         ring = [(c * x + s * y, c * y - s * x) for x, y in corners]
-        yield closed("", [Line(p, q) for p, q in zip(ring, [*ring[1:], ring[0]], strict=True)])
+        yield polygon("", ring)
 
 
 def _far(parts: SphereParts) -> float:

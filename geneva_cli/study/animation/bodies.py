@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.curves.shapes import Circle, Contour, Line, Shape, closed
+from geneva_cli.curves.shapes import Circle, Contour, Line, Shape, polygon
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.gear_curves import gears_table
@@ -42,9 +42,9 @@ def bodies(design: Design, turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Bod
         for place in turn.mechanism.crank_places:
             name = f"crank {place.number}" if place.number > 1 else "crank"
             yield Body(name, carried, place.at, turn.crank(place))
-        yield Body("groove", _shapes(design, "groove"), (L, 0.0), still(0.0))
+        yield Body("groove", _shapes(design, "groove"), (L, 0.0), still())
         if turn.mechanism.frame > 0.0:
-            yield Body("carrier", _shapes(design, "frame"), (0.0, 0.0), still(0.0))
+            yield Body("carrier", _shapes(design, "frame"), (0.0, 0.0), still())
     yield from round_gears(turn, teeth)
     if design.spec.gears:
         yield from _gears(turn, teeth)
@@ -139,7 +139,4 @@ def _pitch_curves(turn: MachineTurn, sign: float) -> list[tuple[Shape, ...]]:
 
 
 def _closed(x: Array, y: Array) -> Contour:
-    points = list(zip(x[:-1].tolist(), y[:-1].tolist(), strict=True))
-    return closed(
-        "GEAR", [Line(a, b) for a, b in zip(points, [*points[1:], points[0]], strict=True)]
-    )
+    return polygon("GEAR", list(zip(x[:-1].tolist(), y[:-1].tolist(), strict=True)))

@@ -19,7 +19,7 @@ def rack(shapes: tuple[Shape, ...], turn: MachineTurn) -> Body:
     sizes = rack_sizes(mechanism)
     behind = -(sizes.slot_bottom + sizes.half_width + 0.5 * sizes.back)
     mark = Circle("PITCH", (behind, 0.0), 0.15 * sizes.back)
-    return Body("wheel", (*shapes, mark), (0.0, 0.0), still(0.0), travel)
+    return Body("wheel", (*shapes, mark), (0.0, 0.0), still(), travel)
 
 
 def view_of_rack(rack: Body, box: Box, turn: MachineTurn) -> Box:

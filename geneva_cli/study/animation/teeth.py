@@ -62,7 +62,7 @@ def _angle(turn: MachineTurn, link: Link) -> Track | None:
     """The angle of a gear from its place at input angle 0; None on an axis that moves."""
     at = (float(link.joints[0][0][0]), float(link.joints[0][1][0]))
     if link.teeth.fixed:
-        return still(0.0)
+        return still()
     if same(at, turn.mechanism.crank_shaft.at, turn.L):
         return turn.level()
     if same(at, (0.0, 0.0), turn.L):

@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 Moving: TypeAlias = "Callable[[Array], tuple[Array, Array]]"
 
 
-def still(value: float) -> Track:
-    """The track of a constant."""
-    return Track((0.0,), (float(value),), (0.0,))
+def still() -> Track:
+    """The track of what stands at the angle 0."""
+    return Track((0.0,), (0.0,), (0.0,))
 
 
 def track(

@@ -9,7 +9,7 @@ from typing import NamedTuple, TypeGuard
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.numerics.arrays import N
-from geneva_cli.numerics.keeps import keeps
+from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.verdict.quantities.names import WORDS
 
 

@@ -30,7 +30,7 @@ from geneva_cli.study.goals import Objective
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.sweep.columns import columns
 from geneva_cli.study.target import Target
-from geneva_cli.synthesis.bounds import known_bounds, known_sort, of_motion
+from geneva_cli.synthesis.bounds import known_bounds, known_sort
 from geneva_cli.synthesis.families import closed
 from geneva_cli.synthesis.families.family import (
     Family,
@@ -75,14 +75,9 @@ def two_numbers(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     if target.rollers not in (None, 1) or not inclined:
         return
     moved = all(map(is_motion, target.quantities))
-    first = of_motion(target)
     drives = [_side_crank()] if moved else [_side_crank(), _gears("slow"), _gears("quick")]
     for drive in drives:
-        able = inclined
-        if first:
-            known = {spec.wheel.z for spec in _TwoNumberSearch(first, inclined, drive).machines()}
-            able = [wheel for wheel in inclined if wheel.z in known]
-        yield from map(only, _TwoNumberSearch(target, able, drive).machines())
+        yield from map(only, _TwoNumberSearch(target, inclined, drive).machines())
 
 
 class _TwoNumberSearch:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.numerics.keeps import keeps
+from geneva_cli.numerics.tolerances import keeps
 
 if TYPE_CHECKING:
     from geneva_cli.drawings.shaft_gap import ShaftGap

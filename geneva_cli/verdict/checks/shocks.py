@@ -6,8 +6,8 @@ import math
 from typing import TYPE_CHECKING
 
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.numerics.rounding import to_digits
 from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.checks.check import Check, compared
 
