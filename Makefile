@@ -45,7 +45,8 @@ bench: .venv/dev
 
 # Numerical stress against mpmath, random machines turned, sweeps of every key, then every case of
 # the tests, of which `make test` takes a sample (tests/sampling.py), the certificates of all designs
-# among them (`make certify` adds random machines); an hour.
+# among them (`make certify` adds random machines); an hour and a half on two cores. Sweeps take one
+# key of four, and screens six windows of twelve: see the texts of stress_sweep.py, stress_windows.py.
 stress: .venv/dev
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress.py
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress_outline.py

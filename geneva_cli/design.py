@@ -266,7 +266,7 @@ class Design:
 
         both = self.spec.with_("drive.both_ways", True)
         title = ", ".join(text for text in (self.spec.title, "backwards") if text)
-        turned = Design.of(backwards(build(both)).spec.replace(title=title))
+        turned = Design.of(backwards(build(both)).spec.replace(title=title), self._text)
         turned.is_backwards = True
         return turned
 

@@ -277,13 +277,14 @@ def _slot_grip(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -
 def guide_lever(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
     """Lever of the force on a rack about its guide's middle, over L, for a roller that drives.
 
-    The formula is that of ``loads.strength.guide``, over d. Of a direct crank 1 - cos a is 1 -
-    velocity, and sin a the speed along the slot.
+    The formula is that of ``loads.strength.guide``, over d. The crank turns against the rack, at
+    the rate ``spin``, so that cos a is -velocity/spin, and sin a -along/spin.
     """
-    lever = at.velocity * -1.0 + (1.0 - case.guide_middle)
+    lever = at.velocity / at.spin + (1.0 - case.guide_middle)
     if not case.rubs:
         return lever
-    return lever - (at.along + drives * case.radius) * (case.friction * slides * drives)
+    height = drives * case.radius - at.along / at.spin
+    return lever - height * (case.friction * slides * drives)
 
 
 def leaning(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:

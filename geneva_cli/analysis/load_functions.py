@@ -110,7 +110,9 @@ class LoadFunctions:
         joints = own or "crank_bearing_N" in names or "guide_force_N" in names
         self.reactions = joints and engagement.reactions is not None
         # these depend on sliding even without friction
-        self.spins = own or "slides" in self.kinds or "sliding_m_s" in names or PV in names
+        self.spins = (
+            own or case.guided or "slides" in self.kinds or "sliding_m_s" in names or PV in names
+        )
         radial = all_true(engagement.slot.offset == 0.0)
         self.mirrored = radial and engagement.mirrored and not self.reactions
         # the current block of designs: its slice, the designs, and places with their contact

@@ -14,13 +14,13 @@ array([1.   , 0.625,   nan])
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.kinematics.engagement import Peak, WheelMotion
-from geneva_cli.machine.many import designs_in, taken
+from geneva_cli.machine.many import designs_in, selection, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, blocks, joined, parameter
@@ -45,7 +45,7 @@ class _MotionSamples:
     """
 
     def __init__(self, motion: WheelMotion, m: int, quantities: Sequence[str]) -> None:
-        self.motion = motion
+        self.motion, self.some = motion, selection(motion)
         self.every = slice(0, m)
         self.order = 1 + max(ORDERS[name] for name in quantities)
         self.kept: dict[tuple[int, float], tuple[Array, ...]] = {}
@@ -60,7 +60,7 @@ class _MotionSamples:
 
     def _rates(self, x: Array, which: Which, order: int) -> tuple[Array, ...]:
         every = isinstance(which, slice) and which == self.every
-        motion: WheelMotion = self.motion if every else taken(self.motion, which)
+        motion: WheelMotion = self.motion if every else self.some(which)
         # Designs lie side by side in memory: each operation runs along all of them.
         return motion.rough_rates(np.asfortranarray(x), order - 1)
 
@@ -68,12 +68,11 @@ class _MotionSamples:
 class _QuantityCurve(NamedTuple):
     """A quantity over the input angle in degrees, as a function for ``stationary_points``."""
 
-    motion: WheelMotion
+    some: Callable[[Which], WheelMotion]  # the motion of some designs
     quantity: str
 
     def __call__(self, x: Array, which: Which, order: int) -> list[Array]:
-        motion: WheelMotion = taken(self.motion, which)
-        p = motion(np.asfortranarray(x), ORDERS[self.quantity] + order).arrays()
+        p = self.some(which)(np.asfortranarray(x), ORDERS[self.quantity] + order).arrays()
         return _by_degrees(_quantity(self.quantity, p[1:]), x, order)
 
 
@@ -138,8 +137,10 @@ def landmarks(motion: WheelMotion, quantity: str, m: int) -> Stationary:
     inner = np.vstack(breaks[1:-1] or [last[:0]])
     first = np.vstack((breaks[0], np.minimum(np.nextafter(inner, np.inf), last[m:])))
 
+    whole = _QuantityCurve(selection(motion), quantity)
+
     def curve(x: Array, which: Which, order: int) -> list[Array]:
-        return _QuantityCurve(motion, quantity)(x, np.arange(len(last))[which] % m, order)
+        return whole(x, np.arange(len(last))[which] % m, order)
 
     every = np.arange(len(last))
     ends = [Stationary(every, x[:, 0], curve(x, every, 0)[0][:, 0]) for x in (first, last)]
@@ -168,7 +169,8 @@ def _part(
     samples, edges = _MotionSamples(some, len(here), quantities), np.hsplit(here, here.shape[1])
     peaks = {}
     for name in quantities:
-        curve, rough = _QuantityCurve(some, name), Rough(_RoughCurve(samples, name), some.ROUGH_TO)
+        curve = _QuantityCurve(samples.some, name)
+        rough = Rough(_RoughCurve(samples, name), some.ROUGH_TO)
         peaks[name] = PeakArray(*greatest_sizes(curve, *edges, rough=rough))
     return peaks
 

@@ -31,7 +31,7 @@ from geneva_cli.analysis.vibration.oscillator import PERIOD_RATIO
 from geneva_cli.analysis.vibration.swing import Swing
 from geneva_cli.analysis.vibration.vibration import Oscillators
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.machine.many import designs_in, taken
+from geneva_cli.machine.many import selection
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.arrays import Array, parameter
@@ -146,11 +146,10 @@ def _resultant(mechanism: Mechanism, ratio: Array) -> PeakArray:
 
 
 def _greatest_square(engagement: Engagement, ratio: Array, frame: float) -> tuple[Array, Array]:
-    motion, m = engagement.motion, len(ratio)
+    some, m = selection(engagement.motion), len(ratio)
 
     def square(x: Array, which: Which, order: int) -> list[Array]:
-        some = motion if designs_in(motion) == 1 else taken(motion, which)
-        _, rate, *more = some(np.asfortranarray(x), 2 + order).arrays()
+        _, rate, *more = some(which)(np.asfortranarray(x), 2 + order).arrays()
         p = (rate + frame, *more)
         i2 = (ratio * ratio)[which][:, None]
         out = [p[1] ** 2 + i2 * p[0] ** 4]
@@ -161,7 +160,7 @@ def _greatest_square(engagement: Engagement, ratio: Array, frame: float) -> tupl
             out.append(2.0 * (p[2] ** 2 + p[1] * p[3]) + 4.0 * i2 * curved)
         return [np.broadcast_to(v * DEGREE**k, x.shape) for k, v in enumerate(out)]
 
-    places = [np.broadcast_to(x, (m, 1)).astype(float) for x in motion.breaks_deg]
+    places = [np.broadcast_to(x, (m, 1)).astype(float) for x in engagement.motion.breaks_deg]
     return greatest_sizes(square, *places)
 
 

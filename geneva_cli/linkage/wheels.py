@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.kinematics.paths.course import PinCourse, PlacedWheel, leaves_slot
-from geneva_cli.kinematics.paths.pairs import DOUBLE_ROOT_SLOPE, EndPairs, pairs, residual
+from geneva_cli.kinematics.paths.pairs import DOUBLE_ROOT_SLOPE, EndPairs, newton, pairs, residual
 from geneva_cli.kinematics.paths.samples import PathSamples, blocks, joined, points, sampled
 from geneva_cli.kinematics.roller_path import RollerPath
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Which, Whole
+    from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
 
 SAME_ENTRY = 1e-6  # radians: entries nearer to each other are one
 
@@ -64,6 +64,7 @@ def wheels(path: RollerPath, b: Array) -> WheelSearch:
         ends = ends.taken(_firsts(ends))
         rest = residual(ends, b)
         steep = np.abs(rest.det) >= DOUBLE_ROOT_SLOPE * np.abs(rest.by_exit)
+        doubtful = doubtful.taken(~_lead_to(doubtful, ends.taken(steep), b))
         doubtful = joined([doubtful, ends.taken(~steep)])
         # A path that stops has no direction there; boxes around such a point hold no pair.
         doubtful = doubtful.taken(np.flatnonzero(np.isfinite(doubtful.at.phi).all(axis=1)))
@@ -93,6 +94,36 @@ def _firsts(ends: EndPairs, same: float = SAME_ENTRY) -> Whole:
     new = np.ones(len(order), dtype=bool)
     new[1:] = (np.diff(ends.which[order]) != 0) | (np.diff(place[order]) > same)
     return order[new]
+
+
+def _lead_to(doubtful: EndPairs, ends: EndPairs, b: Array) -> Mask:
+    """True for doubtful pairs that are next to one of the pairs, sorted by design and entry.
+
+    A Newton step leads from them to it. So its slope does not vanish between them, and they are
+    places of the same root, seen from an adjacent box.
+    """
+    near = np.zeros(len(doubtful.which), dtype=bool)
+    if not (len(near) and len(ends.which)):
+        return near
+    at = doubtful.at.phi
+    aim = at + newton(doubtful, residual(doubtful, b))
+    own, others = (
+        which + phi[:, 0] % math.tau / math.tau
+        for which, phi in ((doubtful.which, aim), (ends.which, ends.at.phi))
+    )
+    after = np.searchsorted(others, own)
+    for i in (after - 1, np.minimum(after, len(others) - 1)):
+        off, far = (_apart(phi, ends.at.phi[i]) for phi in (aim, at))
+        # the step is linear to a tenth, and rounding in a place of the path below 1e-9 radians
+        near |= (ends.which[i] == doubtful.which) & (off <= 0.1 * far + 1e-9)
+    return near
+
+
+def _apart(phi: Array, others: Array) -> Array:
+    """Distance of pairs of crank angles, whatever their turn."""
+    off = phi - others
+    distance: Array = np.abs(off - math.tau * np.round(off / math.tau)).max(axis=1)
+    return distance
 
 
 def _followed(path: RollerPath, samples: PathSamples, ends: EndPairs, sense: Array) -> PathWheels:

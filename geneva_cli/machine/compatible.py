@@ -76,7 +76,7 @@ CONFLICTS = (
         'kind = "{before}" cannot turn the shaft of another drive: remove [drive.before]',
     ),
     Conflict(
-        lambda s: s.drive_before and s.drive.FIRST and not _cranks(s),
+        lambda s: s.drive_before and s.drive.FIRST,
         ("drive", "before"),
         'kind = "{before}" cannot stand before kind = "{drive}": {first}',
     ),
@@ -87,15 +87,9 @@ CONFLICTS = (
         "[drive], not in [drive.before]",
     ),
     Conflict(
-        lambda s: s.drive_before and s.drive.direct and s.motion is None,
+        lambda s: s.drive_before and s.drive.direct and not (s.motion or _cranks(s)),
         ("drive", "before"),
         'the crank of kind = "{drive}" is on the shaft: set kind = "{before}" in [drive] instead',
-    ),
-    Conflict(
-        lambda s: s.drive_before and _cranks(s),
-        ("drive", "crank_steps"),
-        "the cranks of crank_steps work in even turns of the input, which [drive.before] makes "
-        "uneven: remove one of them",
     ),
     Conflict(
         lambda s: s.drive.RADIAL and (s.drive.roller_angles_deg or s.wheel.skewed),
@@ -249,7 +243,7 @@ CONFLICTS = (
     Conflict(
         lambda s: not s.guided and s.load.guide_friction is not None,
         ("load", "guide_friction"),
-        "guide_friction is of the guide of a rack that a plain crank drives: remove it",
+        "guide_friction is of the guide of a rack that a plain crank or gears drive: remove it",
     ),
     Conflict(
         lambda s: not s.output.turns and s.load.dwell_torque_Nm is not None,

@@ -24,7 +24,7 @@ for a key that may vary.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import cache
+from functools import cache, partial
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypeVar, cast
 
 import numpy as np
@@ -153,6 +153,16 @@ def _field(spec: Spec, key: str) -> Field:
 def taken(thing: T, which: Which) -> T:
     """Reduce an object of a batch to some designs; ``which`` is a mask or their numbers."""
     return cast("T", _changed(thing, lambda array: array[which], {}))
+
+
+def selection(thing: T) -> Callable[[Which], T]:
+    """Return the function that reduces an object of a batch to some designs, as ``taken`` does.
+
+    It looks for arrays once: an object without them is the same for all designs.
+    """
+    if taken(thing, slice(0)) is thing:
+        return lambda _: thing
+    return partial(taken, thing)
 
 
 def alone(thing: T, i: int) -> T:

@@ -306,7 +306,7 @@ class Spec:
         >>> Spec(Linear(6)).guided, Spec(External(6)).guided
         (True, False)
         """
-        return not self.output.turns and self.drive.direct
+        return not self.output.turns and (self.drive.direct or self.drive.GEARED)
 
     @property
     def is_turned(self) -> bool:
@@ -331,6 +331,8 @@ class Spec:
         if not self.wheel.PARTS:
             return f'shafts and frame of gearing = "{self.wheel.NAME}" are not built'
         before = self.drive_before
+        if before is not None and len(self.drive.cranks) > 1:
+            return f'the gears between several cranks and kind = "{before.NAME}" are not built'
         if before is not None and before.GEARED and self.drive.GEARED:
             return (
                 f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '

@@ -12,7 +12,8 @@ and the module is smaller:
 
 At rest a narrow tooth is on the line of centres, and the two wide ones next to it lie 180°/z to
 either side. The rim is the largest circle about the driver's axis that they let pass, less
-``lock_clearance_mm``. The driver's tips may not pass it either, as they go by the same teeth.
+``lock_clearance_mm``. The driver's tips may not pass it either, as they go by the same teeth. The
+number wheels are in a plane without a rim, and have the whole teeth.
 """
 
 from __future__ import annotations
@@ -40,10 +41,12 @@ class CounterSizes(NamedTuple):
     """The teeth of driver and pinion about their axes, and the locking rim; mm and radians."""
 
     driver: RoundTeeth
+    number: RoundTeeth  # of number wheels, whose tips the rim does not limit
     pinion: RoundTeeth
     distance: float  # of the axes
     shifts: tuple[float, float]  # of driver and pinion in modules, without backlash
     pressure_angle: float  # at work
+    contact_ratio: float  # of number wheels and pinions
     touch: float  # radius of the circle that touches the wide teeth at rest
     rim: float
 
@@ -84,11 +87,18 @@ def counter_sizes(mechanism: Mechanism) -> CounterSizes:
         )
         for k in (0, 1)
     ]
-    both = [RoundTeeth(racks[k], radii[k], _blunt(racks[k], radii[k], tips[k])) for k in (0, 1)]
-    driver, pinion = both
+    contact = 0.0
+    if all(tip > base for tip, base in zip(tips, bases, strict=True)):
+        tips = [_blunt(racks[k], radii[k], tips[k]) for k in (0, 1)]
+        both = [RoundTeeth(racks[k], radii[k], tips[k]) for k in (0, 1)]
+        path = sum(teeth.tangent(teeth.tip) for teeth in both) - far
+        contact = path / (math.pi * m * math.cos(plain.angle))
+    if contact < 1.0:
+        raise _lost(spec.size.gear_backlash_mm, large, max(0.0, contact))
+    number, pinion = both
     touch = _touching_circle(pinion, L)
     rim = touch - spec.size.allowances.lock_clearance_mm
-    driver = driver._replace(tip=min(driver.tip, rim))
+    driver = number._replace(tip=min(number.tip, rim))
     if driver.tip <= driver.base or rim <= L - pinion.tip:
         raise GenevaError(
             f"z = {z}: the rim that locks {z} wide teeth, of radius {rim:.4g} mm, leaves the "
@@ -96,7 +106,20 @@ def counter_sizes(mechanism: Mechanism) -> CounterSizes:
             "lock_clearance_mm",
             ("wheel", "z"),
         )
-    return CounterSizes(driver, pinion, L, shifts, angle, touch, rim)
+    return CounterSizes(driver, number, pinion, L, shifts, angle, contact, touch, rim)
+
+
+def _lost(backlash_mm: float, teeth: int, contact: float) -> GenevaError:
+    """Return the error for teeth of number wheel and pinion that lose contact."""
+    key, value, other = ("wheel", "driver_teeth"), float(teeth), "more teeth"
+    if backlash_mm:
+        key, value = ("size", "gear_backlash_mm"), backlash_mm
+        other = "a smaller one, or more driver_teeth"
+    return GenevaError(
+        f"{key[1]} = {value:g}: teeth of number wheel and pinion lose contact, as their contact "
+        f"ratio is {contact:.3g}; use {other}",
+        key,
+    )
 
 
 def _blunt(rack: Rack, radius: float, tip: float) -> float:
@@ -192,7 +215,7 @@ def pinion_teeth(sizes: CounterSizes, wide: bool, write: Writer) -> Contour:
 
 def number_teeth(sizes: CounterSizes, write: Writer) -> Contour:
     """Return the gear of the number wheel, whose space is about the x axis, as the driver's."""
-    teeth = sizes.driver
+    teeth = sizes.number
     both = [
         Contour(CRANK, tuple(teeth.one(write)), False),
         Contour(CRANK, (teeth.between(),), False),

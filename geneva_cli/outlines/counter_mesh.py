@@ -21,9 +21,6 @@ def counter_mesh(sizes: CounterSizes) -> GearMesh:
     gears = {
         "driver": ToothedGear(driver, count, sizes.shifts[0], ((-half, half),)),
         "pinion": ToothedGear(pinion, len(around), sizes.shifts[1], (around,)),
-        "number wheel": ToothedGear(driver, count, sizes.shifts[0], (ahead,)),
+        "number wheel": ToothedGear(sizes.number, count, sizes.shifts[0], (ahead,)),
     }
-    far = sizes.distance * math.sin(sizes.pressure_angle)
-    path = driver.tangent(driver.tip) + pinion.tangent(pinion.tip) - far
-    contact = path / (driver.rack.pitch * math.cos(driver.rack.angle))
-    return GearMesh(gears, sizes.pressure_angle, contact)
+    return GearMesh(gears, sizes.pressure_angle, sizes.contact_ratio)

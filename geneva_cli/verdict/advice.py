@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
@@ -30,9 +31,9 @@ if TYPE_CHECKING:
     from geneva_cli.drawings.model import PartsModel
 
 # Work of all searches of a design: evaluations of a motion at an array of angles, of 0.5 to 1 ms.
-WORK = 4500
+WORK = 3000
 # What else a trial takes, as many evaluations: its machine and quick checks, its parts, their turn.
-TRIAL, PARTS, TURN = 10, 20, 40
+TRIAL, PARTS, TURN = 6, 12, 20
 NEARLY = 0.01  # fraction of a change by which the value advised may exceed the least one
 
 # Keys that change no outline: the parts need not be turned again.
@@ -75,9 +76,38 @@ def judged(
     failing = [c for c in rows if c.passes is False]
     if not failing:
         return rows
-    adviser = Adviser(mechanism, failing, parts)
-    found, why = adviser.advice(failing)
-    return [adviser.advised(c, found, why) if c.passes is False else c for c in rows]
+    asked = tuple(Check(c.name, None, c.must_be, None, False, at_deg=c.at_deg) for c in failing)
+    found, why, each = _remedies(mechanism, asked, parts)
+    partly = iter(each)
+    return [_advised(c, found, why, next(partly)) if c.passes is False else c for c in rows]
+
+
+@lru_cache(maxsize=4)  # a folder of files and the report in it need the same advice
+def _remedies(
+    mechanism: Mechanism, failing: tuple[Check, ...], parts: bool
+) -> tuple[str, str, list[str]]:
+    """The change with which all checks pass, or the reason for its absence.
+
+    Without it, for each failing check a change with which this check passes, or an empty text.
+    """
+    adviser = Adviser(mechanism, list(failing), parts)
+    found, why = adviser.advice(list(failing))
+    partly = not found and len(failing) > 1
+    return found, why, [adviser.advice([c])[0] if partly else "" for c in failing]
+
+
+def _advised(check: Check, found: str, why: str, partly: str) -> Check:
+    """A failing check with the change that passes all checks, or the reason for its absence.
+
+    The reason names the change ``partly``, with which this check passes, if there is one.
+    """
+    if found:
+        # where the same key passes, the other sizes may have changed with it
+        is_, but, _ = check.why.partition(", but ")
+        own = but and is_.startswith(f"{found.partition(' ')[0]} is ")
+        return check._replace(nearest=found, why=is_ if own else check.why)
+    says = (check.why, why, partly and f"{partly} passes this one")
+    return check._replace(why="; ".join(text for text in says if text))
 
 
 class Adviser:
@@ -92,20 +122,6 @@ class Adviser:
         self.failing = failing
         self.parts = parts
         self.work = WORK
-
-    def advised(self, check: Check, found: str, why: str) -> Check:
-        """A failing check with the change that passes all checks, or the reason for its absence.
-
-        The reason may name a change with which this check passes.
-        """
-        if found:
-            # where the same key passes, the other sizes may have changed with it
-            is_, but, _ = check.why.partition(", but ")
-            own = but and is_.startswith(f"{found.partition(' ')[0]} is ")
-            return check._replace(nearest=found, why=is_ if own else check.why)
-        partly, _ = self.advice([check]) if self.failing[1:] else ("", "")
-        says = (check.why, why, partly and f"{partly} passes this one")
-        return check._replace(why="; ".join(text for text in says if text))
 
     def advice(self, wanted: list[Check]) -> tuple[str, str]:
         """The change, a line of the spec, with which some failing checks pass and no other fails.
@@ -140,8 +156,8 @@ class _Search:
     """The search for the least change with which some failing checks pass, and its trials."""
 
     def __init__(self, adviser: Adviser, wanted: list[Check]) -> None:
-        # a search may use one half of the work that is left
-        self.adviser, self.reserve = adviser, adviser.work // 2
+        # of several searches each may use one half of the work that is left
+        self.adviser, self.reserve = adviser, adviser.work // 2 if adviser.failing[1:] else 0
         self.mechanism, self.parts = adviser.mechanism, adviser.parts
         self.wanted = sorted(wanted, key=_needs_parts)  # the quick ones first
         self.turned = any(c.name in TURNED for c in wanted)

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 import repo
+from sampling import some
 from witness import mp
 
 from geneva_cli import Crank, External, load
@@ -69,7 +70,8 @@ def earlier(mechanism: Mechanism, at_deg: float) -> list[float]:
 
 def test_of_equal_extremes_the_first_is_told() -> None:
     looked = 0
-    for design in sorted(repo.DESIGNS.glob("*.toml")):
+    designs = sorted(repo.DESIGNS.glob("*.toml"))
+    for design in some(designs, designs[::4]):
         mechanism = load(str(design)).mechanism
         cycle = cycle_of(mechanism)
         told = [(one, earlier(mechanism, one.at_deg)) for one in all_told(cycle)]
@@ -84,7 +86,7 @@ def test_of_equal_extremes_the_first_is_told() -> None:
             tie = max(SAME * abs(one.value), ROUNDING * one.size)
             assert (at < one.value * one.sign - tie).all(), (design.stem, one, places)
             looked += len(places)
-    assert looked > 150
+    assert looked > some(150, 30)
 
 
 def test_of_a_grooves_equal_pressures_the_first_is_told() -> None:

@@ -36,6 +36,7 @@ FRONTS = (
 )
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "name",
     ["epicyclic-z4", "four-bar-z4", "slider-crank", "gear-sector", *SPECS],

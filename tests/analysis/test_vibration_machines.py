@@ -8,6 +8,7 @@ import pytest
 import repo
 from machine_witness import mp as exact_digits
 from machine_witness import on_path
+from sampling import some
 from swings import greatest_acceleration, residuals, shares
 from words import law as load_law
 from words import load, points
@@ -132,7 +133,7 @@ def test_rounding_is_no_burden():
     panels = shape(engagement)
     assert len(panels.half) < 200
     mp, whole = exact_digits, exact.exit - exact.entry
-    for ratio, damping in ((0.7, 0.0), (8.0, 0.05), (40.0, 0.0)):
+    for ratio, damping in some(((0.7, 0.0), (8.0, 0.05), (40.0, 0.0)), ((8.0, 0.05),)):
         z_ = mp.mpf(damping)
         p = 2 * mp.pi * mp.mpf(ratio) * mp.mpc(-z_, mp.sqrt(1 - z_ * z_))
 

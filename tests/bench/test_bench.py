@@ -58,7 +58,7 @@ def measured(name):
     return measure(name, quick=True)
 
 
-@pytest.fixture(scope="module", params=some(list(SUBJECTS), list(SUBJECTS)[::2]))
+@pytest.fixture(scope="module", params=some(list(SUBJECTS), list(SUBJECTS)[::4]))
 def one(request):
     """The name of a subject, which the tests take one after the other."""
     return request.param

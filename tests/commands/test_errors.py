@@ -29,6 +29,12 @@ CURVED = '[motion]\nlaw = "cycloidal"\n'
 TABLE = '[motion]\nlaw = "table"\nfile = "law.csv"\n'
 
 
+UNEVEN = (
+    '[wheel]\nz = 5\n[drive]\nkind = "gear-sector"\nsector_deg = 77.7\n[drive.before]\n'
+    'kind = "side-crank"\nA = 0.999999999\n[load]\ninertia_kgm2 = 0.01\n'
+)
+
+
 class Case(NamedTuple):
     """A wrong spec, the line that is wrong (0: none) and what the message must hold."""
 
@@ -568,3 +574,10 @@ def test_a_traceback_would_be_noticed():
 
     with pytest.raises(ValueError, match="x"):
         refused(Broken())
+
+
+@pytest.mark.parametrize("more", [(), ("--reverse",)])
+def test_an_error_of_a_machine_turning_backwards_has_its_place(more):
+    """A side-crank of A nearly 1 turns the sector so unevenly that its loads are rounding."""
+    write("spec.toml", UNEVEN)
+    refused(run("loads", "spec.toml", *more), "the wheel moves", place="spec.toml:4: ")

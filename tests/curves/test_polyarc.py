@@ -240,6 +240,7 @@ def test_no_points_no_distances() -> None:
     assert Polyarc([square()]).signed(np.empty((0, 2))).shape == (0,)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("sagitta", [10.0**-n for n in range(1, 14)])
 @pytest.mark.parametrize("flip", [1.0, -1.0])
 def test_nearly_straight_arcs(sagitta: float, flip: float) -> None:

@@ -236,6 +236,7 @@ def test_inertia_ratio_counts_from_the_ground():
 SEVERAL = [(3, 2), (3, 5), (4, 3), (5, 3), (8, 2)]  # slots, wheels
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("z", "wheels"), SEVERAL)
 def test_loads_of_several_wheels_are_the_sum_over_a_turn(z, wheels):
     """The torques of all wheels, each behind the one before it, over a whole turn."""
@@ -400,6 +401,7 @@ def test_the_page_turns_the_carrier_about_fingers_that_stand(design):
     assert sum(phase.moves for phase in shown.states) == len(wheels) * len(shown.rollers)
 
 
+@pytest.mark.sampled(3)
 @every
 def test_what_a_product_feels_at_any_place_on_the_wheel(wheel):
     """Against second differences of places all round the wheel, over a turn of the carrier."""

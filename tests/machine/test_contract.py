@@ -102,6 +102,7 @@ def test_the_same_motion_path_and_slot(case):
                             near(full(at_one, (n, 1))[:, row], jet[:, row, here], level[here])
 
 
+@pytest.mark.sampled(3)
 def test_who_writes_to_an_answer_changes_no_later_one(case):
     """The kept jets were handed out, and what was done to them was the next answer."""
     _, _, found, singles = case

@@ -11,7 +11,16 @@ import mpmath
 import numpy as np
 import pytest
 
-from geneva_cli import Design, External, Linear, Load, SideCrank, Size
+from geneva_cli import (
+    Design,
+    EllipticalGears,
+    External,
+    Linear,
+    Load,
+    NoncircularGears,
+    SideCrank,
+    Size,
+)
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.many import many
 from geneva_cli.machine.spec import Spec
@@ -140,6 +149,28 @@ def test_slots_too_wide_for_a_guide_have_none():
         Design(Linear(6), size=wide, load=one) for one in (load, load.replace(guide_friction=0))
     ]
     assert loads[0].loads_table.to_dict() == loads[1].loads_table.to_dict()
+
+
+GEARED = EllipticalGears(eccentricity=0.3)
+
+
+@pytest.mark.parametrize("drive", [GEARED, NoncircularGears(A=-0.4)])
+def test_behind_gears_the_guide_takes_as_much_at_each_angle_of_the_crank(drive):
+    """A force alone: the pin's force is that of a plain crank there, the input's torque g' times.
+
+    64 ulp, and those of the crank's angle behind the gears.
+    """
+    plain = design(0.0, 30.0, 0.2, 0.15)
+    geared = Design(Linear(6), drive, size=SIZE, load=plain.spec.load)
+    one = geared.mechanism.engagements[0]
+    x = one.entry_deg * np.array([0.95, 0.5, 0.1, -0.3, -0.8])
+    rate = -one.carrier(x, 0).c[0]
+    angle = np.degrees(np.arcsin(np.clip(one.motion(x, 0).c[0], -1.0, 1.0)))
+    here, there = geared.cycle.states(x), plain.cycle.states(angle)
+    assert here.pin_force_N == pytest.approx(there.pin_force_N, rel=1e-12)
+    assert here.input_torque_Nm == pytest.approx(there.input_torque_Nm * rate, rel=1e-12)
+    values = geared.report.table.to_dict()["guide.force_N"]
+    assert values == pytest.approx(plain.report.table.to_dict()["guide.force_N"], rel=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -120,6 +120,7 @@ def test_tilted_sine_group_mirrors_the_opposite_tilt():
             assert one(u, 0).c[0] + other(1.0 - u, 0).c[0] == pytest.approx(1.0, abs=2.3e-16)
 
 
+@pytest.mark.sampled(3)
 def test_derivatives_against_the_definition(pair):
     law, witness = pair
     joints = set(law.breaks)

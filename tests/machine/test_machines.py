@@ -741,6 +741,7 @@ def test_cam_groove(machine, witness):
         assert last.c[1] / last.c[0] == pytest.approx(-angle, abs=1e-12)
 
 
+@pytest.mark.sampled(4)
 @every
 def test_backwards_is_the_witness_in_a_mirror(machine, witness, case):
     """psi'(x) = -psi(-x): the machine that the spec in the mirror makes, solved for anew.

@@ -48,7 +48,6 @@ from geneva_cli.study.animation.turn import MachineTurn
 
 GEARS = EllipticalGears(eccentricity=0.2, gear_distance_mm=50.0)
 PLANET = Epicyclic(planet_ratio="shockless")
-TWO_CRANKS = Crank(rollers=2, crank_steps=(0, 3))
 PAIR = GenevaPair(first_z=4, first_distance_mm=80.0)
 COUPLER = FourBar(
     crank_mm=40.0,
@@ -173,7 +172,6 @@ def test_both_rollers_of_gear_sectors_have_their_own_phase():
     "wheel, drive, before, motion, message",
     [
         (External(6), Crank(), GEARS, None, 'set kind = "elliptical-gears" in .drive. instead'),
-        (External(6), TWO_CRANKS, GEARS, Motion(Cycloidal()), "work in even turns of the input"),
         (External(6), Carousel(), GEARS, None, "its carrier turns at a constant speed"),
         (External(4), PLANET, GenevaPair(first_z=4), None, "cannot turn the shaft of another"),
         (External(4), PLANET, COUPLER, None, "cannot turn the shaft of another"),

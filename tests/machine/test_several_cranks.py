@@ -81,6 +81,7 @@ def with_cranks(z, places):
 built = pytest.mark.parametrize(("z", "places"), BUILT)
 
 
+@pytest.mark.sampled(3)
 @built
 def test_motion_and_loads_are_those_of_one_crank(z, places):
     """Equal to the last digit: the same engine, which other tests prove by closed forms."""
@@ -142,6 +143,7 @@ SHAPED = [  # slots of other shapes
 ]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("design", [*(with_cranks(*one) for one in BUILT), *SHAPED])
 def test_no_crank_meets_the_wheel_or_another_one(design):
     """Polygons at dense angles, each crank placed by hand; the program's gaps are of one crank.
@@ -182,6 +184,7 @@ def test_cranks_that_meet_fail():
     assert check.value < 0.0
 
 
+@pytest.mark.sampled(3)
 @built
 def test_the_page_turns_all_cranks(z, places):
     """Rollers and cranks by hand; each force is at a roller, whose radius is L/20."""
@@ -215,6 +218,7 @@ def test_a_report_lists_when_each_crank_moves_the_wheel():
     assert Design(External(8), Crank(rollers=2)).report.table.to_dict()["cranks"] is None
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("steps", "places", "slots"), MACHINES)
 def test_the_listed_slots_are_those_that_pins_enter(steps, places, slots):
     design = Design(External(steps), Crank(rollers=len(places), crank_steps=places))
@@ -223,6 +227,7 @@ def test_the_listed_slots_are_those_that_pins_enter(steps, places, slots):
     assert sorted(listed) == list(slots)
 
 
+@pytest.mark.sampled(3)
 @built
 def test_backwards_the_cranks_stand_and_work_as_in_a_mirror(z, places):
     """In a mirror about the line of centres, with the input turned back."""
@@ -285,6 +290,19 @@ def test_gears_before_the_cranks_turn_all_of_them(z, places):
                 off = max(off, abs(complex(*place_at(roller, t)) - at - R * np.exp(1j * turn)))
             errors.append(off)
         assert min(errors) < 2e-3
+
+
+def test_gears_turn_cranks_whose_slots_a_law_gives():
+    """The law holds by the shaft's angle: the wheel is where it is behind one crank then."""
+    law = Motion(Cycloidal())
+    alone = Design(External(6), Crank(rollers=2, crank_steps=(0, 3)), law)
+    spec = alone.spec.replace(drive_before=EllipticalGears(**BEFORE))
+    behind = Design.of(spec).mechanism.engagements
+    (own,) = alone.mechanism.engagements
+    for one in behind:
+        x = np.linspace(one.entry_deg, one.exit_deg, 31)
+        turned = one.motion(x, 0).c[0]
+        assert turned == pytest.approx(own.motion(one.own_deg(x), 0).c[0], abs=1e-14)
 
 
 def test_the_report_lists_when_each_crank_moves_the_wheel_behind_gears():

@@ -135,6 +135,7 @@ def dense(design, count=200_001):
         yield a, own, V * own + extra
 
 
+@pytest.mark.sampled(3)
 @every
 def test_extremes_and_means_over_a_turn_of_the_wheel(wheel):
     design = design_of(wheel)
@@ -194,6 +195,7 @@ def test_wheels_move_for_the_same_time_with_a_body_off_their_axis(wheels, finger
     assert values["carousel.moving_fraction"] == pytest.approx(fraction, rel=1e-14)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("angle", [0.0, 130.0, 220.0])
 def test_the_place_of_a_horns_stress_names_the_turn(angle):
     """All horns are equal, and a force bends one most at its mouth: the greatest of five turns."""
@@ -241,6 +243,7 @@ def test_several_wheels_have_the_sum_of_their_torques(wheels):
     assert several.rms == pytest.approx(math.sqrt(wheels) * one.rms, rel=1e-10)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("wheels", [1, 3])
 @pytest.mark.parametrize("angle", [0.0, 130.0, 220.0])
 def test_a_figure_marks_a_load_on_its_curve(wheels, angle):
@@ -256,6 +259,7 @@ def test_a_figure_marks_a_load_on_its_curve(wheels, angle):
             assert getattr(state, name)[0] == pytest.approx(mark.y, rel=1e-9)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("z", [4, 5, 6])
 @pytest.mark.parametrize("apart", [None, (0.0, 150.0)])
 def test_two_fingers_meet_the_body_in_all_its_directions(z, apart):
@@ -294,6 +298,7 @@ def test_backwards_the_torque_is_that_of_a_film_that_runs_backwards():
     assert design.backwards.cycle.states(x).wheel_torque_Nm == pytest.approx(-forwards[::-1])
 
 
+@pytest.mark.sampled(3)
 @every
 def test_friction_by_the_forces_on_the_slot(wheel):
     """A finger presses with F on the wall that drives, and drags it with mu F where it slides.

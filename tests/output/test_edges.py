@@ -67,6 +67,7 @@ def test_rounds_and_blocks_in_closed_form():
     assert volume(cut) == pytest.approx(5.0 * 300.0 + 2.0 * layer, rel=1e-13)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("gearing", [External(6), Internal(6), External(4)])
 def test_insets_are_those_of_shapely(gearing):
     design = Design(gearing)

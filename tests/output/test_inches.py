@@ -157,6 +157,7 @@ def test_a_figure_is_scaled():
     assert peak * si.pound_force == pytest.approx(202.5396, rel=1e-6)  # the digits of the tutorial
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("words", "wants"),
     [

@@ -290,6 +290,7 @@ def test_an_opened_page_leaves_one_page_that_nobody_else_can_place(tmp_path, mon
     assert shown.exit_code == 0 and not list(theirs.iterdir())
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["four-bar-z4", "slider-crank", "side-crank-z6", "cam-geneva"])
 def test_links_turn_as_they_are_cut(name):
     """Holes for pins stay on the joints that the drive states, at any angle of the turn."""
@@ -410,6 +411,7 @@ def test_gears_move_a_rack_on_a_page_too():
     ]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("name", "module"),
     [
@@ -428,9 +430,7 @@ def test_teeth_of_gears_mesh_on_a_page(name, module):
             if body.name.endswith("gear")
         )
         outlines = [Polygon(vertices(gear.shapes[0], 1e-3)) for gear in (driver, driven)]
-        mesh = LineString([driver.centre, driven.centre]).buffer(
-            20.0
-        )  # three modules and more wide
+        mesh = LineString([driver.centre, driven.centre]).buffer(20.0)  # five modules
         apart, common = math.inf, 0.0
         for t in np.linspace(0.0, 360.0, 61):
             placed = []

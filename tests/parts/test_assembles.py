@@ -262,6 +262,7 @@ def refused_by_a_check(design):
     return any(check.passes is not True for check in checks)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("kind", registry.DRIVES)
 def test_the_machine_assembles(kind, tmp_path):
@@ -299,6 +300,7 @@ def test_a_process_leaves_space_for_all_but_press_fits(kind, process, tmp_path):
     require_space(design)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("kind", registry.DRIVES)
 def test_turned_shafts_leave_space(kind, tmp_path):
@@ -312,6 +314,7 @@ def test_turned_shafts_leave_space(kind, tmp_path):
     require_space(design)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("process", [None, *PROCESSES])
 @pytest.mark.parametrize("shafts", ["plain", "turned"])
@@ -395,6 +398,7 @@ drive = {{kind = "side-crank", A = {A}}}
 """
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("z", "A"), [(8, 0.9), (9, 0.6), (10, 0.6), (11, 0.6), (12, 0.6), (16, 0.6), (24, 0.6)]
 )

@@ -78,6 +78,7 @@ def gap(sizes, input_deg, pinion_deg):
     return min(out)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("z", "teeth", "clearance"), CASES)
 def test_the_outlines_touch_at_the_ends_of_the_free_angles(z, teeth, clearance):
     """At both ends the least distance is 0: arcs and samples leave 1e-5 L, and between them none
@@ -155,23 +156,41 @@ def test_checks():
     assert not refused.passes and "leaves the driver no teeth" in refused.why
 
 
-def test_the_number_wheel_meshes_with_the_pinion():
-    """It is the whole driver: at 20 places of a pitch no tooth overlaps the pinion."""
-    sizes = counter_sizes(machine(4, 20))
+@pytest.mark.parametrize(("z", "teeth"), [(4, 20), (5, 20), (8, 30), (12, 12)])
+def test_the_number_wheel_meshes_with_the_pinion(z, teeth):
+    """It has all the driver's teeth, in contact at every angle: at 20 places of a pitch none
+    overlap. Turned on by a thousandth of a radian, in either sense, some do."""
+    sizes = counter_sizes(machine(z, teeth))
     wheel, pinion = (
         Polyarc([c]) for c in (number_teeth(sizes, write), pinion_teeth(sizes, False, write))
     )
     points = wheel.samples(1e-5 * L, 2e-3 * L).view(complex)[:, 0]
-    for input_deg in np.linspace(0.0, 18.0, 20):
-        seen = (L + points * np.exp(1j * (math.pi - math.radians(input_deg)))) * np.exp(
-            -2.5j * math.radians(input_deg)
-        )
-        assert pinion.signed(np.column_stack((seen.real, seen.imag))).min() > -1e-5 * L
+    for part in np.linspace(0.0, 1.0, 20):
+        input_ = part * math.tau / teeth
+        at = L + points * np.exp(1j * (math.pi - input_))
+        for off, touches in ((0.0, False), (1e-3, True), (-1e-3, True)):
+            seen = at * np.exp(-1j * (input_ * teeth / (2 * z) + off))
+            least = pinion.signed(np.column_stack((seen.real, seen.imag))).min()
+            # a thousandth of a radian is 0.01 mm and more on the base circle
+            assert least < -5e-3 if touches else least > -1e-5 * L
+
+
+@pytest.mark.parametrize(
+    ("z", "teeth", "backlash", "text"),
+    [
+        (3, 12, 0.0, "driver_teeth = 12: teeth of number wheel and pinion lose contact"),
+        (4, 20, 5.0, "gear_backlash_mm = 5: .* contact ratio is 0.823; use a smaller one"),
+        (4, 20, 200.0, "contact ratio is 0; use a smaller one"),
+    ],
+)
+def test_teeth_that_lose_contact_are_refused(z, teeth, backlash, text):
+    with pytest.raises(GenevaError, match=text):
+        counter_sizes(machine(z, teeth, gear_backlash_mm=backlash))
 
 
 def test_the_rim_touches_the_wide_teeth():
     """Half a million points of a flank, from the involute's own equation, and none nearer."""
-    for z, teeth in ((4, 20), (5, 20), (7, 31), (3, 12), (6, 60), (10, 10)):
+    for z, teeth in ((4, 20), (5, 20), (7, 31), (3, 24), (6, 60), (10, 10)):
         sizes = counter_sizes(machine(z, teeth))
         pinion, rack = sizes.pinion, sizes.pinion.rack
         start = pinion.radius * math.sin(rack.angle) - rack.straight / math.sin(rack.angle)
@@ -189,7 +208,7 @@ def test_the_rim_touches_the_wide_teeth():
 def test_backlash_is_along_the_pitch_circles_at_work(backlash):
     """Both teeth there are thinner than the pitch by it, and no flank ends below the base circle:
     without this the kernel of a CAD finds an outline that crosses itself."""
-    for z, teeth in ((4, 20), (3, 12), (20, 20)):
+    for z, teeth in ((4, 20), (3, 24), (20, 20)):
         sizes = counter_sizes(machine(z, teeth, gear_backlash_mm=backlash))
         w, gears = sizes.pressure_angle, (sizes.driver, sizes.pinion)
         pitch = [gear.base / math.cos(w) for gear in gears]

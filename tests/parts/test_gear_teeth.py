@@ -290,6 +290,7 @@ def pair(drive, **keys):
     return design, [(polygon(m.part.outline.segments, 3), m.at) for m in flat.gear_pair]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("kind", ["elliptical", "side-crank"])
 def test_noncircular_gears_mesh(kind):
     """Turned by the ratio in closed form: no overlap, and contact with half the backlash a side."""

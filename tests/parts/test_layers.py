@@ -50,6 +50,7 @@ def test_no_part_has_centre_crosses_unless_they_are_requested(path):
     assert seen >= ({"wheel", "assembly"} if "spherical" in path.stem else {"wheel", "frame"})
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", ["turret", "epicyclic-z4", "cam-geneva"])
 def test_requested_crosses_are_on_a_layer_of_their_own(name):
     """Nothing else changes; read by another reader of DXF, too."""

@@ -154,6 +154,7 @@ def test_the_drawing_has_the_lengths_of_the_list(name):
         assert min(abs(x - float(numbers[dimension])) for x in length) < 1e-9, (link, i, j)
 
 
+@pytest.mark.sampled(3)
 def test_rows_of_the_list(made):
     """A row each, with its mass and its place along the axis; planes do not overlap."""
     name, _, links = made

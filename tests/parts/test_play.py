@@ -213,6 +213,7 @@ CHANGES = {
 }
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", CHANGES)
 def test_play_where_the_roller_changes_walls(name: str) -> None:
     """A narrow peak between two positions: 2 to 3 times as high as those, against a dense scan."""

@@ -280,6 +280,7 @@ TEXTS = {
 }
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("process", TEXTS)
 def test_a_sheet_writes_what_the_process_holds(process: str | None) -> None:
     """Slot, roller, shaft, and a field of the title block; a printed part has no fit at all."""

@@ -15,9 +15,12 @@ from geneva_cli.curves.moments import moments
 from geneva_cli.curves.plates import solids
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import assembled
+from geneva_cli.machine.many import many
 from geneva_cli.outlines.rack import locking_sector, rack_contour, rack_sizes
 from geneva_cli.outlines.rack_outlines import turned_rack
 from geneva_cli.parts.rack_stressed import rack_stressed
+from geneva_cli.verdict.quantities.designs import Designs
+from geneva_cli.verdict.quantities.guide import guide
 
 R, r = 50.0, 6.0
 
@@ -142,6 +145,7 @@ def test_sizes_that_leave_no_lock_are_refused(size, text):
     assert not made.passes
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "name",
     [
@@ -416,6 +420,7 @@ def ends_by_equilibrium(a: float, loaded: Design, x0: float, half: float) -> tup
     return upper, lower
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("mass", "force", "mu"), [(4.0, 30.0, 0.1), (4.0, 0.0, 0.3), (0.0, 9.0, 0)]
 )
@@ -431,6 +436,14 @@ def test_the_guide_bears_what_balances_the_roller(mass, force, mu):
     # the scan's spacing of 0.009 degrees is within 1e-7 of a smooth peak, and has both ends
     assert values["guide.force_N"] == pytest.approx(max(ends), rel=1e-7)
     assert values["guide.locks_at_friction"] == pytest.approx(half / (R - x0), rel=1e-14)
+
+
+def test_racks_of_a_batch_have_the_guides_of_each():
+    """A sweep of the number of slots ended in a traceback."""
+    racks = np.array([8, 400])
+    values = many(design().mechanism.spec, {"wheel.z": racks}).machine
+    length = guide(Designs(values))["length_mm"]
+    assert length.tolist() == [2.0 * sizes_of().guide.half] * 2
 
 
 def test_a_guide_locks_where_its_friction_takes_all_of_the_push():

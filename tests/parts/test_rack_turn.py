@@ -54,6 +54,7 @@ def rack_and_ring(parts):
     return rack, None if ring is None else Polyarc([ring]).samples(1e-3, 0.05)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", range(MACHINES))
 def test_gaps_are_those_of_points_on_the_outlines(seed):
     """Every gap is at most that of points 0.05 mm apart, and at least that less their spacing.
@@ -87,6 +88,7 @@ def test_gaps_are_those_of_points_on_the_outlines(seed):
             assert min(least, parts.gaps.near) == pytest.approx(gap, abs=0.03)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", range(MACHINES))
 def test_no_gap_of_a_random_rack_is_below_its_bound(seed):
     parts = random_parts(seed)
@@ -95,6 +97,7 @@ def test_no_gap_of_a_random_rack_is_below_its_bound(seed):
         check_bounds(parts, np.random.default_rng(seed))
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", range(MACHINES))
 def test_random_racks_keep_what_is_proved(seed):
     parts = random_parts(seed)
@@ -141,6 +144,7 @@ def test_without_a_lock_nothing_holds_the_rack():
     assert turn.free_deg == pytest.approx(math.degrees(1.0))
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", range(MACHINES))
 def test_a_stop_is_where_parts_begin_to_overlap(seed):
     """Short of a stop no parts overlap, and beyond it some do: 1000 moves up to it, one beyond."""

@@ -51,7 +51,8 @@ def sheets():
     @cache
     def made(name):
         design = load(str(repo.DESIGNS / f"{name}.toml"))
-        return design, design.sheet(TOLERANCE)
+        # the teeth of a small machine need finer walls: coarse ones move their mass
+        return design, design.sheet(TOLERANCE * min(1.0, design.mechanism.center_distance_mm / 50))
 
     return made
 

@@ -83,6 +83,7 @@ def angles(points, tree):
     return 2.0 * np.arcsin(0.5 * chord)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_nearest_and_farthest_distances_against_dense_points(name):
     """Points of the wheel's edge lie at most 1e-3 radians apart, and those of an arc 1e-4."""
@@ -154,6 +155,7 @@ def test_random_machines_keep_what_is_proved():
     assert closed > 0.9 * count
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("depth", [0.5 * TO_MM, 0.9 * TO_MM, 1.1 * TO_MM, 0.05, 0.5])
 @pytest.mark.parametrize("name", DESIGNS)
 def test_a_collision_of_known_depth_is_proved_to_no_less(name, depth):

@@ -352,7 +352,7 @@ def test_no_arm_or_hub(size, said):
 def test_bolts_for_a_dial():
     """Holes to the centre, half-way from the hub's hole to the cap's edge, evenly amid slots."""
     design = Design(Spherical(6), size=Size(80.0, 5.0, dial_bolts=3, dial_bolt_mm=4.0))
-    parts = PartsModel(design.mechanism).ball
+    parts = PartsModel(design.mechanism).built
     found = parts.shells
     _, *holes = wheel_shell(design.spec.size, found.ball).holes
     hub = math.asin(found.ball.hub_mm / 76.0)
@@ -370,7 +370,7 @@ def test_bolts_for_a_dial():
         ("dial_bolt_circle_mm", 20.0, "they must lie between circles of"),
         ("wheel_bore_mm", 0.0, "the wheel is open about its axis"),
     ):
-        rows = standing_checks(PartsModel(design.with_(f"size.{key}", value).mechanism).ball)
+        rows = standing_checks(PartsModel(design.with_(f"size.{key}", value).mechanism).built)
         (failing,) = (c for c in rows if not c.passes)
         assert failing.name == "dial_wall_mm"
         assert said in failing.why

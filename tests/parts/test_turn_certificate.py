@@ -252,6 +252,7 @@ def test_random_machines_keep_what_is_proved():
     assert closed_ > 0.8 * count
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("depth", [0.5 * TO_MM, 0.9 * TO_MM, 1.1 * TO_MM, 0.05, 0.5])
 @pytest.mark.parametrize("name", ["turret.toml", "press-curved.toml", "internal-z6.toml"])
 def test_a_collision_of_known_depth_is_proved_to_no_less(name, depth):

@@ -117,6 +117,7 @@ SHAPES = [
 ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("keys", SHAPES)
 @pytest.mark.parametrize("process", [None, "print"])
 @pytest.mark.parametrize("shafts", ["plain", "turned"])
@@ -147,6 +148,7 @@ def _parts(solid):
     return [solid] if isinstance(solid, Plate) else solid.plates
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("keys", SHAPES)
 def test_solids_of_all_formats_are_one(keys):
     """STEP's own volumes, trimesh's and polygons' of the steps; all closed."""
@@ -257,6 +259,7 @@ def test_steps_on_a_sphere():
 KINDS = [kind for kind in registry.DRIVES if kind != "crank"]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("kind", KINDS)
 def test_shafts_of_every_kind(kind, tmp_path):
     """All that turns in the frame has a bearing there, its shoulder above, and seats in its bores.

@@ -107,6 +107,7 @@ def test_every_unit_has_a_witness():
     assert {name for units in UNITS.values() for name in units} == set(ONE)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("key", "own", "unit"), list(same_kind()))
 @given(number=st.floats(-1e6, 1e6, allow_subnormal=False))
 def test_units_against_codata(key, own, unit, number):

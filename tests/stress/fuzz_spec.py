@@ -185,6 +185,12 @@ def sound(table, boundless=()):
             assert all(map(math.isfinite, values)), f"{name} is infinite"
 
 
+def sound_motion(mechanism, samples=()):
+    """Every number of peaks and motion is one, and finite but where the wheel's speed jumps."""
+    for table in (flat(peaks_table(mechanism)), *(motion_table(mechanism, n) for n in samples)):
+        sound(table, table.names if mechanism.spec.wheel.JUMPS else ())
+
+
 def one(text):
     """All of the motion of one spec; how it ended, in a word."""
     data = text if isinstance(text, bytes) else text.encode("utf-8", "surrogatepass")
@@ -193,9 +199,7 @@ def one(text):
         if isinstance(found, str):
             return "refused"
         consistent(found)
-        sound(flat(peaks_table(found)))
-        for samples in (33, 50):  # with mid-motion among them, and without
-            sound(motion_table(found, samples))
+        sound_motion(found, (33, 50))  # with mid-motion among them, and without
         return "machine"
 
 

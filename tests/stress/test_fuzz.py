@@ -62,10 +62,11 @@ def here():
         yield
 
 
-@fuzz(some(8, 1))
+@pytest.mark.long
+@fuzz(8)
 @given(seeds)
 def test_random_machines_are_certified(seed):
-    """`make certify` is the long version."""
+    """`make certify` is the long version, and test_certificate the quick one."""
     assert certify.one(certify.text_of(random.Random(seed))).endswith("proved")
 
 
@@ -347,6 +348,7 @@ def tried(words, given):
     return found
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.usefixtures("made_once")
 @pytest.mark.parametrize("name", COMMANDS)
 def test_command_lines(name, tmp_path, monkeypatch):

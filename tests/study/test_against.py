@@ -17,6 +17,7 @@ def columns(path=TURRET, settings=(), names=NAMES):
             for name, column in table.to_dict().items() if name != "quantity"}  # fmt: skip
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("cruise", [0.0, 1.0 / 3.0, 0.8])
 @pytest.mark.parametrize("ramp", [0.0, 0.1, 0.25, 0.5])
 def test_s_curve(cruise, ramp):
@@ -102,6 +103,7 @@ def test_the_servo_turns_its_rotor():
     )
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "name",
     ["side-crank-z6", "internal-z6", "spherical-z6", "four-bar-z4", "geneva-pair", "gear-sector"],

@@ -100,6 +100,7 @@ def test_codesys_points_keep_the_tolerance(name):
     assert 0.9 * error_deg <= off <= 1.01 * error_deg <= 1.01 * TOLERANCE
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", SOME)
 def test_beckhoff_pairs(name):
     """At most 360 pairs, 0.1 degrees apart, and straight lines as near as the file says."""

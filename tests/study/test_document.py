@@ -144,6 +144,7 @@ def _parts(cell: str) -> list[str]:
     return [cell, bare, head, bare.split(" ")[0], " ".join(bare.split(" ")[:3])]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("name", KINDS)
 def test_a_page_is_well_formed_and_needs_nothing_else(name: str) -> None:
@@ -217,6 +218,7 @@ def test_a_pdf_holds_title_verdict_and_every_check(name: str, jams: str) -> None
     assert text == "".join(pdf.chunks(found)) and "CreationDate" not in text
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["turret", "spherical-z6", "press-curved", "internal-z6"])
 def test_page_1_is_machine_verdict_key_figures_and_motor(name: str) -> None:
     _, found = of(name)
@@ -361,6 +363,7 @@ def test_letters_beyond_the_western_ones_are_spelled() -> None:
     assert "?" not in western("".join(c for c in every if c not in asked))
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", ["press-straight", "turret", "sine-group"])
 def test_every_format_lists_the_same_warnings(name: str) -> None:
     """The wheel's own inertia was a warning of the page alone, not of json and the table."""

@@ -88,7 +88,7 @@ def test_the_spec_makes_the_same_files(tmp_path):
     assert bytes_of(first) == bytes_of(second)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["ratio.csv", "parts.csv", "contents.csv", "a,b.csv"])
 def test_points_of_gears_are_in_the_folder(name, tmp_path):
     """Whatever their file is called: the folder is replaced, and its spec makes the same files.
@@ -139,6 +139,7 @@ def test_its_own_folder_is_replaced(spec, tmp_path):
     assert sorted(os.listdir(tmp_path)) == ["out", "spec.toml"]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("change", ["added", "changed", "foreign"])
 def test_a_persons_folder_stays(spec, tmp_path, change):
     folder = tmp_path / "out"

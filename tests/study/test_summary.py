@@ -163,6 +163,7 @@ def test_an_ascii_terminal_gets_ascii() -> None:
     assert shown(summary._replace(state=FAILS, lines=()), 80, unicode=False) == "x fine\n"
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("command", ["loads", "report", "vibration", "tolerance"])
 def test_a_warning_stands_once_on_both_streams(command: str) -> None:
     spec = str(repo.DESIGNS / ("tuned-dial.toml" if command == "vibration" else "press-345.toml"))

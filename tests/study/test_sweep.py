@@ -175,6 +175,7 @@ def test_points_that_change_are_another_sweep(tmp_path, named):
 LAW = "".join(f"{i / 20},{(i / 20) ** 2 * (3 - i / 10)}\n" for i in range(21))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "arguments",
     [

@@ -170,6 +170,7 @@ def test_parts_together_as_alone(spec):
             assert a == b or a == pytest.approx(b, **near), name
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("spec", ["internal-z6.toml", "tolerances.toml", "spherical-z6.toml"])
 def test_locks_together_as_alone(spec):
     """Locks of any radius and of none, without a torque too, and parts that cannot be cut.

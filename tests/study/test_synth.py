@@ -140,7 +140,7 @@ def test_elliptical_gears_make_both_gearings_alike():
 
 def test_tau_of_one_roller_outside():
     """From 1/6 to 11/24 for z = 3 to 24, one plain crank for each."""
-    for z in some((3, 4, 5, 6, 7, 9, 12, 24), (3, 6, 24)):
+    for z in some((3, 4, 5, 6, 7, 9, 12, 24), (3, 24)):
         tau = Fraction(z - 2, 2 * z)
         near = f"{max(z - 1, 3)}..{min(z + 1, 24)}"
         (candidate,) = plain(candidates(tau=str(tau), external=True, rollers=1, z=near, space=NEAR))
@@ -165,7 +165,7 @@ def test_k_of_internal_wheels():
     """5 ... 1.4 for z = 3..12: (z+2)/(z-2)."""
     assert (3 + 2) / (3 - 2) == 5.0
     assert (12 + 2) / (12 - 2) == 1.4
-    for z in range(3, 13):
+    for z in some(range(3, 13), (3, 6, 12)):
         near = f"{max(z - 1, 3)}..{min(z + 1, 12)}"
         (candidate,) = plain(candidates(tau=f"{z + 2}/{2 * z}", z=near, internal=True, space=NEAR))
         assert (candidate.z, candidate.rollers) == (z, 1)

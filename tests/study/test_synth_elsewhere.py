@@ -114,6 +114,7 @@ def test_a_larger_roller_holds_the_wheel_better(z):
     assert kept.trouble == "hand_over_play_deg"
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "options",
     [

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 import repo
+from sampling import some
 from words import load
 
 from geneva_cli import Design
@@ -207,6 +208,7 @@ def test_all_searches_of_a_design_share_their_trials(
     failing = [c for c in checks(mechanism) if c.passes is False]
     assert len(failing) > 2
     built = []
+    monkeypatch.setattr(advice, "WORK", some(advice.WORK, 120))
     monkeypatch.setattr(advice, "build", lambda spec: built.append(spec) or build(spec))
     judged(mechanism)
     assert 0 < len(built) * advice.TRIAL <= advice.WORK
@@ -246,6 +248,7 @@ def test_trials_that_search_many_motions_are_fewer(
     assert 0 < len(built) * 9 <= advice.WORK
 
 
+@pytest.mark.long
 def test_an_error_is_no_advice() -> None:
     """Its text is the reason; the advice is a change."""
     given = load(str(DESIGNS / "epicyclic-z4.toml")).spec

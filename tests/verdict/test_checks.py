@@ -159,6 +159,7 @@ def test_the_wall_outside_an_internal_wheel(tmp_path: Path) -> None:
     assert not rows["outer_wall_mm"].passes
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("radius", "most"),  # ISO 286: (2 IT11 + c) / 2 of H11/c11, in um, for the roller's diameter
     [(2.0, (150 + 70) / 2), (12.0, (260 + 110) / 2), (20.0, (320 + 130) / 2)],

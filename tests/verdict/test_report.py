@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 import repo
+from sampling import some
 from typer.testing import CliRunner
 from words import load
 
@@ -199,7 +200,7 @@ def test_values_that_are_none_or_have_no_bound_are_words(tmp_path: Path) -> None
         ([spec], "arm_wall_mm is not computed: arm_eye_mm = 1: the eye must be above 5"),
         (endless, "contact_stress_max_MPa = no bound at -1.36826 deg, must be at most 500"),
     ):
-        for format in ("table", "csv", "json", "md", "html"):
+        for format in some(("table", "csv", "json", "md", "html"), ("table", "json")):
             found = run("report", *words, "--format", format)
             assert found.exit_code == 1 and isinstance(found.exception, SystemExit), format
             assert said in found.stdout or format == "table"

@@ -108,6 +108,13 @@ def test_a_twisted_rectangle_by_its_series(wide, high):
     assert float(found) == pytest.approx(float(shear), rel=3e-3)
 
 
+@pytest.mark.parametrize("eye", [4.0, 3.0])
+def test_an_eye_within_its_hole_has_an_infinite_stress(eye):
+    """Nothing of the width is left there; a warning of NumPy would be an error here."""
+    dims = ArmDimensions(*map(np.asarray, (60.0, 16.0, eye, 6.0, 4.0, 10.0, 12.0)))
+    assert float(arm_stress_MPa(dims, np.asarray(700.0))) == math.inf
+
+
 def test_an_arm_under_a_force_from_all_directions():
     """The force in 181 directions at 101 sections: bending by Navier, twist by Timoshenko.
 

@@ -94,6 +94,7 @@ def moments(spec):
     return [of(designs)["moment_Nm"].item() for of in (wheel_shaft, crank_shaft)]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("z", [3, 6, 12])
 @pytest.mark.parametrize("axes_deg", [40.0, 90.0, 110.0])
 def test_shafts_by_vectors_in_space(z, axes_deg):
@@ -180,6 +181,7 @@ def test_a_bent_arm_bears_less_than_its_flat_one(z, axes_deg):
     assert worst <= 1.04 * bound
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", range(6))
 def test_no_default_on_a_sphere_passes_beyond_its_steel(seed):
     """Machines over decades of size and load: stresses are computed again, and walls stay.

@@ -324,6 +324,7 @@ def test_one_dimension_alone_keeps_its_distribution(distribution, std):
     assert found["dwell_position.p997_deg"] == pytest.approx(p997, rel=1e-3)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "wheel, key, s",
     [

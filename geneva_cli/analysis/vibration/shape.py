@@ -11,7 +11,7 @@ import numpy as np
 
 from geneva_cli.analysis.vibration.panels import Panels, panels_of
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.machine.many import taken
+from geneva_cli.machine.many import selection
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Number, read_only
 
@@ -47,8 +47,10 @@ def law_shape(law: Law) -> Panels:
 def motion_shapes(motion: WheelMotion, m: int, turned: Turned | None = None) -> Panels:
     """Return the panels of the motions of m designs, or of functions ``turned`` of their angles."""
 
+    of_designs = selection(motion)
+
     def derivatives(u: Array, which: Whole, order: int) -> Array:
-        some: WheelMotion = taken(motion, which)
+        some: WheelMotion = of_designs(which)
         whole, step = some.exit_deg - some.entry_deg, 2.0 * some.half_step
         angle = some(some.entry_deg + u * whole, order)
         c = (turned(angle, which) if turned else angle).c

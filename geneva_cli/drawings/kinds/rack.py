@@ -30,7 +30,6 @@ class Rack(PartsKind):
         "arm": "drawings.rack:arm",
         "frame": "drawings.part_drawings:frame",
         "guide": "drawings.rack:guide",
-        "gears": "drawings.part_drawings:gears",
         "assembly": "drawings.rack:assembly",
         "plate": "drawings.print_plate:plate",
         "sheet": "drawings.sheet.rack:sheet",

@@ -40,13 +40,14 @@ def sheet(parts: CounterParts) -> Sheet:
 def _views(shown: SheetContent, parts: CounterParts, scale: float) -> Iterator[View]:
     """Yield a view of each part; a number wheel between two pinions has that of the driver too."""
     begin = titled(shown.rows, scale, parts.mechanism.spec.size.process)
-    for gear, member, part in (
-        ("pinion", parts.pinions[-1], "wheel"),
+    alone = "wheel" if len(parts.pinions) == 1 else ""
+    for gear, member, fixed in (
+        ("pinion", parts.pinions[-1], alone),
         ("driver", parts.driver, "crank"),
         ("number wheel", parts.number_wheels[0], ""),
     ):
         view = begin(*dict.fromkeys(plate.name for plate in plates(member.part)))
-        _draw(view, parts, gear, member, part)
+        _draw(view, parts, gear, member, fixed)
         yield view
     if len(parts.number_wheels) > 1:
         view = begin("number wheel's two teeth", "number wheel's rim")
@@ -63,8 +64,11 @@ def _views(shown: SheetContent, parts: CounterParts, scale: float) -> Iterator[V
         yield view
 
 
-def _draw(view: View, parts: CounterParts, gear: str, member: Member, part: str) -> None:
-    """Draw a gear's outlines, its teeth's circles and its bore; of the driver also the rim."""
+def _draw(view: View, parts: CounterParts, gear: str, member: Member, fixed: str) -> None:
+    """Draw a gear's outlines, its teeth's circles and its bore; of the driver also the rim.
+
+    ``fixed`` is the part of the spec that is fixed to its shaft; others turn on it.
+    """
     own = plates(member.part)
     for shape in dict.fromkeys(one for plate in own for one in (plate.outline, *plate.holes)):
         view.draw(shape, OUTLINE)
@@ -72,11 +76,11 @@ def _draw(view: View, parts: CounterParts, gear: str, member: Member, part: str)
     view.cross((0.0, 0.0), toothed.teeth.tip)
     draw_teeth(view, toothed)
     bores = holes_of(own).bores
-    if part:
-        bored(view, bores, parts.mechanism.spec.size, part)
+    if fixed:
+        bored(view, bores, parts.mechanism.spec.size, fixed)
     else:
         circle = next(one for one in bores if isinstance(one, Circle))
-        view.diameter([circle], sized.bore(view.fits, circle.radius))
+        view.diameter([circle], sized.roller_bore(view.fits, circle.radius))
     if gear == "driver":
         rim = Circle("", (0.0, 0.0), parts.sizes.rim)
         view.diameter([rim], f"rim {sized.lock(view.fits, parts.mechanism, rim.radius)}")

@@ -43,6 +43,7 @@ def draw_disc(view: View, parts: FlatParts) -> None:
     locking = [
         a for a in arcs if math.hypot(*a.centre) < SAME_ON_SHEET and _is(a.radius, sizes.lock)
     ]
+    _gaps(view, sizes.lock, locking)  # first, as their legs have no other place
     view.of_arcs(locking, sized.lock(view.fits, mechanism, sizes.lock), whole=True)
     seen: set[tuple[str, str]] = set()
     for arc in arcs:
@@ -58,7 +59,6 @@ def draw_disc(view: View, parts: FlatParts) -> None:
         if math.hypot(*arc.centre) > SAME_ON_SHEET and far > SAME_ON_SHEET:
             turn = math.atan2(middle[1], middle[0])
             view.linear((0.0, 0.0), middle, turn, shown[1], near=True)
-    _gaps(view, sizes.lock, locking)
     bolted(view, screwed)
 
 

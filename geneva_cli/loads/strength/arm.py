@@ -62,18 +62,21 @@ def arm_stress_MPa(arm: ArmDimensions, force_N: Array) -> Array:
 
 
 def _section(arm: ArmDimensions, force: Array, x: Array, width: Array, hole: Array) -> Array:
-    """The von Mises stress of the section at x, a width with a hole in its middle."""
+    """The von Mises stress of the section at x, a width with a hole in its middle.
+
+    It is infinite where the hole leaves nothing of the width.
+    """
     h, left = arm.thickness, width - hole
-    in_plane = 6.0 * force * x * width / (h * (width**3 - hole**3))
-    out_of_plane = 6.0 * force * arm.offset / (left * h * h) + force / (left * h)
-    twist = force * arm.offset
-    # at a hole 3/2 V/(left/2 h), V being half the twist over the walls' distance
-    couple = 1.5 * twist / (0.5 * (width + hole) * left * h)
-    shear = np.where(hole > 0.0, couple, torsion_MPa(twist, left, h))
-    total = in_plane**2 + out_of_plane**2 + 3.0 * shear**2
-    with np.errstate(invalid="ignore"):  # of a force without a bound
+    with np.errstate(divide="ignore", invalid="ignore"):  # nothing left; a force without a bound
+        in_plane = 6.0 * force * x * width / (h * (width**3 - hole**3))
+        out_of_plane = 6.0 * force * arm.offset / (left * h * h) + force / (left * h)
+        twist = force * arm.offset
+        # at a hole 3/2 V/(left/2 h), V being half the twist over the walls' distance
+        couple = 1.5 * twist / (0.5 * (width + hole) * left * h)
+        shear = np.where(hole > 0.0, couple, torsion_MPa(twist, left, h))
+        total = in_plane**2 + out_of_plane**2 + 3.0 * shear**2
         root = np.sqrt(np.maximum(total**2 - 12.0 * (shear * out_of_plane) ** 2, 0.0))
-    stress: Array = np.sqrt(0.5 * (total + root))
+        stress: Array = np.where(left > 0.0, np.sqrt(0.5 * (total + root)), np.inf)
     return stress
 
 

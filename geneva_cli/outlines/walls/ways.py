@@ -62,9 +62,15 @@ def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall
         angles = np.unwrap(np.arctan2(way[:, 1] - centre[1], way[:, 0] - centre[0]))
         for side in (-w, w):
             arcs.append(_arc(path, near, centre, radius + side, np.sort(angles)))
-    flanks = []
+    flanks: list[Wall] = []
     for part in (t[: middle + 1], t[middle:]):
         at, outward = pitch_at(engagement, part, back) if back else None, bool(part[-1] > 0.0)
+        if outward and engagement.mirrored:
+            flanks += [
+                _mirrored(flank, parallel(assembly, engagement, side, outward))
+                for flank, side in zip(flanks, (-w, w), strict=True)
+            ]
+            break
         for side in (-w, w):
             curve = parallel(assembly, engagement, side, outward)
             t = part if at is None else _unfolded(curve, part, at, assembly.L, side)
@@ -81,6 +87,15 @@ def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall
     high = min(turn for turn in turns if turn > 0.0)
     round_ = ahead + np.linspace(low, high, CIRCLE_SAMPLES)
     return [*arcs, *flanks, _arc(path, near, (float(x), float(y)), w, round_)]
+
+
+def _mirrored(flank: Wall, curve: Curve) -> Wall:
+    """Return the flank out of a slot with two equal branches, from the one on its way in.
+
+    The roller runs back over the mirror image of its path, with the same wall on its left.
+    """
+    points, tangents = flank.points[::-1] * (1.0, -1.0), flank.tangents[::-1] * (-1.0, 1.0)
+    return Wall(curve, -flank.t[::-1], points, tangents, flank.free[::-1])
 
 
 def _meets(flank: Wall, centre: tuple[float, float]) -> float:
