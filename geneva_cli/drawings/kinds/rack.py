@@ -29,7 +29,6 @@ class Rack(PartsKind):
         "crank": "drawings.part_drawings:crank",
         "arm": "drawings.rack:arm",
         "frame": "drawings.part_drawings:frame",
-        "gears": "drawings.part_drawings:gears",
         "guide": "drawings.rack:guide",
         "assembly": "drawings.rack:assembly",
         "plate": "drawings.print_plate:plate",
