@@ -23,11 +23,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple, cast
+from typing import cast
 
 import numpy as np
 
 from geneva_cli.analysis.tolerance.dimensions import Deviations, deviations
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import (
     Mask,
     Truth,

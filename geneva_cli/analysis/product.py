@@ -20,7 +20,7 @@ has peaks of its own, so that its square is searched.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -33,6 +33,7 @@ from geneva_cli.analysis.vibration.vibration import Oscillators
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import designs_in, taken
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.arrays import Array, parameter
 from geneva_cli.numerics.extrema import greatest_sizes

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -41,6 +41,7 @@ from geneva_cli.loads.summary import summaries
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.adaptive_quadrature import NODES
 from geneva_cli.numerics.chebyshev import POINTS
 from geneva_cli.numerics.quadrature import rule

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from geneva_cli.collisions.free_angles import EXACT, free_angles, search_deg
 from geneva_cli.collisions.machine_parts import MachineParts
 from geneva_cli.collisions.play import Play, no_play, plays, push_deg, windows
 from geneva_cli.collisions.smallest import Earlier, Gap, SmallestGaps, smallest_gaps
+from geneva_cli.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

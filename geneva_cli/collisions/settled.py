@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.collisions.pairs import Intervals, Pair
+from geneva_cli.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.collisions.machine_parts import Clearances

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import reduce
-from typing import NamedTuple
 
 from geneva_cli.curves.cross_holes import CrossHole, drilled
 from geneva_cli.curves.hole_walls import require_faces
@@ -14,6 +13,7 @@ from geneva_cli.curves.measure import with_material_left
 from geneva_cli.curves.moments import Moments, moments, total
 from geneva_cli.curves.plates import Plate, Stack
 from geneva_cli.curves.shapes import Circle, Contour, Point, Shape, as_contour
+from geneva_cli.named_tuple import NamedTuple
 
 MM = 1e-3  # metres
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from geneva_cli.curves.measure import at, with_material_left
 from geneva_cli.curves.plates import Group, Member, Part, Plate, Stack
 from geneva_cli.curves.shapes import Arc, Point, Segment, as_contour
 from geneva_cli.layout.projection import placed
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.wheel_hub import HUB

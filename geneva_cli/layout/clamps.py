@@ -7,7 +7,6 @@ the thread is wide. The other jaw has the thread.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from geneva_cli.curves.cross_holes import CrossHole
 from geneva_cli.curves.measure import turned
@@ -16,6 +15,7 @@ from geneva_cli.curves.shapes import ORIGIN, Circle, Contour, Line, about, close
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.screws import SCREWS, Screw, screw
 from geneva_cli.layout.written import length
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.tables import Size
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -23,6 +23,7 @@ from geneva_cli.analysis.stretches import mirror_images, spans_of
 from geneva_cli.loads.groups import of_groups
 from geneva_cli.loads.inertia_means import is_balanced, squares
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import array

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -24,6 +24,7 @@ from geneva_cli.errors import Notice
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.sizing import WHEEL_INERTIA, sizing
 from geneva_cli.loads.summaries import LoadSummary
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.table import Reading, Table, computed_table, record_table, rows_table
 
 if TYPE_CHECKING:

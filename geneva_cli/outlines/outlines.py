@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.reliefs import has_arcs, without_lock
 from geneva_cli.layout.sizes import sizes
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.bounds import AXIS, FlatPairs
 from geneva_cli.outlines.crank import crank_contours, is_whole

@@ -18,7 +18,6 @@ covers all but R - rho to R + rho. After it the next recess mirrors the first.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from geneva_cli.curves.shapes import Contour, Line, Segment, about, closed
 from geneva_cli.errors import GenevaError
@@ -26,6 +25,7 @@ from geneva_cli.layout.arm_sizes import eye_about, pin_hole
 from geneva_cli.layout.plain_sizes import half_or, pin_radius, wall_min
 from geneva_cli.layout.sizes import lock_between, require_lock_between
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.default_sizes import value_or
 
 

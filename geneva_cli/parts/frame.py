@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import combinations
-from typing import NamedTuple
 
 from geneva_cli.curves.hole_walls import apart
 from geneva_cli.curves.hull import convex_hull
@@ -24,6 +23,7 @@ from geneva_cli.layout.bearings import shoulder_length
 from geneva_cli.layout.link_positions import same
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, wall_min
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import wheel_hub

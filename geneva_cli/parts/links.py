@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
 
 import numpy as np
 
@@ -23,6 +22,7 @@ from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.layout.gear_mesh import GearMesh, gear_mesh
 from geneva_cli.layout.link_positions import links_at, same
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines

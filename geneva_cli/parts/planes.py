@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.layout.link_positions import gear_plane, links_at
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import wheel_hub_length

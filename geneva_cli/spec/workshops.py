@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
 
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.iso_9013 import deviation_mm
 
 

@@ -8,12 +8,12 @@ import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from functools import lru_cache
-from typing import NamedTuple
 
 import tomli
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.machine.spec import Spec
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.units import NUMBER
 from geneva_cli.specfile.lines import line_of
 from geneva_cli.specfile.settings import Setting, applied, option_of, settings

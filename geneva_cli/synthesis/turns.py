@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from functools import cached_property
-from typing import NamedTuple
 
 from geneva_cli.collisions.full_turn import turning
 from geneva_cli.collisions.gaps import WorkLimit
@@ -22,6 +21,7 @@ from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.numerics.tolerances import CLEARLY
 from geneva_cli.outlines.bounding_outlines import bounding_outlines

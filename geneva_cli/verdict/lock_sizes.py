@@ -6,7 +6,6 @@ Parts are sized one design after the other, as their defaults depend on rollers'
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -16,6 +15,7 @@ from geneva_cli.layout.stressed import lock_of
 from geneva_cli.machine.many import alone, designs_in
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import parameter
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -29,6 +29,7 @@ from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.tables import Load, Shaft, Size, Tolerance
 
 if TYPE_CHECKING:

@@ -27,7 +27,7 @@ from __future__ import annotations
 
 import math
 from functools import reduce
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -37,6 +37,7 @@ from geneva_cli.analysis.unbalance import held_unbalance_Nm
 from geneva_cli.loads.strength.horn import SHEAR, horns, product
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.materials import wheel_material
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import all_true, blocks, choose_record, only_of, parameter
 
 if TYPE_CHECKING:

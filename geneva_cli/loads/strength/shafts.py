@@ -16,7 +16,7 @@ moment. Their greatest combination over the cycle is exact.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -24,6 +24,7 @@ from geneva_cli.analysis.forces import QuantityValue
 from geneva_cli.analysis.instant import Instant
 from geneva_cli.loads.strength.sphere_shafts import on_sphere_crank, on_sphere_wheel
 from geneva_cli.loads.summaries import load_peaks
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import only_of, parameter
 
 if TYPE_CHECKING:

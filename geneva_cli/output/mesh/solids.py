@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.plates import Group, Member, Part, Shell, Solid, Stack
 from geneva_cli.errors import GenevaError
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.output.mesh.plates import plate_mesh
 from geneva_cli.output.mesh.shells import shell_mesh
 from geneva_cli.output.mesh.stacks import stack_mesh

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from geneva_cli.layout.assembly import Assembly, assembled
 from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.plain_sizes import wall_min
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import CONTACT
 from geneva_cli.parts.sphere.bounds import SpherePairs
