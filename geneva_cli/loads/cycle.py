@@ -19,8 +19,6 @@ from geneva_cli.analysis.contact import contact, contacts
 from geneva_cli.analysis.forces import LoadCase, feeding, load_case, sliding, wheel_torque
 from geneva_cli.analysis.instant import INSTANT_QUANTITIES, Instant, bounded, values
 from geneva_cli.analysis.load_functions import NO_MORE, LoadFunctions, load_batch
-from geneva_cli.analysis.mid_motion import at_crossing
-from geneva_cli.analysis.motion import local_deg, spans
 from geneva_cli.analysis.quantities import KINETIC, known_quantities, sources
 from geneva_cli.analysis.stretches import (
     Stretch,
@@ -90,6 +88,8 @@ class Cycle:
         A force without a bound is infinite. It is so where friction alone holds the wheel, and at
         mid-motion of a curved slot that lies across the roller's path.
         """
+        from geneva_cli.analysis.motion import local_deg, spans
+
         out: dict[str, Array | None] = {
             name: np.zeros(len(input_deg)) for name in INSTANT_QUANTITIES
         }
@@ -107,6 +107,8 @@ class Cycle:
 
     def moving(self, engagement: Engagement, input_deg: Array) -> Instant[Array]:
         """Arrays (n,) at input angles of an engagement, degrees from its own mid-motion."""
+        from geneva_cli.analysis.mid_motion import at_crossing
+
         case, at = self.case, contacts(engagement, input_deg)
         torque = wheel_torque(case, at)
         drives = np.copysign(1.0, torque)

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geneva_cli.analysis.instant import Instant
-from geneva_cli.analysis.motion import check_samples, derivatives, inputs, times_s
 from geneva_cli.analysis.quantities import (
     PRESSED,
     PV,
@@ -172,12 +171,16 @@ def cycle_table(cycle: Cycle, samples: int) -> Table:
 
     A value that is unbounded or not known is None.
     """
+    from geneva_cli.analysis.motion import check_samples
+
     check_samples(samples)
     names = ("time_s", "input_deg", cycle.mechanism.output.column, *SHOWN_QUANTITIES)
     return computed_table(names, samples, lambda i, j: _rows(cycle, samples, i, j), "object")
 
 
 def _rows(cycle: Cycle, samples: int, begin: int, end: int) -> list[Any]:
+    from geneva_cli.analysis.motion import derivatives, inputs, times_s
+
     input_deg = inputs(cycle.mechanism, samples, begin, end)
     states = cycle.states(input_deg)
     searched = {name: plain_of(states, name) for name in known_quantities(cycle.mechanism)}

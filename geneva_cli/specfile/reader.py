@@ -14,11 +14,8 @@ import tomli
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.machine.spec import Spec
 from geneva_cli.named_tuple import NamedTuple
-from geneva_cli.spec.units import NUMBER
-from geneva_cli.specfile.lines import line_of
 from geneva_cli.specfile.settings import Setting, applied, option_of, settings
 from geneva_cli.specfile.tree import spec_of
-from geneva_cli.specfile.with_units import texts_with_units
 
 
 class Text(NamedTuple):
@@ -36,6 +33,8 @@ class Text(NamedTuple):
         except GenevaError as error:
             if not error.key:
                 raise
+            from geneva_cli.specfile.lines import line_of
+
             where = option_of(self.set_keys, error.key)
             if not where:
                 line = line_of(self.text, error.key)
@@ -59,6 +58,8 @@ class Text(NamedTuple):
 
     def with_units(self, spec: Spec) -> list[str]:
         """Values that were written with a unit, each with the number that was read."""
+        from geneva_cli.specfile.with_units import texts_with_units
+
         return texts_with_units(applied(_parsed(self.text), self.set_keys), spec)
 
 
@@ -68,6 +69,8 @@ _parsed = lru_cache(maxsize=8)(tomli.loads)
 
 def _hint(line: str) -> str:
     """What is right instead of a bare value such as ``12,5``, ``60 rpm`` or ``cycloidal``."""
+    from geneva_cli.spec.units import NUMBER
+
     match = re.fullmatch(r"""\s*[\w.-]+\s*=\s*([^\s#"'\[{][^#"'\[{]*?)\s*(#.*)?""", line)
     value = match[1] if match else ""
     if comma := re.fullmatch(r"([+-]?\d+),(\d+)(.*)", value):

@@ -14,7 +14,6 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.sizes import Layout
 from geneva_cli.layout.sphere_sizes import sized_ball
-from geneva_cli.layout.sphere_stressed import sphere_stressed
 from geneva_cli.layout.stressed import Stressed, stressed
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
@@ -71,6 +70,8 @@ def stressed_parts(machine: Mechanism, layout: Layout | None) -> Stressed | None
 
 
 def _of_sphere(machine: Mechanism) -> Stressed | None:
+    from geneva_cli.layout.sphere_stressed import sphere_stressed
+
     ball = sized_ball(machine)
     return sphere_stressed(machine.spec, ball) if ball else None
 

@@ -12,7 +12,6 @@ import numpy as np
 from geneva_cli.errors import Notice
 from geneva_cli.layout.sizes import sized
 from geneva_cli.loads.strength import horn, lock, shafts
-from geneva_cli.loads.strength.sphere_horn import sphere_stoutness
 from geneva_cli.verdict.quantities.designs import single
 from geneva_cli.verdict.quantities.groups import REPORT, only
 from geneva_cli.verdict.quantities.under_load import under_load
@@ -83,6 +82,8 @@ class Strength:
             recess = sizes.lock.recess
             return float(horn.stoutness(self.mechanism, sizes.half_width, recess)[0]), recess
         assert ball is not None  # without a lock there is no stress
+        from geneva_cli.loads.strength.sphere_horn import sphere_stoutness
+
         stout = sphere_stoutness(self.mechanism, ball.half_width, ball.recess, ball.axes)
         return stout, ball.radius_mm * math.sin(ball.recess)
 

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Self, TypeAlias
 from geneva_cli.kinematics.layout import Layout, Pivot
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose
-from geneva_cli.kinematics.wheels.skew import Skew
 from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import larger
 from geneva_cli.numerics.jet import Jet, turning
@@ -27,6 +26,7 @@ if TYPE_CHECKING:
         WheelMotion,
     )
     from geneva_cli.kinematics.plane_motion import PlaneMotion
+    from geneva_cli.kinematics.wheels.skew import Skew
 
 
 # The wheel's rate from sin d and 1 - cos d of the crank's rotation d since mid-motion.

@@ -33,7 +33,6 @@ import numpy as np
 
 from geneva_cli.analysis.forces import contact_modulus_GPa, hertz_MPa
 from geneva_cli.analysis.locking import Lock
-from geneva_cli.analysis.unbalance import held_unbalance_Nm
 from geneva_cli.loads.strength.horn import SHEAR, horns, product
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.materials import wheel_material
@@ -86,6 +85,8 @@ def held_torque_Nm(mechanism: Mechanism) -> float:
     held = load.torque_Nm if load.dwell_torque_Nm is None else load.dwell_torque_Nm
     if not mechanism.unbalanced:
         return held
+    from geneva_cli.analysis.unbalance import held_unbalance_Nm
+
     return held + parameter(held_unbalance_Nm(mechanism))
 
 

@@ -6,14 +6,19 @@ It is an angle, or the travel of a rack: each check has a name for either unit.
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from geneva_cli.collisions.full_turn import FullTurn, Most
 from geneva_cli.collisions.machine_parts import MachineParts
-from geneva_cli.verdict.checks.check import Check, compared
+
+if TYPE_CHECKING:
+    from geneva_cli.verdict.checks.check import Check
 
 
 def dwell_hold(name: str, parts: MachineParts, turn: FullTurn) -> Check:
     """Check that something holds the wheel: its lock, or ``held_by`` of the spec."""
+    from geneva_cli.verdict.checks.check import Check
+
     holds = parts.assembly.full.spec.wheel.held_by is not None or turn.holds
     return Check(name, float(holds), "at least", 1.0, holds)
 
@@ -56,6 +61,8 @@ def _play(name: str, play: Most, limit_deg: float, parts: MachineParts) -> Check
 
 
 def _at_most(name: str, play: Most, limit: float) -> Check:
+    from geneva_cli.verdict.checks.check import compared
+
     return compared(name, play.deg, "at most", limit, play.at_deg if play.deg else None)
 
 

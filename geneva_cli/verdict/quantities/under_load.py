@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.analysis.quantities import FORCE, PV
-from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.sizes import Layout, sized
 from geneva_cli.layout.sphere_sizes import sized_ball
 from geneva_cli.loads.cycle import cycle_of
@@ -18,13 +17,13 @@ from geneva_cli.loads.strength import lock, roller, shafts
 from geneva_cli.loads.strength.horn import horn_stresses
 from geneva_cli.loads.strength.horn_search import HornStress
 from geneva_cli.loads.strength.part_loads import PartLoads, own_loads, part_loads, sizing_loads
-from geneva_cli.loads.strength.sphere_horn import sphere_horn
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.verdict.lock_sizes import LockSizes, design_lock_sizes, layouts_lock_sizes
 from geneva_cli.verdict.part_sizes import PartSizes, part_sizes, stressed_parts
 
 if TYPE_CHECKING:
+    from geneva_cli.layout.ball import Ball
     from geneva_cli.loads.strength.lock import LockUnderTorque
     from geneva_cli.loads.strength.roller import SlotPassage
     from geneva_cli.numerics.jet import Array
@@ -81,6 +80,8 @@ class UnderLoad:
         sizes = self.lock_sizes
         if sizes is not None:
             return horn_stresses(self.machine, sizes.half_width, sizes.lock.recess, width)
+        from geneva_cli.loads.strength.sphere_horn import sphere_horn
+
         rows = np.full((len(HornStress._fields), len(self.balls)), np.nan)
         widths = np.broadcast_to(np.ravel(width), len(self.balls))
         for i, (one, ball) in enumerate(zip(self.designs.each, self.balls, strict=True)):

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from geneva_cli.analysis.carried import inertia_kgm2
 from geneva_cli.analysis.peaks import worst
 from geneva_cli.analysis.quantities import REPORTED_PEAKS, sources
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.loads import loads
-from geneva_cli.verdict.report.values import Values
+
+if TYPE_CHECKING:
+    from geneva_cli.verdict.report.values import Values
 
 
 def greatest_loads(model: PartsModel) -> Values:
