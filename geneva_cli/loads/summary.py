@@ -21,7 +21,6 @@ from geneva_cli.analysis.quantities import (
 )
 from geneva_cli.errors import Notice
 from geneva_cli.loads.cycle import Cycle
-from geneva_cli.loads.sizing import WHEEL_INERTIA, sizing
 from geneva_cli.loads.summaries import LoadSummary
 from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.table import Reading, Table, computed_table, record_table, rows_table
@@ -110,6 +109,8 @@ def loads_table(
     ``life`` and the wheel's own inertia are known from its parts. For people the quantities that
     have a value are rows of a table.
     """
+    from geneva_cli.loads.sizing import WHEEL_INERTIA, sizing
+
     spec = cycle.mechanism.spec
     values: dict[str, object] = {"spec": spec.path, "title": spec.title}
     loads = summaries(cycle)

@@ -13,9 +13,7 @@ from geneva_cli.spec.load_limits import limits_by_key, load_limits
 
 
 def load_warnings(mechanism: Mechanism) -> list[Notice]:
-    """The warnings that need the loads; none without a load."""
-    if not mechanism.spec.is_loaded:
-        return []
+    """The warnings that need the loads, of a machine with a load."""
     cycle = cycle_of(mechanism)
     out = [*_jammed(cycle), *_on_an_edge(cycle)]
     # the search for a speed is needed only if the present one breaks a limit
