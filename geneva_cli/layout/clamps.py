@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.curves.cross_holes import CrossHole
 from geneva_cli.curves.measure import turned
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import ORIGIN, Circle, Contour, Line, about, closed
@@ -133,6 +132,8 @@ def with_clamp(size: Size, part: str, hub: Plate | None, direction: float) -> Pl
             f"{part}_screw_mm: the clamp holds the shaft; remove one of {key} and {part}_screw_mm",
             ("size", f"{part}_screw_mm"),
         )
+    from geneva_cli.curves.cross_holes import CrossHole
+
     clamp = Clamp(screw(key, values[key]), bore.radius, hub.outline.radius)
     if not clamp.fits or hub.thickness < clamp.screw.head:
         fitting = [s.thread for s in SCREWS if clamp._replace(screw=s).fits]

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.curves.cross_holes import CrossHole, drilled
 from geneva_cli.curves.plates import Plate
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bores import around
-from geneva_cli.layout.screws import screw
 from geneva_cli.spec.tables import Size
 
 
@@ -30,6 +28,9 @@ def with_set_screw(size: Size, part: str, hub: Plate | None, direction: float) -
             "remove it",
             ("size", key),
         )
+    from geneva_cli.curves.cross_holes import CrossHole, drilled
+    from geneva_cli.layout.screws import screw
+
     inner, outer = max(around(hole) for hole in hub.holes), around(hub.outline)
     wall = outer - inner
     most = min(wall, 0.5 * hub.thickness)

@@ -29,7 +29,6 @@ from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import wheel_hub
 from geneva_cli.parts.all_shafts import all_shafts, built_shafts, passing, passing_arm
 from geneva_cli.parts.arm import has_arm
-from geneva_cli.parts.gear_pair import gear_span
 from geneva_cli.parts.link_shafts import outside_links
 from geneva_cli.parts.links import Links, placed_holes
 from geneva_cli.parts.mounted_plate import (
@@ -79,6 +78,8 @@ def framed(
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     lows = [base.low] if base else []
     if mechanism.spec.gears:
+        from geneva_cli.parts.gear_pair import gear_span
+
         lows.append(gear_span(mechanism, outlines)[0])
     drawn = outlines.sizes if outlines else None
     thick = drawn_thicknesses(size, L, drawn).arm

@@ -17,15 +17,14 @@ from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.roots import Falsi
-from geneva_cli.verdict.changes import Change, Value, value_now
 from geneva_cli.verdict.checks import checks, checks_at_rest, checks_turning, single_check
 from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
 from geneva_cli.verdict.checks.registry import SPHERE, STATIC
 from geneva_cli.verdict.failures import JAMS
-from geneva_cli.verdict.remedies import remedies
 
 if TYPE_CHECKING:
     from geneva_cli.drawings.model import PartsModel
+    from geneva_cli.verdict.changes import Change, Value
 
 # Work of all searches of a design, in units of at most 10 ms: a curved slot's parts take 0.1 s.
 WORK = 800
@@ -121,6 +120,9 @@ class Adviser:
 
     def _changes(self, wanted: list[Check]) -> Iterator[Change]:
         """Changes that may help any of some checks, each change once."""
+        from geneva_cli.verdict.changes import value_now
+        from geneva_cli.verdict.remedies import remedies
+
         seen = set()
         for check in wanted:
             for change in remedies(check.name, self.mechanism):
@@ -154,6 +156,8 @@ class _Search:
 
     def least(self, change: Change) -> str:
         """The least sufficient change of one key, as a line of the spec; empty if there is none."""
+        from geneva_cli.verdict.changes import value_now
+
         now = value_now(self.mechanism, change.table, change.key)
         bad, short = now, self.short
         for good in map(_as_written, change.values(now)):

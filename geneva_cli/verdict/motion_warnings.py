@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from geneva_cli.analysis.peaks import peak
 from geneva_cli.errors import Notice
 from geneva_cli.kinematics.engagement import WheelMotion
-from geneva_cli.kinematics.pitch_curve import retraces
 from geneva_cli.layout.fits import loosest_mm
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
@@ -58,6 +57,8 @@ def motion_warnings(mechanism: Mechanism) -> list[Notice]:
                 f"{law.TURNS_BACK}",
             )
         )
+    from geneva_cli.kinematics.pitch_curve import retraces
+
     if engagement.slot.curved and not retraces(engagement):
         out.append(_off_the_mid_condition(mechanism))
     if max(abs(half(0.0, 2).scalars()[2]) for half in (law.first, law.second)) > 1e-9:

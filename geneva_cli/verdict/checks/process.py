@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 from geneva_cli.layout.plain_sizes import drawn_thicknesses
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.spec.workshops import workshop
 from geneva_cli.verdict.checks.check import Check, compared
 
 if TYPE_CHECKING:
     from geneva_cli.parts.rack_parts import RackParts
+    from geneva_cli.parts.sphere.sphere_parts import SphereParts
 
 
 def thickest_plate(name: str, parts: FlatParts) -> Check | None:

@@ -6,7 +6,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.plain_sizes import wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.verdict.checks.check import Check, compared
-from geneva_cli.verdict.strength import strength
 
 
 def rack_horn(name: str, mechanism: Mechanism) -> Check | None:
@@ -30,5 +29,7 @@ def guide_locks(name: str, mechanism: Mechanism) -> Check | None:
     friction = mechanism.spec.load.friction
     if mechanism.output.turns or not friction:
         return None
+    from geneva_cli.verdict.strength import strength
+
     value = strength(mechanism)["guide.locks_at_friction"]
     return compared(name, value, "at least", friction) if value else None
