@@ -13,13 +13,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, TypeAlias
 
-from geneva_cli.analysis.timing import timings
 from geneva_cli.curves.mass import MM, solid_properties
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Part, Shell, Solid
-from geneva_cli.curves.sphere import opposite
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.drawings.sphere.dimensions import dimensions
 from geneva_cli.kinematics.layout import Dimension, Pivot
 from geneva_cli.layout.alike import alike
 from geneva_cli.layout.missing import Missing, built_of, or_missing
@@ -28,15 +25,12 @@ from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
-from geneva_cli.outlines.sphere_wheel import POLE
-from geneva_cli.parts.rack_frame import rack_dimensions
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.spec.tables import Size
 from geneva_cli.table import Reading, Table, rows_table
 
 if TYPE_CHECKING:
     from geneva_cli.drawings.model import PartsOfMachine
-
 # columns of a row of each kind
 KINDS = {
     "part": (
@@ -71,6 +65,7 @@ def parts_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) 
 
 def parts_list(model: PartsModel) -> Table:
     """Return the list of parts of a machine, whose outlines may already be computed."""
+
     mechanism = model.mechanism
     entries = [*_parts(model), *_pivots(mechanism), *_dimensions(model)]
     mappings = [{"row": "missing", **r._asdict()} if isinstance(r, Missing) else r for r in entries]
@@ -130,6 +125,9 @@ def _properties(solid: Solid, density: float, outside: float | None) -> Row:
             x, y = (at if abs(at) > near else 0.0 for at in body.centroid_mm)
             row = {"centroid_x_mm": x, "centroid_y_mm": y}
     else:
+        from geneva_cli.curves.sphere import opposite
+        from geneva_cli.outlines.sphere_wheel import POLE
+
         low, high = solid.inner, solid.outer
         across = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)  # axes along which its size is measured
         wide, deep = (solid.reach(axis) + solid.reach(opposite(axis)) for axis in across)
@@ -172,11 +170,12 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
     entries += _screws_and_edges(spec.size)
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     own_dimensions = {
-        "ball": ("dimensions of the shells", lambda: dimensions(model.ball)),
-        "rack": ("dimensions of the rack", lambda: rack_dimensions(model.rack.sizes)),
+        "ball": ("dimensions of the shells", _of_shells),
+        "rack": ("dimensions of the rack", _of_rack),
     }
     if spec.wheel.PARTS in own_dimensions:
-        entries += or_missing(*own_dimensions[spec.wheel.PARTS])
+        name, dimensions = own_dimensions[spec.wheel.PARTS]
+        entries += or_missing(name, lambda: dimensions(model))
     if mechanism.law is None and spec.drive.CRANKED:
         entries += _straight(mechanism)
     elif spec.drive.CRANKED:
@@ -191,6 +190,18 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
         entries += or_missing("teeth of the gears", lambda: model.flat.tooth_dimensions)
     for entry in entries:
         yield entry if isinstance(entry, Missing) else {"row": "dimension", **entry._asdict()}
+
+
+def _of_shells(model: PartsModel) -> Iterable[Dimension | Missing]:
+    from geneva_cli.drawings.sphere.dimensions import dimensions
+
+    return dimensions(model.ball)
+
+
+def _of_rack(model: PartsModel) -> Iterable[Dimension | Missing]:
+    from geneva_cli.parts.rack_frame import rack_dimensions
+
+    return rack_dimensions(model.rack.sizes)
 
 
 def _screws_and_edges(size: Size) -> Iterator[Dimension]:
@@ -219,6 +230,8 @@ def _straight(mechanism: Mechanism) -> Iterator[Dimension]:
 
 def _motions(mechanism: Mechanism) -> Iterator[Dimension]:
     """Yield the step and the input angles of each engagement of a period."""
+    from geneva_cli.analysis.timing import timings
+
     output = mechanism.output
     for i, one in enumerate(mechanism.engagements):
         name = f"engagement {i + 1}: " if len(mechanism.engagements) > 1 else ""

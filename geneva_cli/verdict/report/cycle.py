@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.summary import reversals_deg, summaries
-from geneva_cli.verdict.report.values import Values
+
+if TYPE_CHECKING:
+    from geneva_cli.verdict.report.values import Values
 
 
 def cycle(model: PartsModel) -> Values:
