@@ -4,6 +4,11 @@ PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 pytho
 BIN = .venv/bin
 # Not --quiet: mkdocs then counts no warning, and --strict passes whatever is broken.
 DOCS = $(BIN)/mkdocs build --strict --config-file .ci/mkdocs.yml
+# Python compiles a file when it is first used; pip would compile all of them: 15 s of 37.
+PIP = $(BIN)/pip install --quiet --disable-pip-version-check --no-compile
+# Even where Python is told to keep nothing compiled, as in many a container: tests start the program
+# some hundred times.
+unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: demo test pytest lint docs web web-test stress certify jam cad editors page fuzz bench bench-start dist clean
 
@@ -20,10 +25,8 @@ demo: .venv/demo
 test: .venv/dev
 	$(MAKE) --jobs=2 lint pytest
 
-# Tests start the program some hundred times: even where Python is told to keep nothing compiled,
-# it is compiled once.
 pytest: .venv/dev
-	PYTHONDONTWRITEBYTECODE= $(BIN)/pytest -n logical --dist worksteal
+	$(BIN)/pytest -n logical --dist worksteal
 
 lint: .venv/dev
 	$(BIN)/ruff check .
@@ -50,7 +53,7 @@ stress: .venv/dev
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_synth.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_loads_many.py --designs 5000
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_sweep.py
-	GENEVA_STRESS=1 PYTHONDONTWRITEBYTECODE= $(BIN)/pytest -n logical --dist worksteal
+	GENEVA_STRESS=1 $(BIN)/pytest -n logical --dist worksteal
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_windows.py
 
 # Proved bounds of every peak: all designs, and 1,000 random machines of each kind; two hours. `make
@@ -61,14 +64,14 @@ certify: .venv/dev
 
 # 2,000 mutated specs before the reader, JSON Schema, and the checkers of two editors; two minutes.
 editors: .venv/dev
-	$(BIN)/pip install --quiet "taplo>=0.9,<1" "tombi>=1,<2"
+	$(PIP) "taplo>=0.9,<1" "tombi>=1,<2"
 	PATH="$(CURDIR)/$(BIN):$$PATH" PYTHONPATH=tests:tests/machine:tests/stress python tests/stress/schema_agrees.py taplo tombi
 
 # The page of every design in a headless Chromium, which must be installed: the slider, the console,
 # frames a second, and pictures in build/page to look at; some minutes.
 page: .venv/dev
 	@mkdir -p build/page
-	$(BIN)/pip install --quiet "websocket-client>=1.8,<2"
+	$(PIP) "websocket-client>=1.8,<2"
 	PYTHONPATH=tests:tests/output $(BIN)/python tests/stress/page_in_browser.py build/page
 
 # A static folder, build/web, on which geneva runs in a browser; needs npm and its registry. To try
@@ -80,13 +83,13 @@ web: .venv/demo
 # That page in a headless Chromium, which must be installed: the time to the first answer, verdicts
 # and files against the commands' own, and without a network; a minute.
 web-test: .venv/dev web
-	$(BIN)/pip install --quiet "websocket-client>=1.8,<2"
+	$(PIP) "websocket-client>=1.8,<2"
 	PYTHONPATH=tests:tests/output:tests/stress $(BIN)/python tests/stress/web_in_browser.py build/web
 
 # Every design's STEP files read by a CAD kernel, and the manual's CAD code run with it; it is
 # installed with build123d (1 GB). FreeCAD and OpenSCAD take part if they are installed. Four minutes.
 cad: .venv/dev
-	$(BIN)/pip install --quiet "build123d>=0.13,<0.14"
+	$(PIP) "build123d>=0.13,<0.14"
 	PYTHONPATH=tests $(BIN)/python tests/stress/solids_in_cad.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/solids_in_cad.py --designs designs/side-crank-z6.toml --set size.edge_fillet_mm=0.3
 	PATH="$(CURDIR)/$(BIN):$$PATH" PYTHONPATH=tests python tests/stress/cad_code.py
@@ -94,7 +97,7 @@ cad: .venv/dev
 # Every design's DXF files in a physics engine, which is installed for it: does it jam, and does the
 # wheel go where it should; ten minutes.
 jam: .venv/dev
-	$(BIN)/pip install --quiet "pymunk>=7,<8"
+	$(PIP) "pymunk>=7,<8"
 	PYTHONPATH=tests $(BIN)/python tests/stress/jam.py
 
 # A million random specs, 20,000 machines with parts, 10,000 drawing sheets, 100,000 wheels of ever
@@ -117,7 +120,7 @@ bench-start: .venv/dev
 # Wheel and sdist in dist/, each installed alone and run, with the lowest and the highest releases of
 # what it needs; some minutes.
 dist: .venv/dev
-	$(BIN)/pip install --quiet "build>=1.2,<2" "uv>=0.9"
+	$(PIP) "build>=1.2,<2" "uv>=0.9"
 	rm -rf dist
 	$(BIN)/python -m build --outdir dist >/dev/null
 	PATH="$(CURDIR)/$(BIN):$$PATH" PYTHONPATH=tests python tests/stress/try_dist.py dist/*
@@ -130,12 +133,12 @@ dist: .venv/dev
 
 .venv/demo: .venv/python pyproject.toml
 	@echo "--- installing geneva and what it needs in .venv: a minute, the first time alone"
-	$(BIN)/pip install --quiet --editable .
+	$(PIP) --editable .
 	@touch $@
 
 .venv/dev: .venv/demo
 	@echo "--- installing what the tests need in .venv: some minutes, the first time alone"
-	$(BIN)/pip install --quiet $$($(BIN)/python -c "import tomli; print(*(r.replace(' ', '') for r in tomli.load(open('pyproject.toml', 'rb'))['dependency-groups']['dev']))")
+	$(PIP) $$($(BIN)/python -c "import tomli; print(*(r.replace(' ', '') for r in tomli.load(open('pyproject.toml', 'rb'))['dependency-groups']['dev']))")
 	@touch $@
 
 clean:

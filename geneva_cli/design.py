@@ -212,6 +212,26 @@ class Design:
         with self._text.located():
             return make()
 
+    @property
+    def frame(self) -> Spec:
+        """The spec, as one whose sizes, loads and limits a search keeps.
+
+        Raises GenevaError for a motion that leaves a search nothing to choose.
+
+        >>> Design(External(6)).frame.wheel.z
+        6
+        """
+        return self._located(self._frame)
+
+    def _frame(self) -> Spec:
+        if self.spec.wheel.JUMPS:
+            raise GenevaError(
+                f'--from: gearing = "{self.spec.wheel.NAME}" has no motion to choose, as its speed '
+                'jumps to a constant: use "external", "internal", "spherical" or "linear"',
+                ("wheel", "gearing"),
+            )
+        return self.spec
+
     @answer
     def with_units(self) -> list[str]:
         """The inputs that the spec's file has with a unit, each with the number that was read.

@@ -234,6 +234,8 @@ def slots_beside_gears(spec):
 def in_gear(spec, deg):
     """The loads and the speed while gear sectors drive; None where a roller does."""
     _, u, D = sector(spec)
+    if spec.drive_before:
+        return in_gear_behind(spec, to_radians(deg), u, D)
     if abs(to_radians(deg)) > D / 2:
         return None
     torque, L = mp.mpf(spec.load.torque_Nm), mp.mpf(spec.given_distance_mm) / 1000
@@ -241,6 +243,23 @@ def in_gear(spec, deg):
     force, none = torque / driven, mp.mpf(0)
     shaft = mesh(u * driven, driven, torque)
     return Loads(torque, force, shaft, none, none, force, force, None), u
+
+
+def in_gear_behind(spec, x, u, D):
+    """The same with a drive before, which pushes the crank whose gear is loaded."""
+    front = Front(spec.drive_before)
+    if abs(front.crank(x)) > D / 2:
+        return None
+    L = mp.mpf(spec.given_distance_mm) / 1000
+    w = mp.mpf(spec.drive.n_rpm) * mp.pi / 30
+    bend = u * mp.diff(front.crank, x, 2, h=mp.mpf(10) ** -15)
+    torque = mp.mpf(spec.load.inertia_kgm2) * w * w * bend + mp.mpf(spec.load.torque_Nm)
+    force, none = torque * (1 + u) / L, mp.mpf(0)
+    chain, *_ = in_series(spec, crank(1), None, None, mp.mpf(spec.given_distance_mm))
+    shaft, bearing, push = chain.shaft(x, 1 / (1 + u), -1j * force)
+    size = abs(force)
+    found = Loads(torque, size, shaft * L * chain.sense, none, none, size, bearing, push)
+    return found, u * rate(front.crank, x)
 
 
 def planet(spec):
@@ -266,6 +285,10 @@ def groove(g, pin):
     """The body slides along the crank, and its roller runs in a fixed groove."""
 
     def shaft(x, contact, force):
+        back, torque, hold = on_crank(x, contact, force)
+        return torque, abs(back), abs(hold)
+
+    def on_crank(x, contact, force):
         way = rate(pin, x)
         arm = (pin(x) - 1) / abs(pin(x) - 1)
         wall = 1j * way / abs(way)
@@ -274,10 +297,14 @@ def groove(g, pin):
             (wall, pin(x)), (across, pin(x)), (None, 1), force=force, at=contact
         )
         back = -push * across
-        p, q, torque = balance((X, 1), (Y, 1), (None, 1), force=back, at=pin(x))
-        return torque + couple, mp.hypot(p, q), abs(hold)
+        torque = balance((X, 1), (Y, 1), (None, 1), force=back, at=pin(x))[2]
+        return back, torque + couple, hold
 
-    return Chain(None, shaft, -g)
+    def held(x, contact, force):  # force and couple as one force on another line
+        back, torque, hold = on_crank(x, contact, force)
+        return 1 + 1j * back * torque / abs(back) ** 2, back, abs(hold)
+
+    return Chain(None, shaft, -g, held)
 
 
 def link(spec, entry_deg, exit_deg):
@@ -330,21 +357,28 @@ def link(spec, entry_deg, exit_deg):
 
 
 def in_series(spec, chain, wheel, pin, distance_mm):
-    """The machine whose input shaft another drive turns: a crank that its own pin loads."""
-    before, none, mirrored = spec.drive_before, mp.mpf(0), chain.sense > 0
+    """The machine whose input shaft another drive turns: a crank that its own pin loads.
+
+    A crank that carries its roller is loaded at the contact, and has no guide but the push.
+    """
+    before, none = spec.drive_before, mp.mpf(0)
+    g = -1 if spec.wheel.NAME == "internal" else 1  # the front's crank points as the wheel's does
+    mirrored = g * chain.sense > 0
     front = Front(before)
     kinds = {"elliptical-gears": ellipses, "noncircular-gears": rolling}
     if before.NAME in kinds:
-        first = kinds[before.NAME](1, front, none, before, distance_mm)
+        first = kinds[before.NAME](g, front, none, before, distance_mm)
     else:
-        first = coulisse(1, front.A, none, before.input_crank_mm / distance_mm)
+        first = coulisse(g, front.A, none, before.input_crank_mm / distance_mm)
 
     def shaft(x, contact, force):
-        at, on, guide = chain.pin(front.crank(x), contact, force)
+        at, on, guide = contact, force, None
+        if chain.pin:
+            at, on, guide = chain.pin(front.crank(x), contact, force)
         if mirrored:  # a shaft that turns with the wheel, seen from its other side
             at, on = mp.conj(at), mp.conj(on)
-        torque, bearing, _ = first.shaft(x, at, on)
-        return -torque if mirrored else torque, bearing, guide
+        torque, bearing, push = first.shaft(x, at, on)
+        return -torque if mirrored else torque, bearing, guide if chain.pin else push
 
     def body(x):
         return chain.body(front.crank(x))
@@ -378,7 +412,7 @@ def machine(spec, near=None, number=0):
             chain = coulisse(g, front.A, mid, r and r / mp.mpf(spec.given_distance_mm))
         chain = chain or crank(g)
     if chain.body is None:
-        chain = chain._replace(body=lambda x: mp.arg((pin(x) - 1) / (pin(mp.mpf(0)) - 1)))
+        chain = chain._replace(body=lambda x: mp.arg((pin(x) - 1) * -g))
     return chain, wheel, pin, mp.mpf(spec.given_distance_mm)
 
 

@@ -7,10 +7,10 @@ and are held against those differences, so each of the two checks the other. Not
 imports the program; every key is taken as the exact double that it is.
 """
 
-from functools import cache
+from functools import cache, partial
 
 from spline_witness import powers
-from witness import LAWS, krasniqi, mp, taylor, to_radians
+from witness import LAWS, chain, krasniqi, mp, taylor, to_radians
 
 
 class Front:
@@ -110,18 +110,36 @@ class LawMotion(Motion):
 
     def derivatives(self, deg):
         """The law's own derivatives, scaled."""
-        # the entry angle is rounded: half a unit of it may lie outside the motion
-        u = (to_radians(deg) - self.entry) / self.whole
+        return self.rates(to_radians(deg))
+
+    def rates(self, x):
+        """The same at an angle in radians, which may be a rounding outside the motion."""
+        u = (x - self.entry) / self.whole
         q = self.law(min(max(u, mp.mpf(0)), mp.mpf(1)), 4)
         q[0] -= mp.mpf(1) / 2
         return [2 * self.b * v / self.whole**k for k, v in enumerate(q)]
 
 
+class LawBehind(Motion):
+    """A law's motion by another shaft's angle: outside its ends a law has no Taylor series."""
+
+    def __init__(self, own, turned, *places):
+        super().__init__(*places)
+        self.own, self.turned = own, turned
+
+    def derivatives(self, deg):
+        """Both series, one put into the other."""
+        turned = taylor(self.turned, to_radians(deg), 4)
+        return list(chain(self.own.rates(turned[0]), turned))
+
+
 def motions(spec):
     """The motions of a machine in the order of its engagements."""
     if spec.drive_before:
-        front = Front(spec.drive_before)
-        return [retimed(own, front) for own in motions(spec.replace(drive_before=None))]
+        front, each = Front(spec.drive_before), motions(spec.replace(drive_before=None))
+        count = spec.drive.rollers if spec.motion else 1  # rollers that are alike have one motion
+        turns = [2 * mp.pi * k / count for k in range(count)]
+        return [retimed(own, front, turn) for turn in turns for own in each]
     kind = spec.drive.NAME
     if kind == "epicyclic":
         return [epicyclic(spec)]
@@ -133,22 +151,24 @@ def motions(spec):
     return [straight(spec, front, crank, b) for crank, b in rollers(spec)]
 
 
-def retimed(own, front):
+def retimed(own, front, late=0):
     """A motion whose input shaft another drive turns: every angle of that shaft is the front's."""
-    mid = front.input(own.mid)
+    own_mid = own.mid + late
+    mid = front.input(own_mid)
 
     def turned(x):
-        return front.crank(mid + x) - own.mid
+        return front.crank(mid + x) - own_mid
 
     def closed(x):
         f1, f2, f3 = front.closed(mid + x)
         G1, G2, G3 = own.closed(turned(x))
         return G1 * f1, G2 * f1**2 + G1 * f2, G3 * f1**3 + 3 * G2 * f1 * f2 + G1 * f3
 
-    out = Motion(
+    behind = partial(LawBehind, own, turned) if isinstance(own, LawMotion) else Motion
+    out = behind(
         mid,
-        front.input(own.mid + own.entry) - mid,
-        front.input(own.mid + own.exit) - mid,
+        front.input(own_mid + own.entry) - mid,
+        front.input(own_mid + own.exit) - mid,
         own.b,
         lambda x: own.wheel(turned(x)),
         lambda x: own.path(turned(x)),

@@ -206,6 +206,10 @@ def _reactions(
     if engagement.reactions is None:
         return None
     path = engagement.path(x, lever.order + 1)
+    touches = engagement.slot.touches(x)
+    if not all_true(touches == 1.0):  # gears push at their pitch point, which stands still
+        apart = Jet((*lever.c, 0.0)) * (1.0 - touches)
+        path = path[0] * touches + apart, path[1] * touches
     px, py = (_to_order(jet, lever.order) for jet in path)
     square = px * px + py * py
     # the tangent, whose M . t and M x t are known

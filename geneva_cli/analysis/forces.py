@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Generic
 
 from geneva_cli.analysis.carried import MM, inertia_kgm2, resisting_torque_Nm, unbalance_kgm
 from geneva_cli.analysis.contact import Contact
+from geneva_cli.analysis.guide_place import guide_place
 from geneva_cli.analysis.pin import pin_diameter_mm
 from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.machine.mechanism import Mechanism
@@ -27,6 +28,7 @@ from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import N, all_true, choose, designs_of, library
 from geneva_cli.numerics.jet import Jet, Number, V
+from geneva_cli.spec.default_sizes import value_or
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
@@ -53,6 +55,11 @@ class LoadCase(NamedTuple):
     # ahead of it
     along_Nm: float = 0.0
     across_Nm: float = 0.0
+    # of a rack: friction of its guide, 0 without one; x of the guide's middle from the deepest
+    # roller, and half its length, over L
+    guide_friction: float = 0.0
+    guide_middle: float = 0.0
+    guide_half: float = 1.0
     design: int | Whole = 0  # the design's number in its batch: (m, 1) in a batch
 
     @property
@@ -73,6 +80,21 @@ class LoadCase(NamedTuple):
     def rubs(self) -> bool:
         """Return True if there is friction along the wall in any of the designs."""
         return not all_true(self.friction == 0.0)
+
+    @property
+    def frictionless(self) -> LoadCase:
+        """Return the case without friction."""
+        return self._replace(friction=0.0, guide_friction=0.0)
+
+    @property
+    def guided(self) -> bool:
+        """Return True if there is friction in a rack's guide in any of the designs."""
+        return not all_true(self.guide_friction == 0.0)
+
+    @property
+    def all_friction(self) -> float:
+        """A number that is above 0 for a design with any friction, which may hold the wheel."""
+        return self.friction + self.guide_friction
 
 
 def load_case(mechanism: Mechanism) -> LoadCase:
@@ -100,8 +122,23 @@ def load_case(mechanism: Mechanism) -> LoadCase:
         hertz,
         mechanism.frame,
         *unbalance_Nm(mechanism),
+        *_guide(mechanism),
         mechanism.design,
     )
+
+
+def _guide(mechanism: Mechanism) -> tuple[float, float, float]:
+    """The friction of a rack's guide, its middle and half its length, over L.
+
+    A wheel has none, nor has a rack whose slots leave no space for one.
+    """
+    spec, L = mechanism.spec, mechanism.center_distance_mm
+    if not spec.guided:
+        return 0.0, 0.0, 1.0
+    place = guide_place(mechanism)
+    friction = value_or(spec.load.guide_friction, spec.load.friction)
+    there = place.half > 0.0
+    return choose(there, friction, 0.0), place.middle / L, choose(there, place.half / L, 1.0)
 
 
 def unbalance_Nm(mechanism: Mechanism) -> tuple[float, float]:
@@ -222,14 +259,50 @@ def _centrifugal_Nm(case: LoadCase, heading: tuple[V, V]) -> tuple[V, V]:
 def gain(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
     """Ratio of the input torque to the wheel's, times ``grip``, so that it is always finite."""
     lost = sliding(at, drives, case.radius) * at.touches * (case.friction * slides * drives)
-    return at.velocity * _grip(case, at, drives, slides) + lost
+    return at.velocity * _slot_grip(case, at, drives, slides) + lost
 
 
 def _grip(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+    grip = _slot_grip(case, at, drives, slides)
+    return grip - guide_drag(case, at, drives, slides) * drives if case.guided else grip
+
+
+def _slot_grip(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+    """The grip without friction in a guide."""
     if not case.rubs:
         return at.lever
     rub = at.touches * (case.friction * slides)
     return at.lever + rub * (at.offset * drives - at.arm * case.radius)
+
+
+def guide_lever(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+    """Lever of the force on a rack about its guide's middle, over L, for a roller that drives.
+
+    The formula is that of ``loads.strength.guide``, over d. Of a direct crank 1 - cos a is 1 -
+    velocity, and sin a the speed along the slot.
+    """
+    lever = at.velocity * -1.0 + (1.0 - case.guide_middle)
+    if not case.rubs:
+        return lever
+    return lever - (at.along + drives * case.radius) * (case.friction * slides * drives)
+
+
+def leaning(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+    """A value above 0 where the rack bears on opposite sides of its guide's ends: smooth."""
+    lever = guide_lever(case, at, drives, slides)
+    return lever * lever - (case.friction * case.guide_half) ** 2
+
+
+def guide_drag(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+    """Friction in a rack's guide over the pin's force: nu (|N1| + |N2|)/F.
+
+    The forces at both ends add up to mu F across the travel, and their moment about the guide's
+    middle is that of the roller. So |N1| + |N2| is the greater of |M|/h and mu F.
+    """
+    turns = guide_lever(case, at, drives, slides) * (1.0 / case.guide_half)
+    both = lesser(turns * -1.0, turns)  # less their size
+    least = turns * 0.0 - case.friction
+    return lesser(both, least) * (0.0 - case.guide_friction)
 
 
 def feeding(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
@@ -303,10 +376,17 @@ class Forces(Generic[V]):
         shaft = self.torque * self.at.velocity
         if not all_true(self.case.frame == 0.0):
             shaft = shaft + frame_torque(self.case, self.at)
-        if not self.case.rubs:
-            return shaft
+        return shaft + self.rubbed if self.case.rubs or self.case.guided else shaft
+
+    @cached_property
+    def rubbed(self) -> V:
+        """The part of the input's torque that friction takes, in the slot and in a guide, N m."""
         rub = self.at.touches * (self.case.friction * self.slides)
-        return shaft + self.force * rub * self.sliding * self.case.L
+        torque = self.force * rub * self.sliding * self.case.L
+        if not self.case.guided:
+            return torque
+        drag = guide_drag(self.case, self.at, self.drives, self.slides)
+        return torque + self.force * drag * self.at.velocity * self.case.L
 
     @cached_property
     def edge(self) -> V | None:

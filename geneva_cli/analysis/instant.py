@@ -122,8 +122,8 @@ class Instant(Generic[V]):
 
     @cached_property
     def friction_W(self) -> V:
-        """Friction power of the contact, W."""
-        return self.forces.force * self._rubs * (self._rub * self.slides)
+        """Power that friction turns to heat, in the slot and in a rack's guide, W."""
+        return self.forces.rubbed * self.case.speed_rad_s
 
     @cached_property
     def wheel_bearing_N(self) -> V:
@@ -152,7 +152,7 @@ class Instant(Generic[V]):
     @cached_property
     def friction_margin(self) -> V | None:
         """Margin of quantities that only friction makes unbounded; None without friction."""
-        return self.grip if self.case.rubs else None
+        return self.grip if self.case.rubs or self.case.guided else None
 
     @cached_property
     def edge(self) -> V | None:

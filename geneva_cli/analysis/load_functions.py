@@ -6,7 +6,7 @@ quantities, and the signs that matter.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Protocol
@@ -20,6 +20,7 @@ from geneva_cli.analysis.forces import (
     LoadCase,
     QuantityValue,
     feeding,
+    leaning,
     sliding,
     wheel_torque,
 )
@@ -134,7 +135,7 @@ class LoadFunctions:
         case = self.batch.case
         alone = all_true(case.inertia_Nm == 0.0) and not self.engagement.slot.curved
         alone = alone or all_true(case.resists_Nm == 0.0)
-        return self.mirrored and alone and not case.rubs
+        return self.mirrored and alone and not (case.rubs or case.guided)
 
     def at(self, x: Array, which: Which, order: int) -> ContactState:
         """The state of some designs at places (m, k), degrees, with derivatives up to an order.
@@ -229,7 +230,7 @@ class LoadFunctions:
             if row.margin is not None:
                 margin = row.margin.c[0]
                 # without friction a lever has all its digits, however short
-                whole = row.margin is signed.instant.grip and not case.rubs
+                whole = row.margin is signed.instant.grip and not (case.rubs or case.guided)
                 lost = margin <= (0.0 if whole else NEGLIGIBLE)
                 # a margin that is known to be negative may have a rounding error above 0
                 for kind in self.margins:
@@ -281,8 +282,10 @@ def kinds(engagement: Engagement, case: LoadCase, more: Sequence[str] = ()) -> l
         out.append("slides")
     if not all_true(case.efficiency == 1.0) or "feeds" in more:
         out.append("feeds")
-    if case.rubs:
+    if case.rubs or case.guided:
         out.append("grip")
+    if case.guided:
+        out.append("leans")
     if engagement.slot.curved and case.hertz is not None:
         out.append("edge")
     if "along" in more:
@@ -327,12 +330,15 @@ def signed_instant(
     if "feeds" in kinds:
         feeds = sign("feeds", feeding(case, at, drives, slides))
     instant = Instant(case, at, drives, slides, feeds, known=KnownValues(torque, rubs))
-    if "grip" in kinds:
-        sign("grip", instant.grip)
-    if "edge" in kinds and instant.edge is not None:
-        sign("edge", instant.edge)
-    if "along" in kinds:
-        sign("along", at.along)
-    if wanted is not None and "wanted" in kinds:
-        sign("wanted", wanted(instant, at).value)
+    others: dict[str, Callable[[], Jet | None]] = {
+        "grip": lambda: instant.grip,
+        "leans": lambda: leaning(case, at, drives, slides),
+        "edge": lambda: instant.edge,
+        "along": lambda: at.along,
+        "wanted": lambda: wanted(instant, at).value if wanted else None,
+    }
+    for kind, function in others.items():
+        jet = function() if kind in kinds else None
+        if jet is not None:
+            sign(kind, jet)
     return SignedInstant(signs, jets, instant)

@@ -70,12 +70,13 @@ def positive_drives(mechanism: Mechanism) -> PositiveDrives | None:
     case = load_case(mechanism)
     # Midpoints of a grid that includes mid-motion, where the branches meet.
     x = np.atleast_2d(engagement.entry_deg * (1.0 - (np.arange(HALF_SAMPLES) + 0.5) / HALF_SAMPLES))
-    (ax, ay), (bx, by) = engagement.slot(x, 0), engagement.slot(-x, 0)
+    back = engagement.inputs_deg(-engagement.own_deg(x))  # there the pin is as far along the slot
+    (ax, ay), (bx, by) = engagement.slot(x, 0), engagement.slot(back, 0)
     lead = np.arctan2(ay.c[0], ax.c[0]) - np.arctan2(by.c[0], bx.c[0])
     gap = L * np.hypot(ax.c[0], ay.c[0]) * np.abs(lead)
     torque = [
-        engagement.motion(side * x, 2).arrays()[2] * case.inertia_Nm + case.resists_Nm
-        for side in (1.0, -1.0)
+        engagement.motion(places, 2).arrays()[2] * case.inertia_Nm + case.resists_Nm
+        for places in (x, back)
     ]
     # branches nearer than 0.01 mm are one slot, as machined
     played = gap > 0.01 + 2.0 * mechanism.spec.size.allowances.slot_clearance_mm
@@ -92,7 +93,7 @@ def positive_drives(mechanism: Mechanism) -> PositiveDrives | None:
         gap[every, worst],
         x[every, worst],
         wide,
-        np.hstack((x, -x)),
+        np.hstack((x, np.broadcast_to(back, x.shape))),
         loose,
     )
 

@@ -30,17 +30,7 @@ def gap_about(parts: MachineParts, shown_deg: float) -> float:
 
 def play_about(parts: MachineParts, shown_deg: float) -> float:
     """Return the largest play, degrees, around an input angle while no roller is in its slot."""
-    return _loose(parts, _about(parts, shown_deg))
-
-
-def play_before_entry(parts: MachineParts) -> float:
-    """Return the largest play, degrees, before an entry, where the lock releases the wheel."""
-    start, turn = parts.assembly.start_deg, parts.assembly.turn_deg
-    before = np.arange(1.0, 26.0)  # degrees: large rollers have their play early
-    return _loose(parts, start + (-before) % turn)
-
-
-def _loose(parts: MachineParts, at: Array) -> float:
+    at = _about(parts, shown_deg)
     free = np.ones(len(at), dtype=bool)
     for start, end, motion, rests in windows(parts):
         here = np.flatnonzero((at >= start - SAME_INPUT_DEG) & (at <= end + SAME_INPUT_DEG))

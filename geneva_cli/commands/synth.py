@@ -183,7 +183,7 @@ def run(
 def _frame(path: str, settings: Sequence[str]) -> "Spec":
     from geneva_cli.design import load
 
-    return load(path, settings).spec
+    return load(path, settings).frame
 
 
 def _inputs(target: "Target") -> Sequence[str]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from geneva_cli.drawings.kinds.kind import kind_of
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.load_named import load_named
@@ -16,8 +17,10 @@ from geneva_cli.table import Table
 if TYPE_CHECKING:
     from geneva_cli.curves.drawing import Drawing
     from geneva_cli.curves.sheet import Sheet
-    from geneva_cli.drawings.model import PartsModel, PartsOfMachine
+    from geneva_cli.drawings.kinds.kind import PartsKind
+    from geneva_cli.drawings.model import PartsModel
     from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.parts.parts_of_machine import PartsOfMachine
 
 
 class Part(NamedTuple):
@@ -25,89 +28,37 @@ class Part(NamedTuple):
 
     table: str | None = None  # its points, if no drawing is requested
     drawing: str | None = None
-    sphere: str | None = None  # its points for a spherical wheel
-    cut: bool = False  # True if it is cut out of a plate
     sheet: str | None = None  # as a drawing sheet with dimensions
+    cut: bool = False  # True if it is cut out of a plate
     alone: bool = False  # True if it is drawn without the outlines of wheel and crank
     in_front: bool = False  # True if it belongs to a first wheel, in front of the crank
-    flat: str | None = None  # its drawing or sheet, laid flat, for a spherical wheel
-    rack: str | None = None  # its drawing or sheet for a rack
-    counter: str | None = None  # its drawing for a counter
     every: bool = False  # True if every machine has it
-
-    def drawn_by(self, kind: str) -> str | None:
-        """Return the function that draws it among parts of a kind; or None."""
-        plane = self.drawing or self.sheet
-        own = {"flat": plane, "ball": self.flat, "rack": self.rack, "counter": self.counter}
-        return own.get(kind)
-
-    def is_of(self, kind: str) -> bool:
-        """Return True if machines with parts of a kind have it: a sphere may have flat links."""
-        has_plane_parts = kind in ("flat", "ball") and (self.drawing or self.sheet or self.table)
-        return bool(self.every or self.drawn_by(kind) or has_plane_parts)
 
 
 PARTS = {
     "slot": Part(
         "layout.slot_sampling:profile_table",
         "drawings.part_drawings:slot",
-        rack="drawings.rack:slot",
     ),
-    "wheel": Part(
-        drawing="drawings.part_drawings:wheel",
-        sphere="layout.meridians:meridians_table",
-        cut=True,
-        flat="drawings.sphere.drawings:wheel",
-        rack="drawings.rack:wheel",
-        counter="drawings.counter:wheel",
-    ),
-    "crank": Part(
-        drawing="drawings.part_drawings:crank",
-        cut=True,
-        flat="drawings.sphere.drawings:crank",
-        rack="drawings.rack:crank",
-        counter="drawings.counter:crank",
-    ),
-    "arm": Part(
-        drawing="drawings.part_drawings:arm",
-        cut=True,
-        flat="drawings.sphere.arm_drawing:arm",
-        rack="drawings.rack:arm",
-    ),
-    "number-wheel": Part(cut=True, counter="drawings.counter:number_wheel"),
+    "wheel": Part(drawing="drawings.part_drawings:wheel", cut=True),
+    "crank": Part(drawing="drawings.part_drawings:crank", cut=True),
+    "arm": Part(drawing="drawings.part_drawings:arm", cut=True),
+    "number-wheel": Part(cut=True),
     "links": Part(drawing="drawings.part_drawings:links", cut=True, alone=True),
     "first-wheel": Part(drawing="drawings.part_drawings:wheel", cut=True, in_front=True),
     "first-crank": Part(drawing="drawings.part_drawings:crank", cut=True, in_front=True),
-    "frame": Part(
-        drawing="drawings.part_drawings:frame",
-        cut=True,
-        alone=True,
-        rack="drawings.part_drawings:frame",
-    ),
-    "guide": Part(cut=True, rack="drawings.rack:guide"),
+    "frame": Part(drawing="drawings.part_drawings:frame", cut=True, alone=True),
+    "guide": Part(cut=True),
     "parts": Part("drawings.parts_list:parts_table", every=True),
-    "assembly": Part(
-        drawing="drawings.machine_drawing:machine",
-        flat="drawings.sphere.drawings:assembly",
-        rack="drawings.rack:assembly",
-        counter="drawings.counter:assembly",
-    ),
+    "assembly": Part(drawing="drawings.machine_drawing:machine"),
     "gears": Part("layout.gear_curves:gears_table", "drawings.part_drawings:gears", alone=True),
     "groove": Part("layout.groove:groove_table", "drawings.part_drawings:groove"),
     "groove-plate": Part(drawing="drawings.part_drawings:groove_plate", cut=True),
     "coupon": Part(drawing="drawings.coupon:coupon", cut=True),
-    "plate": Part(drawing="drawings.print_plate:plate", rack="drawings.print_plate:plate"),
-    "sheet": Part(
-        sheet="drawings.sheet.sheet:sheet",
-        flat="drawings.sphere.sheet:sheet",
-        rack="drawings.sheet.rack:sheet",
-    ),
+    "plate": Part(drawing="drawings.print_plate:plate"),
+    "sheet": Part(sheet="drawings.sheet.sheet:sheet"),
 }
-DRAWINGS = tuple(
-    name
-    for name, part in PARTS.items()
-    if part.drawing or part.counter or (part.rack and not part.sheet)
-)
+DRAWINGS = tuple(name for name, part in PARTS.items() if part.drawing or part.cut)
 CUT = tuple(name for name, part in PARTS.items() if part.cut)
 SHEETS = tuple(name for name, part in PARTS.items() if part.sheet)
 SAMPLES_MAX = 1_000_000
@@ -150,8 +101,8 @@ def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: in
 
 def require_drawn(mechanism: Mechanism, part: str) -> None:
     """Raise GenevaError for a part that no machine with such a wheel has."""
-    noun, kind = mechanism.spec.output.noun, _kind(mechanism)
-    known = [name for name, one in PARTS.items() if one.is_of(kind)]
+    noun, kind = mechanism.spec.output.noun, kind_of(mechanism)
+    known = [name for name in PARTS if _is_of(kind, name)]
     if part not in known:
         raise GenevaError(
             f"--part {part} is not available for a {noun}, which has {', '.join(known)}",
@@ -174,7 +125,7 @@ def is_alone(mechanism: Mechanism, part: str) -> bool:
     if own is None:
         return False
     in_plane = mechanism.spec.wheel.FLAT
-    return own.alone or (not in_plane and own.drawn_by(_kind(mechanism)) is not None)
+    return own.alone or (not in_plane and _drawn_by(kind_of(mechanism), part) is not None)
 
 
 def machine_of(mechanism: Mechanism, part: str) -> Mechanism:
@@ -217,17 +168,21 @@ def part_sheet(model: PartsModel, part: str, tolerance_mm: float, curves: str) -
 
 def _maker(model: PartsModel, part: str) -> tuple[str | None, PartsOfMachine]:
     """Return the function that draws a part, and the parts of the machine that it takes."""
-    by = PARTS[part].drawn_by(_kind(model.mechanism))
-    # the links and gears in front of a sphere are those of a flat machine, and so is a counter
-    if by and model.mechanism.spec.wheel.PARTS:
-        return by, model.built
-    return by or PARTS[part].drawing, model.flat
+    by = _drawn_by(model.kind, part)
+    # the links and gears in front of a sphere are those of a flat machine
+    return (by, model.built) if by else (PARTS[part].drawing, model.flat)
 
 
-def _kind(mechanism: Mechanism) -> str:
-    """Return the kind of a machine's parts, or the name of a wheel that is drawn but not built."""
-    wheel = mechanism.spec.wheel
-    return wheel.PARTS or wheel.NAME
+def _drawn_by(kind: PartsKind, name: str) -> str | None:
+    """Return the function that draws a part of a kind; or None."""
+    return kind.drawn_by(name, PARTS[name].drawing or PARTS[name].sheet)
+
+
+def _is_of(kind: PartsKind, name: str) -> bool:
+    """Return True if machines with parts of a kind have it: a sphere may have flat links."""
+    one = PARTS[name]
+    flat = kind.HAS_FLAT_PARTS and (one.drawing or one.sheet or one.table)
+    return bool(one.every or _drawn_by(kind, name) or flat)
 
 
 def require_cut(part: str, option: str = "--kerf") -> None:
@@ -240,8 +195,7 @@ def require_cut(part: str, option: str = "--kerf") -> None:
 
 
 def _table(mechanism: Mechanism, part: str) -> str | None:
-    own = PARTS[part]
-    return (own.sphere if mechanism.spec.wheel.SHELLS else None) or own.table
+    return kind_of(mechanism).TABLES.get(part) or PARTS[part].table
 
 
 def _require_known(part: str) -> None:

@@ -16,7 +16,7 @@ from geneva_cli.curves.plates import Group, Part, Plate, plates
 from geneva_cli.curves.shapes import Arc, Contour, Line, Shape
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.plain_sizes import wall_min
+from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.preferred import rounded_radius
 from geneva_cli.numerics.roots import boundary

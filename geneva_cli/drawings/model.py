@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
+from geneva_cli.drawings.kinds.kind import kind_of
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 
@@ -18,13 +19,9 @@ if TYPE_CHECKING:
     from geneva_cli.layout.plain_sizes import Sizes
     from geneva_cli.layout.roller_paths import RollerPaths
     from geneva_cli.outlines.outlines import Outlines
-    from geneva_cli.outlines.rack_outlines import RackOutlines
     from geneva_cli.parts.flat_parts import FlatParts
-    from geneva_cli.parts.rack_parts import RackParts
+    from geneva_cli.parts.parts_of_machine import PartsOfMachine
     from geneva_cli.parts.sphere.shells import Shells
-    from geneva_cli.parts.sphere.sphere_parts import SphereParts
-
-    PartsOfMachine: TypeAlias = FlatParts | SphereParts | RackParts
 
 
 class PartsModel:
@@ -45,15 +42,14 @@ class PartsModel:
         self.mechanism = mechanism
         self.known, self.known_shells = known, known_shells
         self.advice = advice
+        self.kind = kind_of(mechanism)
 
     def over(self, mechanism: Mechanism) -> PartsModel:
         """Return the model of a machine whose parts have the same outlines and positions."""
         to_input = mechanism.spec.input_deg
         assembly = self.parts.assembly._replace(full=mechanism, to_input=to_input)
-        if mechanism.spec.wheel.FLAT:
-            return PartsModel(mechanism, self.outlines.over(assembly), self.advice)
-        shells = self.shells.over(assembly) if mechanism.spec.wheel.SHELLS else None
-        return PartsModel(mechanism, None, self.advice, shells)
+        known, shells = self.kind.known(self, assembly)
+        return PartsModel(mechanism, known, self.advice, shells)
 
     def following(self, mechanism: Mechanism) -> PartsModel:
         """Return the model of the next design, with these outlines and this turn if they are equal.
@@ -124,46 +120,19 @@ class PartsModel:
         return FlatParts(self.mechanism, self.outlines if self.mechanism.spec.is_flat else None)
 
     @cached_property
-    def ball(self) -> SphereParts:
-        """The parts of a machine on a sphere."""
-        from geneva_cli.parts.sphere.sphere_parts import SphereParts
-
-        return SphereParts(self.shells)
-
-    @cached_property
-    def rack(self) -> RackParts:
-        """The parts of a rack's machine."""
-        from geneva_cli.parts.rack_parts import RackParts
-
-        return RackParts(self.mechanism)
-
-    @property
     def built(self) -> PartsOfMachine:
         """The parts that the checks at rest measure."""
-        built: PartsOfMachine = getattr(self, self.mechanism.spec.wheel.PARTS)
-        return built
+        return self.kind.built(self)
 
     @property
     def all_built(self) -> list[tuple[str, Callable[[], PartsOfMachine]]]:
         """Names and functions of all parts: before a sphere or a rack links and gears are flat."""
-        wheel = self.mechanism.spec.wheel
-        apart = wheel.PARTS and not wheel.FLAT
-        own = [("wheel and crank", lambda: self.built)] if apart else []
-        return [*own, ("all parts", lambda: self.flat)]
+        return self.kind.all_built(self)
 
     @cached_property
-    def rack_outlines(self) -> RackOutlines:
-        """The rack and its crank; raises GenevaError where the sizes leave none."""
-        from geneva_cli.outlines.rack_outlines import rack_outlines
-
-        return rack_outlines(self.mechanism)
-
-    @property
     def parts(self) -> MachineParts:
         """The parts that are turned: outlines, shells, or a rack and its crank."""
-        named = {"flat": "outlines", "ball": "shells", "rack": "rack_outlines"}
-        parts: MachineParts = getattr(self, named[self.mechanism.spec.wheel.PARTS])
-        return parts
+        return self.kind.turned(self)
 
     @property
     def turn(self) -> FullTurn:

@@ -31,6 +31,7 @@ from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.plates import arm_plate
 
 if TYPE_CHECKING:
+    from geneva_cli.parts.counter_parts import CounterParts
     from geneva_cli.parts.rack_parts import RackParts
 
 PITCH = "PITCH"
@@ -106,7 +107,7 @@ def _side_by_side(plates: Iterable[Plate], between: float) -> Iterator[Member]:
         top += box.y1 - box.y0 + between
 
 
-def frame(parts: FlatParts | RackParts) -> Drawing:
+def frame(parts: FlatParts | RackParts | CounterParts) -> Drawing:
     """Return the frame as it is drilled."""
     solid = parts.frame.part
     return Drawing(titled(parts.mechanism, "frame"), outlines_of(solid), solid=solid)
@@ -121,7 +122,7 @@ def gears(parts: FlatParts) -> Drawing:
     from geneva_cli.parts.gear_pair import FINE
 
     mechanism = parts.mechanism
-    if mechanism.spec.drive.TOOTHED:
+    if mechanism.spec.drive.TOOTHED and not mechanism.spec.gears:
         members = parts.round_gears
         about_crank = _moved(members, -mechanism.center_distance_mm)
         name, drawn = "gears", tuple(once(shapes(about_crank)))
@@ -131,9 +132,9 @@ def gears(parts: FlatParts) -> Drawing:
         if mechanism.spec.size.gear_module_mm is None:
             name = "pitch curves of the gears"
             parts = parts.finer(FINE[parts.curves] * pair.distance_mm)
-        members = parts.gear_pair
+        members = *parts.round_gears, *parts.gear_pair
         about_crank = _moved(members, -mechanism.center_distance_mm)
-        drawn = outlines_of(Group("", about_crank))
+        drawn = tuple(once(shapes(about_crank)))
     title, ends = titled(mechanism, name), [one.at for one in about_crank]
     line = Contour(PITCH, (Line(min(ends), max(ends)),), closed=False)
     return Drawing(title, (*drawn, line), solid=Group(title, members))

@@ -10,7 +10,7 @@ sphere inwards from the wheel's outer face.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.curves.mass import MM, solid_properties
@@ -30,7 +30,8 @@ from geneva_cli.spec.tables import Size
 from geneva_cli.table import Reading, Table, rows_table
 
 if TYPE_CHECKING:
-    from geneva_cli.drawings.model import PartsOfMachine
+    from geneva_cli.parts.parts_of_machine import PartsOfMachine
+
 # columns of a row of each kind
 KINDS = {
     "part": (
@@ -106,7 +107,13 @@ def part_rows(spec: Spec, parts: Iterable[Part], outside: float | None = None) -
             "material": f"material.{name}",
             "density_kgm3": density,
             **_properties(solid, density, outside),
+            **({} if _at_one_height(kind) else {"z_low_mm": None, "z_high_mm": None}),
         }
+
+
+def _at_one_height(kind: Sequence[Solid]) -> bool:
+    """Return True if parts of a kind have the same height along the axis."""
+    return len({one.low for one in kind if not isinstance(one, Shell)}) < 2
 
 
 def _properties(solid: Solid, density: float, outside: float | None) -> Row:
@@ -169,13 +176,7 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
     ]
     entries += _screws_and_edges(spec.size)
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
-    own_dimensions = {
-        "ball": ("dimensions of the shells", _of_shells),
-        "rack": ("dimensions of the rack", _of_rack),
-    }
-    if spec.wheel.PARTS in own_dimensions:
-        name, dimensions = own_dimensions[spec.wheel.PARTS]
-        entries += or_missing(name, lambda: dimensions(model))
+    entries += model.kind.dimensions(model)
     if mechanism.law is None and spec.drive.CRANKED:
         entries += _straight(mechanism)
     elif spec.drive.CRANKED:
@@ -190,18 +191,6 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
         entries += or_missing("teeth of the gears", lambda: model.flat.tooth_dimensions)
     for entry in entries:
         yield entry if isinstance(entry, Missing) else {"row": "dimension", **entry._asdict()}
-
-
-def _of_shells(model: PartsModel) -> Iterable[Dimension | Missing]:
-    from geneva_cli.drawings.sphere.dimensions import dimensions
-
-    return dimensions(model.ball)
-
-
-def _of_rack(model: PartsModel) -> Iterable[Dimension | Missing]:
-    from geneva_cli.parts.rack_frame import rack_dimensions
-
-    return rack_dimensions(model.rack.sizes)
 
 
 def _screws_and_edges(size: Size) -> Iterator[Dimension]:

@@ -14,12 +14,13 @@ from geneva_cli.layout.projection import outlines_of, titled
 from geneva_cli.parts.flat_parts import FlatParts
 
 if TYPE_CHECKING:
+    from geneva_cli.parts.counter_parts import CounterParts
     from geneva_cli.parts.rack_parts import RackParts
 
 APART = 5.0  # mm between parts, and round them
 
 
-def plate(parts: FlatParts | RackParts) -> Drawing:
+def plate(parts: FlatParts | RackParts | CounterParts) -> Drawing:
     """Return all parts, each as often as the machine has it, in front of and right of the origin.
 
     Raises GenevaError for a part that cannot be built.

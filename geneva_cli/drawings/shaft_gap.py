@@ -105,7 +105,7 @@ def _noncircular(parts: FlatParts) -> Iterator[Ring]:
     """Yield the rings of noncircular gears, out to their farthest points."""
 
     mechanism = parts.mechanism
-    pair, L = mechanism.spec.gears, mechanism.center_distance_mm
+    pair, x = mechanism.spec.gears, mechanism.gear_shaft.x_mm
     if pair is None:
         return
     from geneva_cli.parts.gear_pair import PITCH, gear_span, pitch_radii
@@ -115,8 +115,8 @@ def _noncircular(parts: FlatParts) -> Iterator[Ring]:
     if teeth := pair_teeth(pair, mechanism.spec.size):
         driven, driver = driven + teeth.tips[0], driver + teeth.tips[1]
     low, high = gear_span(mechanism, parts.drawn)
-    yield Ring("driven gear", PITCH, (L, 0.0), 0.0, driven, low, high)
-    yield Ring("driver gear", PITCH, (L + pair.distance_mm, 0.0), 0.0, driver, low, high)
+    yield Ring("driven gear", PITCH, (x, 0.0), 0.0, driven, low, high)
+    yield Ring("driver gear", PITCH, (x + pair.distance_mm, 0.0), 0.0, driver, low, high)
 
 
 def _rings_of(members: Iterable[Member]) -> list[Ring]:

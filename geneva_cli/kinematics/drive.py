@@ -87,6 +87,8 @@ class Drive(SpecTable, kw_only=True):
     IN_FRONT: ClassVar[str] = ""
     # reason why no drive may stand before it; empty if one may
     FIRST: ClassVar[str] = ""
+    # 1 if its own input shaft turns as the crank does, -1 if against it
+    INPUT_SENSE: ClassVar[float] = 1.0
     # True if a first Geneva wheel turns its crank
     IN_SERIES: ClassVar[bool] = False
     # key of [drive] that its link reactions need; empty if none
@@ -162,6 +164,14 @@ class Drive(SpecTable, kw_only=True):
     def input_deg(self, crank_deg: float) -> float:
         """Input angle from mid-motion at a crank angle from mid-motion, degrees."""
         return crank_deg
+
+    def input_axis_mm(self, plan: Plan, sign: float) -> float:
+        """Place of its own input shaft on the line of centres, mm from the wheel's axis.
+
+        >>> SideCrank(A=0.6).input_axis_mm(Design(External(6)).mechanism.plan, 1.0)
+        70.0
+        """
+        return plan.center_distance_mm
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Pivots and dimensions of this kind of drive; ``sign`` is the wheel's (-1 inside).

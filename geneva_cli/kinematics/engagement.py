@@ -391,6 +391,10 @@ class Engagement(Batchable):
         """Angle of the drive's own input shaft at input angles from mid-motion, degrees."""
         return input_deg
 
+    def inputs_deg(self, own_deg: Array) -> Array:
+        """Input angles from mid-motion at angles of the drive's own input shaft, degrees."""
+        return own_deg
+
     @property
     def own(self) -> Engagement:
         """The engagement by the angle of the drive's own input shaft; itself without another."""
@@ -408,6 +412,11 @@ class Engagement(Batchable):
         If gears drive between them, one roller starts the wheel and another stops it.
         """
         return (0.0,)
+
+    @property
+    def passages(self) -> tuple[tuple[Engagement, float], ...]:
+        """Passage of each roller through a whole slot, and the input angle by which it leads."""
+        return tuple((self.through, ahead) for ahead in self.ahead_deg)
 
     @property
     def paired(self) -> bool:

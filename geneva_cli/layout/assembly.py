@@ -179,8 +179,8 @@ def assembled(mechanism: Mechanism) -> Assembly:
     full, spec = mechanism, mechanism.spec
     to_input: Callable[[float], float] = _same
     no_gears = spec.size.replace(gear_module_mm=None, gear_teeth=None, gear_shift=None)
-    if spec.drive_before and not spec.drive.CRANKED:
-        to_input = spec.input_deg
+    if spec.drive_before and (mechanism.law or not spec.drive.CRANKED):
+        to_input = spec.drive_before.input_deg  # the slots are cut by the angle of the drive's own
         mechanism = build(spec.replace(drive_before=None, size=no_gears))
     elif mechanism.law is None and spec.drive.CRANKED:
         to_input = spec.input_deg
@@ -197,9 +197,9 @@ def assembled(mechanism: Mechanism) -> Assembly:
         for engagement in mechanism.engagements
     )
     rollers = tuple(
-        (engagement.through, behind - ahead)
+        (passage, behind - ahead)
         for engagement, behind in motions
-        for ahead in engagement.ahead_deg
+        for passage, ahead in engagement.passages
     )
     L = mechanism.center_distance_mm
     sign = spec.wheel.SIGN

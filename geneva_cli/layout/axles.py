@@ -11,7 +11,8 @@ import math
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import crank_reach_and_hub, wheel_reach_and_hub, within_hub
-from geneva_cli.layout.plain_sizes import half_or, wall_min
+from geneva_cli.layout.plain_sizes import half_or
+from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.spec.tables import Size
 

@@ -28,10 +28,11 @@ if TYPE_CHECKING:
     from geneva_cli.kinematics.drive import FirstWheel
     from geneva_cli.layout.assembly import Assembly
     from geneva_cli.layout.plain_sizes import Sizes
+    from geneva_cli.loads.strength.part_loads import PartLoads
     from geneva_cli.machine.mechanism import Mechanism
 
 
-Sized: TypeAlias = Callable[["Mechanism"], "tuple[Assembly, Sizes] | None"]
+Sized: TypeAlias = Callable[["Mechanism", "PartLoads"], "tuple[Assembly, Sizes] | None"]
 
 
 def first_spec(mechanism: Mechanism, first: FirstWheel) -> Spec:
@@ -76,29 +77,33 @@ def first_sizes(mechanism: Mechanism, sized: Sized) -> FirstSizes | None:
     if spec is None or not spec.is_loaded:
         return None
     size, parts = spec.size.replace(crank_bore_mm=0.0), None
-    usual = _stressed(spec.replace(size=size), sized)
+    try:
+        loads = single_loads(build(spec))  # which no bore changes
+    except GenevaError:
+        return None  # the check of the parts reports the error
+    usual = _stressed(spec.replace(size=size), sized, loads)
     if usual is None or math.isnan(usual.arm.length):  # a crank without a pin has no arm
         return None
     reach = float(usual.arm.length - usual.arm.hole)
+    size = size.replace(wheel_thickness_mm=usual.contact)  # no bore changes it either
     for d in bores_from(usual.crank_shaft.diameter, reach):  # half of it is left as a wall
         tried = spec.replace(size=size.replace(arm_bore_mm=size.arm_bore_mm or d))
-        parts = _stressed(tried, sized) or parts
-        if parts and (size.arm_bore_mm or _shaft_holds(tried, parts)):
+        parts = _stressed(tried, sized, loads) or parts
+        if parts and (size.arm_bore_mm or _shaft_holds(tried, parts, loads)):
             break
     parts = parts or usual
     thick = max(parts.contact, float(parts.arm.thickness))
     return FirstSizes(thick, 0.5 * parts.pin, 0.5 * parts.crank_shaft.diameter)
 
 
-def _stressed(spec: Spec, sized: Sized) -> Stressed | None:
+def _stressed(spec: Spec, sized: Sized, loads: PartLoads) -> Stressed | None:
     try:
-        flat = sized(build(spec))
+        flat = sized(build(spec), loads)
     except GenevaError:
         return None  # the check of the parts reports the error
     return stressed(*flat) if flat else None
 
 
-def _shaft_holds(spec: Spec, parts: Stressed) -> bool:
+def _shaft_holds(spec: Spec, parts: Stressed, loads: PartLoads) -> bool:
     """Return True if the first crank's shaft holds force and torque, greatest at once."""
-    loads = single_loads(build(spec))
     return shaft_holds_both(spec, "crank", parts.crank_shaft, loads.crank_N, loads.crank_Nm)

@@ -206,7 +206,8 @@ def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None)
     flanks in the roller's direction of travel. The pressure angle is between the groove's normal
     and the crank's arm, atan(R'/R).
     """
-    groove = mechanism.engagements[0].groove
+    engagement = mechanism.engagements[0]
+    groove = engagement.groove
     if groove is None:
         raise GenevaError(
             f'--part groove: kind = "{mechanism.spec.drive.NAME}" has no groove; "cam" has one'
@@ -230,7 +231,7 @@ def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None)
         radius = np.where(straight, np.inf, L * speed**3 / turning)
     nx, ny = -y1 / speed * offset, x1 / speed * offset
     columns = [
-        x,
+        engagement.inputs_deg(x),
         R,
         L * x0,
         L * y0,

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.preferred import rounded_below
-from geneva_cli.spec.default_sizes import Thicknesses, value_or
-from geneva_cli.spec.workshops import workshop
+from geneva_cli.spec.default_sizes import Thicknesses
 
 if TYPE_CHECKING:
     from geneva_cli.spec.tables import Size
@@ -65,11 +64,6 @@ def drawn_thicknesses(size: Size, L: float, parts: Sizes | None = None) -> Thick
 def pin_radius(size: Size, r: float, parts: Sizes | None = None) -> float:
     """Return the radius of a roller's pin, that of ``parts`` or else of a spec; 0 for none."""
     return parts.pin if parts else 0.5 * size.pin_diameter(r, rounded_below)
-
-
-def wall_min(size: Size, L: float) -> float:
-    """Return the least wall that ``check`` lets pass, mm."""
-    return value_or(size.wall_min_mm, max(L / 200.0, workshop(size.process).wall_mm))
 
 
 def half_or(diameter: float | None, default: float) -> float:

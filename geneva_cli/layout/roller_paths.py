@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -65,7 +66,8 @@ def rest(assembly: Assembly, engagement: Engagement, end: float) -> tuple[float,
     return assembly.L * math.cos(b), assembly.L * math.sin(b)
 
 
-def roller_centres(assembly: Assembly) -> list[Point]:
+@lru_cache(maxsize=16)  # the sizes under a load try many bores of one machine
+def roller_centres(assembly: Assembly) -> tuple[Point, ...]:
     """Return the centres of the rollers on the crank, each at its mid-motion.
 
     Of several equal cranks, each has one roller: they are those on the first crank.
@@ -78,7 +80,7 @@ def roller_centres(assembly: Assembly) -> list[Point]:
         angle = math.atan2(y, x) - float(assembly.crank(at)[0])
         reach = math.hypot(x, y)
         centres.append((reach * math.cos(angle), reach * math.sin(angle)))
-    return centres
+    return tuple(centres)
 
 
 def roller_reaches(assembly: Assembly) -> list[float]:

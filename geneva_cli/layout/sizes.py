@@ -26,10 +26,10 @@ from geneva_cli.layout.plain_sizes import (
     drawn_thicknesses,
     half_or,
     pin_radius,
-    wall_min,
 )
 from geneva_cli.layout.reliefs import arc_floor, has_arcs
 from geneva_cli.layout.roller_paths import RollerPaths, mouth, roller_paths, roller_reaches
+from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.preferred import bore_radius

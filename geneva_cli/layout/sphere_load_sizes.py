@@ -22,12 +22,12 @@ from geneva_cli.layout.holds import (
     pin_that_holds,
     shaft_holds,
 )
-from geneva_cli.layout.plain_sizes import wall_min
 from geneva_cli.layout.sphere_stressed import sphere_stressed
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.loads.strength.shafts import ShaftDimensions, crank_forces, shaft, wheel_forces
 from geneva_cli.loads.strength.sphere_horn import sphere_horn
 from geneva_cli.machine.both_ways import every_way
+from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.materials import wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec

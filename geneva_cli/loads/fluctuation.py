@@ -68,7 +68,7 @@ def fluctuations(mechanism: Mechanism, mean: Array) -> Swings:
     The mean of an unbounded torque must be infinite.
     """
     energy, returned = np.empty((2, len(mean)))
-    for part in parts(load_case(mechanism).friction, len(mean)):
+    for part in parts(load_case(mechanism).all_friction, len(mean)):
         energy[part], returned[part] = _group(taken(mechanism, part), mean[part])
     return Swings(energy, returned)
 

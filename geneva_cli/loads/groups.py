@@ -24,7 +24,7 @@ def of_groups(
     """
     m = every.case.designs
     out: list[Array] = []
-    for part in parts(every.case.friction, m):
+    for part in parts(every.case.all_friction, m):
         some = computed(taken(every, part), len(part))
         out = out or [np.empty((len(rows), m)) for rows in some]
         for whole, rows in zip(out, some, strict=True):

@@ -30,11 +30,12 @@ if TYPE_CHECKING:
 def is_balanced(load: LoadFunctions) -> bool:
     """Return True if the method applies to these designs.
 
-    No torque may resist, and the only loss may be friction in straight slots.
+    No torque may resist, and the only loss may be friction in straight slots. The friction of a
+    rack's guide depends on the pin's side.
     """
     engagement, case, _ = load.batch
     alone = all_true(case.resists_Nm == 0.0) and all_true(case.efficiency == 1.0)
-    return load.mirrored and alone and not engagement.slot.curved
+    return load.mirrored and alone and not (engagement.slot.curved or case.guided)
 
 
 def squares(load: LoadFunctions, n: int) -> Array:

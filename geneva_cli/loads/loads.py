@@ -75,7 +75,7 @@ def state(mechanism: Mechanism, engagement: Engagement, input_deg: Number) -> Lo
         forces = Forces(case, at, drives, slides)
         is_held = forces.grip.c[0] > 0.0
         force = np.where(is_held, forces.force.c[0], bound)
-        free = np.equal(case.friction, 0.0)
+        free = np.equal(case.all_friction, 0.0)
         rubbed = np.where(is_held | free, forces.shaft.c[0], bound)
         shaft = rubbed / np.where(rubbed > 0.0, case.efficiency, 1.0)
         stress = None
@@ -161,7 +161,7 @@ def greatest_pressures(mechanism: Mechanism) -> PeakArray:
     if not all(np.all(retraces(engagement)) for engagement in curved):
         return Peak(*np.full((2, mechanism.designs), np.nan))
     own: dict[str, LoadQuantity] = {"slope": Slope()}
-    case = load_case(mechanism)._replace(inertia_Nm=0.0, friction=0.0, hertz=None, efficiency=1.0)
+    case = load_case(mechanism)._replace(inertia_Nm=0.0, hertz=None, efficiency=1.0).frictionless
     peak = load_peaks(mechanism, tuple(own), own, case)["slope"]
     # it is 0 throughout a radial slot
     angle, at_deg = np.degrees(np.arctan(np.sqrt(peak.max))), peak.at_deg
@@ -249,7 +249,7 @@ def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:
     spec = mechanism.spec
     w = omega(spec.drive.n_rpm)
     if mechanism.frame:
-        case = load_case(mechanism)._replace(resists_Nm=0.0, friction=0.0, efficiency=1.0)
+        case = load_case(mechanism)._replace(resists_Nm=0.0, efficiency=1.0).frictionless
         torque = load_peaks(mechanism, (TORQUE,), case=case)[TORQUE].max
         one = isinstance(power_invariant, float)
         return (float(torque[0]) if one else parameter(torque[:, None])) * w / spec.load.efficiency

@@ -81,10 +81,15 @@ CONFLICTS = (
         "[drive], not in [drive.before]",
     ),
     Conflict(
-        lambda s: s.drive_before and s.motion is not None,
-        ("motion", "law"),
-        "a law gives the motion by the input's angle, so that [drive.before] would only change "
-        "the slots: remove law or [drive.before]",
+        lambda s: s.drive_before and s.drive.direct and s.motion is None,
+        ("drive", "before"),
+        'the crank of kind = "{drive}" is on the shaft: set kind = "{before}" in [drive] instead',
+    ),
+    Conflict(
+        lambda s: s.drive_before and _cranks(s),
+        ("drive", "crank_steps"),
+        "the cranks of crank_steps work in even turns of the input, which [drive.before] makes "
+        "uneven: remove one of them",
     ),
     Conflict(
         lambda s: s.drive.RADIAL and (s.drive.roller_angles_deg or s.wheel.skewed),
@@ -234,6 +239,11 @@ CONFLICTS = (
         lambda s: (not s.output.turns) & ((s.load.inertia_kgm2 != 0.0) | (s.load.torque_Nm != 0.0)),
         ("load", "inertia_kgm2"),
         "inertia_kgm2 and torque_Nm are of a wheel that turns; a rack has mass_kg and force_N",
+    ),
+    Conflict(
+        lambda s: not s.guided and s.load.guide_friction is not None,
+        ("load", "guide_friction"),
+        "guide_friction is of the guide of a rack that a plain crank drives: remove it",
     ),
     Conflict(
         lambda s: not s.output.turns and s.load.dwell_torque_Nm is not None,

@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from geneva_cli.kinematics.engagement import Engagement, Vector, cross
+from geneva_cli.numerics.arrays import choose
 from geneva_cli.numerics.batchable import Batchable
 from geneva_cli.numerics.jet import Jet, Number, composed, sin_cos
 
@@ -29,29 +30,36 @@ class ShaftAngle(Protocol):
 
 
 class ShaftPath(Batchable):
-    """A point of the shaft at the distance 1 from its axis, towards the wheel at mid-motion.
+    """A point of the shaft at the distance 1 from its axis, which turns as a wheel's crank does.
 
-    It turns clockwise, as the crank of an external wheel does.
+    At mid-motion it points at an external wheel's axis, or away from an internal wheel's. ``sign``
+    is 1 for an external wheel, else -1.
     """
 
-    def __init__(self, angle: Callable[[Number, int], Jet]) -> None:
-        self.angle = angle
+    def __init__(self, sign: float, angle: Callable[[Number, int], Jet]) -> None:
+        self.sign, self.angle = sign, angle
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """Point (x, y) in the fixed frame."""
         s, c = sin_cos(self.angle(input_deg, order))
-        return 1.0 - c, s
+        return 1.0 - c * self.sign, s
 
 
 class DrivenShaft(Batchable):
     """Reactions on the shaft and on the second drive's guide, to loads on the roller's body.
 
     ``push`` is the line along which the drive before pushes the shaft, written for one that turns
-    clockwise; None for a couple, or for a shaft whose bearings are not computed.
+    as a crank of the wheel does. It is None for a couple, or for a shaft whose bearings are not
+    computed. ``sign`` is 1 for an external wheel, whose crank turns clockwise, else -1.
     """
 
-    def __init__(self, own: Engagement, angle: ShaftAngle, push: PushedCrank | None) -> None:
+    def __init__(
+        self, own: Engagement, angle: ShaftAngle, push: PushedCrank | None, sign: float
+    ) -> None:
         self.own, self.angle, self.push = own, angle, push
+        sense = own.crank_sense
+        self.mirror = choose(sense == 0.0, 1.0, sense)
+        self.clockwise = choose(sense == 0.0, sign, sense)  # -1 for one that turns the other way
 
     def __call__(
         self, input_deg: Number, path: Vector, loads: Sequence[Load]
@@ -63,15 +71,14 @@ class DrivenShaft(Batchable):
         if self.push is None:
             return reactions
         (x, y), (u, v) = self.push.line(input_deg, order)
-        sense = self.own.crank_sense  # 1 for a shaft that turns clockwise, else -1
-        y, v = y * sense, v * sense
+        y, v = y * self.mirror, v * self.mirror
         lever, rate = cross((x, y), (u, v)), angle.derivative()
         velocity = path[0].derivative(), path[1].derivative()
         spin = composed(self.own.carrier(own_deg, order), angle.lower) * rate
         out = []
         for (force, moment), (shaft, guide) in zip(loads, reactions, strict=True):
             power = force[0] * velocity[0] + force[1] * velocity[1] + moment * spin
-            size = power / (rate * lever) * sense
+            size = power / (rate * lever) * self.clockwise
             pushed = u * size, v * size
             out.append(((shaft[0] + pushed[0], shaft[1] + pushed[1]), guide))
         return out

@@ -23,6 +23,18 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 
+class ShaftPlace(NamedTuple):
+    """A shaft on the line of centres."""
+
+    x_mm: float  # from the wheel's axis
+    sense: float  # 1 if it turns counterclockwise, else -1
+
+    @property
+    def at(self) -> tuple[float, float]:
+        """Its axis."""
+        return self.x_mm, 0.0
+
+
 class Mechanism(NamedTuple):
     """A Geneva mechanism.
 
@@ -55,6 +67,26 @@ class Mechanism(NamedTuple):
         return plan._replace(engagements=tuple(one.own for one in self.engagements))
 
     @property
+    def crank_shaft(self) -> ShaftPlace:
+        """The crank's shaft, which turns against an external wheel and with an internal one."""
+        sense = self.engagements[0].crank_sense or self.spec.wheel.SIGN
+        return ShaftPlace(self.center_distance_mm, -sense)
+
+    @property
+    def own_shaft(self) -> ShaftPlace:
+        """The input shaft of the drive itself, which a drive before it turns."""
+        drive, at = self.spec.drive, self.crank_shaft
+        return ShaftPlace(
+            drive.input_axis_mm(self.plan, self.spec.wheel.SIGN), at.sense * drive.INPUT_SENSE
+        )
+
+    @property
+    def gear_shaft(self) -> ShaftPlace:
+        """The shaft of the driven one of noncircular gears."""
+        before = self.spec.drive_before
+        return self.own_shaft if before and before.GEARED else self.crank_shaft
+
+    @property
     def layout(self) -> Layout:
         """Pivots and dimensions of the drive, and of the one before it about the crank's axis.
 
@@ -64,9 +96,15 @@ class Mechanism(NamedTuple):
         own = spec.drive.layout(plan, spec.wheel.SIGN)
         _, *others = self.crank_places
         own = (*own, *(Pivot(f"axis of crank {place.number}", *place.at) for place in others))
-        if spec.drive_before is None or spec.drive.CRANKED:
+        if spec.drive_before is None:
             return own
-        return (*own, *spec.drive_before.layout(plan, spec.wheel.SIGN))
+        shift, names = self.own_shaft.x_mm - self.center_distance_mm, {one.name for one in own}
+        for one in spec.drive_before.layout(plan, spec.wheel.SIGN):
+            here = one._replace(name=f"first {one.name}" if one.name in names else one.name)
+            if isinstance(here, Pivot):
+                here = here._replace(x_mm=here.x_mm + shift)
+            own = (*own, here)
+        return own
 
     def own_deg(self, input_deg: Array) -> Array:
         """Angle of the drive's own input shaft at input angles within half a period of mid-motion.
@@ -77,8 +115,8 @@ class Mechanism(NamedTuple):
 
     @property
     def law(self) -> Law | None:
-        """Motion law, or None if the motion follows from path and slot."""
-        return self.engagements[0].motion.law
+        """Motion law by the angle of the drive's own input shaft; None for straight slots."""
+        return self.engagements[0].own.motion.law
 
     @property
     def output(self) -> Output:
@@ -100,7 +138,7 @@ class Mechanism(NamedTuple):
         law = self.law
         if law is None:
             return None
-        motion_deg = self.engagements[0].motion_deg
+        motion_deg = self.engagements[0].own.motion_deg
         matched = self.spec.drive.matched_ratio(self.spec.wheel, law, motion_deg)
         return None if math.isnan(matched) else float(matched)
 

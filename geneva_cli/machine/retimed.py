@@ -3,7 +3,8 @@
 The drive of the spec has engagements by the angle theta of its own input shaft. The drive before it
 turns that shaft by theta = g(phi), where phi is the machine's input. So path, slot and motion are
 p(g(phi)), M(g(phi)) and psi(g(phi)), and their derivatives follow by the chain rule: the wheel's
-speed is psi'(theta) g', its acceleration psi''(theta) g'² + psi'(theta) g''.
+speed is psi'(theta) g', its acceleration psi''(theta) g'² + psi'(theta) g''. A law holds by theta,
+for which slot or groove are cut: whatever turns the shaft, wheel and crank stay the same.
 
 The angle g is written about entry, mid-motion and exit, so that it is exact at each of them.
 """
@@ -24,6 +25,7 @@ from geneva_cli.kinematics.engagement import (
     Level,
     Path,
     PinDisplacement,
+    Reactions,
     Slot,
     SlotAxis,
     WheelMotion,
@@ -58,11 +60,14 @@ def retimed(plan: Plan, spec: Spec, in_front: Drive) -> Plan:
 def _engagement(own: Engagement, timing: Timing, spec: Spec, L: float) -> RetimedEngagement:
     """Return an engagement behind the drive before, with the reactions of the shaft between."""
     push = None
-    if not spec.drive.CRANKED:  # the shaft turns about the crank's axis
-        path = ShaftPath(timing)
+    if not spec.drive.CRANKED or spec.drive.direct:  # the shaft turns about the crank's axis
+        path = ShaftPath(spec.wheel.SIGN, timing)
         push = timing.before.reactions(spec.wheel, path, timing.within_deg, L)
-    reactions = DrivenShaft(own, timing, push) if own.reactions else None
-    carrier = Carrier(own.crank_sense, RetimedRate(own, timing), reactions, None, own.hub)
+    reactions: Reactions | None = push  # of a crank that carries its rollers
+    if own.reactions:
+        reactions = DrivenShaft(own, timing, push, spec.wheel.SIGN)
+    rate = RetimedRate(own, timing)
+    carrier = Carrier(own.crank_sense, rate, reactions, own.groove, own.hub)
     return RetimedEngagement(own, timing, carrier)
 
 
@@ -96,7 +101,7 @@ class Timing(Batchable):
     def __init__(self, before: Transmission, own: Engagement, late_deg: float) -> None:
         mid = own.mid_deg + late_deg
         turns = library(mid).floor(mid / 360.0 + 0.5)
-        self.before = before
+        self.before, self.shaft_deg = before, mid
         self.rest_deg = mid - 360.0 * turns  # ``about`` covers one turn of the shaft
         ends = (own.entry_deg, 0.0, own.exit_deg)
         local = [before.about(self.rest_deg + end) for end in ends]
@@ -112,6 +117,10 @@ class Timing(Batchable):
         )
         self._latest = Latest()
 
+    def of(self, other: Engagement, ahead_deg: float) -> Timing:
+        """The timing of another engagement, whose mid-motion is earlier by an own angle."""
+        return Timing(self.before, other, self.shaft_deg - ahead_deg - other.mid_deg)
+
     @property
     def cuts(self) -> list[float]:
         """Input angles at which the formula about another place takes over, degrees."""
@@ -120,6 +129,18 @@ class Timing(Batchable):
     def input_deg(self, own_deg: float) -> float:
         """Machine's input angle at an angle of the driven shaft, both from mid-motion, degrees."""
         return self.before.about(self.rest_deg + own_deg).input_deg - self.within_deg
+
+    def inputs_deg(self, own_deg: Array) -> Array:
+        """Machine's input angles at angles of the driven shaft within the motion, degrees."""
+        import numpy as np
+
+        ends = (np.broadcast_to(self.each[k].input_deg, own_deg.shape) for k in (0, -1))
+        low, high = (np.array(end, dtype=float) for end in ends)
+        for _ in range(60):  # halves of a turn, down to the last bit
+            middle = 0.5 * (low + high)
+            late = np.asarray(self.at(middle, 0)[0] > own_deg)
+            low, high = np.where(late, low, middle), np.where(late, middle, high)
+        return array(0.5 * (low + high))
 
     def __call__(self, input_deg: Number, order: int) -> Jet:
         """Angle of the driven shaft in radians from mid-motion, at input angles in degrees."""
@@ -218,7 +239,8 @@ class RetimedSlot(Slot):
 
     def __init__(self, own: Slot, timing: Timing) -> None:
         self.own, self.timing = own, timing
-        self.mirrored, self.relieved, self.offset = own.mirrored, own.relieved, own.offset
+        self.curved, self.mirrored = own.curved, own.mirrored
+        self.relieved, self.offset = own.relieved, own.offset
         self.height = None if own.height is None else RetimedLevel(own.height, timing)
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
@@ -295,6 +317,40 @@ class RetimedEngagement(Engagement):
     def own_deg(self, input_deg: Array) -> Array:
         """Angle of the drive's own input shaft at input angles from mid-motion, degrees."""
         return array(self.timing.at(input_deg, 0)[0])
+
+    def inputs_deg(self, own_deg: Array) -> Array:
+        """Input angles from mid-motion at angles of the drive's own input shaft, degrees."""
+        return self.timing.inputs_deg(own_deg)
+
+    @property
+    def passages(self) -> tuple[tuple[Engagement, float], ...]:
+        """Passage of each roller through a whole slot, each in its own phase of the drive before.
+
+        Its lead is the input angle by which its mid-motion is earlier.
+        """
+        return tuple(self._passage(*one) for one in self._own.passages)
+
+    def _passage(self, own: Engagement, ahead_deg: float) -> tuple[Engagement, float]:
+        if own is self._own:
+            return self, 0.0
+        timing = self.timing.of(own, ahead_deg)
+        body = Carrier(own.crank_sense, RetimedRate(own, timing), None, own.groove, own.hub)
+        return RetimedEngagement(own, timing, body), self.mid_deg - timing.mid_deg
+
+    @property
+    def through(self) -> Engagement:
+        """Passage of its first roller through the whole slot: itself, except for gear sectors."""
+        return self.passages[0][0]
+
+    @property
+    def ahead_deg(self) -> tuple[float, ...]:
+        """Input angles by which its rollers lead; (0,) for one roller."""
+        return tuple(ahead for _, ahead in self.passages)
+
+    @property
+    def overtaking(self) -> float:
+        """Angle by which a roller would lead its slot while something else drives, radians."""
+        return self._own.overtaking
 
     @property
     def own(self) -> Engagement:

@@ -216,15 +216,13 @@ class Spec:
 
     @property
     def gears(self) -> Gears | None:
-        """Noncircular gears on the crank's shaft; None without, and in front of a second crank.
+        """Noncircular gears of the drive, or of the one before it; None without.
 
         >>> Spec(External(6), NoncircularGears(A=0.5)).gears.distance_mm
         100.0
         """
         before = self.drive_before
-        if before is None:
-            return self.drive.gears
-        return None if self.drive.CRANKED else before.gears
+        return (before and before.gears) or self.drive.gears
 
     def input_deg(self, crank_deg: float) -> float:
         """Input angle from mid-motion at a crank angle from mid-motion, degrees.
@@ -302,14 +300,26 @@ class Spec:
         return not self.no_parts
 
     @property
+    def guided(self) -> bool:
+        """True if a rack slides in a guide, which stands on the frame of its crank.
+
+        >>> Spec(Linear(6)).guided, Spec(External(6)).guided
+        (True, False)
+        """
+        return not self.output.turns and self.drive.direct
+
+    @property
     def is_turned(self) -> bool:
         """True if wheel and crank can be checked for collisions in a full turn of the crank.
 
         >>> Spec(Linear(6)).is_turned, Spec(External(400)).is_turned
         (True, False)
         """
+        # Teeth have checks of their own: their free angles.
+        if not self.wheel.PARTS or self.wheel.TOOTH_N_mm2:
+            return False
         # A rack of any length is checked by the slots that the crank reaches in a turn.
-        return bool(self.wheel.PARTS) and (not self.output.turns or self.wheel.z <= Z_DRAWN)
+        return not self.output.turns or self.wheel.z <= Z_DRAWN
 
     @property
     def no_parts(self) -> str:
@@ -321,16 +331,26 @@ class Spec:
         if not self.wheel.PARTS:
             return f'shafts and frame of gearing = "{self.wheel.NAME}" are not built'
         before = self.drive_before
-        if before is not None and (self.drive.CRANKED or not before.GEARED):
+        if before is not None and before.GEARED and self.drive.GEARED:
             return (
                 f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '
-                "built: only gears before a drive whose shaft stands at the crank's axis"
+                "built: one pair of noncircular-gears with the ratio of both does the same"
+            )
+        if before is not None and not (before.GEARED or self._turns_crank):
+            return (
+                f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '
+                "built: the shaft between them has no bearing, since the input crank turns below it"
             )
         if not (self.output.turns or self.drive.direct):
             return f"frame and guide of a rack behind {self.drive.WORDS} are not built"
         if self.wheel.z > Z_DRAWN:
             return f"wheels of more than {Z_DRAWN} slots are not drawn"
         return ""
+
+    @property
+    def _turns_crank(self) -> bool:
+        """True if the input shaft of the drive stands at the crank's axis."""
+        return self.drive.direct or not self.drive.CRANKED
 
     def roller_radius_mm(self, center_distance_mm: float) -> float:
         """Roller radius r in millimetres, by default L/20.

@@ -20,7 +20,8 @@ def rounded_below(most: float) -> float:
     """
     if most <= 0.0:
         return 0.0
-    return max(n for n in _rounded(most, most) if n <= most * (1.0 + ROUNDED))
+    numbers = _rounded(most, most)
+    return numbers[bisect_right(numbers, most * (1.0 + ROUNDED)) - 1]
 
 
 def rounded_from(least: float, most: float) -> list[float]:
@@ -93,10 +94,16 @@ def bore_radius(most: float) -> float:
 
 def _rounded(low: float, high: float) -> list[float]:
     """Return the rounded numbers of all decades from that of ``low`` to that of ``high``."""
-    tens = (10, 11, 12, 14, 16, 18, 20, 22, 25, 28, 30, 35, 40, 45, 50, 55, 60, 70, 80, 90)
     # decades by their powers of ten; one more at either end, for powers that are rounded
     first, last = math.floor(math.log10(low)) - 2, math.ceil(math.log10(high))
-    return [float(f"{n}e{k}") for k in range(first, last + 1) for n in tens]
+    return [n for k in range(first, last + 1) for n in _decade(k)]
+
+
+@cache
+def _decade(power: int) -> tuple[float, ...]:
+    """Return the rounded numbers from 10 to 90 times a power of ten."""
+    tens = (10, 11, 12, 14, 16, 18, 20, 22, 25, 28, 30, 35, 40, 45, 50, 55, 60, 70, 80, 90)
+    return tuple(float(f"{n}e{power}") for n in tens)
 
 
 @cache

@@ -8,6 +8,8 @@ the driver's teeth and rim is how far the pinion is free, ahead and behind.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator
+from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -21,8 +23,8 @@ from geneva_cli.outlines.counter import CounterSizes, counter_sizes, half_angles
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-    # points of the plane of the teeth, and of that of the rim
-    Lines: TypeAlias = tuple[list[tuple[Array, Array]], list[tuple[Array, Array]]]
+    # radii and directions about the driver's axis, for inputs, of points at fractions of a line
+    Line: TypeAlias = Callable[[Array, Array], tuple[Array, Array]]
 
 
 class CounterPlay(NamedTuple):
@@ -45,61 +47,102 @@ class CounterPlay(NamedTuple):
 def counter_play(mechanism: Mechanism) -> CounterPlay:
     """Return the free angles up to mid-motion, after which they are mirrored.
 
-    Places are half a degree apart or nearer. They begin two motions before mid-motion: before that
-    the rim alone faces the pinion, and nothing changes. Raises GenevaError if no teeth fit.
+    Places are half a degree apart or nearer, and one is the entry, where the pinion begins to move.
+    They begin two motions before mid-motion: before that the rim alone faces the pinion, and
+    nothing changes. Raises GenevaError if no teeth fit.
     """
     sizes, (engagement, *_) = counter_sizes(mechanism), mechanism.engagements
     half, ratio = engagement.exit_deg, engagement.motion.jump
     begin = min(4.0 * half, 180.0)
-    places = np.linspace(-begin, 0.0, 1 + math.ceil(begin / 0.5))
-    lines = _lines(sizes)
+    stretches = (-begin, -half), (-half, 0.0)
+    before, moving = (np.linspace(a, b, 1 + math.ceil((b - a) / 0.5)) for a, b in stretches)
+    places = np.concatenate((before[:-1], moving))
+    inputs, pinion = places * DEGREE, np.maximum(places, -half) * ratio * DEGREE
     ends = [
-        _free(sizes, lines, x * DEGREE, max(x, -half) * ratio * DEGREE) for x in places.tolist()
+        _least(partial(_free, sizes, line, (pinion[:, None], sense)), inputs[:, None])
+        for line in _lines(sizes)
+        for sense in (1.0, -1.0)
     ]
-    ahead, behind = np.degrees(np.array(ends)).T
+    ahead, behind = (np.degrees(np.min(ends[k::2], axis=0)) for k in (0, 1))
     return CounterPlay(places, ahead, behind)
 
 
-def _free(sizes: CounterSizes, lines: Lines, input_: float, pinion: float) -> tuple[float, float]:
-    """Return how far the pinion can turn ahead and behind, radians, at an input angle."""
-    ahead, behind = math.inf, math.inf
-    for each, step in zip(lines, (1, 2), strict=True):
-        pitch = step * sizes.pinion.step
-        for r, side in each:
-            direction = math.pi - (input_ + side)
-            x, y = sizes.distance + r * np.cos(direction), r * np.sin(direction)
-            away, at = _within(x, y, sizes.pinion.tip)
-            if not len(away):
-                continue
-            after = np.mod(at - pinion + 0.5 * pitch, pitch) - 0.5 * pitch  # from a tooth's middle
-            side_at = half_angles(sizes.pinion, away)
-            spare, other = np.abs(after) - side_at, pitch - np.abs(after) - side_at
-            ahead = min(ahead, float(np.where(after > 0.0, spare, other).min()))
-            behind = min(behind, float(np.where(after > 0.0, other, spare).min()))
-    return ahead, behind
+def _least(free: Callable[[Array, Array], Array], inputs: Array) -> Array:
+    """Return the least value along a line, for inputs (n, 1).
+
+    A line has at most a few minima, which 200 steps tell apart. The least is then searched between
+    the neighbours of the best sample, in steps a tenth as long each time: ends of what is within
+    reach are missed by 1e-9 of the line, and minima inside by its square.
+    """
+    at = np.broadcast_to(np.linspace(0.0, 1.0, 201), (len(inputs), 201))
+    fine, rows = np.linspace(0.0, 1.0, 21), np.arange(len(inputs))
+    best = np.full(len(inputs), np.inf)
+    for _ in range(8):
+        values = free(inputs, at)
+        k = values.argmin(axis=1)
+        best = np.minimum(best, values[rows, k])
+        low, high = at[rows, np.maximum(k - 1, 0)], at[rows, np.minimum(k + 1, at.shape[1] - 1)]
+        at = low[:, None] + (high - low)[:, None] * fine
+    return best
 
 
-def _within(x: Array, y: Array, reach: float) -> tuple[Array, Array]:
-    """Return distances and directions of a line's points within reach, and where it gets there."""
+def _free(
+    sizes: CounterSizes,
+    driver: tuple[Line, float],
+    pinion: tuple[Array, float],
+    inputs: Array,
+    at: Array,
+) -> Array:
+    """Return how far the pinion can turn, radians, for points of a line of the driver.
+
+    ``driver`` has also the pitch of the pinion's teeth there. ``pinion`` has its angles, and the
+    sense in which it turns, 1 for ahead. Points that the pinion does not reach have infinity.
+    """
+    (line, pitch), (turned, sense) = driver, pinion
+    r, side = line(inputs, at)
+    direction = math.pi - (inputs + side)
+    x, y = sizes.distance + r * np.cos(direction), r * np.sin(direction)
     away = np.hypot(x, y)
-    outside = away > reach
-    crosses = np.flatnonzero(outside[1:] != outside[:-1])
-    t = (reach - away[crosses]) / (away[crosses + 1] - away[crosses])
-    on_x, on_y = (v[crosses] + t * (v[crosses + 1] - v[crosses]) for v in (x, y))
-    near = ~outside
-    directions = np.arctan2(np.append(y[near], on_y), np.append(x[near], on_x))
-    return np.append(away[near], 0.0 * t + reach), directions
+    # from a tooth's middle
+    after = np.mod(np.arctan2(y, x) - turned + 0.5 * pitch, pitch) - 0.5 * pitch
+    spare = np.where(sense * after > 0.0, 0.0, pitch) + sense * after
+    spare = spare - half_angles(sizes.pinion, np.minimum(away, sizes.pinion.tip))
+    out: Array = np.where(away <= sizes.pinion.tip, spare, np.inf)
+    return out
 
 
-def _lines(sizes: CounterSizes) -> Lines:
-    """Return radii and directions of points along the driver's teeth, and along its rim and gap."""
-    teeth, half = sizes.driver, sizes.half_space
-    r = np.linspace(teeth.root, teeth.tip, 301)
-    own, top = half_angles(teeth, r), np.linspace(-1.0, 1.0, 101) * teeth.half_angle(teeth.tip)
-    on_teeth = [(r, middle + s * own) for middle in (-half, half) for s in (-1.0, 1.0)]
-    on_teeth += [(0.0 * top + teeth.tip, middle + top) for middle in (-half, half)]
-    deep = np.linspace(teeth.root, sizes.rim, 301)
-    gap = half - half_angles(teeth, deep)
-    rim = np.linspace(gap[-1], math.tau - gap[-1], 6001)
-    on_rim = [(deep, s * gap) for s in (-1.0, 1.0)]
-    return on_teeth, [*on_rim, (0.0 * rim + sizes.rim, rim)]
+def _lines(sizes: CounterSizes) -> Iterator[tuple[Line, float]]:
+    """Yield lines of the driver's teeth, and of its rim and gap, with the pitch of the pinion."""
+    teeth, half, step = sizes.driver, sizes.half_space, sizes.pinion.step
+    for middle in (-half, half):
+        for sign in (-1.0, 1.0):
+            yield partial(_side, sizes, middle, sign, teeth.tip), step
+        yield partial(_arc, teeth.tip, middle, teeth.half_angle(teeth.tip)), step
+    for sign in (-1.0, 1.0):
+        yield partial(_side, sizes, sign * half, -sign, sizes.rim), 2.0 * step
+    yield partial(_rim, sizes), 2.0 * step
+
+
+def _side(
+    sizes: CounterSizes, middle: float, sign: float, tip: float, inputs: Array, at: Array
+) -> tuple[Array, Array]:
+    """Return points of one side of a tooth, from its root to a radius."""
+    r = sizes.driver.root + (tip - sizes.driver.root) * at
+    return r, middle + sign * half_angles(sizes.driver, r)
+
+
+def _arc(
+    radius: float, middle: float, half: float, inputs: Array, at: Array
+) -> tuple[Array, Array]:
+    """Return points of an arc about the driver's axis."""
+    return radius + 0.0 * at, middle + half * (2.0 * at - 1.0)
+
+
+def _rim(sizes: CounterSizes, inputs: Array, at: Array) -> tuple[Array, Array]:
+    """Return points of the rim that the pinion reaches, beyond the gap."""
+    L, r, tip = sizes.distance, sizes.rim, sizes.pinion.tip
+    reach = math.acos((L * L + r * r - tip * tip) / (2.0 * L * r))
+    side = reach * (2.0 * at - 1.0) - inputs
+    gap = sizes.half_space - sizes.driver.half_angle(r)
+    beyond = np.abs(np.remainder(side + math.pi, math.tau) - math.pi) >= gap
+    return np.where(beyond, r, 0.0), side

@@ -19,10 +19,9 @@ from __future__ import annotations
 
 import math
 
+from geneva_cli.analysis.guide_place import GuidePlace, guide_place
 from geneva_cli.curves.shapes import Contour, Line, Segment, about, closed
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.arm_sizes import eye_about, pin_hole
-from geneva_cli.layout.plain_sizes import half_or, pin_radius, wall_min
 from geneva_cli.layout.sizes import lock_between, require_lock_between
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.named_tuple import NamedTuple
@@ -40,9 +39,7 @@ class RackSizes(NamedTuple):
     lock: float  # outer radius of the locking sector
     floor: float  # its inner radius
     recess: float
-    back: float  # wall between the slots' ends and the rack's back
-    bar: float  # width of the bar on the rack's back that slides in the guide
-    slide: float  # its clearance on either side
+    guide: GuidePlace
 
     @property
     def rim(self) -> float:
@@ -65,14 +62,14 @@ class RackSizes(NamedTuple):
         return self.arm - self.half_width - half_recess
 
     @property
-    def behind(self) -> float:
-        """The x of the rack's back."""
-        return -(self.slot_bottom + self.half_width + self.back)
+    def back(self) -> float:
+        """The wall between the slots' ends and the rack's back."""
+        return -(self.behind + self.slot_bottom + self.half_width)
 
     @property
-    def bar_back(self) -> float:
-        """The x of the bar's back, a tenth of its width behind the rack, which keeps clear so."""
-        return self.behind - 0.1 * self.bar
+    def behind(self) -> float:
+        """The x of the rack's back: a tenth of the guide's bar stands out behind it."""
+        return self.guide.back + 0.1 * self.guide.bar
 
     @property
     def beyond(self) -> float:
@@ -84,14 +81,14 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
     """Return the sizes of a machine's rack. Raises GenevaError, naming the key, if none fit."""
     size, r = mechanism.spec.size, mechanism.roller_radius_mm
     arm, allowed = mechanism.ratio * mechanism.center_distance_mm, size.allowances
-    w = r + allowed.slot_clearance_mm
+    guide = guide_place(mechanism)
+    w = guide.slot
     if w >= arm:
         raise GenevaError(
             f"roller_radius_mm = {r:g}: the slots overlap; half a slot must be below {arm:.6g}, "
             "half the distance of the slots",
             ("size", "roller_radius_mm"),
         )
-    bottom = value_or(size.slot_bottom_clearance_mm, max(allowed.slot_clearance_mm, r / 20.0))
     relief = value_or(size.relief_clearance_mm, arm / 200.0)
     lock = _lock(mechanism, arm, arm - w - allowed.lock_clearance_mm, relief)
     recess = lock + allowed.lock_clearance_mm if lock else 0.0
@@ -103,23 +100,7 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
             f"{arm - recess:.6g} and {arm + recess:.6g} mm",
             ("size", "wheel_radius_mm"),
         )
-    # the holes of its screws take at most half of the bar, and leave a wall on either side
-    bar, slide = max(arm / 10.0, 4.0 * wall_min(size, arm)), allowed.slot_clearance_mm
-    # The guide's rail, as wide as the bar, stands in front of it. The arm's eye passes the rail, a
-    # quarter of a bar away. Rail, clearance and bar lie behind the rail's front, and a tenth of the
-    # bar stands out behind the rack.
-    rail = max(bottom + w, _eye(mechanism, arm) + 0.25 * bar)
-    back = rail + 1.9 * bar + slide - (bottom + w)
-    return RackSizes(arm, r, w, edge, bottom, lock, floor, recess, back, bar, slide)
-
-
-def _eye(mechanism: Mechanism, arm: float) -> float:
-    """Return the radius of the arm's eye about the pin; 0 without a pin, and so without an arm."""
-    size = mechanism.spec.size
-    pin = pin_radius(size, mechanism.roller_radius_mm)
-    if not pin:
-        return 0.0
-    return half_or(size.arm_eye_mm, eye_about(pin_hole(size, pin), wall_min(size, arm)))
+    return RackSizes(arm, r, w, edge, guide.bottom, lock, floor, recess, guide)
 
 
 def _lock(mechanism: Mechanism, arm: float, limit: float, relief: float) -> float:

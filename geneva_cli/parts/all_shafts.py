@@ -38,7 +38,7 @@ def all_shafts(
         """Return what a shaft carries, from the lowest up, but for wheel and crank."""
         here = (axis for axis in bars.axes if same(axis.at, at, L))
         seats = [seat for axis in here for seat in carried(bars, axis, first, L)]
-        if mechanism.spec.gears and same(at, (L, 0.0), L):
+        if mechanism.spec.gears and same(at, mechanism.gear_shaft.at, L):
             from geneva_cli.parts.gear_pair import NAMES, gear_span
 
             seats.append(Seat(NAMES[0], *gear_span(mechanism, outlines)))

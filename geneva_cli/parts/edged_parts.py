@@ -3,17 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
+from geneva_cli.curves import fit
 from geneva_cli.curves.edges import Edge
 from geneva_cli.curves.plates import Member, Plate, edged
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.parts_of_machine import PartsOfMachine
+
+if TYPE_CHECKING:
+    from geneva_cli.curves.gear_teeth import Writer
 
 
-class EdgedParts:
+class EdgedParts(PartsOfMachine):
     """The parts of a machine whose plates have the edges of ``[size]``."""
 
-    def __init__(self, mechanism: Mechanism) -> None:
+    def __init__(
+        self, mechanism: Mechanism, tolerance: float | None = None, curves: str = "arcs"
+    ) -> None:
         self.mechanism = mechanism
+        self.tolerance, self.curves = tolerance, curves
+
+    def writer(self, fine: float) -> Writer:
+        """Return a function that fits curves: within ``fine`` mm where no tolerance is set."""
+        if self.tolerance is None:
+            return lambda curve, a, b: fit.cubics(curve, a, b, fine)
+        kind, tolerance = fit.KINDS[self.curves], self.tolerance
+        return lambda curve, a, b: kind(curve, a, b, tolerance)
 
     @property
     def _edge(self) -> Edge:

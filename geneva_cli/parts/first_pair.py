@@ -14,8 +14,8 @@ from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics import registry
 from geneva_cli.layout.first_sizes import first_spec
-from geneva_cli.layout.plain_sizes import wall_min
 from geneva_cli.layout.projection import titled
+from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.outlines.outlines import Outlines, outlines
 from geneva_cli.parts.links import Links, drawn_links

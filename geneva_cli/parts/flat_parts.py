@@ -31,7 +31,6 @@ from geneva_cli.parts.plates import arm_plate, locking_plates, roller_plates, wh
 from geneva_cli.parts.shafts import crank_hub
 
 if TYPE_CHECKING:
-    from geneva_cli.curves.gear_teeth import Writer
     from geneva_cli.layout.missing import NamedParts
     from geneva_cli.parts.gear_blanks import Gear
 
@@ -53,8 +52,7 @@ class FlatParts(EdgedParts):
         tolerance: float | None = None,
         curves: str = "arcs",
     ) -> None:
-        super().__init__(mechanism)
-        self.tolerance, self.curves = tolerance, curves
+        super().__init__(mechanism, tolerance, curves)
         self._known = known
 
     def within(self, tolerance: float, curves: str) -> FlatParts:
@@ -144,27 +142,22 @@ class FlatParts(EdgedParts):
         centres = roller_centres(self.drawn.assembly) if self.drawn else self._on_links()
         return self._edged(Member(plate, centre) for centre in centres for plate in plates)
 
-    def _on_links(self) -> list[Point]:
+    def _on_links(self) -> tuple[Point, ...]:
         """Return the centres of rollers on links in the plane below the wheel."""
         from geneva_cli.parts.link_sizes import places
 
-        return [
+        return tuple(
             (float(joint[0].real), float(joint[0].imag))
             for link in links_at(self.mechanism, np.zeros(1))
             for joint, kind in zip(places(link), link.kinds, strict=True)
             if link.plane == 1 and kind in (Joint.ROLLER, Joint.CARRIED)
-        ]
+        )
 
     @cached_property
     def crank_hub(self) -> Plate | None:
         """The crank's hub above the disc or the arm, if the spec has one."""
         hub = crank_hub(self.outlines)
         return self._plate(hub) if hub else None
-
-    @property
-    def outside_mm(self) -> float | None:
-        """None: heights count from the wheel's lower face."""
-        return None
 
     @property
     def horn_mm(self) -> float | None:
@@ -252,15 +245,6 @@ class FlatParts(EdgedParts):
     def round_gears(self) -> tuple[Member, ...]:
         """Those gears in the machine."""
         return tuple(gear.member for gear in self.toothed)
-
-    def writer(self, fine: float) -> Writer:
-        """Return a function that fits curves: within ``fine`` mm where no tolerance is set."""
-        from geneva_cli.curves import fit
-
-        if self.tolerance is None:
-            return lambda curve, a, b: fit.cubics(curve, a, b, fine)
-        kind, tolerance = fit.KINDS[self.curves], self.tolerance
-        return lambda curve, a, b: kind(curve, a, b, tolerance)
 
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:

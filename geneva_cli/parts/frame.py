@@ -12,16 +12,15 @@ as thick.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations
 
-from geneva_cli.curves.hole_walls import apart
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate, Stack
 from geneva_cli.curves.shapes import ORIGIN, Circle, Point
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bearings import shoulder_length
 from geneva_cli.layout.link_positions import same
-from geneva_cli.layout.plain_sizes import drawn_thicknesses, wall_min
+from geneva_cli.layout.plain_sizes import drawn_thicknesses
+from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -37,6 +36,7 @@ from geneva_cli.parts.mounted_plate import (
     corner_radius,
     hole_without_shaft,
     mounted_plate,
+    require_walls,
     shaft_hole,
 )
 
@@ -93,7 +93,7 @@ def framed(
     axles, bottom = built_shafts(size, own, adjacent, (top - thick, top, free))
     places = list(_standing(mechanism, bars))
     drilled = list(_drilled(mechanism, axles, places, top))
-    _require_walls(drilled, wall_min(size, L), axles)
+    require_walls(drilled, wall_min(size, L), axles)
     fixed = [*_fixed(bars), *(_mounted(base, L) if base else ())]
     holes = [*drilled, *(one.hole for one in fixed)]
     spacers = [_spacer(one, top) for one in fixed if one.low - top > SAME_LENGTH * L]
@@ -139,7 +139,7 @@ def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
     cranks = [one.at for one in mechanism.crank_places]
     seen = [*(wheels if mechanism.spec.wheel.SIGN > 0.0 else []), *cranks]
     if mechanism.spec.gears:
-        seen.append((L + mechanism.spec.gears.distance_mm, 0.0))
+        seen.append((mechanism.gear_shaft.x_mm + mechanism.spec.gears.distance_mm, 0.0))
     yield from seen
     for axis in bars.axes:
         if axis.stands and not any(same(axis.at, one, L) for one in seen):
@@ -174,23 +174,6 @@ def _spacer(one: Screwed, top: float) -> Member:
     outline, bore = Circle(LAYER, ORIGIN, 2.0 * r), Circle(HOLES, ORIGIN, r)
     plate = Plate(f"spacer of the {one.part}", LAYER, outline, (bore,), top, one.low)
     return Member(plate, one.hole.centre)
-
-
-def _require_walls(holes: list[Circle], least: float, axles: list[Member]) -> None:
-    """Raise GenevaError where the bearings of turned shafts leave less than the least wall."""
-    if not any(isinstance(one.part, Stack) for one in axles):
-        return
-    for one, other in combinations(holes, 2):
-        wall = apart(one, other)
-        if wall < least:
-            both = (hole.centre for hole in (one, other))
-            names = [next((a.part.name for a in axles if a.at == at), "a hole") for at in both]
-            raise GenevaError(
-                f'shafts = "turned": {" and ".join(names)} leave a wall of {wall:.4g} mm between '
-                f"their bearings in the frame, and wall_min_mm is {least:.4g}; smaller bores have "
-                "smaller bearings",
-                ("size", "shafts"),
-            )
 
 
 def _lowest(mechanism: Mechanism, parts: Outlines | None, bars: Links) -> float:

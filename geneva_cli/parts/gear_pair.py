@@ -17,7 +17,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.drive import Gears
 from geneva_cli.layout.bores import RoundBore
 from geneva_cli.layout.gear_curves import SAMPLES, radii, ratio_and_turn, required_gears
-from geneva_cli.layout.link_positions import gear_plane
+from geneva_cli.layout.link_positions import gear_plane, same
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.preferred import bore_radius
@@ -41,11 +41,6 @@ THIN = 1e-6  # of the axes' distance: a pitch curve nearer to its axis encloses 
 FINE = {"arcs": 8e-9, "cubics": 2e-9}
 
 
-def crank_sense(mechanism: Mechanism) -> float:
-    """Return 1 if the crank turns counterclockwise (as in an internal wheel), -1 if not."""
-    return -(mechanism.engagements[0].crank_sense or mechanism.spec.wheel.SIGN)
-
-
 def gear_span(mechanism: Mechanism, parts: Outlines | None) -> tuple[float, float]:
     """Return lower and upper end of the gears along the axis, in a plane below all links."""
     return link_sizes(mechanism, [], parts).span(gear_plane(mechanism))
@@ -61,7 +56,7 @@ def gear_pair(mechanism: Mechanism, parts: Outlines | None, write: Writer) -> tu
     if pair is None:
         return ()
     low, high = gear_span(mechanism, parts)
-    sense = crank_sense(mechanism)
+    sense = mechanism.gear_shaft.sense
     layer, outlines = CUT, [gear.outline(write) for gear in pair_with_teeth(mechanism)]
     if not outlines:
         both = driven_curve(pair, sense), driver_curve(pair, sense)
@@ -80,7 +75,7 @@ def pair_with_teeth(mechanism: Mechanism) -> list[ToothedCurve]:
 
     Raises GenevaError, naming the key, for teeth that do not fit.
     """
-    pair, sense = mechanism.spec.gears, crank_sense(mechanism)
+    pair, sense = mechanism.spec.gears, mechanism.gear_shaft.sense
     teeth = pair_teeth(pair, mechanism.spec.size)
     if pair is None or teeth is None:
         return []
@@ -120,7 +115,8 @@ def gear_shafts(mechanism: Mechanism, parts: Outlines | None, ends: Ends) -> Ite
         return
     size, ((on_crank, wide), (at, radius)) = mechanism.spec.size, _shafts(mechanism, parts)
     low, high = gear_span(mechanism, parts)
-    if not (ends.crank_has_one or _on_links(mechanism, parts)):
+    on_crank_shaft = same(on_crank, (mechanism.center_distance_mm, 0.0), wide)
+    if on_crank_shaft and not (ends.crank_has_one or _on_links(mechanism, parts)):
         reach = shaft_ends(size, "crank", ends.lowest, high)
         driven = (Seat(NAMES[0], low, high),)
         yield Shaft("crank's shaft", "crank", RoundBore(wide), driven, *reach, on_crank)
@@ -133,20 +129,21 @@ def gear_shafts(mechanism: Mechanism, parts: Outlines | None, ends: Ends) -> Ite
 def _shafts(mechanism: Mechanism, parts: Outlines | None) -> list[tuple[Point, float]]:
     """Return position and radius of the shafts of driven gear and driver.
 
-    The first is the crank's. Raises GenevaError where a pitch curve is no gear.
+    The first is the crank's, or that of another drive. Raises GenevaError where a pitch curve is no
+    gear.
     """
     pair, L = required_gears(mechanism), mechanism.center_distance_mm
     sizes, ((driven, _), _) = link_sizes(mechanism, [], parts), pitch_radii(pair)
-    usual = bore_radius(L / 20.0)
+    usual, x = bore_radius(L / 20.0), mechanism.gear_shaft.x_mm
     on_crank = _on_links(mechanism, parts) or sizes.crank_shaft or sizes.bore(driven, L) or usual
-    ends = (L, 0.0), (L + pair.distance_mm, 0.0)
+    ends = (x, 0.0), (x + pair.distance_mm, 0.0)
     return list(zip(ends, (on_crank, _driver_bore(mechanism, parts) or usual), strict=True))
 
 
 def _on_links(mechanism: Mechanism, parts: Outlines | None) -> float:
-    """Return the radius of the crank's shaft where links are on it; 0 without links."""
+    """Return the radius of the driven gear's shaft where links are on it; 0 without links."""
     L = mechanism.center_distance_mm
-    return drawn_links(mechanism, parts).shaft((L, 0.0), L)
+    return drawn_links(mechanism, parts).shaft(mechanism.gear_shaft.at, L)
 
 
 def _driver_bore(mechanism: Mechanism, parts: Outlines | None) -> float:

@@ -71,9 +71,11 @@ def groove_base(parts: Outlines, bars: Links) -> Plate:
     shaft = bars.shaft((L, 0.0), L)
     bore = [Circle(HOLES, (0.0, 0.0), shaft)] if shaft else []
     edge = Circle(LAYER, (0.0, 0.0), far + rim)
-    low, _ = bars.sizes.span(BELOW)
-    holes = *bore, *mounts
-    return Plate("groove plate's base", LAYER, edge, holes, low - parts.sizes.arm_thickness, low)
+    high, _ = bars.sizes.span(BELOW)
+    low = high - parts.sizes.arm_thickness
+    if parts.assembly.full.spec.drive_before:  # it fills its plane: another drive is below it
+        low, _ = bars.sizes.span(BELOW + 1)
+    return Plate("groove plate's base", LAYER, edge, (*bore, *mounts), low, high)
 
 
 def groove_stack(

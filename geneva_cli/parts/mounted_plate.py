@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import combinations
 
+from geneva_cli.curves.hole_walls import apart
 from geneva_cli.curves.hull import convex_hull
-from geneva_cli.curves.plates import Plate, Stack
+from geneva_cli.curves.plates import Member, Plate, Stack
 from geneva_cli.curves.shapes import Circle, Point
+from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bearings import SERIES_60
 from geneva_cli.layout.bores import around
-from geneva_cli.layout.plain_sizes import half_or, wall_min
+from geneva_cli.layout.plain_sizes import half_or
+from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.spec.tables import Size
 
@@ -56,3 +60,20 @@ def shaft_hole(shaft: Plate | Stack, at: Point, top: float, fit_mm: float) -> Ci
 def hole_without_shaft(diameter_mm: float | None, at: Point, L: float) -> Circle:
     """Return the hole for a part that is one piece with its shaft, of the spec or L/10 wide."""
     return Circle(HOLES, at, half_or(diameter_mm, bore_radius(L / 20.0)))
+
+
+def require_walls(holes: list[Circle], least: float, axles: list[Member]) -> None:
+    """Raise GenevaError where the bearings of turned shafts leave less than the least wall."""
+    if not any(isinstance(one.part, Stack) for one in axles):
+        return
+    for one, other in combinations(holes, 2):
+        wall = apart(one, other)
+        if wall < least:
+            both = (hole.centre for hole in (one, other))
+            names = [next((a.part.name for a in axles if a.at == at), "a hole") for at in both]
+            raise GenevaError(
+                f'shafts = "turned": {" and ".join(names)} leave a wall of {wall:.4g} mm between '
+                f"their bearings in the frame, and wall_min_mm is {least:.4g}; smaller bores have "
+                "smaller bearings",
+                ("size", "shafts"),
+            )

@@ -1,24 +1,26 @@
 """The gaps, in a whole turn, between links and the round parts that pass through their planes.
 
-Each plane below the wheel's has one link, or gears; the arm has a check of its own. Three kinds
+Each plane below the wheel's has one link, or gears; the arm has a check of its own. Four kinds
 of round parts pass through. One is the wheel's hub and, below it, its shaft. Another is the spacer
-on a pin that joins links of distant planes. The third is the crank's shaft between the planes in
-which it carries something. It leaves the machine below all links, or above through the locking
-disc. If both are blocked, the shaft has no bearing.
+on a pin that joins links of distant planes. The third are the pivots and spacers that stand on the
+frame below the links of a drive, where another drive is below them. The fourth is the crank's shaft
+between the planes in which it carries something. It leaves the machine below all links, or above
+through the locking disc. If both are blocked, the shaft has no bearing.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.shapes import Contour
+from geneva_cli.curves.plates import Member, Plate
+from geneva_cli.curves.shapes import Circle, Contour
 from geneva_cli.kinematics.layout import Joint, Link
-from geneva_cli.layout.link_positions import gear_plane, links_at
+from geneva_cli.layout.link_positions import gear_plane, links_at, same
 from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
@@ -59,10 +61,11 @@ class Planes(NamedTuple):
     way_out: Meeting | None  # None where the shaft is free
 
 
-def planes(parts: Outlines, bars: Links) -> Planes:
+def planes(parts: Outlines, bars: Links, spacers: Iterable[Member] = ()) -> Planes:
     """Return the least gaps between links and the parts that pass through their planes.
 
-    ``bars`` are the links of the machine with the outlines ``parts``.
+    ``bars`` are the links of the machine with the outlines ``parts``, and ``spacers`` the rings on
+    its frame.
     """
     mechanism = parts.assembly.full
     turns = mechanism.spec.turns
@@ -78,6 +81,7 @@ def planes(parts: Outlines, bars: Links) -> Planes:
     outlines = _outlines(bars)
     shaft = _Shaft(parts, links, outlines, bars)
     passing = [*_passing(parts, links, bars.sizes, turn), *shaft.between()]
+    passing += _standing(parts, bars, spacers, turn)
     met = [
         _meeting(link, outlines[link.name], one, turn)
         for link in links
@@ -147,6 +151,28 @@ def _passing(parts: Outlines, links: list[Link], sizes: LinkSizes, turn: Array) 
                 yield Round(name, plane, one.way, sizes.ring)
 
 
+def _standing(
+    parts: Outlines, bars: Links, spacers: Iterable[Member], turn: Array
+) -> Iterator[Round]:
+    """Yield the pivots and spacers between the frame and links, in the planes of a drive below."""
+    mechanism, L = parts.assembly.full, parts.assembly.L
+    lowest, links = gear_plane(mechanism), links_at(mechanism, np.zeros(1))
+    planes = {link.name: link.plane for link in links}
+    rounds = [
+        (f"the pivot of {axis.names[0]}", axis.at, axis.radius)
+        for axis in bars.axes
+        if axis.stands
+        and not any(same(axis.at, shaft, L) for shaft in ((0.0, 0.0), (L, 0.0)))
+        and max(planes[name] for name in axis.names) < lowest
+    ]
+    for one in spacers:
+        assert isinstance(one.part, Plate) and isinstance(one.part.outline, Circle)
+        rounds.append((f"the {one.part.name}", one.at, one.part.outline.radius))
+    for name, at, radius in rounds:
+        for plane in sorted({link.plane for link in links if link.plane >= lowest}):
+            yield Round(name, plane, np.full(turn.shape, complex(*at)), radius)
+
+
 def _on_wheel(parts: Outlines, links: list[Link], sizes: LinkSizes, axis: Array) -> Iterator[Round]:
     """Yield the wheel's hub in the planes that it reaches, and its shaft in those below."""
     if parts.assembly.sign < 0.0:
@@ -185,8 +211,9 @@ class _Shaft:
                 self.carries.add(link.plane)
         if has_arm(parts):
             self.carries.add(1)
-        if parts.assembly.full.spec.gears:
-            self.carries.add(gear_plane(parts.assembly.full))
+        machine = parts.assembly.full
+        if machine.spec.gears and machine.gear_shaft == machine.crank_shaft:
+            self.carries.add(gear_plane(machine))
         self.through = parts.sizes.crank_bore > 0.0  # through the locking disc
         if self.through:
             self.carries.add(0)

@@ -16,7 +16,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import arm_bore, hub_and_eye, lock_bolt_directions, pin_hole
 from geneva_cli.layout.bolt_holes import bolt_radius
 from geneva_cli.layout.bores import bore_of
-from geneva_cli.layout.plain_sizes import drawn_thicknesses, half_or, pin_radius, wall_min
+from geneva_cli.layout.plain_sizes import drawn_thicknesses, half_or, pin_radius
+from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.rack import locking_sector, rack_sizes
 from geneva_cli.parts.arm import CrankArm

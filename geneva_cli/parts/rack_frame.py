@@ -92,14 +92,14 @@ def guide_bar(mechanism: Mechanism, count: int) -> Plate:
     """Return the bar under a rack of ``count`` slots; half the height under it is free."""
     sizes, heights = rack_sizes(mechanism), rack_frame(mechanism)
     low, high = rack_ends(sizes, count)
-    x = sizes.bar_back
-    outline = rectangle("LINK", x, low, x + sizes.bar, high)
+    x = sizes.guide.back
+    outline = rectangle("LINK", x, low, x + sizes.guide.bar, high)
     return Plate("guide bar", "LINK", outline, bar_bolts(sizes, count), 0.5 * heights.top, 0.0)
 
 
 def bar_bolts(sizes: RackSizes, count: int) -> tuple[Circle, ...]:
     """Return the holes that fix the bar to a rack, behind each of its slots."""
-    x = sizes.bar_back + 0.5 * sizes.bar
+    x = sizes.guide.middle
     return tuple(Circle(HOLES, (x, y), _bolt(sizes)) for y in slot_places(sizes, count))
 
 
@@ -109,7 +109,8 @@ def guide(mechanism: Mechanism) -> tuple[Plate, ...]:
     Raises GenevaError where the slots are so wide that hardly any guide is left between them.
     """
     sizes, heights = rack_sizes(mechanism), rack_frame(mechanism)
-    x, bar, slide, half = sizes.bar_back, sizes.bar, sizes.slide, guide_half_mm(sizes)
+    place = sizes.guide
+    x, bar, slide, half = place.back, place.bar, place.slide, place.half
     if half < bar:
         raise GenevaError(
             f"roller_radius_mm = {sizes.roller:g}: a guide that the rack always covers would be "
@@ -129,11 +130,6 @@ def guide(mechanism: Mechanism) -> tuple[Plate, ...]:
     )
 
 
-def guide_half_mm(sizes: RackSizes) -> float:
-    """Return half the length of the guide, which the rack covers in each of its steps."""
-    return sizes.beyond - sizes.arm
-
-
 def rack_dimensions(sizes: RackSizes) -> Iterator[Dimension]:
     """Yield the dimensions of rack, locking sector and guide."""
     lock = {
@@ -145,9 +141,9 @@ def rack_dimensions(sizes: RackSizes) -> Iterator[Dimension]:
         "distance of the slots": 2.0 * sizes.arm,
         "edge, from the deepest roller": sizes.edge,
         **(lock if sizes.lock else {}),
-        "guide bar: width": sizes.bar,
-        "guide: clearance on either side": sizes.slide,
-        "guide: length": 2.0 * guide_half_mm(sizes),
+        "guide bar: width": sizes.guide.bar,
+        "guide: clearance on either side": sizes.guide.slide,
+        "guide: length": 2.0 * sizes.guide.half,
     }
     for name, value in named.items():
         yield Dimension(name, value, "mm")
@@ -170,15 +166,16 @@ def frame_plate(mechanism: Mechanism) -> Plate:
 
 def _rows(sizes: RackSizes) -> tuple[float, float]:
     """Return the x of the screws of rail and wall."""
-    return sizes.bar_back + 1.5 * sizes.bar + sizes.slide, sizes.bar_back - sizes.slide - sizes.bar
+    place = sizes.guide
+    return place.back + 1.5 * place.bar + place.slide, place.back - place.slide - place.bar
 
 
 def _row(sizes: RackSizes, x: float) -> Iterator[Circle]:
     """Yield three screws' holes along the guide, half a bar's width from its ends."""
-    far = guide_half_mm(sizes) - 0.5 * sizes.bar
+    far = sizes.guide.half - 0.5 * sizes.guide.bar
     for y in (-far, 0.0, far):
         yield Circle(HOLES, (x, y), _bolt(sizes))
 
 
 def _bolt(sizes: RackSizes) -> float:
-    return bolt_radius(None, 2.0 * sizes.arm, 0.5 * sizes.bar)
+    return bolt_radius(None, 2.0 * sizes.arm, 0.5 * sizes.guide.bar)

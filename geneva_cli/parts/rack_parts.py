@@ -115,11 +115,6 @@ class RackParts(EdgedParts):
             raise GenevaError(reason, ("drive", "kind"))
 
     @property
-    def outside_mm(self) -> float | None:
-        """None: heights count from the rack's lower face."""
-        return None
-
-    @property
     def horn_mm(self) -> float | None:
         """Thickness of the horns between slots and recesses; None without a lock."""
         return self.sizes.horn if self.sizes.lock else None

@@ -344,6 +344,9 @@ class Load(SpecTable):
         OneOf(("slot", "pin")),
         "place of sliding: in the slot (roller fixed to its pin), or on the pin",
     ] = "slot"
+    guide_friction: Annotated[
+        float | None, NOT_NEGATIVE, "linear: friction coefficient of the guide; default friction"
+    ] = None
 
     @property
     def rubs_in_slot(self) -> bool:

@@ -13,7 +13,7 @@ from geneva_cli.machine.spec import BEFORE, Spec
 from geneva_cli.machine.spec import attribute as attribute_of
 from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.schema import SpecTable, fields
-from geneva_cli.study.law_columns import law_columns
+from geneva_cli.study.sweep.columns import columns
 
 
 def numbers(specs: Sequence[Spec], names: Sequence[str]) -> list[list[float] | None]:
@@ -23,7 +23,7 @@ def numbers(specs: Sequence[Spec], names: Sequence[str]) -> list[list[float] | N
     """
     out: list[list[float] | None] = [None] * len(specs)
     for members, machine in batch_machines(specs):
-        values = law_columns(machine, names, len(members))
+        values = columns(machine, names, len(members))
         if values is None:
             continue
         for i, row in zip(members, np.column_stack(values).tolist(), strict=True):

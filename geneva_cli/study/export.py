@@ -76,17 +76,18 @@ def export_files(
     >>> [file.name for file in files][:3]
     ['wheel-1x-10mm.dxf', 'locking-disc-1x-10mm.dxf', 'arm-1x-10mm.dxf']
     """
-    shells = design.spec.wheel.SHELLS
+    kind = model.kind
     files: list[ExportFile] = []
     missing: list[Missing] = []
     for format in trade.single:
         curves = CURVES[usual_curves("", format)]
         fine = of_curves(usual_tolerance("", format), "", format)
         parts, missing = single_parts(model, fine, curves)
-        if format == "dxf" and shells:
+        if format == "dxf":
             files += _laid_flat(design, model, fine)
         files += _single(parts, format)
-    names = [name for name in trade.whole if not (shells and name.startswith("plate."))]
+    # shells do not lie on a bed
+    names = [name for name in trade.whole if not (kind.LAID_FLAT and name.startswith("plate."))]
     files += [ExportFile(name, CONTENTS[name], _writer(design, model, name)) for name in names]
     files.append(
         ExportFile("parts.csv", "list of parts", partial(show, design.part_table("parts")))
@@ -118,7 +119,7 @@ def _slug(name: str) -> str:
 
 def _laid_flat(design: Design, model: PartsModel, tolerance_mm: float) -> Iterator[ExportFile]:
     """Yield the outlines of a spherical machine's cones."""
-    for part in ("wheel", "crank", "arm"):
+    for part in model.kind.LAID_FLAT:
         try:
             drawing = design.drawing(part, tolerance_mm, of=model)
         except GenevaError:  # a machine without an arm; the list of parts has the reason

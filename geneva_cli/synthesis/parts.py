@@ -16,9 +16,9 @@ from functools import lru_cache
 from geneva_cli.analysis.undercut import depths_mm
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly, assembly
-from geneva_cli.layout.plain_sizes import wall_min
 from geneva_cli.layout.sizes import sizes
 from geneva_cli.layout.sphere_sizes import ball
+from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.named_tuple import NamedTuple

@@ -13,7 +13,6 @@ from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.study.batches import numbers
-from geneva_cli.study.law_columns import law_peaks
 from geneva_cli.study.target import Target
 from geneva_cli.synthesis.families.family import Family, allows
 from geneva_cli.synthesis.parts import machine_and_parts
@@ -175,23 +174,19 @@ def _moves_as_required(target: Target, row: MachineRow) -> bool:
 
 
 def _rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[MachineRow | None]:
-    straight = [spec for spec in specs if spec.motion is None]
-    costs = iter(numbers(straight, COSTS))
-    own = [None if spec.motion else next(costs) for spec in specs]
+    costs = numbers(specs, COSTS)
     out: list[MachineRow | None] = []
     # ``search`` keeps the required limit itself
     limits = target.frame.limits.as_dict().values() if target.frame else ()
     limited = any(value is not None for value in limits)
     compute_parts_data(specs)
-    for spec, five in zip(specs, own, strict=True):
+    for spec, values in zip(specs, costs, strict=True):
         try:
             machine, parts = machine_and_parts(spec)
         except GenevaError as error:
             errors.append(str(error))
             out.append(None)
             continue
-        known = law_peaks(machine)
-        values = [known[name] for name in COSTS] if spec.motion else five
         if values is None:
             out.append(None)
             continue

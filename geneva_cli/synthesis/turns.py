@@ -11,23 +11,16 @@ from functools import cached_property
 
 from geneva_cli.collisions.full_turn import turning
 from geneva_cli.collisions.gaps import WorkLimit
-from geneva_cli.collisions.glance import gap_about, play_about, play_before_entry
+from geneva_cli.collisions.glance import gap_about, play_about
 from geneva_cli.collisions.machine_parts import MachineParts
 from geneva_cli.collisions.one_motion import one_motion
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.assembly import Assembly
-from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.named_tuple import NamedTuple
-from geneva_cli.numerics.keeps import keeps
 from geneva_cli.numerics.tolerances import CLEARLY
-from geneva_cli.outlines.bounding_outlines import bounding_outlines
-from geneva_cli.outlines.crank import rollers_gap
-from geneva_cli.outlines.relief_overlap import leave_no_disc
-from geneva_cli.parts.groove_plate import groove_reaches
 from geneva_cli.study.target import USUAL_RPM
 from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.checks.play import finds_slot
@@ -43,8 +36,7 @@ HAND_OVER_PLAY = "hand_over_play_deg"
 # smaller roller helps. Of cams with 5 to 12 slots those up to 3.1 were mended by one, and none from
 # 8.4 on.
 LOST = 6.0
-# From here on the true play may exceed LOST, so it must be computed precisely. Of 108 wheels with a
-# law, outlines with more material had an error below this.
+# From here on the play may exceed LOST at closer sampling.
 NEARLY = 0.5 * LOST
 
 
@@ -86,18 +78,12 @@ class Turns:
     def first_failing(self, machine: Mechanism) -> list[Failure]:
         """The checks that fail at rest, or else the first that fail in the turn."""
         turn = self._turn(machine)
-        return turn.undrawn() or turn.standing(machine) or turn.first()
+        return turn.standing(machine) or turn.first()
 
     def some_failing(self, machine: Mechanism, known: Iterable[Failure]) -> list[Failure]:
         """Some checks that fail, tried first where checks were ``known`` to fail."""
         turn = self._turn(machine)
-        early = (
-            turn.undrawn()
-            or turn.overlapping()
-            or turn.without_groove_plate()
-            or turn.play_at_hand_over()
-            or turn.still_failing(machine, known)
-        )
+        early = turn.still_failing(machine, known)
         return early or turn.standing(machine) or turn.first()
 
     def _turn(self, machine: Mechanism) -> _Turn:
@@ -126,54 +112,6 @@ class _Turn:
     @cached_property
     def _closer(self) -> Iterator[list[Failure]]:
         return iter(()) if isinstance(self._parts, Failure) else _turn_failures(self._parts)
-
-    @cached_property
-    def _sized(self) -> tuple[Assembly, Sizes] | None:
-        """The assembly and the sizes of flat parts; None for other machines."""
-        if not self._model.mechanism.spec.wheel.FLAT:
-            return None
-        try:
-            return self._model.assembly, self._model.sizes
-        except GenevaError:
-            return None
-
-    def undrawn(self) -> list[Failure]:
-        """The key that prevents the parts, if nothing is left of the locking disc.
-
-        This is known before the parts are drawn.
-        """
-        no_disc = self._sized is not None and leave_no_disc(*self._sized)
-        return [Failure("roller_radius_mm")] if no_disc else []
-
-    def overlapping(self) -> list[Failure]:
-        """The check of two rollers on one crank that overlap, which needs no walls."""
-        gap = rollers_gap(*self._sized) if self._sized else None
-        return [] if gap is None or keeps(gap, "at least", 0.0) else [Failure("rollers_apart_mm")]
-
-    def without_groove_plate(self) -> list[Failure]:
-        """The check of the parts, if the wheel's hub leaves no space for the plate of a groove.
-
-        This is known before the parts are drawn.
-        """
-        try:
-            if self._sized and self._sized[0].rollers[0][0].groove:
-                groove_reaches(*self._sized)
-        except GenevaError:
-            return [Failure("parts")]
-        return []
-
-    def play_at_hand_over(self) -> list[Failure]:
-        """The play between lock and slot from simpler outlines, or the key that prevents parts.
-
-        These have more material than the parts. A wheel near the limit LOST must be drawn.
-        """
-        try:
-            more = bounding_outlines(*self._sized) if self._sized else None
-        except GenevaError as error:
-            return [_prevented_by(error)]
-        ratio = play_before_entry(more) / finds_slot(more) if more else 0.0
-        play = Failure(HAND_OVER_PLAY, ratio=ratio)
-        return [play] if play.ratio > CLEARLY and not play.exceeds(NEARLY) else []
 
     def standing(self, machine: Mechanism) -> list[Failure]:
         """The checks at rest that fail, for a machine with the same positions."""

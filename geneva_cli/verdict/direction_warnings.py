@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from geneva_cli.analysis.peaks import worst
 from geneva_cli.errors import Notice
+from geneva_cli.kinematics.laws.law import Law
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import BEFORE
@@ -39,7 +40,7 @@ def _difference(forwards: Mechanism, backwards: Mechanism) -> str:
         noise = 1e-9 * getattr(peaks, what).max  # an end without a jump is rounding
         if not math.isclose(one, back[key], rel_tol=1e-4, abs_tol=noise):
             return f"the {what} at {end} is {one:.4g} forwards and {back[key]:.4g} backwards"
-    half = 0.5 if forwards.law is None else forwards.law.half_way
+    half = 0.5 if forwards.law is None else _half_way(forwards, forwards.law)
     if math.isclose(half, 0.5, rel_tol=1e-4):
         return ""
     return (
@@ -48,8 +49,18 @@ def _difference(forwards: Mechanism, backwards: Mechanism) -> str:
     )
 
 
+def _half_way(mechanism: Mechanism, law: Law) -> float:
+    """Fraction of the motion's time after which a law's wheel is half-way."""
+    import numpy as np  # machines without a law need none
+
+    one = mechanism.engagements[0]
+    at_deg = one.own.entry_deg + law.half_way * one.own.motion_deg
+    return float((one.inputs_deg(np.array([at_deg]))[0] - one.entry_deg) / one.motion_deg)
+
+
 def _is_tuned(mechanism: Mechanism) -> bool:
-    return mechanism.law is not None and mechanism.law.tuned_to is not None
+    law = mechanism.engagements[0].motion.law
+    return law is not None and law.tuned_to is not None
 
 
 def _reasons(forwards: Mechanism, backwards: Mechanism) -> Iterator[str]:

@@ -166,6 +166,7 @@ def _rounded_points(mechanism: Mechanism) -> list[Notice]:
     if ratio:
         decimals, move = ratio.decimals, ratio.move * top.max
     elif points:
+        engagement = engagement.own  # the law holds by the angle of its shaft
         whole = (engagement.motion_deg * DEGREE) ** 3
         decimals, move = points.decimals, points.move * 2.0 * engagement.half_step / whole
     else:

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geneva_cli.drawings.kinds.kind import kind_of
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.sizes import Layout
-from geneva_cli.layout.sphere_sizes import sized_ball
 from geneva_cli.layout.stressed import Stressed, stressed
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
@@ -62,25 +62,10 @@ def stressed_parts(machine: Mechanism, layout: Layout | None) -> Stressed | None
     """The stressed parts of a design, flat ones by their layout; None if they do not fit."""
     if layout or machine.spec.is_flat or not machine.spec.has_parts:
         return stressed(*layout) if layout else None
-    of = {"ball": _of_sphere, "rack": _of_rack}
     try:
-        return of[machine.spec.wheel.PARTS](machine)
+        return kind_of(machine).stressed(machine)
     except GenevaError:  # the check of the parts reports the error
         return None
-
-
-def _of_sphere(machine: Mechanism) -> Stressed | None:
-    from geneva_cli.layout.sphere_stressed import sphere_stressed
-
-    ball = sized_ball(machine)
-    return sphere_stressed(machine.spec, ball) if ball else None
-
-
-def _of_rack(machine: Mechanism) -> Stressed:
-    # no other machine needs a rack's parts
-    from geneva_cli.parts.rack_stressed import rack_stressed
-
-    return rack_stressed(machine)
 
 
 def _numbers(of: Stressed) -> list[float]:

@@ -307,6 +307,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
     "link_gap_mm": (
         *(c for key in ("link_width_mm", "link_pin_mm") for c in sized("size", key)),
         left_out("size", "crank_shaft_low_mm"),
+        scaled("drive.before", "input_crank_mm", 0.2),
         scaled("size", "wheel_hub_mm", 0.5),
         set_to("size", "wheel_hub_mm", 0.0),
     ),

@@ -39,8 +39,7 @@ OURS = {
     "peaks": 4e-15,
     "sweep": 1e-12,  # sums of what quadrature leaves
     "cranks": 4e-15,
-    # two searches, each within the last places of the peak
-    "many": 4e-15,
+    "many": 4e-15,  # two searches, each within the last places of the peak
     "motion": 8 * 2.0**-52,
     "slot": 1e-2 * 1.005,  # mm; 15 points a chord miss 1/256 of its error
     "tolerance": 1e-4,  # of 4,096 machines; of a million some 1e-7

@@ -23,7 +23,9 @@ from geneva_cli.verdict.quantities.motion import peaks, timing
 ULP = np.finfo(float).eps
 RACK = Design(Linear(6))
 SIZE = Size(center_distance_mm=50.0, roller_radius_mm=6.0, face_width_mm=12.0)
-LOADED = Design(Linear(6), size=SIZE, load=Load(mass_kg=4.0, force_N=30.0, friction=0.1))
+# the slot alone; test_guide_friction.py has the guide
+LOAD = Load(mass_kg=4.0, force_N=30.0, friction=0.1, guide_friction=0.0)
+LOADED = Design(Linear(6), size=SIZE, load=LOAD)
 
 
 def exact(input_deg: float) -> list[mpmath.mpf]:

@@ -128,6 +128,27 @@ CASES = {
         f"z = 6, {SPHERE}, axes_deg = 50", f"{GEARS}0.3, rollers = 2, {BEFORE}{SIDE}0.25}}"
     ),
     "pair-behind-gears": text("z = 4", f"{PAIR}3, {BEFORE}{GEARS}0.3{QUICK}}}"),
+    "curved-behind-gears": text(
+        "z = 6",
+        f"{BEFORE}{GEARS}0.2}}",
+        'law = "cycloidal", ratio = "matched"',
+    ),
+    "curved-behind-side-crank": text(
+        "z = 8",
+        f"rollers = 2, {BEFORE}{SIDE}-0.3}}",
+        'law = "modified-sine", ratio = "matched"',
+    ),
+    "curved-gears-behind-side-crank": text(
+        "z = 6", f"{GEARS}0.2, {BEFORE}{SIDE}0.25}}", 'law = "3-4-5"'
+    ),
+    "cam-behind-side-crank": text(
+        "z = 6", f'kind = "cam", {BEFORE}{SIDE}0.3}}', 'law = "cycloidal"'
+    ),
+    "cam-behind-gears": text(
+        f"z = 8, {INSIDE}",
+        f'kind = "cam", {BEFORE}{NONCIRCULAR}-0.2}}',
+        'law = "4-5-6-7", alpha0_deg = 5',
+    ),
     "slider-crank-turned": text("z = 3", f"{SLIDER}point_mm = 60, point_deg = 30"),
 }
 # Machines on a linkage's path, with places near which their wheel's entry and exit are.

@@ -2,12 +2,11 @@
 
 import math
 
-import numpy as np
 import pytest
 
 from geneva_cli.analysis.undercut import depths_mm, undercut
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.laws.standard import Cycloidal, ModifiedConstantVelocity
+from geneva_cli.kinematics.laws.standard import Cycloidal
 from geneva_cli.kinematics.motion import Motion
 from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.kinematics.wheels.internal import Internal
@@ -21,10 +20,8 @@ from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.tables import Load, Size
-from geneva_cli.study.batches import batch_machines, numbers
+from geneva_cli.study.batches import numbers
 from geneva_cli.study.fields import pick
-from geneva_cli.study.law_columns import law_columns
-from geneva_cli.study.sweep.columns import columns
 from geneva_cli.synthesis import search as searching
 from geneva_cli.synthesis.families.every import kinds
 from geneva_cli.synthesis.parts_data import (
@@ -35,7 +32,6 @@ from geneva_cli.synthesis.parts_data import (
     parts_data,
 )
 from geneva_cli.synthesis.reading import read_target
-from geneva_cli.synthesis.rows import COSTS
 from geneva_cli.synthesis.search import search
 from geneva_cli.synthesis.table import synthesis_table
 
@@ -82,19 +78,6 @@ def test_a_straight_slot_and_its_neighbour():
     seen = parts_data(Spec(External(6)))
     assert seen.between == pytest.approx(2.0 * seen.paths.ends[0] * math.sin(math.pi / 6))
     assert seen.least == 0.0
-
-
-@pytest.mark.parametrize("law", [Cycloidal(), ModifiedConstantVelocity()])
-def test_peaks_of_a_law_are_its_own_scaled(law):
-    """Against the search for the peaks of each motion: both to some roundings."""
-    specs = [Spec(External(z), motion=Motion(law, a, "matched")) for z in (4, 9) for a in (-9.0, 5)]
-    (_, machine), *others = batch_machines(specs)
-    assert not others
-    names = ("timing.dwell_deg", *COSTS)
-    both = law_columns(machine, names, 4), columns(machine, names, 4)
-    for name, one, other in zip(names, *both, strict=True):
-        assert np.all(one) == np.all(other)
-        assert one == pytest.approx(other, rel=1e-13, abs=1e-13), name
 
 
 def test_what_nothing_bounds_is_told_last():

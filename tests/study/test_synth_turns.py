@@ -92,48 +92,6 @@ def test_a_play_that_fails_is_found_where_it_failed_before():
     assert Turns().some_failing(build(with_roller(spec, 4.0)), seen) == seen
 
 
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize(
-    "drive, ratio", [(Crank(), "matched"), (Cam(), None)], ids=["crank", "cam"]
-)
-@pytest.mark.parametrize("radius", [4.0, 3.0, 2.5, 2.0])
-def test_a_play_that_fails_with_more_material_fails_before_parts_are_drawn(
-    drive, ratio, radius, monkeypatch
-):
-    """The whole turn of the parts themselves has it fail, too, and no smaller share of its limit;
-    what is told before is most of it.
-    """
-    motion = Motion(ModifiedSine(), alpha0_deg=-35.0, ratio=ratio)
-    machine = build(with_roller(Spec(External(24), drive, motion=motion), radius))
-    whole = Turns().failing(machine)
-    (true,) = [one for one in whole if one.name == "hand_over_play_deg"]
-    monkeypatch.setattr("geneva_cli.outlines.outlines.drawn", None)
-    (told,) = Turns().some_failing(machine, [])
-    assert told.name == true.name
-    assert 1.0 < told.ratio <= true.ratio * (1.0 + 1e-6)
-    assert told.ratio > 0.8 * true.ratio
-
-
-def test_a_lock_of_which_nothing_is_left_is_told_before_parts_are_drawn(monkeypatch):
-    """With the key that their refusal names."""
-    motion = Motion(ModifiedSine(), alpha0_deg=-35.0)
-    machine = build(with_roller(Spec(External(24), Cam(), motion=motion), 5.0))
-    refused = Turns().failing(machine)
-    assert [one.name for one in refused] == ["lock_radius_mm"]
-    monkeypatch.setattr("geneva_cli.outlines.outlines.drawn", None)
-    assert Turns().some_failing(machine, []) == refused
-
-
-def test_a_groove_without_space_for_its_plate_fails_before_parts_are_drawn(monkeypatch):
-    """The groove of an internal wheel reaches beyond the wheel's axis, whatever the roller."""
-    motion = Motion(ModifiedSine(), alpha0_deg=105.0)
-    machines = [build(with_roller(Spec(Internal(8), Cam(), motion), r)) for r in (2.0, 0.5)]
-    assert all("parts" in failing_names(machine) for machine in machines)
-    monkeypatch.setattr("geneva_cli.outlines.outlines.drawn", None)
-    for machine in machines:
-        assert Turns().some_failing(machine, []) == [Failure("parts")]
-
-
 def test_a_check_at_rest_that_failed_before_is_computed_first(monkeypatch):
     """The crank's shaft meets the input crank whatever the roller; the turn is not begun."""
     drive = SideCrank(A=0.9999)

@@ -110,7 +110,7 @@ def _warnings(mechanism: Mechanism, load: Oscillator, least: float) -> list[Noti
                 "use a stiffer shaft, less inertia or a lower speed",
             )
         )
-    law = mechanism.law
+    law = mechanism.engagements[0].motion.law
     tuned = law.tuned_to if law else None
     # a tuned law may miss its period ratio by a hundredth
     if tuned and not math.isclose(load.ratio, tuned, rel_tol=0.01):

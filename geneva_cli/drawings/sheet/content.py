@@ -48,7 +48,7 @@ def shown_on_sheet(
     boxes = [bounds(plate.outline) for plate in (*apart, *plates(every[-1]))]
     area = sum((box.x1 - box.x0) * (box.y1 - box.y0) for box in boxes)
     kinds = enumerate(alike(every), 1)
-    flat = ((i, kind[0]) for i, kind in kinds if isinstance(kind[0], Plate | Stack))
+    flat = ((i, one) for i, kind in kinds for one in kind if isinstance(one, Plate | Stack))
     items = {step: i for i, part in flat for step in steps(part)}
     # chords of 1.5 mm on a part of 500 mm: spans are within 0.1 mm on any paper
     cut = faces(members, 500.0 / max(sizes))

@@ -16,6 +16,7 @@ from geneva_cli.layout.written import coordinate, is_metric, length, number
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.parts.gear_pair import driven_curve, driver_curve
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -64,11 +65,10 @@ def gear_tables(mechanism: Mechanism, tolerance: float) -> list[Block]:
     pair, L = mechanism.spec.gears, mechanism.center_distance_mm
     if pair is None:
         return []
-    from geneva_cli.parts.gear_pair import crank_sense, driven_curve, driver_curve
 
     close, blocks = max(tolerance, COARSE * L), []
     for name, of in (("driven gear", driven_curve), ("driver gear", driver_curve)):
-        both = of(pair, crank_sense(mechanism))
+        both = of(pair, mechanism.gear_shaft.sense)
 
         def curve(t: Array, both: Callable[[Array], tuple[Array, Array]] = both) -> Array:
             return both(np.radians(t))[0]

@@ -150,6 +150,6 @@ def _together(shown: SheetContent, parts: RackParts, scale: float) -> View:
     view.cross(parts.axis, parts.sizes.lock or 0.2 * R)
     view.linear((0.0, 0.0), parts.axis, 0.0, sized.plain(R, "R = "))
     mark_items(view, shown)
-    between = length(parts.sizes.bar + 2.0 * parts.sizes.slide)
+    between = length(parts.sizes.guide.bar + 2.0 * parts.sizes.guide.slide)
     view.remark(f"guide: {between} between rail and wall")
     return view

@@ -50,7 +50,7 @@ class Counter(Gearing):
         {"wheel": {"z": 4, "driver_teeth": 20}},
     )
     FLAT: ClassVar[bool] = False
-    PARTS: ClassVar[str] = ""
+    PARTS: ClassVar[str] = "counter"
     JUMPS: ClassVar[bool] = True
     TOOTH_N_mm2: ClassVar[float] = 14e3  # ISO 6336-1, method C: 14 N/(mm µm)
     DRIVES: ClassVar[tuple[str, ...]] = ("crank",)
@@ -95,6 +95,10 @@ class Counter(Gearing):
     def words(self, slots: str) -> str:
         """The pinion in words."""
         return f"counter pinion of {self.z} wide and {self.z} narrow teeth"
+
+    def driven_by(self, drive: str, behind: str, rollers: str) -> str:
+        """The two teeth of its driver in words."""
+        return f"a driver{behind} with two of its {self.driver_teeth} teeth"
 
     def half_motion_deg(self, step: HalfStep) -> float:
         """Crank angle of one of the driver's teeth, 360°/N."""

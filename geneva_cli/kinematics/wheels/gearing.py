@@ -102,8 +102,8 @@ class Gearing(SpecTable):
     FLAT: ClassVar[bool] = True
     # True if they are shells of a sphere, on shafts that meet at its centre
     SHELLS: ClassVar[bool] = False
-    # how all parts are built: "flat" about two axes, "ball" about a point, "rack" along a line, or
-    # "" if they are not built
+    # how all parts are built: "flat" about two axes, "ball" about a point, "rack" along a line,
+    # "counter" as gears, or "" if they are not built
     PARTS: ClassVar[str] = "flat"
     # meaning of center_distance_mm
     DISTANCE: ClassVar[str] = "centre distance"
@@ -190,6 +190,14 @@ class Gearing(SpecTable):
         'external wheel of 6 straight radial slots'
         """
         return f"{self.NAME} wheel of {self.z} {slots} slots"
+
+    def driven_by(self, drive: str, behind: str, rollers: str) -> str:
+        """What drives the wheel in words: a drive, what is in front of it, and its rollers.
+
+        >>> External(6).driven_by("a crank", "", "one roller")
+        'a crank with one roller'
+        """
+        return f"{drive}{behind} with {rollers}"
 
     @property
     def own_sizes(self) -> dict[str, float]:

@@ -168,9 +168,8 @@ def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[
     """Both horns of each kind of slot."""
     L, sides = mechanism.center_distance_mm, []
     for whole in mechanism.under_load.engagements:
-        engagement, aheads = whole.through, whole.ahead_deg
-        ends = engagement.entry_deg, engagement.exit_deg
-        for end, mouth, ahead in zip((-1.0, 1.0), ends, (aheads[0], aheads[-1]), strict=True):
+        for end, (engagement, ahead) in ((-1.0, whole.passages[0]), (1.0, whole.passages[-1])):
+            mouth = engagement.entry_deg if end < 0.0 else engagement.exit_deg
             rest = -end * engagement.half_step  # direction of the crank's axis, the wheel at rest
             at = pitch(engagement, mouth)
             inwards = -end * vector(at.tangent_x, at.tangent_y)

@@ -45,7 +45,6 @@ class Cam(PinPath, kw_only=True):
             "motion": {"law": "cycloidal"},
         },
     )
-    FIRST: ClassVar[str] = "its groove gives any law without gears"
     GEARINGS: ClassVar[tuple[str, ...]] = ("external", "internal")
     LAW: ClassVar[Needs] = Needs.LAW
     ONE_ROLLER: ClassVar[bool] = False
@@ -82,7 +81,7 @@ class Slide:
     def __call__(
         self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
     ) -> list[tuple[Vector, Vector]]:
-        """Reactions of the crank's shaft, and of the groove, to each load."""
+        """Forces of each load on the crank's shaft, and on the groove."""
         x, y = path
         wall = y.derivative() * -1.0, x.derivative()
         arm = x.lower - 1.0, y.lower
@@ -90,7 +89,7 @@ class Slide:
         turning = cross(wall, across)
         out = []
         for force, _ in loads:
-            push, hold = cross(force, wall) / turning, cross(force, across) / (turning * -1.0)
+            push, hold = cross(wall, force) / turning, cross(force, across) / turning
             crank = across[0] * push, across[1] * push
             out.append((crank, (wall[0] * hold, wall[1] * hold)))
         return out

@@ -31,7 +31,6 @@ class Crank(Direct, kw_only=True):
 
     NAME: ClassVar[str] = "crank"
     WORDS: ClassVar[str] = "a crank"
-    FIRST: ClassVar[str] = "its crank is on the shaft: set that kind in [drive] instead"
     crank_steps: Annotated[
         tuple[float, ...] | None,
         Range(0.0, Z_MAX, "[)"),

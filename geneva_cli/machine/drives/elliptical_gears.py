@@ -47,6 +47,7 @@ class EllipticalGears(Transmission, kw_only=True):
         },
     )
     GEARED: ClassVar[bool] = True
+    INPUT_SENSE: ClassVar[float] = -1.0
     eccentricity: Annotated[float, Range(0.0, 1.0, "[)"), "of the gears' pitch ellipses"]
     phase: Annotated[str, OneOf(("slow", "quick")), "phase of the gears at mid-motion"] = "slow"
     gear_distance_mm: Annotated[float, POSITIVE, "distance between the two gears' axes, C"] = 100.0
@@ -67,12 +68,15 @@ class EllipticalGears(Transmission, kw_only=True):
         """The pair of gears."""
         return Gears(self.gear_distance_mm, self.about(0.0).advance)
 
+    def input_axis_mm(self, plan: Plan, sign: float) -> float:
+        """Place of the driver gear's axis, mm from the wheel's."""
+        return plan.center_distance_mm + self.gear_distance_mm
+
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Pivots and dimensions: each gear turns about a focus, the driven one with the crank."""
         a = 0.5 * self.gear_distance_mm
-        far = plan.center_distance_mm + self.gear_distance_mm
         return (
-            Pivot("driver gear axis", far, 0.0),
+            Pivot("driver gear axis", self.input_axis_mm(plan, sign), 0.0),
             Dimension("gears' axes", self.gear_distance_mm, "mm"),
             Dimension("gears' semi-major axis", a, "mm"),
             Dimension("gears' focus from centre", a * self.eccentricity, "mm"),

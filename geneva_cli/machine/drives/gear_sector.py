@@ -55,7 +55,6 @@ class GearSector(PinPath, kw_only=True):
             "drive": {"sector_deg": 60.0, "gear_ratio": "shockless"},
         },
     )
-    FIRST: ClassVar[str] = "its two rollers would run in different phases of the gears"
     TOOTHED: ClassVar[bool] = True
     ONE_ARM: ClassVar[bool] = True  # both rollers are on the crank
     sector_deg: Annotated[float, Range(0.0, 330.0, "(]"), "crank angle in gear, D"]

@@ -47,6 +47,7 @@ class GenevaPair(Transmission, kw_only=True):
         },
     )
     ONE_ROLLER: ClassVar[bool] = True
+    INPUT_SENSE: ClassVar[float] = -1.0
     IN_SERIES: ClassVar[bool] = True
     LENGTH: ClassVar[str] = "first_distance_mm"
     first_z: Annotated[int, Range(3, Z_MAX), "number of slots of the first, external wheel"]
@@ -63,6 +64,10 @@ class GenevaPair(Transmission, kw_only=True):
     def reach_deg(self) -> float:
         """Greatest angle of the second crank from mid-step while it moves its wheel, degrees."""
         return 180.0 / self.first_z
+
+    def input_axis_mm(self, plan: Plan, sign: float) -> float:
+        """Place of the first crank's axis, mm from the second wheel's."""
+        return plan.center_distance_mm + self._distance_mm(plan.center_distance_mm)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Pivots and dimensions of the first pair.

@@ -54,6 +54,7 @@ class NoncircularGears(Transmission, kw_only=True):
         },
     )
     GEARED: ClassVar[bool] = True
+    INPUT_SENSE: ClassVar[float] = -1.0
     A: Annotated[float | None, Range(-1.0, 1.0, "()"), "ratio of a side-crank with this A"] = None
     ratio: Annotated[
         Points | None,
@@ -91,6 +92,10 @@ class NoncircularGears(Transmission, kw_only=True):
         """The pair of gears."""
         return Gears(self.gear_distance_mm, self.about(0.0).advance)
 
+    def input_axis_mm(self, plan: Plan, sign: float) -> float:
+        """Place of the driver gear's axis, mm from the wheel's."""
+        return plan.center_distance_mm + self.gear_distance_mm
+
     def layout(self, plan: Plan, sign: float) -> Layout:
         """The gears' axes, and the source of their pitch curves: A of a side-crank, or a file."""
         law: Dimension = (
@@ -99,7 +104,7 @@ class NoncircularGears(Transmission, kw_only=True):
             else Dimension("gears' ratio as of side-crank A", self.A or 0.0)
         )
         return (
-            Pivot("driver gear axis", plan.center_distance_mm + self.gear_distance_mm, 0.0),
+            Pivot("driver gear axis", self.input_axis_mm(plan, sign), 0.0),
             Dimension("gears' axes", self.gear_distance_mm, "mm"),
             law,
         )

@@ -76,11 +76,15 @@ class SideCrank(Transmission, kw_only=True):
         """Rate of the crank, which is the coulisse."""
         return whitworth.turning(self.A, crank_deg, sense)
 
+    def input_axis_mm(self, plan: Plan, sign: float) -> float:
+        """Place of the input crank's axis, mm from the wheel's."""
+        return plan.center_distance_mm - sign * self.A * self._crank_mm(plan)
+
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Pivot and dimensions of the input crank, by default as long as the Geneva crank."""
         r = self._crank_mm(plan)
         return (
-            Pivot("input crank axis", plan.center_distance_mm - sign * self.A * r, 0.0),
+            Pivot("input crank axis", self.input_axis_mm(plan, sign), 0.0),
             Dimension("input crank r", r, "mm"),
             Dimension("base offset a", self.A * r, "mm"),
         )
@@ -90,7 +94,7 @@ class SideCrank(Transmission, kw_only=True):
         L, r = plan.center_distance_mm, self._crank_mm(plan)
         turn, still = radians(input_deg), 0.0 * input_deg
         m = library(turn)
-        axis = still + (L - sign * self.A * r), still
+        axis = still + self.input_axis_mm(plan, sign), still
         pin = axis[0] - sign * r * m.cos(turn), r * m.sin(turn)
         own = still + L, still
         return (

@@ -168,7 +168,8 @@ def _about(A: float, crank_deg: float) -> tuple[float, Coulisse]:
     added = crank_deg + m.degrees(m.atan2(sin_h, cos_h))
     turns = crank_deg / 360.0
     whole = 360.0 * (round(turns) if isinstance(turns, float) else m.rint(turns))
-    own = whole + m.degrees(m.atan2(length * s, length * c - A))
+    up = m.copysign(length * s, crank_deg - whole)  # half a turn back is not half a turn ahead
+    own = whole + m.degrees(m.atan2(up, length * c - A))
     phi = choose(A < 0.0, own, added)
     grows = (A * c < 0.0) & level
     return phi, Coulisse(A, s, c, sin_h, cos_h, length, rest, grows)

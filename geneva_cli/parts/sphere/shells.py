@@ -10,7 +10,7 @@ import numpy as np
 from geneva_cli.curves.sphere import Region
 from geneva_cli.layout.assembly import Assembly, assembled
 from geneva_cli.layout.ball import Ball
-from geneva_cli.layout.plain_sizes import wall_min
+from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import SAME_LENGTH

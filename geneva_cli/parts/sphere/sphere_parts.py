@@ -25,6 +25,7 @@ from geneva_cli.layout.held_hubs import held_hub
 from geneva_cli.layout.missing import NamedParts
 from geneva_cli.outlines.sphere_wheel import POLE, web_angle, web_region, wheel_regions
 from geneva_cli.outlines.wheel_hub import HUB
+from geneva_cli.parts.parts_of_machine import PartsOfMachine
 from geneva_cli.parts.shaft import Seat, Shaft, shaft_ends
 from geneva_cli.parts.sphere.arm import CapArm, crank_arm, has_arm
 from geneva_cli.parts.sphere.crank import at_mid_motion
@@ -39,7 +40,7 @@ if TYPE_CHECKING:
 ARM, CRANK, ROLLER = "ARM", "CRANK", "ROLLER"
 
 
-class SphereParts:
+class SphereParts(PartsOfMachine):
     """The parts of a machine in the wheel's frame.
 
     A part that the sizes leave no place for raises GenevaError, naming the key. Drawings of shells

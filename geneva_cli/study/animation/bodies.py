@@ -14,7 +14,6 @@ from geneva_cli.curves.shapes import Circle, Contour, Line, Shape, closed
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.gear_curves import gears_table
-from geneva_cli.parts.gear_pair import crank_sense
 from geneva_cli.scene import Body, Track
 from geneva_cli.study.animation.rack import rack
 from geneva_cli.study.animation.tracks import still
@@ -36,6 +35,7 @@ def bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
         yield from _wheels(shapes, turn)
     else:
         yield rack(shapes, turn)
+    yield from _number_wheel(design, turn)
     if flat:
         carried = (*_shapes(design, "arm"), *_shapes(design, "crank"))
         carried = tuple(shape for shape in carried if shape.layer != "ROLLER")
@@ -55,6 +55,19 @@ def _wheels(shapes: tuple[Shape, ...], turn: MachineTurn) -> Iterator[Body]:
     for place in turn.mechanism.wheel_places:
         name = f"wheel {place.number}" if place.number > 1 else "wheel"
         yield Body(name, wheel, place.at, turn.wheel(place))
+
+
+def _number_wheel(design: Design, turn: MachineTurn) -> Iterator[Body]:
+    """The number wheel that a counter's first pinion turns, about the driver's axis."""
+    if not turn.mechanism.spec.wheel.pinions:
+        return
+    pinion = turn.wheel(turn.mechanism.wheel_places[0])
+    # it moves with the driver, as the driver moves the pinion by the ratio
+    back = -1.0 / turn.passages[0].engagement.motion.jump
+    values = tuple(math.pi + back * x for x in pinion.value)
+    slopes = tuple(back * x for x in pinion.slope)
+    angle = Track(pinion.at, values, slopes, back * pinion.gain)
+    yield Body("number wheel", _shapes(design, "number-wheel"), (turn.L, 0.0), angle)
 
 
 def _shapes(design: Design, part: str) -> tuple[Shape, ...]:
@@ -98,20 +111,20 @@ def _mark(shapes: tuple[Shape, ...], turn: MachineTurn) -> Shape:
 
 
 def _gears(design: Design, turn: MachineTurn) -> Iterator[Body]:
-    """Both gears, with their teeth or by their pitch curves: the driven one is on the crank."""
-    sign = -crank_sense(turn.mechanism)
-    gears = turn.mechanism.spec.gears
+    """Both gears, with their teeth or by their pitch curves."""
+    machine = turn.mechanism
+    gears, (x, sense) = machine.spec.gears, machine.gear_shaft
     assert gears
-    driven, driver = _toothed(design) or _pitch_curves(turn, sign)
-    rate = sign * math.pi / 180.0
-    begin = rate * (turn.start - turn.passages[0].mid)
-    gain = rate * turn.whole
-    angle = Track((0.0, turn.whole), (begin, begin + gain), (rate, rate), gain)
-    yield Body("driver gear", driver, (turn.L + gears.distance_mm, 0.0), angle)
-    crank = turn.crank()
-    ahead = math.pi if turn.mechanism.spec.wheel.SIGN > 0.0 else 0.0
-    level = crank._replace(value=tuple(v - ahead for v in crank.value))
-    yield Body("driven gear", driven, (turn.L, 0.0), level)
+    driven, driver = _toothed(design) or _pitch_curves(turn, -sense)
+    before = machine.spec.drive_before
+    first = before is not None and before.GEARED  # the gears turn the shaft of the drive
+    yield Body(
+        "driver gear",
+        driver,
+        (x + gears.distance_mm, 0.0),
+        turn.input_shaft(-sense) if first or before is None else turn.own_shaft(-sense),
+    )
+    yield Body("driven gear", driven, (x, 0.0), turn.own_shaft(sense) if first else turn.level())
 
 
 def _toothed(design: Design) -> list[tuple[Shape, ...]]:

@@ -62,9 +62,9 @@ class MachineTurn:
             for i, one in enumerate(each)
         )
         self._carried = [
-            (one.engagement.through, one.mid - ahead)
+            (passage, one.mid - ahead)
             for one in self.passages
-            for ahead in one.engagement.ahead_deg
+            for passage, ahead in one.engagement.passages
         ]
         self.start = self.passages[0].entry
         self.end = self.start + self.whole
@@ -93,6 +93,29 @@ class MachineTurn:
         """The place of the crank that carries a roller."""
         places = self.mechanism.crank_places
         return places[number % len(places)]
+
+    def level(self) -> Track:
+        """The crank's angle from its place at mid-motion, radians."""
+        crank, ahead = self.crank(), math.pi if self.mechanism.spec.wheel.SIGN > 0.0 else 0.0
+        return crank._replace(value=tuple(v - ahead for v in crank.value))
+
+    def input_shaft(self, sense: float) -> Track:
+        """The input's angle from mid-motion, radians, for a shaft of a sense of rotation."""
+        rate = sense * math.pi / 180.0
+        begin, gain = rate * (self.start - self.passages[0].mid), rate * self.whole
+        return Track((0.0, self.whole), (begin, begin + gain), (rate, rate), gain)
+
+    def own_shaft(self, sense: float) -> Track:
+        """The angle of the drive's own input shaft, radians, for a sense of rotation."""
+        one, turns = self.passages[0], self.mechanism.spec.drive.turns
+
+        def angle(x: Array) -> Array:
+            at = (x - one.mid + 180.0) % 360.0 - 180.0
+            ahead = (one.engagement.own_deg(at) - at + 180.0) % 360.0 - 180.0
+            out: Array = sense * np.radians(x - one.mid + ahead)
+            return out
+
+        return self._sampled(angle, ANGLE_ERROR, sense * math.tau * turns)
 
     def crank(self, place: AxisPlace | None = None) -> Track:
         """The direction of a crank's first roller about the crank's axis, radians.
@@ -141,7 +164,7 @@ class MachineTurn:
         half = 0.5 * self.whole
         at = (input_deg - mid + half) % self.whole - half
         if engagement.groove is not None:
-            return self.L * roller_in_groove(engagement.groove, at)
+            return self.L * roller_in_groove(engagement.groove, engagement.own_deg(at))
         x, y = (along.c[0] + 0.0 * at for along in engagement.path(at, 0))
         return self.L * np.column_stack((x, y))
 

@@ -10,12 +10,12 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
+from geneva_cli.analysis.law_values import characteristic
 from geneva_cli.analysis.peaks import peak
 from geneva_cli.kinematics.wheels.gearing import Gearing
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.tolerances import MARGIN
-from geneva_cli.study.law_columns import law_costs
 from geneva_cli.study.target import Target
 from geneva_cli.synthesis.families import closed
 from geneva_cli.synthesis.families import limit as limits
@@ -107,7 +107,7 @@ def _lines(
     assert target.acceleration_max is not None
     limit = target.acceleration_max * (1.0 - MARGIN)
     natural, step = natural_deg(wheel), 2.0 * math.pi / wheel.z
-    cost = law_costs(standard(law))
+    cost = characteristic(standard(law))
     motion = closed.law_motion_deg(step, cost.acceleration, limit)
     inside, fast = wheel.SIGN < 0.0, cost.velocity * step
     for m in rollers(target, natural):

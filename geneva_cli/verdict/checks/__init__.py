@@ -118,21 +118,21 @@ def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iter
     spec, none = mechanism.spec, list[Check]()
     if not spec.has_parts:
         none = [Check("parts", None, "proved", None, None, spec.no_parts)]
-    if not spec.is_turned:
+    if not (spec.has_parts or spec.is_turned):
         yield from none
         return
-    from geneva_cli.collisions.gaps import WorkLimit
-
     model = model or _model(mechanism)
     try:
         rows = none or list(standing_checks(model.built))
-        parts = model.parts
+        parts = model.parts if spec.is_turned else None
     except GenevaError as error:
         yield refused("parts", error)
         return
     yield from rows
-    if not turned:
+    if not turned or parts is None:
         return
+    from geneva_cli.collisions.gaps import WorkLimit
+
     try:
         turn = model.turn
     except WorkLimit as error:

@@ -10,11 +10,12 @@ from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.verdict.checks.check import Check, refused
 
 if TYPE_CHECKING:
+    from geneva_cli.parts.counter_parts import CounterParts
     from geneva_cli.parts.rack_parts import RackParts
     from geneva_cli.parts.sphere.sphere_parts import SphereParts
 
 
-def plates(name: str, parts: FlatParts | RackParts) -> Check | None:
+def plates(name: str, parts: FlatParts | RackParts | CounterParts) -> Check | None:
     """The check that fails if a plate of a machine cannot be built; else None."""
     return _refusal(name, parts.require)
 

@@ -25,8 +25,8 @@ def free(name: str, mechanism: Mechanism) -> Check | None:
     if play is None:
         return None
     least = np.minimum(play.ahead_deg, play.behind_deg)
-    # the outlines are sampled: a smaller overlap counts as touching
-    touch = 2e-6 * (1.0 + mechanism.engagements[0].motion.jump) / DEGREE
+    # radians: rounding, and ends of lines that the search misses; a smaller overlap is touching
+    touch = 1e-8 * (1.0 + mechanism.engagements[0].motion.jump) / DEGREE
     place = int((least > touch).argmin()) if (least >= -touch).all() else int(least.argmin())
     value = 0.0 if abs(least[place]) <= touch else float(least[place])
     at_deg = mechanism.shown_deg(float(play.input_deg[place]))

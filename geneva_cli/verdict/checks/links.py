@@ -25,7 +25,8 @@ def wall(name: str, parts: FlatParts) -> Check | None:
 def gap(name: str, parts: FlatParts) -> Check | None:
     """The gap in a whole turn between links and hub, shaft and pins through their planes."""
     try:
-        clearance = planes(parts.outlines, parts.links)
+        spacers = parts.spacers if parts.mechanism.spec.drive_before else ()
+        clearance = planes(parts.outlines, parts.links, spacers)
     except GenevaError as error:
         return Check(name, None, "at least", 0.0, False, str(error))
     mechanism = parts.mechanism

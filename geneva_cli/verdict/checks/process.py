@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from geneva_cli.curves.plates import plates
+from geneva_cli.drawings.single_parts import is_cut
 from geneva_cli.layout.plain_sizes import drawn_thicknesses
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
@@ -12,6 +14,7 @@ from geneva_cli.spec.workshops import workshop
 from geneva_cli.verdict.checks.check import Check, compared
 
 if TYPE_CHECKING:
+    from geneva_cli.parts.counter_parts import CounterParts
     from geneva_cli.parts.rack_parts import RackParts
     from geneva_cli.parts.sphere.sphere_parts import SphereParts
 
@@ -37,6 +40,12 @@ def thickest_of_rack(name: str, parts: RackParts) -> Check | None:
     """
     thick = drawn_thicknesses(parts.mechanism.spec.size, parts.sizes.arm)
     return _thickness(name, parts.mechanism, max(thick.wheel, thick.lock, thick.arm))
+
+
+def thickest_of_counter(name: str, parts: CounterParts) -> Check | None:
+    """The thickest plate of a counter, where the process has a limit."""
+    every = [one for member in parts.members for one in plates(member.part)]
+    return _thickness(name, parts.mechanism, max(one.thickness for one in every if is_cut(one)))
 
 
 def slot_width(name: str, parts: FlatParts) -> Check | None:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.plain_sizes import wall_min
+from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.verdict.checks.check import Check, compared
 
 
@@ -25,8 +26,9 @@ def rack_horn(name: str, mechanism: Mechanism) -> Check | None:
 
 
 def guide_locks(name: str, mechanism: Mechanism) -> Check | None:
-    """The friction from which a rack's guide locks, above that of roller and slot."""
-    friction = mechanism.spec.load.friction
+    """The friction from which a rack's guide locks, above that of the guide."""
+    load = mechanism.spec.load
+    friction = value_or(load.guide_friction, load.friction)
     if mechanism.output.turns or not friction:
         return None
     from geneva_cli.verdict.strength import strength

@@ -15,8 +15,9 @@ from geneva_cli.verdict.checks.check import Check
 if TYPE_CHECKING:
     from geneva_cli.collisions.full_turn import FullTurn
     from geneva_cli.collisions.machine_parts import MachineParts
-    from geneva_cli.drawings.model import PartsModel, PartsOfMachine
+    from geneva_cli.drawings.model import PartsModel
     from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.parts.parts_of_machine import PartsOfMachine
 
 Checks: TypeAlias = dict[str, str]  # name -> module:function in this folder
 
@@ -120,7 +121,16 @@ RACK: Checks = {
     "cut_slot_mm": "process:width_in_rack",
     "parts": "buildable:plates",
 }
-STANDING = {"flat": STATIC, "ball": SPHERE, "rack": RACK}  # by ``Gearing.PARTS``
+# The checks of parts at rest, by ``Gearing.PARTS``; those of a counter's teeth are in MOTION.
+STANDING = {
+    "flat": STATIC,
+    "ball": SPHERE,
+    "rack": RACK,
+    "counter": {
+        "cut_plate_mm": "process:thickest_of_counter",
+        "parts": "buildable:plates",
+    },
+}
 # Checks of plates or shells in a whole turn.
 TURNING: Checks = {
     "dwell_hold": "play:dwell_hold",

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 def guide(of: Designs) -> Columns:
     """The guides of racks; none for a wheel, and for a rack that has no guide."""
-    if of.spec.output.turns or not of.spec.has_parts:
+    if not of.spec.guided:
         return {}
     names = "length_mm", "locks_at_friction", "force_N", "at_deg"
     rows = [_guide(one) for one in of.each]
@@ -27,13 +27,10 @@ def _guide(machine: Mechanism) -> tuple[float, float, float, float]:
     """Length, friction that locks, force and its angle; infinite for what a design lacks."""
     from geneva_cli.loads.strength.guide import guide_force, locks_at_friction
     from geneva_cli.outlines.rack import rack_sizes
-    from geneva_cli.parts.rack_frame import guide_half_mm
 
     try:
         sizes = rack_sizes(machine)
     except GenevaError:  # the check of the horn reports the error
         return (math.inf,) * 4
-    middle, half = sizes.bar_back + 0.5 * sizes.bar, guide_half_mm(sizes)
-    loaded = machine.spec.is_loaded
-    force = guide_force(machine, middle, half) if loaded else (math.inf, math.inf)
-    return 2.0 * half, locks_at_friction(machine, middle, half), *force
+    force = guide_force(machine) if machine.spec.is_loaded else (math.inf, math.inf)
+    return 2.0 * sizes.guide.half, locks_at_friction(machine), *force

@@ -1,0 +1,97 @@
+"""The drawing sheet of a counter: dimensioned gears, section, list of items, title block."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from geneva_cli.curves.plates import Member, plates
+from geneva_cli.curves.shapes import Circle
+from geneva_cli.curves.sheet import HIDDEN, OUTLINE, Sheet
+from geneva_cli.drawings.counter import assembly
+from geneva_cli.drawings.sheet import sized
+from geneva_cli.drawings.sheet.bores import bored, holes_of
+from geneva_cli.drawings.sheet.composed import at_scales, on_paper
+from geneva_cli.drawings.sheet.content import SheetContent, mark_items, section, shown_on_sheet
+from geneva_cli.drawings.sheet.gears import draw_teeth
+from geneva_cli.drawings.sheet.linked import flat_plates, shafted, titled
+from geneva_cli.drawings.sheet.paper import scale_name
+from geneva_cli.drawings.sheet.standing import draw_frame
+from geneva_cli.drawings.sheet.view import Block, View
+from geneva_cli.layout.written import length
+from geneva_cli.parts.counter_parts import CounterParts
+
+
+def sheet(parts: CounterParts) -> Sheet:
+    """Return the drawing sheet of a counter. Raises GenevaError where no scale fits on one."""
+    spec = parts.mechanism.spec
+    shown = shown_on_sheet(spec, parts.members, assembly(parts).shapes)
+
+    def blocks(scale: float) -> Iterator[list[Block]]:
+        yield from at_scales(
+            [view.block() for view in _views(shown, parts, scale)],
+            scale,
+            lambda s: _together(shown, parts, s),
+            lambda s: section(shown, (0.0, parts.sizes.distance), s),
+        )
+
+    return on_paper(spec, shown.rows, shown.largest, blocks, shown.area)
+
+
+def _views(shown: SheetContent, parts: CounterParts, scale: float) -> Iterator[View]:
+    """Yield a view of each part; a number wheel between two pinions has that of the driver too."""
+    begin = titled(shown.rows, scale, parts.mechanism.spec.size.process)
+    for gear, member, part in (
+        ("pinion", parts.pinions[-1], "wheel"),
+        ("driver", parts.driver, "crank"),
+        ("number wheel", parts.number_wheels[0], ""),
+    ):
+        view = begin(*dict.fromkeys(plate.name for plate in plates(member.part)))
+        _draw(view, parts, gear, member, part)
+        yield view
+    if len(parts.number_wheels) > 1:
+        view = begin("number wheel's two teeth", "number wheel's rim")
+        *_, two, rim = plates(parts.number_wheels[-1].part)
+        for plate in (two, rim):
+            for shape in (plate.outline, *plate.holes):
+                view.draw(shape, OUTLINE)
+        view.remark("teeth and rim as the driver's, with the number wheel's bore")
+        yield view
+    yield from shafted(begin, parts.shafts)
+    for plate in flat_plates([parts.frame]):
+        view = begin(plate.name)
+        draw_frame(view, plate, (0.0, 0.0), "the pinions' axis")
+        yield view
+
+
+def _draw(view: View, parts: CounterParts, gear: str, member: Member, part: str) -> None:
+    """Draw a gear's outlines, its teeth's circles and its bore; of the driver also the rim."""
+    own = plates(member.part)
+    for shape in dict.fromkeys(one for plate in own for one in (plate.outline, *plate.holes)):
+        view.draw(shape, OUTLINE)
+    toothed = parts.mesh.gears[gear]
+    view.cross((0.0, 0.0), toothed.teeth.tip)
+    draw_teeth(view, toothed)
+    bores = holes_of(own).bores
+    if part:
+        bored(view, bores, parts.mechanism.spec.size, part)
+    else:
+        circle = next(one for one in bores if isinstance(one, Circle))
+        view.diameter([circle], sized.bore(view.fits, circle.radius))
+    if gear == "driver":
+        rim = Circle("", (0.0, 0.0), parts.sizes.rim)
+        view.diameter([rim], f"rim {sized.lock(view.fits, parts.mechanism, rim.radius)}")
+    if gear == "pinion":
+        wide = own[-1]
+        view.remark(f"every second tooth is wide: {length(wide.high - own[0].low)}")
+
+
+def _together(shown: SheetContent, parts: CounterParts, scale: float) -> View:
+    """Return the view of the assembled counter, with the distance of its axes."""
+    view = View(f"assembly ({scale_name(scale)})", scale)
+    for shape in shown.together:
+        view.draw(shape, HIDDEN if shape.layer == "FRAME" else OUTLINE)
+    view.cross((0.0, 0.0), parts.sizes.pinion.tip)
+    view.cross(parts.axis, parts.sizes.rim)
+    view.linear((0.0, 0.0), parts.axis, 0.0, sized.plain(parts.sizes.distance, "L = "))
+    mark_items(view, shown)
+    return view

@@ -1,0 +1,36 @@
+"""What the parts of every machine answer, whatever they are built of."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, Self
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from geneva_cli.layout.missing import NamedParts
+    from geneva_cli.machine.mechanism import Mechanism
+
+
+class PartsOfMachine(ABC):
+    """The parts of one machine at their positions, at input angle 0."""
+
+    mechanism: Mechanism
+
+    @abstractmethod
+    def within(self, tolerance: float, curves: str) -> Self:
+        """Return these parts with curves of a kind, "arcs" or "cubics", within a tolerance, mm."""
+
+    @abstractmethod
+    def by_name(self) -> Iterator[NamedParts]:
+        """Yield all parts in the order of a list, as names and functions that build them."""
+
+    @property
+    def outside_mm(self) -> float | None:
+        """Radius of the outer face from which heights count inwards; None in the plane."""
+        return None
+
+    @property
+    def horn_mm(self) -> float | None:
+        """Thickness of the horns between slots and recesses; None without a lock."""
+        return None
