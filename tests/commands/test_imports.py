@@ -136,6 +136,25 @@ OWN = {
     "spec.rules",
 }
 
+# Modules of the program that a run of an unloaded wheel imports, at most: a few more than today.
+# A module costs a fifth of a millisecond, and most branches of a large program are of no use for a
+# given machine. Where a number is exceeded, see which branch imported too much.
+STRAIGHT, CURVED = "[wheel]\nz = 6\n", '[wheel]\nz = 6\n[motion]\nlaw = "modified-sine"\n'
+MOST = {
+    "peaks -": (80, 100),
+    "motion -": (82, 102),
+    "loads - --set load.inertia_kgm2=0.05": (218, 238),
+    "vibration - --period-ratio 5": (110, 116),
+    "check -": (218, 268),
+    "report -": (322, 342),
+    "compare - --vary drive.n_rpm=60,90": (258, 264),
+    "profile -": (94, 114),
+    "profile - --part wheel --format svg": (197, 248),
+    "profile - --part wheel --format dxf": (196, 247),
+    "profile - --part sheet --format svg": (234, 282),
+    "plot - --format svg": (138, 146),
+}
+
 
 def loaded(words, **settings):
     settings = {"stdout": subprocess.PIPE} | settings
@@ -207,6 +226,14 @@ def test_a_fork_has_imported_what_a_process_has(forks):
 @pytest.mark.parametrize("line", OWN)
 def test_own_modules(line):
     assert own(loaded(line.split())) <= set(OWN[line].split())
+
+
+@pytest.mark.parametrize("line", MOST)
+@pytest.mark.sampled(3)
+def test_few_own_modules(line):
+    for text, most in zip((STRAIGHT, CURVED), MOST[line], strict=True):
+        modules = own(loaded(line.split(), input=text, stdout=subprocess.DEVNULL))
+        assert len(modules) <= most
 
 
 @pytest.mark.parametrize("words", ["geneva ", "geneva ta", "geneva table --", "geneva motion --s"])

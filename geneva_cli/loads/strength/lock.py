@@ -33,7 +33,6 @@ import numpy as np
 
 from geneva_cli.analysis.forces import contact_modulus_GPa, hertz_MPa
 from geneva_cli.analysis.locking import Lock
-from geneva_cli.loads.strength.horn import SHEAR, horns, product
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.materials import wheel_material
 from geneva_cli.named_tuple import NamedTuple
@@ -174,6 +173,8 @@ def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) 
 
 def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> HornBending:
     """The weakest horn of designs that are computed together."""
+    from geneva_cli.loads.strength.horn import SHEAR, horns, product
+
     material = wheel_material(mechanism.spec)
     E = 1e3 * material.youngs_modulus_GPa
     G = E / (2.0 * (1.0 + material.poisson_ratio))

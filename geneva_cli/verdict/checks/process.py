@@ -6,7 +6,6 @@ import math
 from typing import TYPE_CHECKING
 
 from geneva_cli.curves.plates import plates
-from geneva_cli.drawings.single_parts import is_cut
 from geneva_cli.layout.plain_sizes import drawn_thicknesses
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
@@ -44,6 +43,8 @@ def thickest_of_rack(name: str, parts: RackParts) -> Check | None:
 
 def thickest_of_counter(name: str, parts: CounterParts) -> Check | None:
     """The thickest plate of a counter, where the process has a limit."""
+    from geneva_cli.drawings.single_parts import is_cut
+
     every = [one for member in parts.members for one in plates(member.part)]
     return _thickness(name, parts.mechanism, max(one.thickness for one in every if is_cut(one)))
 
