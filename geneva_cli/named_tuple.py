@@ -42,14 +42,18 @@ else:
         @classmethod
         def _completed(cls, values, named):
             """Values of all fields. Raises TypeError for one too many, unknown or missing."""
-            rest = cls._fields[len(values) :]
-            known = cls._field_defaults | named
-            if len(values) > len(cls._fields) or not named.keys() <= {*rest} <= known.keys():
-                raise TypeError(
-                    f"{cls.__name__} has the fields {', '.join(cls._fields)}: "
-                    f"{len(values)} values and the names {', '.join(named)} do not fit"
-                )
-            return (*values, *map(known.get, rest))
+            known = cls._field_defaults | named if named else cls._field_defaults
+            try:
+                every = (*values, *[known[one] for one in cls._fields[len(values) :]])
+            except KeyError as missing:
+                raise TypeError(f"{cls.__name__}() needs {missing.args[0]}") from None
+            if len(every) > len(cls._fields):
+                raise TypeError(f"{cls.__name__} has {len(cls._fields)} fields, not {len(every)}")
+            for one in named:
+                if one not in cls._fields[len(values) :]:
+                    why = f"{one} already" if one in cls._fields else f"no field {one}"
+                    raise TypeError(f"{cls.__name__} has {why}")
+            return every
 
         @classmethod
         def _make(cls, values):
@@ -58,14 +62,17 @@ else:
 
         def _replace(self, **named):
             """Return a copy with some other values."""
-            return type(self)(**self._asdict() | named)
+            for one in named:
+                if one not in self._fields:
+                    raise ValueError(f"{type(self).__name__} has no field {one}")
+            return tuple.__new__(type(self), map(named.get, self._fields, self))
 
         def _asdict(self):
             """Return the values by name."""
             return dict(zip(self._fields, self, strict=True))
 
         def __repr__(self):
-            values = ", ".join(f"{one}={value!r}" for one, value in self._asdict().items())
+            values = ", ".join(map("{}={!r}".format, self._fields, self))
             return f"{type(self).__name__}({values})"
 
         def __getnewargs__(self):

@@ -93,9 +93,19 @@ def test_it_refuses_what_that_of_typing_refuses(use):
             use(kind)
 
 
-def test_a_message_names_the_fields():
-    with pytest.raises(TypeError, match="Ours has the fields first, second, third: 1 values"):
-        Ours(1, thrd=2)
+@pytest.mark.parametrize(
+    ("use", "message"),
+    [
+        (lambda: Ours(1), r"Ours\(\) needs second"),
+        (lambda: Ours(1, 2, first=3), "has first already"),
+        (lambda: Ours(1, 2, thrd=2), "has no field thrd"),
+        (lambda: Ours(1, 2, 3, 4), "has 3 fields, not 4"),
+        (lambda: Ours(1, 2)._replace(thrd=2), "has no field thrd"),
+    ],
+)
+def test_a_message_says_what_is_wrong(use, message):
+    with pytest.raises((TypeError, ValueError), match=message):
+        use()
 
 
 def test_a_class_may_add_methods_or_have_no_field():
