@@ -101,7 +101,7 @@ def row(table):
 # A design in Python and one in a file
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_the_same_answers_in_python_and_from_a_file(name):
     """To the last bit: it is one machine."""

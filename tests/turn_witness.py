@@ -5,9 +5,8 @@ import math
 import numpy as np
 from sampling import some
 
-from geneva_cli.collisions.certificate import spans
+from geneva_cli.collisions.certificate import intervals, spans
 from geneva_cli.collisions.play import windows
-from geneva_cli.collisions.settled import intervals
 
 TO_MM = 1e-3
 ROUNDING = 1e-9  # mm: a hundred times the rounding of a distance here

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,6 +18,7 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.named_tuple import NamedTuple
+from geneva_cli.numerics.angles import distinct
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
@@ -232,8 +234,8 @@ def _stretches(mechanism: Mechanism) -> list[_Stretch]:
     for i, engagement in enumerate(mechanism.engagements):
         half = math.degrees(engagement.half_step)
         mid = begin - engagement.entry_deg
-        seams: Sequence[float] = [*dict.fromkeys(engagement.motion.seams_deg)]
-        for first, last in zip(seams, seams[1:], strict=False):
+        # seams within the rounding of half a turn are one: no stretch is that short
+        for first, last in pairwise(distinct(engagement.motion.seams_deg, 1e-12)):
             out.append(_Stretch(engagement, mid + first, mid + last, mid, slave + half))
         slave += 2.0 * half
         dwell = mechanism.dwell_deg(i)

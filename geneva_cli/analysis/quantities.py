@@ -76,17 +76,15 @@ def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
     distance s between them. The nearer bears (a + s)/s of the load, the other a/s in the opposite
     direction.
     """
-    shaft, flat = mechanism.spec.shaft, mechanism.spec.wheel.FLAT
+    shaft, turns = mechanism.spec.shaft, mechanism.output.turns
+    flat = mechanism.spec.wheel.FLAT or not turns
     out: dict[str, tuple[str, float | None, str]] = {
         "power_W": (TORQUE, load_case(mechanism).speed_rad_s, ""),
     }
     out |= {name: (*of, "") for name, of in mechanism.output.loads.items()}
-    if not mechanism.output.turns:  # the bearings of a rack and its crank are not computed
-        return out
-    for name, a, s in (
-        ("wheel", shaft.wheel_overhang_mm, shaft.wheel_span_mm),
-        ("crank", shaft.crank_overhang_mm, shaft.crank_span_mm),
-    ):
+    crank = ("crank", shaft.crank_overhang_mm, shaft.crank_span_mm)
+    wheel = ("wheel", shaft.wheel_overhang_mm, shaft.wheel_span_mm)
+    for name, a, s in (wheel, crank) if turns else (crank,):
         needs = f"{name}_overhang_mm and {name}_span_mm in [shaft]" if flat else PARALLEL_SHAFTS
         far = a / s if flat and a is not None and s is not None else None
         near = None if far is None else 1.0 + far

@@ -61,7 +61,7 @@ def forces_N(mechanism: Mechanism, jump: Array) -> Array | None:
     # Palmgren's constant in mm, for 1 N on a line of 1 mm, steel on steel
     press = 3.84e-5 * soft**POWER / face**WIDTH
     bend = 1.0 / pin_stiffness_N_mm(mechanism, face)
-    if spec.wheel.TOOTH_N_mm2:
+    if spec.wheel.toothed:
         press, bend = 0.0 * soft, soft / (spec.wheel.TOOTH_N_mm2 * face)
     rows = np.broadcast_arrays(energy, press, bend, inertia)
     work, c, k, heavy = (row[:, 0] for row in rows)

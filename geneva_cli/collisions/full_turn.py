@@ -9,15 +9,14 @@ into line and not jam.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
 from geneva_cli.collisions.free_angles import EXACT, free_angles, search_deg
 from geneva_cli.collisions.machine_parts import MachineParts
-from geneva_cli.collisions.play import Play, no_play, plays, push_deg, windows
-from geneva_cli.collisions.smallest import Earlier, Gap, SmallestGaps, smallest_gaps
+from geneva_cli.collisions.play import Play, play_of, push_deg, windows
+from geneva_cli.collisions.smallest import Earlier, Gap, smallest_gaps
 from geneva_cli.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
@@ -77,37 +76,16 @@ def full_turn(parts: MachineParts) -> FullTurn:
 
     Raises WorkLimit where that takes more work than ``gaps.WORK``.
     """
-    *_, result = turning(parts)
-    return result
-
-
-def turning(parts: MachineParts) -> Iterator[FullTurn]:
-    """Yield the results of a full turn in stages: gaps, plays at some positions, then all.
-
-    From stage to stage gaps only become smaller and plays larger. Only the last stage has ``push``.
-    Raises WorkLimit where a full turn takes more work than ``gaps.WORK``.
-    """
     parts.gaps.begin()
     earlier = _earlier(parts)
-    for gaps in smallest_gaps(parts, earlier):
-        yield _turn(parts, gaps, Most(0.0, 0.0), no_play(), earlier)
+    gaps = smallest_gaps(parts, earlier)
     fits = gaps.least >= -parts.close
     middles = np.array([0.5 * (w.start + w.end) for w in windows(parts) if w.rests])
     dwell = Most(0.0, 0.0)
     if len(middles):
         free = np.degrees(np.maximum(*free_angles(parts, middles, fits)))
         dwell = _most(free, middles, earlier)
-    for play in plays(parts, fits):
-        result = _turn(parts, gaps, dwell, play, earlier)
-        yield result
-    push = _most(push_deg(parts, play), play.input_deg[:-1], earlier)
-    yield result._replace(push=_shown(parts, push))
-
-
-def _turn(
-    parts: MachineParts, gaps: SmallestGaps, dwell: Most, play: Play, earlier: Earlier
-) -> FullTurn:
-    """Return the results of a full turn from its gaps and plays."""
+    play = play_of(parts, fits)
 
     def most_of(values: Array, where: NDArray[np.bool_]) -> Most:
         return _shown(parts, _most(values[where], play.input_deg[where], earlier))
@@ -122,7 +100,7 @@ def _turn(
         most_of(play.both, play.guided),
         most_of(play.on, play.guided),
         most_of(play.back, play.guided),
-        _shown(parts, Most(0.0, 0.0)),
+        _shown(parts, _most(push_deg(parts, play), play.input_deg[:-1], earlier)),
         search_deg(parts),
         play,
     )

@@ -77,19 +77,12 @@ def windows(parts: MachineParts) -> Iterator[Window]:
             yield Window(exit_, following, i, True)
 
 
-def no_play() -> Play:
-    """Return the play at no positions."""
-    none, never = np.zeros(0), np.zeros(0, dtype=bool)
-    return Play(none, none, none, never, never, none, none, none)
-
-
-def plays(parts: MachineParts, fits: bool) -> Iterator[Play]:
-    """Yield the play at a grid of positions, then refined where it is greatest or closes fastest.
+def play_of(parts: MachineParts, fits: bool) -> Play:
+    """Return the play at a grid of positions, refined where it is greatest or closes fastest.
 
     ``fits`` says that no parts overlap in the positions of the ideal motion.
     """
     play = _play_at(parts, _places(parts), fits)
-    yield play
     # 9 rounds: 5**-9 of some degrees is a millionth
     for _ in range(9):
         near = (*_peaks(parts, play), *_changes(parts, play), *_closing(parts, play))
@@ -97,7 +90,7 @@ def plays(parts: MachineParts, fits: bool) -> Iterator[Play]:
         if not len(more):
             break
         play = _merged(play, _play_at(parts, more, fits))
-    yield play
+    return play
 
 
 def push_deg(parts: MachineParts, play: Play) -> Array:

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import partial
-from itertools import repeat
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -50,8 +49,8 @@ class SmallestGaps(NamedTuple):
         return min(gap.mm for gap in self if gap)
 
 
-def smallest_gaps(parts: MachineParts, earlier: Earlier) -> Iterator[SmallestGaps]:
-    """Yield the smallest gaps at the grid of positions, then the refined ones."""
+def smallest_gaps(parts: MachineParts, earlier: Earlier) -> SmallestGaps:
+    """Return the smallest gaps of a whole turn."""
     gaps, at = parts.gaps, positions(parts)
     pose = gaps.pose(at)
     each = gaps.rollers(pose)
@@ -66,14 +65,15 @@ def smallest_gaps(parts: MachineParts, earlier: Earlier) -> Iterator[SmallestGap
     def crank(x: Array) -> Array:
         return gaps.locking(pose if x is at else gaps.pose(x))
 
-    def search(gap: Callable[[Array], Array], names: str) -> Iterator[Gap]:
+    def search(gap: Callable[[Array], Array], names: str) -> Gap:
         return _least(gap, at, parts.close, earlier, names)
 
     several = len(parts.assembly.rollers) > 1
-    own = search(partial(rollers, idle=False), "roller and slot")
-    others = search(partial(rollers, idle=True), "idle roller and wheel")
-    lock = search(crank, "locking disc and wheel")
-    yield from map(SmallestGaps, own, others if several else repeat(None), lock)
+    return SmallestGaps(
+        search(partial(rollers, idle=False), "roller and slot"),
+        search(partial(rollers, idle=True), "idle roller and wheel") if several else None,
+        search(crank, "locking disc and wheel"),
+    )
 
 
 def positions(parts: MachineParts) -> Array:
@@ -122,13 +122,12 @@ def _drives(parts: MachineParts, x: Array) -> NDArray[np.bool_]:
 
 def _least(
     gap: Callable[[Array], Array], at: Array, close: float, earlier: Earlier, parts: str
-) -> Iterator[Gap]:
-    """Yield the smallest gap at the positions ``at``, then over the whole turn.
+) -> Gap:
+    """Return the smallest gap over the whole turn.
 
-    The second is refined around each local minimum.
+    It is computed at the positions ``at``, and refined around each local minimum.
     """
     values = gap(at)
-    yield _earliest(at, values, [], close, earlier, parts)
     inner = np.arange(1, len(at) - 1)
     dips = inner[
         (values[1:-1] < values[:-2] - DIP) & (values[1:-1] <= values[2:])
@@ -151,18 +150,6 @@ def _least(
         closer.append((v[rows, i], x[rows, i]))
         about = np.clip(i[:, None] + (-1, 0, 1), 0, FINER - 1)
         known_at, known = x[rows[:, None], about], v[rows[:, None], about]
-    yield _earliest(at, values, closer, close, earlier, parts)
-
-
-def _earliest(
-    at: Array,
-    values: Array,
-    closer: list[tuple[Array, Array]],
-    close: float,
-    earlier: Earlier,
-    parts: str,
-) -> Gap:
-    """Return the smallest gap of the grid and of the refined positions."""
     size = min(float(v.min()) for v in (values, *(v for v, _ in closer)))
     # Where a gap stays equal for a while, its position is the first one.
     same = values <= size + close

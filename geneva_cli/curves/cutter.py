@@ -20,8 +20,8 @@ from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.named_tuple import NamedTuple
+from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.numerics.rounding import to_digits
 from geneva_cli.numerics.tolerances import SAME_CUT_MM
 
 

@@ -18,8 +18,8 @@ from geneva_cli.curves.pieces import SHORTEST_MM, prepared
 from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Segment, closed
 from geneva_cli.errors import GenevaError
+from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.numerics.rounding import to_digits
 from geneva_cli.numerics.tolerances import SAME_CUT_MM
 from geneva_cli.spec.rules import TOOL_MM, require_mm
 

@@ -46,7 +46,9 @@ class PartsModel:
 
     def over(self, mechanism: Mechanism) -> PartsModel:
         """Return the model of a machine whose parts have the same outlines and positions."""
-        to_input = mechanism.spec.input_deg
+        from geneva_cli.layout.assembly import input_of
+
+        to_input = input_of(mechanism)
         assembly = self.parts.assembly._replace(full=mechanism, to_input=to_input)
         known, shells = self.kind.known(self, assembly)
         return PartsModel(mechanism, known, self.advice, shells)

@@ -113,7 +113,7 @@ def frame(parts: FlatParts | RackParts | CounterParts) -> Drawing:
     return Drawing(titled(parts.mechanism, "frame"), outlines_of(solid), solid=solid)
 
 
-def gears(parts: FlatParts) -> Drawing:
+def gears(parts: FlatParts | RackParts) -> Drawing:
     """Return all gears with bores and bolts, and the line of centres.
 
     The crank's axis is the origin. Raises GenevaError for a machine without gears.

@@ -51,7 +51,9 @@ def guide(parts: RackParts) -> Drawing:
 
 def assembly(parts: RackParts) -> Drawing:
     """Return the machine at input angle 0: the roller is at the origin, the axis at (R, 0)."""
-    moving = [shape for one in (parts.wheel, parts.crank, parts.bar) for shape in shapes([one])]
+    gears = parts.gear_pair if parts.mechanism.spec.has_parts else ()
+    turned = parts.wheel, parts.crank, parts.bar, *gears
+    moving = [shape for one in turned for shape in shapes([one])]
     seen = {circle_key(shape) for shape in moving if isinstance(shape, Circle)}
     standing = [
         shape._replace(layer="FRAME")

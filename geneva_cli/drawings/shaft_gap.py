@@ -15,13 +15,16 @@ import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.measure import at, with_material_left
-from geneva_cli.curves.plates import Group, Member, Part, Plate, Stack
+from geneva_cli.curves.plates import Group, Member, Part, Plate, Stack, plates
 from geneva_cli.curves.shapes import Arc, Point, Segment, as_contour
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.rack_parts import RackParts
 
 Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere
 
@@ -78,11 +81,15 @@ def gear_gap(parts: FlatParts) -> ShaftGap | None:
     if parts.mechanism.spec.gears is None:
         return None
     turning = _rings_of((parts.wheel, parts.crank))
-    return _least(parts, turning, list(_noncircular(parts)), parts.spacers)
+    rings = list(_noncircular(parts.mechanism, parts.drawn))
+    return _least(parts, turning, rings, parts.spacers)
 
 
 def _least(
-    parts: FlatParts, turning: list[Ring], rings: list[Ring], others: Sequence[Member] = ()
+    parts: FlatParts | RackParts,
+    turning: list[Ring],
+    rings: list[Ring],
+    others: Sequence[Member] = (),
 ) -> ShaftGap | None:
     """Return the least gap of rings to shafts, other parts, and the hubs of wheel and crank."""
     near = SAME_LENGTH * parts.mechanism.center_distance_mm
@@ -101,10 +108,31 @@ def _least(
     )
 
 
-def _noncircular(parts: FlatParts) -> Iterator[Ring]:
-    """Yield the rings of noncircular gears, out to their farthest points."""
+def rack_gear_gap(parts: RackParts) -> ShaftGap | None:
+    """Return the least gap of the gears before a rack's crank to shafts and guide; None without.
+
+    Raises GenevaError for sizes that leave no parts.
+    """
 
     mechanism = parts.mechanism
+    rings, near = list(_noncircular(mechanism, None)), SAME_LENGTH * mechanism.center_distance_mm
+    gaps = [
+        ShaftGap(float(Polyarc([contour]).signed(np.array([ring.axis]))[0] - ring.outer), *names)
+        for one in parts.guide
+        for plate in plates(one.part)
+        for ring in rings
+        if min(ring.high, plate.high) - max(ring.low, plate.low) > near
+        for contour, names in [(as_contour(plate.outline), (plate.name, ring.name))]
+    ]
+    least = _least(parts, [], rings)
+    return min([*gaps, *([least] if least else [])], default=None)
+
+
+def _noncircular(mechanism: Mechanism, drawn: Outlines | None) -> Iterator[Ring]:
+    """Yield the rings of noncircular gears, out to their farthest points.
+
+    ``drawn`` are the outlines of wheel and crank, if they are drawn.
+    """
     pair, x = mechanism.spec.gears, mechanism.gear_shaft.x_mm
     if pair is None:
         return
@@ -114,7 +142,7 @@ def _noncircular(parts: FlatParts) -> Iterator[Ring]:
     (_, driven), (_, driver) = pitch_radii(pair)
     if teeth := pair_teeth(pair, mechanism.spec.size):
         driven, driver = driven + teeth.tips[0], driver + teeth.tips[1]
-    low, high = gear_span(mechanism, parts.drawn)
+    low, high = gear_span(mechanism, drawn)
     yield Ring("driven gear", PITCH, (x, 0.0), 0.0, driven, low, high)
     yield Ring("driver gear", PITCH, (x + pair.distance_mm, 0.0), 0.0, driver, low, high)
 

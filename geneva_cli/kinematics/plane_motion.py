@@ -46,6 +46,10 @@ class PlaneMotion(ABC):
         """Return the coordinate of points that the motion changes, radians (n,)."""
 
     @abstractmethod
+    def outwards(self, points: Array) -> Array:
+        """Return directions (n, 2) out of the body at points: those in which the level rises."""
+
+    @abstractmethod
     def lever(self, level: N) -> N:
         """Return how far points at a level move a radian."""
 
@@ -80,6 +84,10 @@ class Turning(PlaneMotion):
         """Return the polar angle of points."""
         out: Array = np.arctan2(points[..., 1], points[..., 0])
         return out
+
+    def outwards(self, points: Array) -> Array:
+        """Return the points, as seen from the axis."""
+        return points
 
     def lever(self, level: N) -> N:
         """Return the distance from the axis."""
@@ -119,6 +127,11 @@ class Sliding(PlaneMotion):
     def place(self, points: Array) -> Array:
         """Return the position along the rack, over the radius."""
         out: Array = points[..., 1] / self.radius
+        return out
+
+    def outwards(self, points: Array) -> Array:
+        """Return the x axis."""
+        out: Array = 0.0 * points + (1.0, 0.0)
         return out
 
     def lever(self, level: N) -> N:

@@ -174,21 +174,26 @@ def assembly(mechanism: Mechanism) -> Assembly:
     return assembled(mechanism)
 
 
+def input_of(mechanism: Mechanism) -> Callable[[float], float]:
+    """Return the function of an assembly's input angle that is the machine's, both in degrees."""
+    spec = mechanism.spec
+    if mechanism.law is None and spec.drive.CRANKED:  # it is turned by a plain crank
+        return spec.input_deg
+    return spec.drive_before.input_deg if spec.drive_before else _same
+
+
 def assembled(mechanism: Mechanism) -> Assembly:
     """Return the assembly of any machine; on a sphere ``pin`` is seen along the wheel's axis."""
-    full, spec = mechanism, mechanism.spec
-    to_input: Callable[[float], float] = _same
+    full, spec, to_input = mechanism, mechanism.spec, input_of(mechanism)
     no_gears = spec.size.replace(gear_module_mm=None, gear_teeth=None, gear_shift=None)
-    if spec.drive_before and (mechanism.law or not spec.drive.CRANKED):
-        to_input = spec.drive_before.input_deg  # the slots are cut by the angle of the drive's own
-        mechanism = build(spec.replace(drive_before=None, size=no_gears))
-    elif mechanism.law is None and spec.drive.CRANKED:
-        to_input = spec.input_deg
+    if mechanism.law is None and spec.drive.CRANKED:
         keep = spec.drive
         crank = Crank(
             n_rpm=keep.n_rpm, rollers=keep.rollers, roller_angles_deg=keep.roller_angles_deg
         )
         mechanism = build(spec.replace(drive=crank, drive_before=None, size=no_gears))
+    elif spec.drive_before:  # slots and path are by the angle of the drive's own input shaft
+        mechanism = build(spec.replace(drive_before=None, size=no_gears))
     turn = 360.0 * mechanism.spec.turns
     periods = round(turn / mechanism.period_deg)
     motions = tuple(

@@ -15,8 +15,8 @@ from geneva_cli.loads.strength.keys import KeyDimensions, key_stress
 from geneva_cli.loads.strength.shafts import shear_MPa
 from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.named_tuple import NamedTuple
-from geneva_cli.numerics.keeps import keeps
 from geneva_cli.numerics.preferred import rounded_from
+from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.spec.default_sizes import value_or
 
 if TYPE_CHECKING:

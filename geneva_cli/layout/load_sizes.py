@@ -40,8 +40,8 @@ from geneva_cli.loads.strength.horn import horn_stresses
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.materials import wheel_material
-from geneva_cli.numerics.keeps import keeps
 from geneva_cli.numerics.preferred import bores_from, rounded_from
+from geneva_cli.numerics.tolerances import keeps
 
 
 def load_sizes(

@@ -31,8 +31,8 @@ from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.materials import wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
-from geneva_cli.numerics.keeps import keeps
 from geneva_cli.numerics.preferred import bores_from, rounded_from
+from geneva_cli.numerics.tolerances import keeps
 
 if TYPE_CHECKING:
     from geneva_cli.loads.strength.shafts import ShaftForces

@@ -38,8 +38,8 @@ from geneva_cli.loads.summaries import (
 )
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.named_tuple import NamedTuple
-from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
 from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.quadrature import Integrands, span_integrals
 from geneva_cli.numerics.search import SearchResult
 
 if TYPE_CHECKING:

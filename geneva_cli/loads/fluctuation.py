@@ -35,9 +35,9 @@ from geneva_cli.loads.groups import parts
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.named_tuple import NamedTuple
-from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import Jet
+from geneva_cli.numerics.quadrature import Integrands, span_integrals
 from geneva_cli.numerics.search import search
 
 if TYPE_CHECKING:

@@ -16,9 +16,9 @@ from geneva_cli.analysis.forces import NEGLIGIBLE
 from geneva_cli.analysis.load_functions import LoadFunctions, SignFunctions, signed_instant
 from geneva_cli.analysis.quantities import square_of
 from geneva_cli.analysis.stretches import spans_of
-from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import all_true, array
+from geneva_cli.numerics.quadrature import Integrands, span_integrals
 from geneva_cli.numerics.search import search
 from geneva_cli.numerics.spread import gathered, spread
 

@@ -23,9 +23,9 @@ from geneva_cli.analysis.stretches import mirror_images, spans_of
 from geneva_cli.loads.groups import of_groups
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.named_tuple import NamedTuple
-from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import array
+from geneva_cli.numerics.quadrature import Integrands, span_integrals
 from geneva_cli.numerics.search import search
 from geneva_cli.numerics.spread import gathered, spread
 

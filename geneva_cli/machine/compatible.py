@@ -11,6 +11,7 @@ from geneva_cli.kinematics.drive import Drive, Needs
 from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.rules import is_array
 from geneva_cli.spec.schema import fields
+from geneva_cli.spec.tables import Shaft
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
@@ -51,6 +52,12 @@ def _table_of_wheels(table: str, spec: Spec) -> bool:
     return not spec.output.turns and bool(own != type(own)())
 
 
+def _shaft_of_wheels(key: str, spec: Spec) -> object:
+    """True if a rack's spec sets a key of the shaft that only wheels have."""
+    value = getattr(spec.shaft, key)
+    return not spec.output.turns and value is not None and value != getattr(Shaft(), key)
+
+
 def _set_on(before: Drive) -> list[str]:
     """Keys of the machine's input that are set on the drive before it."""
     own = before.as_dict()
@@ -70,7 +77,7 @@ CONFLICTS = (
         'kind = "{before}" cannot turn the shaft of another drive: remove [drive.before]',
     ),
     Conflict(
-        lambda s: s.drive_before and s.drive.FIRST,
+        lambda s: s.drive_before and s.drive.FIRST and not _cranks(s),
         ("drive", "before"),
         'kind = "{before}" cannot stand before kind = "{drive}": {first}',
     ),
@@ -264,7 +271,18 @@ CONFLICTS = (
             (table.strip("[]"),),
             f"{table} is for a wheel on a shaft, and not available for a rack: remove it",
         )
-        for table in ("[shaft]", "[tolerance]", "[product]")
+        for table in ("[tolerance]", "[product]")
+    ),
+    *(
+        Conflict(
+            partial(_shaft_of_wheels, key),
+            ("shaft", key),
+            f"{key} is of a wheel's shaft, and a rack has none: remove it",
+        )
+        for key in (
+            *("stiffness_Nm_rad", "damping_ratio"),
+            *("wheel_diameter_mm", "wheel_overhang_mm", "wheel_span_mm"),
+        )
     ),
     Conflict(
         lambda s: s.wheel.stopped and (not s.drive.CRANKED or s.drive.IN_SERIES or s.motion),

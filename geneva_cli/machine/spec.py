@@ -316,7 +316,7 @@ class Spec:
         (True, False)
         """
         # Teeth have checks of their own: their free angles.
-        if not self.wheel.PARTS or self.wheel.TOOTH_N_mm2:
+        if not self.wheel.PARTS or self.wheel.toothed:
             return False
         # A rack of any length is checked by the slots that the crank reaches in a turn.
         return not self.output.turns or self.wheel.z <= Z_DRAWN
@@ -341,8 +341,11 @@ class Spec:
                 f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '
                 "built: the shaft between them has no bearing, since the input crank turns below it"
             )
-        if not (self.output.turns or self.drive.direct):
-            return f"frame and guide of a rack behind {self.drive.WORDS} are not built"
+        if not (self.output.turns or self.drive.direct or self.drive.GEARED):
+            return (
+                f"frame and guide of a rack behind {self.drive.WORDS} are not built: the crank's "
+                "shaft has no bearing between the rack above it and the input crank below it"
+            )
         if self.wheel.z > Z_DRAWN:
             return f"wheels of more than {Z_DRAWN} slots are not drawn"
         return ""

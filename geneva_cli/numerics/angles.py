@@ -7,7 +7,7 @@ They become radians in the argument of a trigonometric function only.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 
 from geneva_cli.numerics.arrays import Array, Enclosed, N, parameter
@@ -175,3 +175,19 @@ def radians(degrees: N) -> N:
 def omega(n_rpm: float) -> float:
     """Angular velocity in rad/s from revolutions per minute."""
     return n_rpm * math.pi / 30.0
+
+
+def distinct(places: Sequence[float], least: float) -> list[float]:
+    """The first and the last of ascending places, and of the others those farther apart.
+
+    Two formulas of one place differ by rounding.
+
+    >>> distinct([0.0, 1.0, 1.0 + 1e-15, 2.0 - 1e-15, 2.0], 1e-12)
+    [0.0, 1.0, 2.0]
+    """
+    first, *inner, last = places
+    out = [first]
+    for at in inner:
+        if at - out[-1] > least and last - at > least:
+            out.append(at)
+    return [*out, last]

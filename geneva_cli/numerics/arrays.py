@@ -326,7 +326,8 @@ def minus(total: Number, less: Number) -> Number:
 
 def _are_alike(one: Number, other: Number) -> bool:
     """Return True if both are arrays of one shape and kind."""
-    if isinstance(one, _PLAIN) or isinstance(other, _PLAIN):
+    single = (*_PLAIN, Enclosed)
+    if isinstance(one, single) or isinstance(other, single):
         return False
     import numpy
 

@@ -26,7 +26,9 @@ def _operator(f: Callable[[arb, arb], arb]) -> Callable[[Ball, Ball | float], Ba
     """An operator of a ball and a number; a jet, for one, brings its own."""
 
     def operator(x: Ball, y: Ball | float) -> Ball:
-        return Ball(f(x.arb, _arb(y))) if isinstance(y, (Ball, float, int)) else NotImplemented
+        if isinstance(y, Ball):
+            return Ball(f(x.arb, y.arb))
+        return Ball(f(x.arb, arb(y))) if isinstance(y, (float, int)) else NotImplemented
 
     return operator
 

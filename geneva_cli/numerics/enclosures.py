@@ -19,6 +19,7 @@ from itertools import pairwise
 from typing import TypeAlias
 
 from geneva_cli.named_tuple import NamedTuple
+from geneva_cli.numerics.angles import distinct
 from geneva_cli.numerics.arrays import Undecided
 from geneva_cli.numerics.balls import NOWHERE, Ball
 from geneva_cli.numerics.tolerances import TIE
@@ -107,13 +108,8 @@ def greatest(curve: Curve, seams: Iterable[float], limit: int, sharp: bool = Tru
 
 def _pieces(seams: Sequence[float], sharp: bool) -> list[_Piece]:
     """Pieces between seams; seams as near as their own errors are one."""
-    first, *inner, last = seams
-    cuts = [first]
-    for at in inner:
-        if at - cuts[-1] > 4.0 * EDGE_DEG and last - at > 4.0 * EDGE_DEG:
-            cuts.append(at)
-    ends = pairwise([*cuts, last])
-    return [_Piece(a, b, sharp and a == first, sharp and b == last) for a, b in ends]
+    ends = pairwise(distinct(seams, 4.0 * EDGE_DEG))
+    return [_Piece(a, b, sharp and a == seams[0], sharp and b == seams[-1]) for a, b in ends]
 
 
 class _Search:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
+from collections.abc import Callable
 from functools import cache
 
 from geneva_cli.numerics.tolerances import ROUNDED
@@ -112,3 +113,17 @@ def _bores() -> tuple[float, ...]:
     small = (1, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9, 10, 12, 15, 17)
     large = (*range(20, 110, 5), *range(110, 200, 10), *range(200, 501, 20))
     return tuple(float(d) for d in (*small, *large))
+
+
+def to_digits(value: float, digits: int, way: Callable[[float], int]) -> float:
+    """Return a value with some significant digits; 0 for a value that is not above 0.
+
+    ``way`` is ``math.floor``, ``math.ceil`` or ``round``.
+
+    >>> to_digits(0.12378, 3, math.floor), to_digits(0.12378, 3, math.ceil)
+    (0.123, 0.124)
+    """
+    if value <= 0.0:
+        return 0.0
+    unit = 10.0 ** (math.floor(math.log10(value)) + 1 - digits)
+    return float(f"{unit * way(value / unit):.{digits}g}")

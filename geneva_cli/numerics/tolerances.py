@@ -5,6 +5,10 @@ of a chain of parts 1e-11. Drawings and tables show 1e-6 of a size. Tolerances o
 between. The tolerance of one file's own method (a Newton step, a scan) stands in that file.
 """
 
+from __future__ import annotations
+
+import math
+
 # Fraction of the centre distance, or of a sphere's radius: lengths and places nearer to each other
 # are equal. 1e-7 mm of 100 mm is the size of an atom, and a hundred times the rounding of a chain.
 SAME_LENGTH = 1e-9
@@ -38,3 +42,19 @@ SAME_ON_SHEET = 1e-6
 # mm: a cutter as wide as a slot by this much enters it, and a path this near to a part does not cut
 # it: a thousandth of a machine's accuracy.
 SAME_CUT_MM = 1e-5
+
+
+def keeps(value: float, must_be: str, limit: float, noise: float = 0.0) -> bool:
+    """Return True if a value is "at least", "at most" or "above" a limit, apart from rounding.
+
+    ``noise`` is the rounding error of the value itself, if that is larger than the limit's. For
+    example, a gap of 0 has the rounding error of its outlines. Raises ValueError for another word.
+    """
+    slack = max(ROUNDED * abs(limit), noise) if math.isfinite(limit) else 0.0
+    if must_be == "at least":
+        return value >= limit - slack
+    if must_be == "at most":
+        return value <= limit + slack
+    if must_be == "above":
+        return value > limit
+    raise ValueError(must_be)

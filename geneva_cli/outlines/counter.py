@@ -4,8 +4,9 @@ Both have involute teeth of one rack. The driver keeps two of its N. The pinion 
 second one is wide: it also lies in the plane of the driver's rim. At input angle 0 a wide tooth is
 on the line of centres, between the driver's two.
 
-Profile shifts keep both from undercut, x = max(0, 1 - z sin² 20°) of the pinion. Where their sum is
-above 0, the gears work at a larger pressure angle w, and the module is smaller:
+Profile shifts keep both from undercut, x = max(0, 1 - z sin² 20°) of the pinion, and more where a
+backlash thins the teeth. Where their sum is above 0, the gears work at a larger pressure angle w,
+and the module is smaller:
 
     inv w = inv 20° + 2 (x1 + x2) tan 20°/(N + 2 z),    m = 2 L cos w/((N + 2 z) cos 20°)
 
@@ -42,6 +43,7 @@ class CounterSizes(NamedTuple):
     driver: RoundTeeth
     pinion: RoundTeeth
     distance: float  # of the axes
+    shifts: tuple[float, float]  # of driver and pinion in modules, without backlash
     pressure_angle: float  # at work
     touch: float  # radius of the circle that touches the wide teeth at rest
     rim: float
@@ -59,16 +61,17 @@ def counter_sizes(mechanism: Mechanism) -> CounterSizes:
     large = round(2 * z * mechanism.ratio / (1.0 - mechanism.ratio))
     counts = large, 2 * z
     plain = Rack(1.0)
-    off = 0.25 * spec.size.gear_backlash_mm / math.tan(plain.angle)
+    total = sum(counts)
+    # modules by which a backlash along the pitch circles at work thins both, a half each
+    thinner = spec.size.gear_backlash_mm * total / (8.0 * L * math.tan(plain.angle))
     # no undercut: the rack's straight flank ends above the base circle's tangent
-    least = [1.0 - 0.5 * count * math.sin(plain.angle) ** 2 for count in counts]
+    least = [1.0 - 0.5 * n * math.sin(plain.angle) ** 2 + thinner for n in counts]
     own = max(0.0, least[1])
     shifts = max(-own, least[0]), own
-    total = sum(counts)
     rolled = involute(plain.angle) + 2.0 * sum(shifts) * math.tan(plain.angle) / total
     angle = boundary(lambda w: involute(w) <= rolled, plain.angle, 1.2)
     m = 2.0 * L * math.cos(angle) / (total * math.cos(plain.angle))
-    racks = [Rack(m, x - off / m) for x in shifts]
+    racks = [Rack(m, x - thinner) for x in shifts]
     radii = [0.5 * m * count for count in counts]
     # a quarter of a module from the other gear's root, and no farther than its flank reaches
     ends = [
@@ -94,7 +97,7 @@ def counter_sizes(mechanism: Mechanism) -> CounterSizes:
             "lock_clearance_mm",
             ("wheel", "z"),
         )
-    return CounterSizes(driver, pinion, L, angle, touch, rim)
+    return CounterSizes(driver, pinion, L, shifts, angle, touch, rim)
 
 
 def _blunt(rack: Rack, radius: float, tip: float) -> float:

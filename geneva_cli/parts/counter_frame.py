@@ -119,7 +119,8 @@ def shafts_and_frame(mechanism: Mechanism, sizes: CounterSizes) -> tuple[tuple[M
 def _shafts(mechanism: Mechanism, sizes: CounterSizes, lowest: float) -> Iterator[Shaft]:
     """Yield the shafts of pinions and of driver and number wheels."""
     size, tall = mechanism.spec.size, heights(mechanism)
-    names = {"wheel": "pinion's shaft", "crank": "driver's shaft"}
+    pinions = "pinions' shaft" if tall.pinions > 1 else "pinion's shaft"
+    names = {"wheel": pinions, "crank": "driver's shaft"}
     ends_of = {"wheel": _pinions, "crank": _wheels}
     for part, at in (("wheel", (0.0, 0.0)), ("crank", (sizes.distance, 0.0))):
         low, high = shaft_ends(size, part, lowest, tall.top)

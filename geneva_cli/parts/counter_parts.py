@@ -63,7 +63,7 @@ class CounterParts(EdgedParts):
     @cached_property
     def mesh(self) -> GearMesh:
         """The teeth of all gears."""
-        return counter_mesh(self.mechanism, self.sizes)
+        return counter_mesh(self.sizes)
 
     @cached_property
     def heights(self) -> Heights:
@@ -176,8 +176,8 @@ class CounterParts(EdgedParts):
         return (*self.moving, *self.shafts, self.frame)
 
     def require(self) -> None:
-        """Raise GenevaError for a part that cannot be built."""
-        for member in self.members:
+        """Raise GenevaError for a part that cannot be built, with its teeth to 1e-5 L."""
+        for member in self.within(1e-5 * self.sizes.distance, "arcs").members:
             for plate in plates(member.part):
                 require_faces(plate)
 

@@ -15,13 +15,21 @@ if TYPE_CHECKING:
 
 
 class EdgedParts(PartsOfMachine):
-    """The parts of a machine whose plates have the edges of ``[size]``."""
+    """The parts of a machine whose plates have the edges of ``[size]``.
+
+    Curved outlines are ``curves``, "arcs" or "cubics", within ``tolerance`` mm. Without a tolerance
+    they are as accurate as the checks need them.
+    """
 
     def __init__(
         self, mechanism: Mechanism, tolerance: float | None = None, curves: str = "arcs"
     ) -> None:
         self.mechanism = mechanism
         self.tolerance, self.curves = tolerance, curves
+
+    def finer_mm(self, tolerance: float) -> float:
+        """Return the tolerance of parts whose curves are at least so accurate, mm."""
+        return tolerance if self.tolerance is None else min(tolerance, self.tolerance)
 
     def writer(self, fine: float) -> Writer:
         """Return a function that fits curves: within ``fine`` mm where no tolerance is set."""

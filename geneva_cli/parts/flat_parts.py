@@ -38,11 +38,9 @@ if TYPE_CHECKING:
 class FlatParts(EdgedParts):
     """The parts of a machine in the wheel's frame.
 
-    A part that the sizes leave no place for raises GenevaError, naming the key. Curved outlines
-    are ``curves``, "arcs" or "cubics", within ``tolerance`` mm. Without a tolerance they are as
-    accurate as the checks need them. ``known`` are the outlines of wheel and crank, if they are
-    computed already. A wheel with too many slots is not drawn: then there are links and gears, with
-    shafts and frame, and the rollers on links.
+    A part that the sizes leave no place for raises GenevaError, naming the key. ``known`` are the
+    outlines of wheel and crank, if they are computed already. A wheel with too many slots is not
+    drawn: then there are links and gears, with shafts and frame, and the rollers on links.
     """
 
     def __init__(
@@ -61,8 +59,7 @@ class FlatParts(EdgedParts):
 
     def finer(self, tolerance: float) -> FlatParts:
         """Return these parts with curves that are at least so accurate, mm."""
-        fine = tolerance if self.tolerance is None else min(tolerance, self.tolerance)
-        return self.within(fine, self.curves)
+        return self.within(self.finer_mm(tolerance), self.curves)
 
     @cached_property
     def outlines(self) -> Outlines:
@@ -249,14 +246,11 @@ class FlatParts(EdgedParts):
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
         """The noncircular gears in front of a crank, with teeth or up to their pitch curves."""
-        pair, size = self.mechanism.spec.gears, self.mechanism.spec.size
-        if pair is None:
+        if self.mechanism.spec.gears is None:
             return ()
-        from geneva_cli.parts.gear_pair import FINE, gear_pair
+        from geneva_cli.parts.gear_pair import gear_pair
 
-        # teeth are spaced along the pitch curves, whose lengths must agree better than the teeth
-        fine = FINE["cubics"] if size.gear_module_mm is None else 1e-6
-        return gear_pair(self.mechanism, self.drawn, self.writer(fine * pair.distance_mm))
+        return gear_pair(self.mechanism, self.drawn, self.writer)
 
     @cached_property
     def _base(self) -> Plate | None:

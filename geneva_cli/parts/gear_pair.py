@@ -46,15 +46,25 @@ def gear_span(mechanism: Mechanism, parts: Outlines | None) -> tuple[float, floa
     return link_sizes(mechanism, [], parts).span(gear_plane(mechanism))
 
 
-def gear_pair(mechanism: Mechanism, parts: Outlines | None, write: Writer) -> tuple[Member, ...]:
+def gear_pair(
+    mechanism: Mechanism,
+    parts: Outlines | None,
+    writer: Callable[[float], Writer],
+    on_crank: float = 0.0,
+) -> tuple[Member, ...]:
     """Return both gears, with teeth or up to their pitch curves; none without noncircular gears.
 
-    ``parts`` are the outlines of wheel and crank, if they are drawn; ``write`` fits curves. Raises
-    GenevaError for a bore larger than its gear, and for teeth that do not fit.
+    ``parts`` are the outlines of wheel and crank, if they are drawn, and ``on_crank`` is the radius
+    of the crank's shaft if it does not follow from them. ``writer`` returns a function that fits
+    curves within a tolerance, mm. Raises GenevaError for a bore larger than its gear, and for teeth
+    that do not fit.
     """
     pair = mechanism.spec.gears
     if pair is None:
         return ()
+    # teeth are spaced along the pitch curves, whose lengths must agree better than the teeth
+    fine = FINE["cubics"] if mechanism.spec.size.gear_module_mm is None else 1e-6
+    write = writer(fine * pair.distance_mm)
     low, high = gear_span(mechanism, parts)
     sense = mechanism.gear_shaft.sense
     layer, outlines = CUT, [gear.outline(write) for gear in pair_with_teeth(mechanism)]
@@ -62,7 +72,7 @@ def gear_pair(mechanism: Mechanism, parts: Outlines | None, write: Writer) -> tu
         both = driven_curve(pair, sense), driver_curve(pair, sense)
         layer, outlines = PITCH, [list(write(curve, -np.pi, np.pi)) for curve in both]
     members = []
-    bores = gear_bores(mechanism, parts)
+    bores = gear_bores(mechanism, parts, on_crank)
     for name, pieces, (at, bore) in zip(NAMES, outlines, bores, strict=True):
         outline = closed(layer, pieces)
         holes = (Circle(BORE, (0.0, 0.0), bore),) if bore else ()
@@ -105,7 +115,9 @@ def pitch_radii(pair: Gears) -> tuple[tuple[float, float], tuple[float, float]]:
     )
 
 
-def gear_shafts(mechanism: Mechanism, parts: Outlines | None, ends: Ends) -> Iterator[Shaft]:
+def gear_shafts(
+    mechanism: Mechanism, parts: Outlines | None, ends: Ends, on_crank: float = 0.0
+) -> Iterator[Shaft]:
     """Yield the shafts that carry only gears, from the frame's lower face up; none without gears.
 
     The driver's shaft goes through it, or ends below one that is too small for a bore. The crank's
@@ -113,20 +125,23 @@ def gear_shafts(mechanism: Mechanism, parts: Outlines | None, ends: Ends) -> Ite
     """
     if mechanism.spec.gears is None:
         return
-    size, ((on_crank, wide), (at, radius)) = mechanism.spec.size, _shafts(mechanism, parts)
+    size = mechanism.spec.size
+    (first, wide), (at, radius) = _shafts(mechanism, parts, on_crank)
     low, high = gear_span(mechanism, parts)
-    on_crank_shaft = same(on_crank, (mechanism.center_distance_mm, 0.0), wide)
-    if on_crank_shaft and not (ends.crank_has_one or _on_links(mechanism, parts)):
+    at_crank = same(first, mechanism.crank_shaft.at, mechanism.center_distance_mm)
+    if at_crank and not (ends.crank_has_one or _on_links(mechanism, parts)):
         reach = shaft_ends(size, "crank", ends.lowest, high)
         driven = (Seat(NAMES[0], low, high),)
-        yield Shaft("crank's shaft", "crank", RoundBore(wide), driven, *reach, on_crank)
+        yield Shaft("crank's shaft", "crank", RoundBore(wide), driven, *reach, first)
     bored = _driver_bore(mechanism, parts) > 0.0
     top = high if bored else low  # one piece with the gear above it
     seats = (Seat(NAMES[1], low, high),) if bored else ()
     yield Shaft(f"{NAMES[1]}'s shaft", NAMES[1], RoundBore(radius), seats, ends.lowest, top, at)
 
 
-def _shafts(mechanism: Mechanism, parts: Outlines | None) -> list[tuple[Point, float]]:
+def _shafts(
+    mechanism: Mechanism, parts: Outlines | None, on_crank: float
+) -> list[tuple[Point, float]]:
     """Return position and radius of the shafts of driven gear and driver.
 
     The first is the crank's, or that of another drive. Raises GenevaError where a pitch curve is no
@@ -135,9 +150,10 @@ def _shafts(mechanism: Mechanism, parts: Outlines | None) -> list[tuple[Point, f
     pair, L = required_gears(mechanism), mechanism.center_distance_mm
     sizes, ((driven, _), _) = link_sizes(mechanism, [], parts), pitch_radii(pair)
     usual, x = bore_radius(L / 20.0), mechanism.gear_shaft.x_mm
-    on_crank = _on_links(mechanism, parts) or sizes.crank_shaft or sizes.bore(driven, L) or usual
+    wide = on_crank or _on_links(mechanism, parts) or sizes.crank_shaft
+    wide = wide or sizes.bore(driven, L) or usual
     ends = (x, 0.0), (x + pair.distance_mm, 0.0)
-    return list(zip(ends, (on_crank, _driver_bore(mechanism, parts) or usual), strict=True))
+    return list(zip(ends, (wide, _driver_bore(mechanism, parts) or usual), strict=True))
 
 
 def _on_links(mechanism: Mechanism, parts: Outlines | None) -> float:
@@ -152,7 +168,9 @@ def _driver_bore(mechanism: Mechanism, parts: Outlines | None) -> float:
     return link_sizes(mechanism, [], parts).bore(least, L)
 
 
-def gear_bores(mechanism: Mechanism, parts: Outlines | None) -> list[tuple[Point, float]]:
+def gear_bores(
+    mechanism: Mechanism, parts: Outlines | None, on_crank: float = 0.0
+) -> list[tuple[Point, float]]:
     """Return position and radius of the bores of driven gear and driver; 0 for none.
 
     Raises GenevaError, naming the key, for a bore larger than its gear, and where a pitch curve is
@@ -162,8 +180,8 @@ def gear_bores(mechanism: Mechanism, parts: Outlines | None) -> list[tuple[Point
     (driven, _), (driver, _) = pitch_radii(pair)
     if teeth := pair_teeth(pair, mechanism.spec.size):
         driven, driver = driven - teeth.roots[0], driver - teeth.roots[1]
-    (axis, on_crank), (other, _) = _shafts(mechanism, parts)
-    bores = on_crank, _driver_bore(mechanism, parts)
+    (axis, wide), (other, _) = _shafts(mechanism, parts, on_crank)
+    bores = wide, _driver_bore(mechanism, parts)
     for name, bore, least, key in zip(
         NAMES, bores, (driven, driver), ("arm_bore_mm", "link_bore_mm"), strict=True
     ):

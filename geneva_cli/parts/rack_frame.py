@@ -26,6 +26,7 @@ from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.outlines.rack import RackSizes, rack_ends, rack_sizes, slot_places
+from geneva_cli.parts.gear_pair import NAMES, gear_shafts, gear_span
 from geneva_cli.parts.mounted_plate import (
     HOLES,
     LAYER,
@@ -35,7 +36,7 @@ from geneva_cli.parts.mounted_plate import (
     shaft_hole,
 )
 from geneva_cli.parts.rack_arm import rack_bore
-from geneva_cli.parts.shaft import Seat, Shaft, shaft_ends
+from geneva_cli.parts.shaft import Ends, Seat, Shaft, shaft_ends
 from geneva_cli.parts.turned_shafts import turned_shaft
 
 
@@ -44,6 +45,7 @@ class RackFrame(NamedTuple):
 
     bottom: float  # of the frame
     top: float
+    low: float  # lower face of what is on the crank's shaft: the arm, or gears below it
     arm: float  # lower face of the arm
     stands: float  # its upper face
     rack: float  # upper face of the rack
@@ -55,13 +57,14 @@ def rack_frame(mechanism: Mechanism) -> RackFrame:
     size, R = mechanism.spec.size, mechanism.center_distance_mm
     thick, gap = drawn_thicknesses(size, R), size.allowances.pin_gap_mm
     arm, thickness = -gap - thick.arm, thick.arm
-    top = arm - size.washer_mm
+    low = gear_span(mechanism, None)[0] if mechanism.spec.gears else arm
+    top = low - size.washer_mm
     if size.shafts == "turned" and has_arm(mechanism):
         top -= shoulder_length(size, 2.0 * R)  # as on a wheel of 6 slots, whose L is 2 R
         bearing = bearing_up_to(2.0 * rack_bore(mechanism), "crank's shaft", "arm_bore_mm")
         thickness = max(thickness, bearing.width)
     stands = 0.0 - gap  # no -0.0
-    return RackFrame(top - thickness, top, arm, stands, thick.wheel, thick.arm)
+    return RackFrame(top - thickness, top, low, arm, stands, thick.wheel, thick.arm)
 
 
 def has_arm(mechanism: Mechanism) -> bool:
@@ -69,23 +72,35 @@ def has_arm(mechanism: Mechanism) -> bool:
     return pin_radius(mechanism.spec.size, mechanism.roller_radius_mm) > 0.0
 
 
-def rack_shaft(mechanism: Mechanism) -> Member | None:
-    """Return the crank's shaft, from the frame's lower face to the arm's upper one.
+def shaft_radius(mechanism: Mechanism) -> float:
+    """Return the radius of the crank's shaft in the arm; 0 without an arm."""
+    return rack_bore(mechanism) if has_arm(mechanism) else 0.0
 
-    None without an arm, as the crank is one piece with its shaft then. Raises GenevaError, naming
-    the key, where its lower end is not below its upper one.
+
+def rack_shafts(mechanism: Mechanism) -> tuple[Member, ...]:
+    """Return the crank's shaft, from the frame's lower face to the arm's upper one, and a driver's.
+
+    A driver gear's shaft is there with gears. There is no crank's shaft without an arm, as the
+    crank is one piece with its shaft then. Raises GenevaError, naming the key, where a shaft's
+    lower end is not below its upper one.
     """
-    if not has_arm(mechanism):
-        return None
     size, heights = mechanism.spec.size, rack_frame(mechanism)
-    bore, axis = bore_of(size, "crank", rack_bore(mechanism)), (mechanism.center_distance_mm, 0.0)
-    seats = (Seat("crank", heights.arm, heights.stands),)
-    low, high = shaft_ends(size, "crank", heights.bottom, heights.stands)
-    # the keyway is on the side of the locking sector, as in the arm
-    one = Shaft("crank's shaft", "crank", bore, seats, low, high, axis, math.pi, math.pi)
-    if size.shafts == "turned" and low <= heights.bottom:
-        return turned_shaft(size, one, heights.top)
-    return one.plain(size)
+    geared, own = mechanism.spec.gears is not None, list[Shaft]()
+    if has_arm(mechanism):
+        bore, axis = bore_of(size, "crank", rack_bore(mechanism)), mechanism.crank_shaft.at
+        driven = (Seat(NAMES[0], *gear_span(mechanism, None)),) if geared else ()
+        seats = (*driven, Seat("crank", heights.arm, heights.stands))
+        low, high = shaft_ends(size, "crank", heights.bottom, heights.stands)
+        # the keyway is on the side of the locking sector, as in the arm
+        own.append(Shaft("crank's shaft", "crank", bore, seats, low, high, axis, math.pi, math.pi))
+    ends = Ends(heights.bottom, heights.rack, crank_has_one=True)
+    own += gear_shafts(mechanism, None, ends, shaft_radius(mechanism)) if geared else ()
+    return tuple(
+        turned_shaft(size, one, heights.top)
+        if size.shafts == "turned" and one.low <= heights.bottom
+        else one.plain(size)
+        for one in own
+    )
 
 
 def guide_bar(mechanism: Mechanism, count: int) -> Plate:
@@ -150,17 +165,18 @@ def rack_dimensions(sizes: RackSizes) -> Iterator[Dimension]:
 
 
 def frame_plate(mechanism: Mechanism) -> Plate:
-    """Return the frame, with holes for the crank's shaft and the guide's screws."""
+    """Return the frame, with holes for its shafts and the guide's screws."""
     size, sizes, heights = mechanism.spec.size, rack_sizes(mechanism), rack_frame(mechanism)
-    R, shaft = sizes.arm, rack_shaft(mechanism)
-    axis, span = (R, 0.0), (heights.bottom, heights.top)
-    L = 2.0 * R  # as a wheel of 6 slots has it
-    if shaft is None:
-        bored = hole_without_shaft(mechanism.spec.shaft.crank_diameter_mm, axis, L)
-    else:
+    span, axis = (heights.bottom, heights.top), mechanism.crank_shaft.at
+    L = 2.0 * sizes.arm  # as a wheel of 6 slots has it
+    bored = []
+    if not has_arm(mechanism):
+        bored.append(hole_without_shaft(mechanism.spec.shaft.crank_diameter_mm, axis, L))
+    for shaft in rack_shafts(mechanism):
         assert isinstance(shaft.part, Plate | Stack)
-        bored = shaft_hole(shaft.part, axis, heights.top, size.allowances.shaft_fit_mm)
-    holes = [bored, *(hole for at in _rows(sizes) for hole in _row(sizes, at))]
+        fit = size.allowances.shaft_fit_mm
+        bored.append(shaft_hole(shaft.part, shaft.at, heights.top, fit))
+    holes = [*bored, *(hole for at in _rows(sizes) for hole in _row(sizes, at))]
     return mounted_plate(holes, holes, corner_radius(size, L), span)
 
 

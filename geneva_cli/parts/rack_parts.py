@@ -2,7 +2,8 @@
 
 In the machine's frame the rack's slots run along x, the roller is at the origin, and the crank's
 axis is at (R, 0). Each part is built once, on first use. Drawing, solid, list of parts and sheet
-are projections of them. Their outlines are lines and arcs, so that no tolerance changes them.
+are projections of them. Their outlines are lines and arcs, which no tolerance changes, but those of
+noncircular gears.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from geneva_cli.layout.missing import NamedParts
 from geneva_cli.layout.plain_sizes import drawn_thicknesses
 from geneva_cli.outlines.rack import RackSizes, rack_contour, rack_sizes
 from geneva_cli.parts.edged_parts import EdgedParts
+from geneva_cli.parts.gear_pair import gear_pair
 from geneva_cli.parts.rack_arm import rack_arm, rack_crank
 from geneva_cli.parts.rack_frame import (
     bar_bolts,
@@ -27,7 +29,8 @@ from geneva_cli.parts.rack_frame import (
     guide,
     guide_bar,
     has_arm,
-    rack_shaft,
+    rack_shafts,
+    shaft_radius,
 )
 
 
@@ -38,8 +41,12 @@ class RackParts(EdgedParts):
     """
 
     def within(self, tolerance: float, curves: str) -> Self:
-        """Return these parts, which have no curves to fit."""
-        return self
+        """Return these parts with curves of a kind within a tolerance, mm."""
+        return type(self)(self.mechanism, tolerance, curves)
+
+    def finer(self, tolerance: float) -> Self:
+        """Return these parts with curves that are at least so accurate, mm."""
+        return self.within(self.finer_mm(tolerance), self.curves)
 
     @cached_property
     def sizes(self) -> RackSizes:
@@ -89,28 +96,34 @@ class RackParts(EdgedParts):
 
     @cached_property
     def shafts(self) -> tuple[Member, ...]:
-        """The crank's shaft; none without an arm."""
-        self._require_direct()
-        shaft = rack_shaft(self.mechanism)
-        return self._edged([shaft]) if shaft else ()
+        """The crank's shaft, if it has an arm, and that of a driver gear."""
+        self._require_built()
+        return self._edged(rack_shafts(self.mechanism))
+
+    @cached_property
+    def gear_pair(self) -> tuple[Member, ...]:
+        """The noncircular gears that turn the crank, with teeth or up to their pitch curves."""
+        return gear_pair(self.mechanism, None, self.writer, shaft_radius(self.mechanism))
+
+    @property
+    def round_gears(self) -> tuple[Member, ...]:
+        """None: no drive of a rack has gears with pitch circles."""
+        return ()
 
     @cached_property
     def guide(self) -> tuple[Member, ...]:
         """Rail, wall and cover of the guide."""
-        self._require_direct()
+        self._require_built()
         return self._edged(Member(plate) for plate in guide(self.mechanism))
 
     @cached_property
     def frame(self) -> Member:
         """The frame, which holds the crank's shaft and the guide."""
-        self._require_direct()
+        self._require_built()
         return self._edged([Member(frame_plate(self.mechanism))])[0]
 
-    def _require_direct(self) -> None:
-        """Raise GenevaError where links or gears turn the crank: the frame has no place for them.
-
-        Those of a sphere have no frame either.
-        """
+    def _require_built(self) -> None:
+        """Raise GenevaError where the crank's shaft has no bearing in the frame."""
         if reason := self.mechanism.spec.no_parts:
             raise GenevaError(reason, ("drive", "kind"))
 
@@ -126,10 +139,10 @@ class RackParts(EdgedParts):
 
     @property
     def members(self) -> tuple[Member, ...]:
-        """All parts; behind links or gears those that move."""
+        """All parts; behind links those that move."""
         moving = self.wheel, self.bar, self.crank
         framed = self.mechanism.spec.has_parts
-        return (*moving, *self.shafts, *self.standing) if framed else moving
+        return (*moving, *self.gear_pair, *self.shafts, *self.standing) if framed else moving
 
     def require(self) -> None:
         """Raise GenevaError for a part that cannot be built."""
@@ -142,6 +155,7 @@ class RackParts(EdgedParts):
         yield "rack", lambda: [self.wheel.part]
         yield "guide bar", lambda: [self.bar.part]
         yield "crank", lambda: [self.crank.part]
+        yield "gears", lambda: [one.part for one in self.gear_pair if self.mechanism.spec.has_parts]
         yield "shafts", lambda: [one.part for one in self.shafts]
         yield "guide", lambda: [one.part for one in self.guide]
         yield "frame", lambda: [self.frame.part]

@@ -27,7 +27,7 @@ def rack_stressed(mechanism: Mechanism) -> Stressed:
     contact = value_or(size.face_width_mm, heights.rack)
     bore = rack_bore(mechanism) if has_arm(mechanism) else 0.0
     thick = heights.stands - heights.arm
-    to_frame = 0.5 * heights.rack - (heights.arm - size.washer_mm)
+    to_frame = 0.5 * heights.rack - (heights.low - size.washer_mm)
     end = ShaftEnd(to_frame, thick, 2.0 * mechanism.center_distance_mm)  # shoulders as on L = 2 R
     return Stressed(
         contact,

@@ -1,4 +1,7 @@
-"""Reader of spec files; errors name the file and, if known, the line."""
+"""Reader of spec files; errors name the file and, if known, the line.
+
+The TOML reader itself determines the lines of keys.
+"""
 
 from __future__ import annotations
 
@@ -8,14 +11,58 @@ import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from functools import lru_cache
+from itertools import islice
+from typing import Any
 
 import tomli
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.machine.spec import Spec
 from geneva_cli.named_tuple import NamedTuple
+from geneva_cli.spec.units import NUMBER, unit_key
 from geneva_cli.specfile.settings import Setting, applied, option_of, settings
 from geneva_cli.specfile.tree import spec_of
+from geneva_cli.table import in_digits
+
+
+def line_of(text: str, path: tuple[str | int, ...]) -> int:
+    """Line on which a key (or else its table) is set; 0 if it is not set.
+
+    The key's line is the first after which the text so far parses and contains the key. Only lines
+    that look like setting it are tried. A number in the path counts the tables of a list, from 0.
+    """
+    lines = text.split("\n")
+    while path:
+        before = sum(part for part in path if isinstance(part, int))  # tables that may set it too
+        name = re.escape(next((p for p in reversed(path) if isinstance(p, str)), ""))
+        sets = re.compile(rf"""(^|[\s.,{{\["']){name}["']?\s*[=.\]]""")
+        likely = (
+            i for i, x in enumerate(lines) if sets.search(x) and not x.lstrip().startswith("#")
+        )
+        for i in islice(likely, 10 + before):  # else its table is named
+            if _holds(lines, i + 1, path):
+                return i + 1
+        path = path[:-1]
+    return 0
+
+
+def _holds(lines: list[str], end: int, path: tuple[str | int, ...]) -> bool:
+    """True if the lines up to the end of the value that starts on line ``end`` set the key."""
+    more = 0
+    while True:
+        try:
+            node: Any = tomli.loads("\n".join(lines[: end + more]))
+            break
+        except (ValueError, RecursionError):
+            if end + more >= len(lines):
+                return False
+            more = 2 * more + 1  # a value of many lines
+    for part in path:
+        if isinstance(part, int):
+            node = node[part] if isinstance(node, list) and part < len(node) else None
+        else:
+            node = node.get(part) if isinstance(node, dict) else None
+    return node is not None
 
 
 class Text(NamedTuple):
@@ -33,8 +80,6 @@ class Text(NamedTuple):
         except GenevaError as error:
             if not error.key:
                 raise
-            from geneva_cli.specfile.lines import line_of
-
             where = option_of(self.set_keys, error.key)
             if not where:
                 line = line_of(self.text, error.key)
@@ -58,8 +103,6 @@ class Text(NamedTuple):
 
     def with_units(self, spec: Spec) -> list[str]:
         """Values that were written with a unit, each with the number that was read."""
-        from geneva_cli.specfile.with_units import texts_with_units
-
         return texts_with_units(applied(_parsed(self.text), self.set_keys), spec)
 
 
@@ -69,8 +112,6 @@ _parsed = lru_cache(maxsize=8)(tomli.loads)
 
 def _hint(line: str) -> str:
     """What is right instead of a bare value such as ``12,5``, ``60 rpm`` or ``cycloidal``."""
-    from geneva_cli.spec.units import NUMBER
-
     match = re.fullmatch(r"""\s*[\w.-]+\s*=\s*([^\s#"'\[{][^#"'\[{]*?)\s*(#.*)?""", line)
     value = match[1] if match else ""
     if comma := re.fullmatch(r"([+-]?\d+),(\d+)(.*)", value):
@@ -118,3 +159,42 @@ def _read(path: str, name: str) -> str:
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
         raise GenevaError(f"{name}:{line}: not UTF-8 text; save the file as UTF-8") from None
+
+
+def texts_with_units(tree: dict[str, Any], spec: Spec) -> list[str]:
+    """Each value of a file's tables that has a unit, and its number in the unit of its key.
+
+    >>> tree = {"wheel": {"z": 6}, "size": {"center_distance_mm": "8 in"}}
+    >>> texts_with_units(tree, Spec(External(6), size=Size(center_distance_mm="8 in")))
+    ['size.center_distance_mm = 203.2, from "8 in"']
+    """
+    return [
+        f"{table}.{key} = {_shown(number)}, from {_typed(value)}"
+        for table, key, value in _values(tree)
+        if unit_key(key) and (number := spec.table(table).get(key)) is not None
+    ]
+
+
+def _values(tree: dict[str, Any], table: str = "") -> Iterator[tuple[str, str, Any]]:
+    """Table, key and value of each value that is a text or has texts in its list."""
+    for key, value in tree.items():
+        name = f"{table}.{key}" if table else key
+        if isinstance(value, dict):
+            yield from _values(value, name)
+        elif isinstance(value, list) and value and isinstance(value[0], dict):
+            for i, one in enumerate(value):
+                yield from _values(one, f"{name}.{i}")
+        elif any(isinstance(one, str) for one in (value if isinstance(value, list) else [value])):
+            yield table, key, value
+
+
+def _shown(number: Any) -> str:
+    if isinstance(number, tuple):
+        return f"[{', '.join(map(_shown, number))}]"
+    return in_digits(number, 7)
+
+
+def _typed(value: Any) -> str:
+    if isinstance(value, list):
+        return f"[{', '.join(map(_typed, value))}]"
+    return f'"{value}"' if isinstance(value, str) else str(value)

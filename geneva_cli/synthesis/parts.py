@@ -22,7 +22,7 @@ from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.named_tuple import NamedTuple
-from geneva_cli.numerics.rounding import to_digits
+from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.outlines.outlines import CONTACT
 from geneva_cli.outlines.rack import rack_sizes
 from geneva_cli.spec.tables import Size

@@ -80,7 +80,8 @@ def read_target(
         )
     if frame and frame.drive_before:
         raise GenevaError(
-            "--from: [drive.before] has no meaning here, since synth chooses the drive: remove it"
+            "--from: synth finds the numbers of each drive by the input's angle, which "
+            "[drive.before] would change: remove it; `geneva sweep --best` varies both drives"
         )
     phrases = [spans[name].words(*SPANS[name][1:]) for name in spans]
     phrases = [w if w[:2] == "a " else " = ".join(w.split(" ", 1)) for w in phrases]

@@ -11,7 +11,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.keeps import keeps
+from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.study.batches import numbers
 from geneva_cli.study.target import Target
 from geneva_cli.synthesis.families.family import Family, allows

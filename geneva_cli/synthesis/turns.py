@@ -6,10 +6,10 @@ machines that differ in it, or in the speed, are turned once.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from functools import cached_property
 
-from geneva_cli.collisions.full_turn import turning
+from geneva_cli.collisions.full_turn import full_turn
 from geneva_cli.collisions.gaps import WorkLimit
 from geneva_cli.collisions.glance import gap_about, play_about
 from geneva_cli.collisions.machine_parts import MachineParts
@@ -36,8 +36,6 @@ HAND_OVER_PLAY = "hand_over_play_deg"
 # smaller roller helps. Of cams with 5 to 12 slots those up to 3.1 were mended by one, and none from
 # 8.4 on.
 LOST = 6.0
-# From here on the play may exceed LOST at closer sampling.
-NEARLY = 0.5 * LOST
 
 
 class Failure(NamedTuple):
@@ -73,18 +71,18 @@ class Turns:
     def failing(self, machine: Mechanism) -> list[Failure]:
         """The checks of a machine's parts that fail, or the key that prevents the parts."""
         turn = self._turn(machine)
-        return [*turn.standing(machine), *turn.every()]
+        return [*turn.standing(machine), *turn.turning]
 
     def first_failing(self, machine: Mechanism) -> list[Failure]:
-        """The checks that fail at rest, or else the first that fail in the turn."""
+        """The checks that fail at rest, or else those that fail in the turn."""
         turn = self._turn(machine)
-        return turn.standing(machine) or turn.first()
+        return turn.standing(machine) or turn.turning
 
     def some_failing(self, machine: Mechanism, known: Iterable[Failure]) -> list[Failure]:
         """Some checks that fail, tried first where checks were ``known`` to fail."""
         turn = self._turn(machine)
         early = turn.still_failing(machine, known)
-        return early or turn.standing(machine) or turn.first()
+        return early or turn.standing(machine) or turn.turning
 
     def _turn(self, machine: Mechanism) -> _Turn:
         own = same_turn(machine.spec)
@@ -98,8 +96,6 @@ class _Turn:
 
     def __init__(self, machine: Mechanism) -> None:
         self._model = PartsModel(machine, advice=False)
-        self._failing: list[Failure] = []
-        self._begun = False
 
     @cached_property
     def _parts(self) -> MachineParts | Failure:
@@ -110,8 +106,15 @@ class _Turn:
             return _prevented_by(error)
 
     @cached_property
-    def _closer(self) -> Iterator[list[Failure]]:
-        return iter(()) if isinstance(self._parts, Failure) else _turn_failures(self._parts)
+    def turning(self) -> list[Failure]:
+        """The checks of the turn that fail."""
+        parts = self._parts
+        if isinstance(parts, Failure):
+            return []
+        try:
+            return _failures(turn_checks(parts, full_turn(one_motion(parts))))
+        except WorkLimit:
+            return [Failure("full_turn")]
 
     def standing(self, machine: Mechanism) -> list[Failure]:
         """The checks at rest that fail, for a machine with the same positions."""
@@ -121,25 +124,13 @@ class _Turn:
             return []
         return _failures(standing_checks(self._model.over(machine).built))
 
-    def every(self) -> list[Failure]:
-        """All checks of the turn that fail."""
-        while self._sample():
-            pass
-        return self._failing
-
-    def first(self) -> list[Failure]:
-        """The first checks that fail; closer sampling only reduces gaps and increases play."""
-        while not self._sure() and self._sample():
-            pass
-        return self._failing
-
     def still_failing(self, machine: Mechanism, known: Iterable[Failure]) -> list[Failure]:
         """The first check of ``known`` at rest that fails, or else those of the turn.
 
-        The latter are tried at the places where they failed, if the turn is not sampled yet.
+        The latter are tried at the places where they failed, if the turn is not computed yet.
         """
         parts = self._parts
-        if self._begun or isinstance(parts, Failure) or not machine.spec.has_parts:
+        if "turning" in vars(self) or isinstance(parts, Failure) or not machine.spec.has_parts:
             return []
         built, among = self._model.over(machine).built, standing(machine)
         at_rest = (check_named(among, one.name, built) for one in known)
@@ -148,32 +139,10 @@ class _Turn:
             return [Failure(first.name)]
         return [one for one in known if _fails_at_the_same_place(parts, one)]
 
-    def _sure(self) -> bool:
-        """Return True if a check fails, and the play is known to be below or above LOST."""
-        nearly = any(one.exceeds(NEARLY) and not one.exceeds(LOST) for one in self._failing)
-        return bool(self._failing) and not nearly
-
-    def _sample(self) -> bool:
-        """Sample the turn more closely; return False if that is no longer possible."""
-        closer = next(self._closer, None)
-        if closer is None:
-            return False
-        self._begun, self._failing = True, closer
-        return True
-
 
 def _prevented_by(error: GenevaError) -> Failure:
     """The key that an error about parts names."""
     return Failure(str(error.key[-1]) if error.key else "outline")
-
-
-def _turn_failures(parts: MachineParts) -> Iterator[list[Failure]]:
-    """The checks of a turn that fail, at ever closer sampling."""
-    try:
-        for turn in turning(one_motion(parts)):
-            yield _failures(turn_checks(parts, turn))
-    except WorkLimit:
-        yield [Failure("full_turn")]
 
 
 def _failures(checks: Iterable[Check]) -> list[Failure]:

@@ -2,14 +2,15 @@
 
 It changes one value, builds the machine again and makes the checks, so its advice has been tried
 with the digits shown. The advice is the nearest value of its key, to ``NEARLY`` of the change.
-Trials are counted, not timed, so that equal specs get equal advice on every machine. If no trials
-are left, or no single change helps, it says so.
+The work is counted, not timed, so that equal specs get equal advice on every machine. If no work is
+left, or no single change helps, it says so.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
@@ -17,18 +18,20 @@ from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.roots import Falsi
-from geneva_cli.verdict.checks import checks, checks_at_rest, checks_turning, single_check
+from geneva_cli.numerics.work import counted
+from geneva_cli.verdict.checks import checks, checks_at_rest, single_check
 from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
-from geneva_cli.verdict.checks.registry import SPHERE, STATIC
+from geneva_cli.verdict.checks.registry import SPHERE, STATIC, turn_checks
 from geneva_cli.verdict.failures import JAMS
 
 if TYPE_CHECKING:
     from geneva_cli.drawings.model import PartsModel
     from geneva_cli.verdict.changes import Change, Value
 
-# Work of all searches of a design, in units of at most 10 ms: a curved slot's parts take 0.1 s.
-WORK = 800
-GLANCE, PARTS, TURN = 3, 7, 15  # work of failing checks, of parts for them, of a turn
+# Work of all searches of a design: evaluations of a motion at an array of angles, of 0.5 to 1 ms.
+WORK = 4500
+# What else a trial takes, as many evaluations: its machine and quick checks, its parts, their turn.
+TRIAL, PARTS, TURN = 10, 20, 40
 NEARLY = 0.01  # fraction of a change by which the value advised may exceed the least one
 
 # Keys that change no outline: the parts need not be turned again.
@@ -56,8 +59,8 @@ TURNED = (
 )
 
 
-class OutOfTrials(Exception):
-    """The adviser has no trials left: not a fault of the spec, so not a GenevaError."""
+class OutOfWork(Exception):
+    """The adviser has no work left: not a fault of the spec, so not a GenevaError."""
 
 
 def judged(
@@ -114,7 +117,7 @@ class Adviser:
                 found = search.least(change)
                 if found:
                     return found, ""
-        except OutOfTrials:
+        except OutOfWork:
             return "", STOPPED
         return "", NONE
 
@@ -152,7 +155,17 @@ class _Search:
     def _spend(self, work: int) -> None:
         self.adviser.work -= work
         if self.adviser.work < self.reserve:
-            raise OutOfTrials
+            raise OutOfWork
+
+    @contextmanager
+    def _trial(self) -> Iterator[None]:
+        """Spend the work of one trial: that of every trial, and its evaluations of motions."""
+        self._spend(TRIAL)
+        with counted() as done:
+            try:
+                yield
+            finally:
+                self.adviser.work -= done.evaluations
 
     def least(self, change: Change) -> str:
         """The least sufficient change of one key, as a line of the spec; empty if there is none."""
@@ -210,19 +223,19 @@ class _Search:
         It is the first that is negative, or else the least. Only quick checks are made. A value
         that makes no machine has -inf.
         """
-        self._spend(GLANCE)
         spec = changed(self.mechanism.spec, change.table, change.key, value)
-        if spec is None:
-            return -math.inf
-        try:
-            machine = build(spec)
-        except GenevaError:
-            return -math.inf
         least = math.inf
-        for left, unit in zip(self._margins(machine), self.units, strict=False):
-            least = min(least, left / unit)
-            if least < 0.0:
-                break
+        with self._trial():
+            try:
+                machine = build(spec) if spec else None
+            except GenevaError:
+                machine = None
+            if machine is None:
+                return -math.inf
+            for left, unit in zip(self._margins(machine), self.units, strict=False):
+                least = min(least, left / unit)
+                if least < 0.0:
+                    break
         return least
 
     def _margins(self, machine: Mechanism) -> Iterator[float]:
@@ -246,9 +259,10 @@ class _Search:
 
         turn = self.turned or (change.table, change.key) not in APART
         try:
-            return all(self._holds_one_way(way, turn) for way in every_way(build(spec)))
+            with self._trial():
+                return all(self._holds_one_way(way, turn) for way in every_way(build(spec)))
         except WorkLimit:
-            raise OutOfTrials from None  # a trial of some seconds, which is not repeated
+            raise OutOfWork from None  # a trial of some seconds, which is not repeated
         except GenevaError:
             return False
 
@@ -257,12 +271,13 @@ class _Search:
 
         is_turned = self.parts and machine.spec.is_turned
         model = PartsModel(machine, advice=False) if is_turned else None
+        self._spend(PARTS if model else 0)
         if not self._pass(checks_at_rest(machine, model)):
             return False
         if model is None or not turn:
             return True
         self._spend(TURN)
-        return self._pass(checks_turning(model))
+        return self._pass(turn_checks(model.parts, model.turn))
 
     def _pass(self, rows: Iterable[Check]) -> bool:
         return all(c.passes is not False or c.name in self.may_fail for c in rows)

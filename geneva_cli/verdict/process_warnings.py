@@ -11,7 +11,7 @@ from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.keeps import keeps
+from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.spec.workshops import workshop
 
 if TYPE_CHECKING:

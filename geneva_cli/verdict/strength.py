@@ -77,10 +77,9 @@ class Strength:
 
     def _stoutness(self) -> tuple[float, float]:
         """The thickness of the horns at their mouth over the recess's radius, and that, mm."""
-        sizes, (ball,) = self.load.lock_sizes, self.load.balls
+        sizes, (ball,) = self.load.flat_horns, self.load.balls
         if sizes is not None:
-            recess = sizes.lock.recess
-            return float(horn.stoutness(self.mechanism, sizes.half_width, recess)[0]), recess
+            return float(horn.stoutness(self.mechanism, *sizes)[0]), sizes[1]
         assert ball is not None  # without a lock there is no stress
         from geneva_cli.loads.strength.sphere_horn import sphere_stoutness
 
@@ -145,7 +144,7 @@ class Strength:
         yield [self._has_bound]
 
     def _horn(self) -> Keys:
-        if self.load.balls == [None]:
+        if self.load.balls == [None] and self.spec.output.turns:
             yield self._drawn_parts()
         if self.load.has_horns:
             yield from self._pin()

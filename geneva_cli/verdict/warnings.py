@@ -68,8 +68,7 @@ def _of_strength(mechanism: Mechanism) -> list[Notice]:
 def _of_loads(mechanism: Mechanism) -> list[Notice]:
     from geneva_cli.loads.cycle import cycle_of
     from geneva_cli.loads.summary import summaries
-    from geneva_cli.verdict.cycle_warnings import cycle_warnings
-    from geneva_cli.verdict.load_warnings import load_warnings
+    from geneva_cli.verdict.cycle_warnings import cycle_warnings, load_warnings
 
     cycle = cycle_of(mechanism)
     return [*load_warnings(mechanism), *cycle_warnings(cycle, summaries(cycle))]

@@ -39,7 +39,7 @@ def design(name):
     return load(str(repo.DESIGNS / f"{name}.toml"))
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_every_design_is_certified_and_its_peaks_confirmed(name):
     found = design(name)

@@ -64,7 +64,7 @@ def test_the_bounds_hold_formulas_of_fifty_digits(name):
             assert abs(exact(name, mpmath.radians(i))) <= found.high
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("design", STRAIGHT)
 @pytest.mark.parametrize("name", LOADS)
 def test_the_search_is_confirmed(design, name):
@@ -120,7 +120,7 @@ def test_the_bounds_hold_friction_of_fifty_digits(name, share):
             assert here <= found.high
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("design", STRAIGHT)
 @pytest.mark.parametrize("carried", [
     Load(0.4, 15, friction=0.1), Load(0.0, 15, friction=0.2, efficiency=0.8),

@@ -50,6 +50,9 @@ def test_marks_are_the_answers_and_nothing_is_beyond_them(path):
             steps *= design.spec.output.per_radian
             assert values[-1] - values[0] == pytest.approx(steps, rel=1e-12)
         elif name in ("velocity", "acceleration", "jerk"):
+            if not curve.marks:  # rates of a speed that jumps have no bound, and are 0 between
+                assert getattr(design.peaks, name).max == math.inf and greatest == 0.0
+                continue
             (mark,) = curve.marks
             peak = getattr(design.peaks, name)
             assert abs(mark.y) == peak.max
@@ -66,7 +69,7 @@ def test_marks_are_the_answers_and_nothing_is_beyond_them(path):
             assert max(values) > want.max * (1.0 - 2e-3)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_every_point_is_the_cycle_s(path):
     """Held against the rows of `geneva loads` and `geneva motion` at the same input angles."""

@@ -19,7 +19,7 @@ from geneva_cli.loads import loads
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Limits, Load, Size
-from geneva_cli.verdict.load_warnings import load_warnings
+from geneva_cli.verdict.cycle_warnings import load_warnings
 
 OMEGA = 2.0 * math.pi
 BOTH = Load(0.02, 3.0, friction=0.1)

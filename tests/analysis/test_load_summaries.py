@@ -23,7 +23,7 @@ ULP = 2.0**-52
 KNOTTED = ("points of a law", "gears by points")  # a spline's higher derivatives jump
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     "name", ["crank", "two rollers", "offset, slowed", "spherical", "matched", *KNOTTED]
 )
@@ -121,7 +121,7 @@ def test_an_inertia_alone_is_summed_in_pairs(name, friction):
         assert (np.abs(one.rms - cut.rms)[bounded] <= 1e-14 * size[bounded]).all(), load
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize("name", MACHINES)
 def test_no_peak_is_missed(name):
     """Dense samples of a hundred designs pass no extreme by more than rounding."""

@@ -282,7 +282,7 @@ def test_a_roller_that_turns_back_thrice_in_its_slot():
     assert roller.passages(one)[0].travel_m == pytest.approx(abs(far).sum(), rel=1e-9)
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize("name", KINDS)
 def test_sizing(name):
     """The work that swings is a difference of sums: 1e-12 of the torque's, as its mean is."""

@@ -87,7 +87,7 @@ def rows(text):
     return {int(z): [float(n) for n in rest] for z, *rest in lines}
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("gearing", ["external", "internal"])
 @pytest.mark.parametrize("A", OFFSETS)
 def test_against_roots_at_50_digits(machine, gearing, A):
@@ -108,7 +108,7 @@ def test_against_roots_at_50_digits(machine, gearing, A):
         assert found.ends.jerk_exit == pytest.approx(jerk, rel=0.0, abs=small), z
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("gearing", ["external", "internal"])
 @pytest.mark.parametrize("gap", [1e-3, 1e-6, 1e-9])
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
@@ -124,7 +124,7 @@ def test_none_is_missed_as_A_nears_1(machine, gearing, gap, sign):
             assert getattr(found, name).max == near(float(size), SIZE), (z, name)
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("gearing", ["external", "internal"])
 @pytest.mark.parametrize("A", OFFSETS)
 def test_no_point_of_2000_is_above_the_peak(machine, gearing, A):

@@ -85,7 +85,7 @@ def test_the_same_turret_on_a_geneva():
         assert vars(found)[name] == pytest.approx(value, rel=1e-12), name
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @every
 def test_with_inertia_alone_the_energy_swings_by_what_the_wheel_holds(file):
     """theory-loads.md 4: exactly I w² psi1max²/2, and the form is the exact cycle's peak.

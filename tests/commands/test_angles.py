@@ -70,7 +70,7 @@ def one_zero(found: Design) -> None:
         assert told["parts.smallest_gap_at_deg"] in gaps
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_designs_have_one_zero(path: Path) -> None:
     one_zero(design.load(str(path)))

@@ -70,7 +70,7 @@ def refused(arguments, *wants):
     return said
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize(
     "arguments",
     [

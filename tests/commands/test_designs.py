@@ -38,14 +38,14 @@ def numbers(value: object) -> list[float]:
 ONE = repo.DESIGNS / "four-bar-z4.toml"  # in all formats: it has links, a curve and loads
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("format", ["table", "csv", "md"])
 @pytest.mark.parametrize("command", COMMANDS)
 def test_every_command_in_every_format(command: str, format: str) -> None:
     run(ONE, command, format)
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(24)
 @pytest.mark.parametrize("command", COMMANDS)
 @pytest.mark.parametrize("design", DESIGNS, ids=lambda p: p.stem)
 def test_every_command_on_every_design(design: Path, command: str) -> None:

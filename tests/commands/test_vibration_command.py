@@ -48,7 +48,11 @@ def record(*words):
 def test_the_names_are_the_same_for_every_machine(path):
     found = record(str(path), "--period-ratio", "3.7", "--damping", "0.01")
     assert list(found) == NAMES
-    lacks = load(str(path)).spec.output.lacks  # a rack has no angle
+    spec = load(str(path)).spec
+    if spec.wheel.JUMPS:
+        assert "speed jumps at entry" in found["warnings"][0]
+        return
+    lacks = spec.output.lacks  # a rack has no angle
     unknown = [name for name in NAMES if found[name] is None and name not in lacks]
     assert unknown in ([], ["stations"])
     assert found["warnings"] == [] or "tuned" in found["warnings"][0]

@@ -61,7 +61,7 @@ def test_pages_fit(topic):
     look_at_page(page(topic))
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("columns", COLUMNS)
 @pytest.mark.parametrize(
     "line",

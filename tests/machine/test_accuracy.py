@@ -67,7 +67,7 @@ def test_the_grid_has_200_angles_with_both_ends_and_the_middle(engagement):
     assert sum(abs(x + 60.0) <= math.degrees(1e-15)) >= 4
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(("gearing", "A"), CONDITION)
 def test_error_within_8_ulp_of_the_peak(engagement, gearing, A):
     over, largest = [], 0.0

@@ -65,7 +65,7 @@ def test_the_same_designs_are_refused(case):
     assert len(found.which) > 5
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 def test_the_same_motion_path_and_slot(case):
     _, _, found, singles = case
     singles = [one for one in singles if one is not None]

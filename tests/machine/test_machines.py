@@ -276,7 +276,7 @@ def test_the_wheel_turns_one_step_from_rest_to_rest(machine, witness, case):
             assert abs(mp.mpf(float(wheel[1])) - mp.mpf(float(wheel[0])) - 2 * w.b) <= 1e-14
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(32)
 @every
 def test_error_within_16_ulp_of_the_peak(machine, exact, case):
     over = []
@@ -297,7 +297,7 @@ def test_error_within_16_ulp_of_the_peak(machine, exact, case):
     assert not over, "\n".join(over[:40])
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @every
 def test_hand_derived_forms_agree_with_the_witness(machine, witness, exact, case):
     for i in range(len(machine(case).engagements)):

@@ -46,7 +46,7 @@ def batch(z, internal, A):
 PEAKS = {"velocity": velocity_peaks, "acceleration": acceleration_peaks}
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("quantity", PEAKS)
 @pytest.mark.parametrize("gearing", GEARINGS)
 def test_none_is_missed(gearing, quantity):

@@ -125,7 +125,7 @@ def compared(keys, z):
     return len(expected), len(found)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("seed", range(4))
 def test_no_wheel_is_missed(seed):
     counts = [compared(keys, z) for keys, z in four_bars(3, seed)]

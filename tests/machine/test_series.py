@@ -43,6 +43,7 @@ from geneva_cli.parts.planes import planes
 from geneva_cli.specfile.tree import spec_of
 from geneva_cli.specfile.writer import spec_lines
 from geneva_cli.study.animation.bodies import bodies
+from geneva_cli.study.animation.teeth import drawn_teeth
 from geneva_cli.study.animation.turn import MachineTurn
 
 GEARS = EllipticalGears(eccentricity=0.2, gear_distance_mm=50.0)
@@ -261,7 +262,7 @@ def test_the_driven_gear_turns_with_the_crank(drive):
     """The page's gear keeps its place on the crank (or carrier), whichever way that turns."""
     design = Design(External(4), drive, drive_before=GEARS)
     turn = MachineTurn(design.mechanism)
-    gear = next(b for b in bodies(design, turn) if b.name == "driven gear")
+    gear = next(b for b in bodies(design, turn, drawn_teeth(design)) if b.name == "driven gear")
     at = np.array(gear.angle.at)
     crank = links_at(design.mechanism, (at + turn.start + 180.0) % 360.0 - 180.0)[0]
     (x0, y0), (x1, y1) = crank.joints[:2]

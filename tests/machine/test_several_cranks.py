@@ -5,19 +5,24 @@ turn, crank j after an j-th part of a turn. The program's machine is one crank w
 rollers.
 """
 
+import functools
 import math
 from itertools import combinations
 
 import numpy as np
 import pytest
 from drawing_witness import vertices
+from sampling import some
 from shapely import Polygon, affinity
 from shapely.ops import unary_union
 
-from geneva_cli import Crank, Cycloidal, Design, External, Load, Motion
+from geneva_cli import Crank, Cycloidal, Design, EllipticalGears, External, Load, Motion
 from geneva_cli.drawings.parts_list import parts_list
+from geneva_cli.machine.spec import Spec
 from geneva_cli.scene import place_at, value_at
 from geneva_cli.study.animation.scene import scene
+
+pytestmark = pytest.mark.usefixtures("no_advice")
 
 # steps in a revolution, places of the cranks in steps, and the slots that they enter
 MACHINES = [
@@ -67,6 +72,7 @@ BUILT = [(6, (0, 3)), (6, (0, 1)), (12, (0, 5)), (5, (0, 4, 3)), (3, (0, 1, 2))]
 LOAD = Load(inertia_kgm2=0.02, torque_Nm=0.3, friction=0.1)
 
 
+@functools.cache
 def with_cranks(z, places):
     """The machine with a crank for each roller, under a load."""
     return Design(External(z), Crank(rollers=len(places), crank_steps=places), load=LOAD)
@@ -148,7 +154,7 @@ def test_no_crank_meets_the_wheel_or_another_one(design):
     plates, wheel = polygons(parts.crank.part), Polygon(vertices(parts.wheel.part.outline, 1e-3))
     hull = unary_union([shape for shape, _, _ in plates]).convex_hull
     spacing, gap = 360.0 / len(places), math.inf
-    for x in np.arange(0.0, 360.0, 1.5):
+    for x in np.arange(0.0, 360.0, some(1.5, 4.5)):
         number = round(x / spacing)
         own = np.clip(x - number * spacing, engagement.entry_deg, engagement.exit_deg)
         psi = number * math.tau / z + engagement.motion(np.array([own]), 0).c[0][0]
@@ -234,3 +240,64 @@ def test_backwards_the_cranks_stand_and_work_as_in_a_mirror(z, places):
     at = names.index("cranks_apart_mm")
     # 1e-3: both bounds are below one gap by rounding of the directions
     assert values[at] == pytest.approx(design.checks[at].value, abs=1e-3)
+
+
+BEFORE = {"eccentricity": 0.3}
+
+
+def eased(z, places):
+    """Cranks whose shaft elliptical gears turn."""
+    gears = EllipticalGears(**BEFORE)
+    drive = Crank(rollers=len(places), crank_steps=places)
+    return Design.of(Spec(External(z), drive, drive_before=gears, load=LOAD))
+
+
+@pytest.mark.parametrize(("z", "places"), [(8, (0, 3)), (5, (0, 4, 3))])
+def test_gears_before_the_cranks_turn_all_of_them(z, places):
+    """As elliptical gears turn one crank with as many rollers: the same engagements.
+
+    The wheel then follows psi(g(phi)), and each crank stands an even part of a turn behind the
+    first. 1e-9: tracks of the page, of 1e-7 of a turn, at pins 60 mm from their axis.
+    """
+    design = eased(z, places)
+    one = Design(External(z), EllipticalGears(rollers=len(places), **BEFORE), load=LOAD)
+    moving, own = (each.motion(181).to_dict() for each in (design, one))
+    for name in own:
+        assert moving[name] == pytest.approx(own[name], rel=1e-12, abs=1e-12)
+    assert design.peaks.acceleration.max == pytest.approx(one.peaks.acceleration.max, rel=1e-12)
+    loads = design.loads_table.to_dict(), one.loads_table.to_dict()
+    for name in ("pin_force_N.max", "input_torque_Nm.max", "input_torque_Nm.rms"):
+        assert loads[0][name] == pytest.approx(loads[1][name], rel=1e-12)
+    shown, e = scene(design), BEFORE["eccentricity"]
+    R = 100.0 * math.sin(math.pi / z)
+    for t in np.linspace(0.5, 359.5, 61):
+        half = math.radians(shown.start_deg + t) / 2.0
+        # equal ellipses with centres 2 a apart: tan(theta/2) = (1 + e)/(1 - e) tan(phi/2), or less
+        driven = [
+            math.degrees(2.0 * math.atan2(ratio * math.sin(half), math.cos(half)))
+            for ratio in ((1.0 + e) / (1.0 - e), (1.0 - e) / (1.0 + e))
+        ]
+        errors = []
+        for angle in driven:
+            off = 0.0
+            for j, roller in enumerate(shown.rollers):
+                at, turn = by_hand(z, places, j, angle)
+                off = max(off, abs(complex(*place_at(roller, t)) - at - R * np.exp(1j * turn)))
+            errors.append(off)
+        assert min(errors) < 2e-3
+
+
+def test_the_report_lists_when_each_crank_moves_the_wheel_behind_gears():
+    design = eased(8, (0, 3))
+    rows = design.report.table.to_dict()["cranks"]
+    each = design.mechanism.engagements
+    for row, one in zip(rows, each, strict=True):
+        assert row["entry_deg"] == pytest.approx(one.mid_deg + one.entry_deg - each[0].mid_deg)
+    assert rows[0]["entry_s"] == 0.0
+    assert rows[1]["entry_s"] == pytest.approx(
+        (rows[1]["entry_deg"] - rows[0]["entry_deg"]) / 360.0
+    )
+    assert rows[1]["behind_deg"] == pytest.approx(180.0)
+    assert rows[0]["exit_deg"] - rows[0]["entry_deg"] != pytest.approx(
+        rows[1]["exit_deg"] - rows[1]["entry_deg"]
+    )

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from geneva_cli.numerics import adaptive_quadrature
-from geneva_cli.numerics.adaptive_quadrature import (
+from geneva_cli.numerics import quadrature
+from geneva_cli.numerics.quadrature import (
     LAST_TERMS,
     NARROW_NODES,
     NODES,
@@ -40,7 +40,7 @@ def test_what_few_terms_tell_is_had_at_once(power):
 def test_what_is_left_is_told_by_the_series(pole, monkeypatch):
     """∫ dx/(x + p) is log(1 + 1/p): whatever may be left, no more is."""
     for left in (LAST_TERMS, 1e-9, 1e-6, 1e-3):
-        monkeypatch.setattr(adaptive_quadrature, "LAST_TERMS", left)
+        monkeypatch.setattr(quadrature, "LAST_TERMS", left)
         found, _ = summed(lambda x, _: 1.0 / (x + pole))
         assert found == pytest.approx(math.log1p(1.0 / pole), rel=left + 4e-15)
 

@@ -7,10 +7,9 @@ import pytest
 
 from geneva_cli.kinematics.laws.standard import ModifiedSine
 from geneva_cli.kinematics.slot_and_motion import _sinc
-from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.latest import Latest
-from geneva_cli.numerics.quadrature import lobatto, rule
+from geneva_cli.numerics.quadrature import Integrands, lobatto, rule, span_integrals
 
 CLOSED = {  # over 2..5
     "root at the start": (lambda x: np.sqrt(x - 2.0), 2.0 / 3.0 * 3.0**1.5),

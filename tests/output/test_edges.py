@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import trimesh
 from drawing_witness import vertices
+from sampling import some
 from shapely import Polygon
 from step_witness import File
 
@@ -84,7 +85,7 @@ def test_insets_are_those_of_shapely(gearing):
 
 
 @pytest.mark.parametrize("gearing", [External(6), Internal(6)])
-@pytest.mark.parametrize("tolerance", [0.05, 0.0005])
+@pytest.mark.parametrize("tolerance", some([0.05, 0.0005], [0.05]))
 @pytest.mark.parametrize("edge", KINDS)
 def test_meshes_are_closed(gearing, tolerance, edge):
     """Volume and inertia about the axis agree within the chords."""

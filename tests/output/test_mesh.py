@@ -123,7 +123,7 @@ def test_an_outline_that_crosses_is_refused():
         triangles([bow], "bow")
 
 
-@pytest.mark.sampled(7)
+@pytest.mark.sampled(14)
 @pytest.mark.parametrize("design", DESIGNS, ids=lambda p: p.stem)
 def test_every_part_of_every_design(design):
     """Closed, and as large as its closed form, within the tolerance at every wall."""

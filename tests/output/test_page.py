@@ -14,10 +14,11 @@ import repo
 from drawing_witness import vertices
 from py_mini_racer import MiniRacer
 from sampling import some
-from shapely import Polygon, affinity
+from shapely import LineString, Polygon, affinity
 from typer.testing import CliRunner
+from words import law
 
-from geneva_cli import Design, EllipticalGears, Linear, Load, Size, load
+from geneva_cli import Design, EllipticalGears, External, Linear, Load, Motion, Size, load
 from geneva_cli.app import app
 from geneva_cli.collisions.gaps import Gaps
 from geneva_cli.collisions.machine_parts import Pose
@@ -77,7 +78,7 @@ def wheel_by_core(design, at):
     return out - first, turned
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_the_wheel_and_the_rollers_are_where_the_core_has_them(name):
     design = design_of(name)
@@ -100,7 +101,7 @@ def test_the_wheel_and_the_rollers_are_where_the_core_has_them(name):
         assert np.abs(rollers[:, i] - there).max() < PLACE * data["size"]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_the_roller_runs_in_the_slot_that_is_drawn(name):
     """In the wheel's frame its centre keeps to the slot's axis, or to the pitch curve."""
@@ -201,6 +202,16 @@ def test_the_force_is_the_pin_force_and_pushes_the_wheel_the_way_it_is_driven():
         # friction turns with the normal's torque: 0.05 of it, on the wall's arm of a roller
         assert 1e-3 * (x * fy - y * fx) == pytest.approx(torque, rel=0.02)
     assert engine.eval("pushAt(scene.pushes[0], 200)") is None
+
+
+def test_a_place_without_a_bound_on_the_force_has_no_arrow():
+    """At mid-motion of an unmatched law the slot stands still on one of the 73 places."""
+    design = Design(
+        External(24), motion=Motion(law("4-5-6-7"), alpha0_deg=-60.0), load=Load(torque_Nm=3.0)
+    )
+    (push,) = scene(design).pushes
+    assert len(push.at) == 72
+    assert all(map(math.isfinite, (*push.force_x, *push.force_y)))
 
 
 def test_a_gif_moves_as_the_page_does(tmp_path, monkeypatch):
@@ -416,14 +427,17 @@ def test_teeth_of_gears_mesh_on_a_page(name, module):
             for body in scene(load(str(repo.DESIGNS / f"{name}.toml"), keys)).bodies
             if body.name.endswith("gear")
         )
+        outlines = [Polygon(vertices(gear.shapes[0], 1e-3)) for gear in (driver, driven)]
+        mesh = LineString([driver.centre, driven.centre]).buffer(
+            20.0
+        )  # three modules and more wide
         apart, common = math.inf, 0.0
         for t in np.linspace(0.0, 360.0, 61):
             placed = []
-            for gear in (driver, driven):
+            for gear, outline in zip((driver, driven), outlines, strict=True):
                 x, y, angle = body_pose(gear, t)
-                own = Polygon(vertices(gear.shapes[0], 1e-3))
-                own = affinity.rotate(own, angle, origin=(0, 0), use_radians=True)
-                placed.append(affinity.translate(own, x, y))
+                own = affinity.rotate(outline, angle, origin=(0, 0), use_radians=True)
+                placed.append(affinity.translate(own, x, y).intersection(mesh))
             apart = min(apart, placed[0].distance(placed[1]))
             common = max(common, placed[0].intersection(placed[1]).area)
         if backlash:

@@ -154,7 +154,7 @@ def overlapping(found):
             yield a[4], b[4]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_texts_keep_clear_of_each_other_and_of_the_edge(path):
     text = svg_of(load(str(path)).figure())

@@ -89,7 +89,7 @@ def test_a_plate_has_the_area_of_its_closed_form(tolerance):
     assert outline.area == pytest.approx(face(plate).area, abs=200.0 * (tolerance + 1e-6))
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("design", DESIGNS, ids=lambda d: d.stem)
 def test_designs_have_their_volumes_at_their_places(design):
     """Solid by solid as the mesh of the same drawing, which trimesh measures."""

@@ -127,7 +127,7 @@ def test_an_svg_has_all_texts_where_they_are(sheet):
         assert float(groups[layer].get("stroke-width")) == WIDTHS[layer]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("version", DXF_VERSIONS)
 def test_a_dxf_has_dimensions_that_measure_themselves(sheet, version):
     """ezdxf measures each between its own points; times its style's factor it is the part's."""

@@ -101,7 +101,7 @@ def test_random_outlines(corners, thickness):
         assert volume == pytest.approx(area(plate.outline) * thickness, rel=0.0, abs=off)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("curves", ["arcs", "spline"])
 @pytest.mark.parametrize("name", ["turret", "internal-z6", "press-curved", "two-pins-z4"])
 def test_machines(name, curves):

@@ -43,7 +43,7 @@ def run(arguments, environment=None, **settings):
     )
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @full
 @some
 def test_full_disk(arguments, environment):
@@ -78,7 +78,7 @@ STATUS |= {"peaks --zz": 2, "tabel": 2, "--zz": 2}
 SAID = {}  # by a command line, with streams that can be written: the same in any folder
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(10)
 @pytest.mark.parametrize("arguments", STATUS)
 @pytest.mark.parametrize("kind", [pytest.param("full", marks=full), "pipe"])
 def test_messages_that_cannot_be_written(arguments, kind, environment):

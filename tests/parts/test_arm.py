@@ -138,7 +138,7 @@ def test_the_disc_is_fixed_to_the_arm():
     assert check.passes and check.value <= inside + 1e-3
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize(("z", "gearing", "rollers"), [*crews()])
 def test_bolts_join_disc_and_arm_by_default(z, gearing, rollers):
     """Two in each sector, with walls all round by shapely; the arm still passes the wheel's hub.

@@ -80,7 +80,7 @@ def assert_drawn_as_built(design, part):
     return drawing
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(20)
 @pytest.mark.parametrize("given", [(), HOLED], ids=["", "holed"])
 @pytest.mark.parametrize("name", FLAT)
 def test_drawings_show_what_the_solids_have(name, given):
@@ -88,7 +88,7 @@ def test_drawings_show_what_the_solids_have(name, given):
     assert assert_machine(design) or given  # hubs and bolts do not suit every machine
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("kind", registry.DRIVES)
 def test_drawings_of_random_machines(kind, tmp_path):
     whole = [assert_machine(design) for _, design in samples(tmp_path, kind)]

@@ -40,7 +40,7 @@ def rows(design, row):
     return {one["name"]: one for one in table if one["row"] == row}
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", STANDING)
 def test_a_hole_for_every_shaft_that_reaches_it(name):
     design, _, drawing = made(name)

@@ -3,7 +3,6 @@
 The witnesses: polygons of shapely at some positions of a turn, and closed forms for contacts.
 """
 
-import itertools
 import math
 import random
 from collections.abc import Iterator
@@ -21,7 +20,7 @@ from test_outline import CURVED_SLOTS, STRAIGHT, L, disc, made, name, polygon, t
 from words import LAWS, Motion, load
 
 from geneva_cli.collisions import gaps
-from geneva_cli.collisions.full_turn import FullTurn, full_turn, turning
+from geneva_cli.collisions.full_turn import FullTurn, full_turn
 from geneva_cli.collisions.gaps import Gaps, WorkLimit
 from geneva_cli.collisions.smallest import positions
 from geneva_cli.curves.measure import turned as turned_contour
@@ -503,25 +502,3 @@ def test_a_turn_that_is_not_proved_is_not_tried_again(monkeypatch):
         with pytest.raises(WorkLimit):
             _ = one.turn
     assert len(tries) == 1
-
-
-SEEN = [
-    {"z": 8, "slot_clearance_mm": 0.01},
-    {"z": 5, "gearing": "internal", "lock_clearance_mm": 0.02},
-    {"z": 6, "rollers": 2, "roller_radius_mm": 4.0},
-    {"z": 6, "roller_radius_mm": 5.0, "lock_clearance_mm": 0.3, "wheel_radius_mm": 87.5},  # fouls
-    {"z": 12, "roller_radius_mm": 5.0, "relief": "arc"},  # so does this
-]
-
-
-@pytest.mark.parametrize("case", SEEN, ids=name)
-def test_what_is_seen_first_is_so_in_the_whole_turn(case: dict) -> None:
-    """No gap grows and no play shrinks as a turn is looked at closer."""
-    *before, whole = turning(made(**case))
-    assert len(before) > 2
-    for early, late in itertools.pairwise([*before, whole]):
-        assert early.driving.mm >= late.driving.mm
-        assert early.smallest.mm >= late.smallest.mm
-        for play in ("dwell", "hand_over", "motion", "ahead", "behind", "push"):
-            assert getattr(early, play).deg <= getattr(late, play).deg
-    assert before[0].hand_over.deg == 0.0 < whole.hand_over.deg

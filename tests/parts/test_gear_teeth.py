@@ -150,7 +150,7 @@ def cut_in_steps(rack, radius, tip, count, steps=1500):
     return left.difference(shapely.unary_union(swept))
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("count", "shift"), [(20, 0.0), (12, 0.45), (60, -0.3)])
 def test_a_rack_that_rolls_leaves_these_teeth(count, shift):
     """Flank, fillet and root against the union of 1500 positions of the tool.
@@ -209,7 +209,7 @@ def free_turn(still, moved, most):
     return low
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("drive", "z", "keys"),
     [
@@ -245,7 +245,7 @@ def test_planet_and_fixed_gear_mesh_with_their_backlash(drive, z, keys):
         assert play * at_planet.radius == pytest.approx(backlash, abs=4e-3)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("backlash", [0.0, 0.1])
 @pytest.mark.parametrize(
     ("z", "sector", "module"),

@@ -81,7 +81,7 @@ def curves(drawing):
     return [s for s in drawing.shapes if isinstance(s, Contour) and s.closed]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("kind", ["arcs", "spline"])
 @pytest.mark.parametrize("name", ["noncircular-gears", "elliptical-gears"])
 def test_drawn_pitch_curves_are_closed_and_equally_long(name, kind):
@@ -199,7 +199,7 @@ def test_the_gears_table_keeps_its_tolerance(tolerance):
     assert 0.0 in at["input_deg"]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4])
 def test_the_groove_table_keeps_its_tolerance(tolerance):
     """Pitch curve and flanks by the law of sines, its slope by a complex step."""

@@ -38,7 +38,7 @@ def drawings(path):
             continue
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_no_part_has_centre_crosses_unless_they_are_requested(path):
     names = listed()

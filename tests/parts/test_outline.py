@@ -575,7 +575,7 @@ def worst(found: Outlines, wanted: Polygon) -> float:
     return far
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize("case", CURVED_SLOTS, ids=name)
 def test_curved_slots_against_every_place_of_the_roller(case: dict) -> None:
     """On the mean, and at the worst place: there the flattened arcs of both polygons may differ by

@@ -200,7 +200,7 @@ def require_sound(shapes, inside=False, wheels=1):
 # 1. Every design
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("name", FLAT)
 def test_assembly_of_every_design(name):
     """As svg: its shapes are sound, and the parts lie beside each other at input angle 0."""
@@ -248,7 +248,7 @@ def test_assembly_of_every_design(name):
             assert not around.buffer(-t).intersects(other)
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize("part", [*PARTS, "groove"])
 @pytest.mark.parametrize("name", VARIED)
 def test_dxf_and_svg_are_the_same_part(name, part):
@@ -301,7 +301,7 @@ def moved(shapes, angle, ahead=0.0):
     }
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["two-pins-z4", "internal-z6", "press-curved", "unequal-steps"])
 def test_parts_make_the_assembly(name):
     """Each part's own frame: the wheel turned as the motion says, the crank about (L, 0)."""
@@ -375,7 +375,7 @@ def test_straight_wheels_have_no_splines(name):
     assert written(DESIGNS[name], "wheel", "spline.dxf", "--curves", "spline") == arcs
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("name", "part", "options"),
     [
@@ -417,7 +417,7 @@ def enlarged(shapes, factor):
     }
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("curves", "tolerances"), [("arcs", (0.001, 0.01, 0.1)), ("spline", (1e-5, 1e-3, 0.1))]
 )
@@ -744,7 +744,7 @@ def test_templates_without_flat_parts_say_so(kind):
     assert sorted(os.listdir()) == ["new.toml", "slot.csv"]
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(18)
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if kind not in NOT_FLAT])
 def test_templates_draw_all_parts(kind):
     assert CliRunner().invoke(app, ["new", kind, "-o", "new.toml"]).exit_code == 0
@@ -867,7 +867,7 @@ def test_random_wheels(seed):
 # 8. Tables of pieces
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("name", "part", "options"),
     [

@@ -485,7 +485,7 @@ def test_what_cannot_be_built_is_listed_with_the_reason(name, key, value, why, m
         design.drawing("assembly")
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda path: path.stem)
 def test_nothing_is_missing_from_a_machine_that_is_built(path):
     rows = load(str(path)).part_table("parts").to_rows()

@@ -17,9 +17,8 @@ from geneva_cli.layout.sizes import sizes
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.spec.iso_9013 import deviation_mm
 from geneva_cli.spec.processes import PROCESSES
-from geneva_cli.spec.workshops import workshop
+from geneva_cli.spec.workshops import deviation_mm, workshop
 from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.report.inputs import inputs
 from geneva_cli.verdict.report.sizes import sizes as report_sizes

@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from geneva_cli import Design, External, Linear, Load, SideCrank, Size
+from geneva_cli import Design, EllipticalGears, External, Linear, Load, SideCrank, Size
 from geneva_cli.collisions.full_turn import full_turn
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.moments import moments
@@ -17,6 +17,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import assembled
 from geneva_cli.outlines.rack import locking_sector, rack_contour, rack_sizes
 from geneva_cli.outlines.rack_outlines import turned_rack
+from geneva_cli.parts.rack_parts import RackParts
 from geneva_cli.parts.rack_stressed import rack_stressed
 
 R, r = 50.0, 6.0
@@ -314,6 +315,41 @@ def test_a_crank_without_a_pin_is_one_piece_with_its_shaft():
     assert "arm" not in s
     assert "crank's shaft" not in s
     assert any(hole.centre == (R, 0.0) for hole in s["frame"].holes)
+
+
+def test_a_rack_behind_gears_has_a_lower_frame():
+    """Heights by hand: arm, gears and frame of R/10. Focal gears reach C (1 + e)/2."""
+    gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=60.0)
+    geared = design().spec.replace(drive=gears)
+    parts = RackParts(Design.of(geared).mechanism)
+    assert [(one.part.low, one.part.high) for one in parts.gear_pair] == [(-10.0, -5.0)] * 2
+    assert (parts.frame.part.low, parts.frame.part.high) == (-15.0, -10.0)
+    crank, driver = parts.shafts
+    assert (crank.at, driver.at) == ((R, 0.0), (R + 60.0, 0.0))
+    assert (crank.part.low, crank.part.high) == (-15.0, 0.0)
+    assert (driver.part.low, driver.part.high) == (-15.0, -5.0)
+    driven = parts.gear_pair[0].part.holes[0]
+    assert driven.radius == crank.part.outline.radius == parts.arm.holes[0].radius
+    assert {hole.centre for hole in parts.frame.part.holes} >= {crank.at, driver.at}
+    checks = {check.name: check for check in Design.of(geared).checks}
+    assert all(check.passes for check in checks.values())
+    # of the shafts, as the guide is farther: driven gear to the driver's shaft
+    least = 60.0 - 0.5 * 60.0 * 1.2 - max(crank.part.outline.radius, driver.part.outline.radius)
+    assert checks["gear_gap_mm"].value == pytest.approx(least, rel=1e-9)
+    # the bearing is a plane of gears lower
+    low, plain = (rack_stressed(Design.of(s).mechanism) for s in (geared, design().spec))
+    assert low.crank_shaft.overhang == pytest.approx(plain.crank_shaft.overhang + 5.0)
+
+
+def test_a_gear_that_reaches_the_guide_fails():
+    """Large gears: the driven one's farthest point is C (1 + e)/2 from its axis."""
+    gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=110.0)
+    wide = Design.of(design().spec.replace(drive=gears))
+    (check,) = (check for check in wide.checks if check.name == "gear_gap_mm")
+    rail = next(p for p in RackParts(wide.mechanism).guide if p.part.name == "guide rail").part
+    gap = R - bounds(rail.outline).x1 - 0.5 * 110.0 * 1.2
+    assert gap < 0.0 and not check.passes
+    assert check.value == pytest.approx(gap, rel=1e-9)
 
 
 def test_a_rack_behind_links_has_no_frame():

@@ -56,7 +56,7 @@ def sheets():
     return made
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(32)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_no_text_of_a_design_stands_on_anything(path, sheets):
     design, found = sheets(path.stem)
@@ -93,7 +93,7 @@ SMALL = [
 ]
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("spec", SMALL, ids=lambda s: f"{s.wheel.z}-{s.size.center_distance_mm:g}")
 def test_machines_of_every_size(spec):
     found = of(spec)
@@ -259,7 +259,7 @@ LENGTHS = {
 }
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", LENGTHS)
 def test_links_have_their_views(name, sheets):
     """Each link by its name, with the lengths of the list of parts as dimensions on paper."""
@@ -437,7 +437,7 @@ def test_the_comparison_can_fail():
     assert ("again", m.label.text) in crossings(found._replace(measures=twice))
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(32)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_sheets_in_inches(path, sheets):
     """At a scale of the same series; texts stand free, and each is its millimetres over 25.4."""

@@ -97,7 +97,7 @@ def test_nearest_and_farthest_distances_against_dense_points(name):
     assert (farthest(wheel, points).max(axis=1) >= far - ROUNDING).all()
     x, y, axis = np.linalg.qr(rng.normal(size=(3, 3)))[0]
     circle = Circle(axis, x, y, 0.7)
-    arcs = some(300, 50)
+    arcs = some(300, 20)
     middle, half = rng.uniform(-9.0, 9.0, arcs), rng.uniform(0.0, 0.05, arcs)
     along = middle[:, None] + half[:, None] * np.linspace(-1.0, 1.0, 1001)
     away = angles(circle.at(along.ravel()), tree).reshape(along.shape).min(axis=1)

@@ -80,7 +80,7 @@ def least_gap(found, at):
     return found.ball.radius_mm * 2.0 * math.asin(0.5 * chord.min())
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("axes", "z"), [(60.0, 5), (90.0, 6), (120.0, 7)])
 def test_gaps_are_those_of_sampled_edges(axes, z):
     """Through a turn: of points nearest to each other, each is half a step off at most."""

@@ -17,7 +17,7 @@ from sampling import some
 from turn_witness import ROUNDING, TO_MM, check_bounds, least_gap, turn_of
 from words import load
 
-from geneva_cli.collisions import settled as halving
+from geneva_cli.collisions import certificate as halving
 from geneva_cli.collisions.certificate import certificate
 from geneva_cli.collisions.full_turn import full_turn
 from geneva_cli.curves.distance import Polyarc
@@ -170,7 +170,7 @@ def test_short_pieces_are_the_same_outline():
 
 
 @pytest.mark.parametrize("name", FLAT)
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 def test_a_roller_travels_no_farther_than_its_bound(name):
     """Neither from the middle of an interval nor from its chord, at 101 places of each."""
     assembly = parts_of(name).assembly
@@ -213,7 +213,7 @@ def test_a_path_that_is_unknown_closes_no_interval():
 
 
 @pytest.mark.parametrize("name", FLAT)
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 def test_no_gap_within_an_interval_is_below_its_bound(name):
     parts = parts_of(name)
     check_bounds(parts, np.random.default_rng(3))
@@ -224,7 +224,7 @@ def test_no_gap_of_a_random_machine_is_below_its_bound():
         check_bounds(parts, np.random.default_rng(i))
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", FLAT)
 def test_designs_are_proved_to_a_micrometre_of_their_smallest_gap(name):
     parts = parts_of(name)

@@ -28,7 +28,7 @@ def tables(kind: str) -> list[type[SpecTable]]:
     return [registry.gearing(gearing), registry.drive(drive), *LAWS, Motion, Size, Load, Limits]
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_new_spec_passes_and_is_exported_as_it_is(kind: str, tmp_path: Path) -> None:
     """A drawing of the wheel, and its slots as a table; a counter's wheel has teeth instead."""

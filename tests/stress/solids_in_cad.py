@@ -47,11 +47,8 @@ from geneva_cli.curves.plates import Group, Plate, Stack
 from geneva_cli.curves.shapes import Contour, Cubic
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.step import chunks
-from geneva_cli.parts.arm import has_arm
-from geneva_cli.parts.sphere.arm import has_arm as has_cap
 
 PARTS = ("wheel", "crank", "arm", "assembly")
 STEPS = 1e-13  # relative, asked of the kernel
@@ -228,9 +225,9 @@ def overlaps(found, pressed):
             yield f"{one[0]} and {other[0]} share {both.Mass():.3g} mm³"
 
 
-def carries(found):
-    """Whether the machine has an arm, which carries rollers on pins."""
-    return (has_arm if isinstance(found, Outlines) else has_cap)(found)
+def carries(built):
+    """Whether the machine has an arm, which carries rollers on pins; gears have none."""
+    return getattr(built, "arm", None) is not None
 
 
 def main():
@@ -250,7 +247,7 @@ def main():
             print(f"{name:24} {str(error).partition(': ')[2][:70]}")
             continue
         for part in PARTS:
-            if part == "arm" and not carries(proof.parts):
+            if part == "arm" and not carries(proof.built):
                 continue
             for curves in ("arcs", "spline"):
                 bad += not one(design, proof, name, part, curves, given.pictures)

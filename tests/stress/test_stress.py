@@ -15,7 +15,7 @@ from witness import Geneva, mp
 PARTS = parts(sample=True)
 
 
-@pytest.mark.sampled(16)
+@pytest.mark.sampled(48)
 @pytest.mark.parametrize("name", PARTS)
 def test_sample(name):
     table = Table()

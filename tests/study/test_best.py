@@ -3,6 +3,7 @@
 import math
 import os
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from scipy.optimize import brentq
 from geneva_cli import GenevaError, load
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.study.sweep.best_search import SweepSearch
-from geneva_cli.study.sweep.places import closer
+from geneva_cli.study.sweep.places import BestPlaces, closer
 from geneva_cli.study.sweep.request import request
 
 SPEC = os.path.join(os.path.dirname(__file__), *[os.pardir] * 2, "designs", "side-crank-z6.toml")
@@ -91,6 +92,21 @@ def test_it_is_no_worse_than_any_of_a_fine_grid(tmp_path):
     assert design.peaks.jerk.max <= min(row[at] for row in rows)
     assert 150 * (1 - 1e-11) <= design.timing.motion_deg <= 150
     assert design.peaks.velocity.max <= 0.8
+
+
+def test_each_number_of_slots_has_a_place():
+    """The worst of 22 numbers is refined too, though 63 places of the others are better."""
+    rows = [(z, x, z + x) for z in range(3, 25) for x in (0.1, 0.5, 0.9)]
+    search = SimpleNamespace(
+        free=[1],
+        keys=lambda row: row[:2],
+        fractions=lambda row: np.array([row[1]]),
+        merit=lambda row: (0.0, row[2]),
+    )
+    places = BestPlaces(search)
+    places.add(rows)
+    best = places.best()
+    assert [row[2] for row in best] == sorted([z + 0.1 for z in range(3, 25)] + [3.5, 3.9])
 
 
 @pytest.mark.long

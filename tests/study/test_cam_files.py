@@ -1,5 +1,6 @@
 """Electronic cams: each file read back, and drawn as its controller draws it."""
 
+import math
 import re
 
 import numpy as np
@@ -59,6 +60,31 @@ def test_polynomials_keep_the_tolerance(file):
     assert error_deg <= TOLERANCE
     # 32 places meet the greatest of a smooth error to 1 %; rounding is some 1e-13 degrees.
     assert off.max() <= 1.01 * error_deg + 1e-12
+
+
+# a handover of gears and slot, and the points of two drives: seams that rounding moves apart
+SEAMS = {
+    "sector": '[wheel]\nz = 4\n[drive]\nkind = "gear-sector"\nsector_deg = 22.70475094719316\n',
+    "points": '[wheel]\nz = 24\ngearing = "internal"\n[drive]\nkind = "noncircular-gears"\n'
+    'ratio_file = "ratio.csv"\n[drive.before]\nkind = "elliptical-gears"\n'
+    'eccentricity = 0.1548863424315996\nphase = "quick"\n',
+}
+
+
+@pytest.mark.parametrize("text", SEAMS.values(), ids=SEAMS)
+def test_seams_apart_by_rounding_are_one(text, tmp_path):
+    """No piece is as short as rounding, where its powers are not numbers."""
+    degrees = range(0, 361, 15)
+    rows = [f"{x},{1.0 - 0.3 * math.cos(math.radians(x)):.9f}\n" for x in degrees]
+    (tmp_path / "ratio.csv").write_text("".join(rows))
+    (tmp_path / "spec.toml").write_text(text)
+    design = load(str(tmp_path / "spec.toml"))
+    table, _, error_deg = cam(design, "polynomial", None, TOLERANCE)
+    master, slave = true_motion(design)
+    off = abs(polynomial(table)(master) - slave)
+    assert off.max() <= 1.01 * error_deg + 1e-12 <= TOLERANCE
+    columns = table.to_dict()
+    assert min(columns["end_deg"] - columns["begin_deg"]) > 1e-3
 
 
 @pytest.mark.parametrize("name", SOME)

@@ -21,7 +21,7 @@ from geneva_cli.document import Document, Fact, Facts, Grid, Picture, TextList
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import jsonfile, pdf_file
 from geneva_cli.output.document import html, markdown, pdf
-from geneva_cli.output.document.inline import inline
+from geneva_cli.output.document.html import inline
 from geneva_cli.output.document.paper import lines, wide
 from geneva_cli.output.document.values import value_text
 from geneva_cli.output.letters import western
@@ -121,7 +121,7 @@ def has(cells: set[str], told: str, value: Any) -> bool:
     return value_text(value).replace("\u00a0", " ") in cells
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", KINDS)
 def test_every_value_of_the_report_is_on_the_page(name: str) -> None:
     design, found = of(name)

@@ -109,7 +109,7 @@ def test_points_of_gears_are_in_the_folder(name, tmp_path):
     assert set(bytes_of(folders[0])) == set(bytes_of(folders[1]))
 
 
-@pytest.mark.sampled(12)
+@pytest.mark.sampled(48)
 @pytest.mark.parametrize("design", sorted(repo.DESIGNS.glob("*.toml")), ids=lambda p: p.stem)
 @pytest.mark.parametrize("trade", [None, *TRADES])
 def test_every_design_has_files_of_other_names(design, trade):

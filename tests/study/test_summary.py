@@ -137,7 +137,7 @@ def test_unknown_values_take_one_line_beside_a_cycle(tmp_path: Path) -> None:
     assert note.endswith("`geneva loads SPEC` lists the keys that they need")
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("width", [60, 80, 100])
 @pytest.mark.parametrize("name", ["turret", "press-345", "tuned-dial", "tolerances"])
 def test_no_line_is_wider_than_the_window(name: str, width: int) -> None:

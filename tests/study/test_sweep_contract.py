@@ -30,12 +30,12 @@ def swept(tmp_path, text, *vary, pick):
     return [row[:-1] for row in rows]
 
 
-@pytest.mark.sampled(16)
+@pytest.mark.sampled(32)
 @pytest.mark.parametrize("name", SOME)
 def test_a_key_of_its_own_kind_alone(name):
     """Its last ones; together with another, and equal in all, keys of all tables have their turn.
 
-    `make stress` varies every key of every machine (stress_sweep.py).
+    `make stress` varies keys of every machine (stress_sweep.py).
     """
     spec, number = base(name), SOME.index(name)
     every = list(keys(spec))

@@ -87,7 +87,7 @@ def natural(z, gearing):
 # Closed forms
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize("gearing", GEARINGS)
 @pytest.mark.parametrize("z", [3, 4, 6, 9, 24])
 @pytest.mark.parametrize("share", [0.02, 0.3, 0.49, 0.5, 0.6, 0.8, 0.98])
@@ -149,7 +149,7 @@ def test_tau_of_one_roller_outside():
         assert not plain(candidates(tau=beyond, external=True, rollers=1, space=NEAR))
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("z", "most"), [(3, 5), (4, 3), (5, 3), (6, 2), (7, 2), (12, 2), (24, 2)])
 def test_rollers_up_to_the_strict_bound(z, most):
     found = candidates(z=str(z), cycle="1", external=True, space=NEAR)
@@ -172,7 +172,7 @@ def test_k_of_internal_wheels():
         assert candidate.k == pytest.approx((z + 2) / (z - 2), rel=1e-13)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("k", "z", "m"), [(3, 4, 3), (9, 5, 3), (1, 4, 2), (5, 3, 5), (2, 6, 2)])
 def test_k_above_1_outside(k, z, m):
     assert (z, m) in {
@@ -254,7 +254,7 @@ def test_the_quick_peak_is_the_built_machine_s(z, gearing, x):
         assert limits.peak_of(Wheel(z, gearing), ratio)(x) == pytest.approx(wanted, rel=1e-11)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("gearing", GEARINGS)
 @pytest.mark.parametrize("z", [3, 6, 11])
 @pytest.mark.parametrize("ratio", [limits.side_crank, limits.elliptical_gears])
@@ -543,7 +543,7 @@ def test_cams_too_carry_more_rollers_than_the_plain_wheel():
     assert three.motion_deg == pytest.approx(56.0, rel=1e-14) and three.parts == "maybe"
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("z", [3, 6, 20])
 @pytest.mark.parametrize("share", [0.001, 0.2, 0.5, 0.7, 0.999])
 def test_shafts_at_an_angle(z, share):
@@ -624,7 +624,7 @@ def test_no_roller_fits_a_loop():
 # Turned, written, checked and exported: a sample of the trial in tests/stress/stress_synth.py
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("options", "number"),
     [

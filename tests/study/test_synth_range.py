@@ -440,7 +440,7 @@ def test_a_frame_s_sizes_stay(tmp_path):
         build(row.spec)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "options",
     [*WISHES, {"motion_deg": "150", "law": "all", "z": "5,6"}, {"z": "4", "cycle": "2"}],

@@ -43,8 +43,8 @@ def test_what_turns_alike_is_turned_once(wheel, monkeypatch):
     specs = [Spec(wheel, drive) for drive in drives]
     assert len({same_turn(spec) for spec in specs}) == 1
     turned = []
-    whole = turns.turning
-    monkeypatch.setattr(turns, "turning", lambda parts: turned.append(1) or whole(parts))
+    whole = turns.full_turn
+    monkeypatch.setattr(turns, "full_turn", lambda parts: turned.append(1) or whole(parts))
     found = built_together(specs)
     assert len(turned) == 1
     assert [(one.spec, one.trouble) for one in found] == [(spec, "") for spec in specs]
@@ -98,7 +98,7 @@ def test_a_check_at_rest_that_failed_before_is_computed_first(monkeypatch):
     known = [Failure("link_gap_mm")]
     machine = build(with_roller(Spec(External(20), drive), 2.0))
     assert "link_gap_mm" in failing_names(machine)
-    monkeypatch.setattr(turns, "turning", None)
+    monkeypatch.setattr(turns, "full_turn", None)
     monkeypatch.setattr(turns, "standing_checks", None)
     assert Turns().some_failing(machine, known) == known
 

@@ -29,7 +29,7 @@ def sector(z, motion_deg):
         return float(mpmath.degrees(motion - mpmath.pi + 2 * b))
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("z", "motion"), [(3, 61.0), (3, 180.0), (5, 150.0), (24, 300.0)])
 def test_gear_sectors_move_for_as_long_as_wished(z, motion):
     (row,) = of_kind("gear-sector", motion_deg=str(motion), z=str(z))

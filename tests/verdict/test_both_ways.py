@@ -272,7 +272,7 @@ def test_a_tuned_law_with_damping_is_tuned_forwards_only():
     assert not warned and max(forwards, back) < 1e-9
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(18)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_every_design_can_be_judged_both_ways(name):
     """Nothing is refused backwards, and what is its own mirror image is no worse."""

@@ -16,7 +16,7 @@ from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine import spec as machine_spec
 from geneva_cli.machine.mechanism import build
-from geneva_cli.numerics.keeps import keeps
+from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.verdict.checks import Check, checks

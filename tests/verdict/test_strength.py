@@ -83,7 +83,7 @@ def test_a_row_where_something_is_allowed():
     }
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", ROWS)
 def test_each_can_fail_and_one_key_mends_it(name):
     """The advice is a key's value with which the row passes."""
@@ -277,7 +277,7 @@ def test_what_a_sphere_lacks_is_said_in_its_rows():
     assert found["horn_stress_MPa"].value > 0.0
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("path", sorted(DESIGNS.glob("*.toml")), ids=lambda p: p.stem)
 def test_every_machine_of_the_family(path):
     """With a load and a face width: numbers, and a None only with its reason or where none is."""

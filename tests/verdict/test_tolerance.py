@@ -96,7 +96,7 @@ def by_points(lock, dL, dk, dr):
     return low
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("half", [120.0, 20.0], ids=["whole disc", "short arc"])
 @pytest.mark.parametrize(
     "dL, dk, dr",

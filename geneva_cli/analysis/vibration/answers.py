@@ -9,6 +9,7 @@ import numpy as np
 
 from geneva_cli.analysis.forces import unbalance_Nm
 from geneva_cli.analysis.motion import check_samples
+from geneva_cli.analysis.vibration.centrifugal import MOST, stiffness_share
 from geneva_cli.analysis.vibration.oscillator import NO_INERTIA, Oscillator
 from geneva_cli.analysis.vibration.swing import Swing
 from geneva_cli.analysis.vibration.vibration import (
@@ -37,9 +38,8 @@ SPECTRUM_COLUMNS = (
 
 def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
     """Named values, with equal names for every machine; all None if no inertia is known."""
-    jumps = any(one.motion.jump for one in mechanism.engagements)
-    if load is None or jumps:
-        why = "the wheel's speed jumps at entry, and so does the load's" if jumps else NO_INERTIA
+    why = _unknown(mechanism, load)
+    if load is None or why:
         return dict.fromkeys((*NUMBERS, "avoid", "stations")) | {
             "warnings": (Notice("not-known", f"no value is computed: {why}"),)
         }
@@ -54,6 +54,21 @@ def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
         "stations": rows_table(STATION_COLUMNS, each) if len(each) > 1 else None,
         "warnings": tuple(_warnings(mechanism, load, float(oscillators.ratio.min()))),
     }
+
+
+def _unknown(mechanism: Mechanism, load: Oscillator | None) -> str:
+    """Return the reason why no value is computed; empty where there is none."""
+    if any(one.motion.jump for one in mechanism.engagements):
+        return "the wheel's speed jumps at entry, and so does the load's"
+    if load is None:
+        return NO_INERTIA
+    share = float(stiffness_share(mechanism, np.array([load.ratio])).max())
+    if share <= MOST:
+        return ""
+    return (
+        "the centrifugal force of bodies off the wheel's axis acts as a spring of "
+        f"{share:.3g} times the shaft's stiffness, above {MOST:g}: use a stiffer shaft"
+    )
 
 
 def _stations(oscillators: Oscillators) -> list[tuple[float | None, ...]]:
@@ -96,10 +111,10 @@ def _warnings(mechanism: Mechanism, load: Oscillator, least: float) -> list[Noti
         )
         out.append(
             Notice(
-                "unbalance-left-out",
-                "the bodies off the wheel's axis are counted as inertia only: on the carrier their "
-                f"centrifugal force puts up to {moment:.4g} N m on the shaft{windup}. That "
-                "is not counted: balance them",
+                "unbalance-windup",
+                "on the carrier the centrifugal force of the bodies off the wheel's axis puts up "
+                f"to {moment:.4g} N m on the shaft{windup}, at rest too. The residuals are about "
+                "that angle: balance the bodies",
             )
         )
     if least < 1.0:

@@ -16,9 +16,15 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Number, read_only
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from geneva_cli.kinematics.engagement import WheelMotion
     from geneva_cli.kinematics.laws.law import Law
     from geneva_cli.numerics.arrays import Array, Whole
+    from geneva_cli.numerics.jet import Jet
+
+    # The wheel's angles, and the numbers of their designs -> another angle of each.
+    Turned = Callable[[Jet, Whole], Jet]
 
 
 @lru_cache(maxsize=64)
@@ -38,13 +44,14 @@ def law_shape(law: Law) -> Panels:
     return read_only(panels_of(derivatives, np.array([sorted({0.0, *law.knots, 0.5, 1.0})])))
 
 
-def motion_shapes(motion: WheelMotion, m: int) -> Panels:
-    """Return the panels of the motions of m designs."""
+def motion_shapes(motion: WheelMotion, m: int, turned: Turned | None = None) -> Panels:
+    """Return the panels of the motions of m designs, or of functions ``turned`` of their angles."""
 
     def derivatives(u: Array, which: Whole, order: int) -> Array:
         some: WheelMotion = taken(motion, which)
         whole, step = some.exit_deg - some.entry_deg, 2.0 * some.half_step
-        c = some(some.entry_deg + u * whole, order).c
+        angle = some(some.entry_deg + u * whole, order)
+        c = (turned(angle, which) if turned else angle).c
         return _by_order([v / step for v in c], whole * DEGREE, u)
 
     ends = [np.broadcast_to(np.asarray(x, dtype=float), (m, 1)) for x in motion.breaks_deg]

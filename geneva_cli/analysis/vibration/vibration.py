@@ -29,6 +29,7 @@ import numpy as np
 from geneva_cli.analysis.carried import inertia_kgm2
 from geneva_cli.analysis.peak_search import motion_peaks
 from geneva_cli.analysis.timing import timings
+from geneva_cli.analysis.vibration.centrifugal import MOST, pull, stiffness_share, vibrating
 from geneva_cli.analysis.vibration.load_acceleration import greatest_accelerations
 from geneva_cli.analysis.vibration.lobes import Lobes, highest_ratio, lobes
 from geneva_cli.analysis.vibration.oscillator import PERIOD_RATIO, Oscillator, period_ratio_of
@@ -76,17 +77,19 @@ class SpeedToAvoid(NamedTuple):
 class Index:
     """One kind of index: of one design, or of each design in a batch of m."""
 
-    def __init__(self, engagement: Engagement, scale: Array, m: int, in_batch: bool) -> None:
-        motion, law = engagement.motion, engagement.motion.law
+    def __init__(self, mechanism: Mechanism, engagement: Engagement) -> None:
+        motion, law, m = engagement.motion, engagement.motion.law, mechanism.designs
         self.motion = motion
-        self.scale = scale  # its time over that of the machine's first motion
+        # its time over that of the machine's first motion
+        self.scale = np.ravel(engagement.motion_deg / mechanism.engagements[0].motion_deg)
         self.whole = np.ravel(engagement.motion_deg * DEGREE)
+        self.pull = pull(mechanism, engagement)
         self.exit_deg = np.ravel(engagement.mid_deg + engagement.exit_deg)
         self.step = np.ravel(2.0 * engagement.half_step)
         # a law without numbers that vary has one shape in all designs
         alike = law is not None and taken(law, slice(0)) is law
         self.is_one = m == 1 or alike
-        if in_batch:
+        if is_array(mechanism.design):
             self.panels = law_shape(law) if law and alike else motion_shapes(motion, m)
         else:
             self.panels = shape(engagement)
@@ -98,7 +101,40 @@ class Index:
     def residual(self, which: Whole, ratio: Array, damping: Array) -> Complex:
         """Return the residuals of oscillators, by period ratios of the first motion."""
         scale = self.scale if len(self.scale) == 1 else self.scale[which]
-        return residual_swing(self.panels, self.shapes(which), Swing(ratio * scale, damping))
+        swing = Swing(ratio * scale, damping)
+        if self.pull is None:
+            return residual_swing(self.panels, self.shapes(which), swing)
+        swing = self.pull.softened(swing, which)
+        added = self.pull.residual(self.shapes(which), swing)
+        return residual_swing(self.panels, self.shapes(which), swing) + added
+
+    def spans_deg(self, dwell_deg: float, swing: Swing) -> tuple[Array, Array]:
+        """Return input angles of the motion and of the dwell after it, as the load swings in them.
+
+        They are angles in which the load without an unbalance would swing as often.
+        """
+        motion, dwell = np.ravel(self.whole / DEGREE), np.ravel(dwell_deg)
+        if self.pull is None:
+            return motion, dwell
+        own, every = swing._replace(ratio=swing.ratio * self.scale), np.arange(len(swing.ratio))
+        moves, rests = (self.pull.softened(own, every, resting).ratio for resting in (False, True))
+        return motion * moves / own.ratio, dwell * rests / own.ratio
+
+    def highest_ratio(self, low: float, damping: float) -> float:
+        """Return a period ratio of this motion above which no speed is one to avoid.
+
+        It is for ratios from ``low`` on.
+        """
+        if self.pull is None:
+            return highest_ratio(self.panels, AVOIDED_SHARE, damping)
+        # each of the two parts of the residual is at most half of it
+        omega = 2.0 * math.pi * low
+        shares = 0.5 * AVOIDED_SHARE, 0.5 * AVOIDED_SHARE * omega * omega * (1.0 - 4.0 * MOST)
+        high = max(
+            highest_ratio(panels, share, damping)
+            for panels, share in zip((self.panels, self.pull.shape), shares, strict=True)
+        )
+        return high / math.sqrt(1.0 - 4.0 * MOST)  # at twice the speed U/k is four times as much
 
 
 class Oscillators:
@@ -109,13 +145,9 @@ class Oscillators:
     """
 
     def __init__(self, mechanism: Mechanism, swing: Swing) -> None:
-        self.mechanism, self.swing = mechanism, swing
+        self.mechanism, self.swing = vibrating(mechanism), swing
         self.every = np.arange(len(swing.ratio))
-        first = mechanism.engagements[0].motion_deg
-        self.indices = [
-            Index(e, np.ravel(e.motion_deg / first), mechanism.designs, is_array(mechanism.design))
-            for e in mechanism.engagements
-        ]
+        self.indices = [Index(self.mechanism, e) for e in self.mechanism.engagements]
 
     @cached_property
     def ratio(self) -> Array:
@@ -170,19 +202,29 @@ class Oscillators:
         A motion adds its own residual to the rest of all earlier ones: a geometric series. Without
         damping it has no sum.
         """
-        period = np.ravel(self.mechanism.period_deg)
+        exits, period = self._exits()
         first = np.ravel(self.mechanism.engagements[0].motion_deg)
         rate = self.swing.p / first  # by degrees of the input
-        exits = [index.exit_deg for index in self.indices]
         added = [one * i.step for one, i in zip(self.residual, self.indices, strict=True)]
         rows = []
         with np.errstate(all="ignore"):
             sum_ = -np.expm1(rate * period)
-            for index in self.indices:
-                ages = [(index.exit_deg - other) % period for other in exits]
+            for index, own in zip(self.indices, exits, strict=True):
+                ages = [(own - other) % period for other in exits]
                 left = sum(a * np.exp(rate * age) for a, age in zip(added, ages, strict=True))
                 rows.append(np.abs(left / sum_) / index.step)
         return np.where(self.swing.damping > 0.0, rows, np.nan)
+
+    def _exits(self) -> tuple[list[Array], Array]:
+        """Return input angles at the ends of the motions, and the period, as the load swings."""
+        if all(index.pull is None for index in self.indices):
+            return [i.exit_deg for i in self.indices], np.ravel(self.mechanism.period_deg)
+        exits, at = [], np.zeros(1)
+        for number, index in enumerate(self.indices):
+            motion, dwell = index.spans_deg(self.mechanism.dwell_deg(number), self.swing)
+            exits.append(at + motion)
+            at = exits[-1] + dwell
+        return exits, at
 
     @cached_property
     def worst_share(self) -> Array:
@@ -253,7 +295,8 @@ def design_vibrations(
 ) -> Vibrations | None:
     """Return the results of m designs; None if they have no ``stiffness_Nm_rad``.
 
-    They are NaN for a design whose period ratio is out of range.
+    They are NaN for a design whose period ratio is out of range, or whose shaft is so soft that
+    bodies off the wheel's axis turn it about (``centrifugal``).
     """
     stiffness = mechanism.spec.shaft.stiffness_Nm_rad
     if stiffness is None:
@@ -264,7 +307,8 @@ def design_vibrations(
         periods = period_ratio_of(mechanism, stiffness, inertia)
     damping = mechanism.spec.shaft.damping_ratio
     ratio, zeta = (np.broadcast_to(np.ravel(x), mechanism.designs) for x in (periods, damping))
-    known = np.flatnonzero(np.isfinite(ratio) & PERIOD_RATIO.holds(ratio))
+    soft = stiffness_share(mechanism, ratio) <= MOST
+    known = np.flatnonzero(np.isfinite(ratio) & PERIOD_RATIO.holds(ratio) & soft)
     out = np.full((len(Vibrations._fields), len(ratio)), np.nan)
     size = 32  # designs at a time: the panels of each are some 20 kB, and stay in the cache
     for i in range(0, len(known), size):
@@ -284,8 +328,8 @@ def speeds_to_avoid(mechanism: Mechanism, load: Oscillator) -> list[SpeedToAvoid
     places: list[tuple[float, float]] = []
     for index in own.indices:
         scale = float(index.scale[0])
-        high = highest_ratio(index.panels, AVOIDED_SHARE, load.damping) / scale
-        low, high = load.ratio / FASTER, min(load.ratio / SLOWER, high)
+        low = load.ratio / FASTER
+        high = min(load.ratio / SLOWER, index.highest_ratio(low * scale, load.damping) / scale)
         if low >= high:
             continue
         tops = own.lobes(index, np.array([low]), np.array([high]))
@@ -294,4 +338,9 @@ def speeds_to_avoid(mechanism: Mechanism, load: Oscillator) -> list[SpeedToAvoid
         kept = (tops.share >= AVOIDED_SHARE) & (tops.share >= most * (1.0 - 1e-12))
         places += zip(tops.ratio[kept].tolist(), tops.share[kept].tolist(), strict=True)
     speeds = [(n_rpm * load.ratio / ratio, share) for ratio, share in places]
-    return [SpeedToAvoid(n, n * SOFTER, n * STIFFER, share) for n, share in sorted(speeds)]
+    out: list[SpeedToAvoid] = []
+    for n, share in sorted(speeds):
+        # a body's directions that mirror each other have equal lobes, but for rounding
+        if not (out and math.isclose(n, out[-1].rpm, rel_tol=1e-9)):
+            out.append(SpeedToAvoid(n, n * SOFTER, n * STIFFER, share))
+    return out

@@ -8,7 +8,7 @@ from geneva_cli.drawings.kinds.kind import PartsKind
 from geneva_cli.layout.missing import or_missing
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
     from geneva_cli.drawings.kinds.kind import SharedParts
     from geneva_cli.kinematics.layout import Dimension
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from geneva_cli.layout.stressed import Stressed
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.outlines.rack_outlines import RackOutlines
+    from geneva_cli.parts.parts_of_machine import PartsOfMachine
     from geneva_cli.parts.rack_parts import RackParts
 
 
@@ -28,6 +29,7 @@ class Rack(PartsKind):
         "crank": "drawings.rack:crank",
         "arm": "drawings.rack:arm",
         "frame": "drawings.part_drawings:frame",
+        "gears": "drawings.part_drawings:gears",
         "guide": "drawings.rack:guide",
         "assembly": "drawings.rack:assembly",
         "plate": "drawings.print_plate:plate",
@@ -39,6 +41,12 @@ class Rack(PartsKind):
         from geneva_cli.parts.rack_parts import RackParts
 
         return RackParts(model.mechanism)
+
+    def all_built(self, model: SharedParts) -> list[tuple[str, Callable[[], PartsOfMachine]]]:
+        """Return name and function of all parts: a frame holds the gears before a rack, too."""
+        if model.mechanism.spec.has_parts:
+            return [("all parts", lambda: model.built)]
+        return super().all_built(model)
 
     def turned(self, model: SharedParts) -> RackOutlines:
         """Return the outlines of the rack and its crank."""

@@ -16,6 +16,7 @@ from geneva_cli.layout.projection import outlines_of
 from geneva_cli.layout.written import length
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.rack_parts import RackParts
 
 Begin: TypeAlias = Callable[..., View]
 
@@ -53,7 +54,7 @@ def linked(begin: Begin, parts: FlatParts) -> Iterator[View]:
         yield view
 
 
-def geared(begin: Begin, parts: FlatParts) -> Iterator[View]:
+def geared(begin: Begin, parts: FlatParts | RackParts) -> Iterator[View]:
     """Yield the view of noncircular gears in mesh, if there are any."""
     if parts.gear_pair:
         from geneva_cli.parts.pair_teeth import pair_teeth

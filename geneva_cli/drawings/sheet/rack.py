@@ -15,7 +15,7 @@ from geneva_cli.drawings.sheet.bores import bolted, circle_of, holes_of
 from geneva_cli.drawings.sheet.composed import at_scales, on_paper
 from geneva_cli.drawings.sheet.content import SheetContent, mark_items, section, shown_on_sheet
 from geneva_cli.drawings.sheet.crank import draw_arm
-from geneva_cli.drawings.sheet.linked import flat_plates, rolling, shafted, titled
+from geneva_cli.drawings.sheet.linked import flat_plates, geared, rolling, shafted, titled
 from geneva_cli.drawings.sheet.paper import scale_name
 from geneva_cli.drawings.sheet.standing import draw_frame
 from geneva_cli.drawings.sheet.view import Block, View, times
@@ -63,6 +63,7 @@ def _views(
         draw_arm(view, parts.mechanism, crank_arm(parts.mechanism))
         yield view
     yield from rolling(begin, parts.mechanism)
+    yield from geared(begin, parts)
     yield from shafted(begin, parts.shafts)
     for plate in flat_plates((parts.bar, *parts.guide)):
         view = begin(plate.name)

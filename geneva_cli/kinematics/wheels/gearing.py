@@ -153,6 +153,15 @@ class Gearing(SpecTable):
         return self
 
     @property
+    def toothed(self) -> bool:
+        """True if teeth drive it, and no roller.
+
+        >>> External(6).toothed, Counter(4).toothed
+        (False, True)
+        """
+        return self.TOOTH_N_mm2 > 0.0
+
+    @property
     def pinions(self) -> int:
         """Number of a counter's pinions, which may start at once; 0 for a wheel."""
         return 0

@@ -1,7 +1,8 @@
 """The horn, the wall between a slot and the recess of the lock, as a tapered cantilever.
 
 Its sections are perpendicular to the slot's wall, from there to the recess. h is the thickness at
-the mouth, and R the recess's radius. At a distance s inwards from the mouth, a straight slot's
+the mouth, and R the recess's radius. A rack's horns are equal to those of a wheel of very many
+slots. At a distance s inwards from the mouth, a straight slot's
 section is t(s) = h + R - sqrt(R² - s²) thick. The roller presses on the wall with N at s0. The
 section at s then carries, over the face width b, the bending stress 6 N (s - s0)/(b t²), a tension
 at the slot's wall. On a curved wall N also has a part along the section's beam, which pushes or
@@ -30,7 +31,7 @@ from geneva_cli.kinematics.pitch_curve import pitch
 from geneva_cli.loads.strength.horn_search import HornStress, UnitStress, greatest_stress, squeezed
 from geneva_cli.machine.many import taken
 from geneva_cli.named_tuple import NamedTuple
-from geneva_cli.numerics.arrays import blocks, joined
+from geneva_cli.numerics.arrays import blocks, joined, parameter
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -61,6 +62,7 @@ class Horn(NamedTuple):
     centre: Array  # position of the recess's centre
     inwards: Array  # direction along the slot at its mouth
     across: Array  # direction perpendicular to that, from the recess's centre to the slot
+    outwards: Array  # direction out of the wheel at the recess's centre, between two horns
     whole: Engagement
     ahead_deg: float
 
@@ -104,7 +106,7 @@ class Horn(NamedTuple):
     @property
     def middle(self) -> Array:
         """Half the angle between this horn's mouth and the next one's, at the recess's centre."""
-        away, up = product(self.centre, self.inwards), product(self.centre, self.across)
+        away, up = product(self.outwards, self.inwards), product(self.outwards, self.across)
         sense = np.where(away > 0.0, 1.0, -1.0)
         half: Array = np.arctan2(sense * away, sense * up)
         return half
@@ -167,17 +169,21 @@ def product(a: Array, b: Array) -> Array:
 def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[Horn]:
     """Both horns of each kind of slot."""
     L, sides = mechanism.center_distance_mm, []
+    moving = mechanism.spec.wheel.plane_motion(parameter(np.ravel(L)))
     for whole in mechanism.under_load.engagements:
         for end, (engagement, ahead) in ((-1.0, whole.passages[0]), (1.0, whole.passages[-1])):
             mouth = engagement.entry_deg if end < 0.0 else engagement.exit_deg
-            rest = -end * engagement.half_step  # direction of the crank's axis, the wheel at rest
+            turn = np.ravel(end * engagement.half_step)  # of the wheel at rest
+            axes = np.column_stack(np.broadcast_arrays(np.ravel(L), 0.0, turn))
+            centre = moving.into(axes[:, :2], axes[:, 2])
+            outwards = moving.outwards(centre).T[:, :, None]
+            centre = centre.T[:, :, None]
             at = pitch(engagement, mouth)
             inwards = -end * vector(at.tangent_x, at.tangent_y)
-            centre = L * vector(np.cos(rest), np.sin(rest))
             across = vector(-inwards[1], inwards[0])
             towards = L * vector(at.x, at.y) - centre
             across = across * np.copysign(1.0, product(across, towards))
-            frame = centre, inwards, across
+            frame = centre, inwards, across, outwards
             sides.append(Horn(engagement, L, half_width_mm, recess_mm, end, *frame, whole, ahead))
     return sides
 

@@ -32,9 +32,9 @@ from geneva_cli.analysis.stretches import refuse_noise, spans_of, to_mid_motion
 from geneva_cli.loads.groups import of_groups
 from geneva_cli.machine.many import taken
 from geneva_cli.named_tuple import NamedTuple
-from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import all_true, array, only_of, parameter
+from geneva_cli.numerics.quadrature import Integrands, span_integrals
 from geneva_cli.numerics.search import search
 
 if TYPE_CHECKING:

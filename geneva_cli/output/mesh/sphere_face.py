@@ -11,7 +11,7 @@ import heapq
 import math
 from collections.abc import Iterable
 
-from geneva_cli.curves.sphere import Vector, cross, dot, unit
+from geneva_cli.curves.sphere import Vector, unit
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.mesh.polygons import CORNERS_MAX, Triangle
 
@@ -47,10 +47,13 @@ class SphereFace:
                     f"--tolerance: the mesh takes more than {CORNERS_MAX} corners; use a larger "
                     "tolerance"
                 )
-            for side in self._exchange(self._halved(a, b)):
-                entry = self._long(*side)
-                if -entry[0] > longest:
-                    heapq.heappush(self.waiting, entry)
+            middle, around = self._halved(a, b)
+            # no side at the new corner is exchanged: the hull has each of them from now on
+            spokes = [(middle, other) for side in around for other in side[:1]]
+            for one, two in (*spokes, *self._exchange(around)):
+                length = math.dist(self.corners[one], self.corners[two])
+                if length > longest:
+                    heapq.heappush(self.waiting, (-length, min(one, two), max(one, two)))
         return [(a, b, c) for (a, b), c in self.opposite.items() if a < b and a < c]
 
     def _long(self, a: int, b: int) -> tuple[float, int, int]:
@@ -62,15 +65,15 @@ class SphereFace:
         self.opposite[b, c] = a
         self.opposite[c, a] = b
 
-    def _halved(self, a: int, b: int) -> list[tuple[int, int]]:
-        """Halve a side along its great circle, and return the sides of the triangles there."""
+    def _halved(self, a: int, b: int) -> tuple[int, list[tuple[int, int]]]:
+        """Halve a side along its great circle; return the new corner, and the sides around it."""
         c, d = self.opposite.pop((a, b)), self.opposite.pop((b, a))
         p, q = self.corners[a], self.corners[b]
         middle = len(self.corners)
         self.corners.append(unit((p[0] + q[0], p[1] + q[1], p[2] + q[2])))
         for one in ((a, middle, c), (middle, b, c), (b, middle, d), (middle, a, d)):
             self._add(*one)
-        return [(c, a), (b, c), (d, b), (a, d), (middle, a), (middle, b), (middle, c), (middle, d)]
+        return middle, [(c, a), (b, c), (d, b), (a, d)]
 
     def _exchange(self, sides: list[tuple[int, int]]) -> list[tuple[int, int]]:
         """Exchange sides that the hull has not; return all that are new or were tried."""
@@ -91,13 +94,21 @@ class SphereFace:
         return tried
 
     def _is_below(self, a: int, b: int, c: int, d: int) -> bool:
-        """Return True if the plane of a, b and c is below the corner d."""
-        p, q, r, s = (self.corners[i] for i in (a, b, c, d))
-        u, v, w = _less(q, p), _less(r, p), _less(s, p)
-        normal = cross(u, v)
+        """Return True if the plane of a, b and c is below the corner d.
+
+        Number by number, since a fine mesh asks a million times.
+        """
+        corners = self.corners
+        px, py, pz = corners[a]
+        qx, qy, qz = corners[b]
+        rx, ry, rz = corners[c]
+        sx, sy, sz = corners[d]
+        ux, uy, uz = qx - px, qy - py, qz - pz
+        vx, vy, vz = rx - px, ry - py, rz - pz
+        wx, wy, wz = sx - px, sy - py, sz - pz
+        volume = (uy * vz - uz * vy) * wx + (uz * vx - ux * vz) * wy + (ux * vy - uy * vx) * wz
+        if volume <= 0.0:
+            return False
         # four corners within 1e-9 of the product of three sides are in one plane
-        return dot(normal, w) > 1e-9 * math.hypot(*u) * math.hypot(*v) * math.hypot(*w)
-
-
-def _less(p: Vector, q: Vector) -> Vector:
-    return p[0] - q[0], p[1] - q[1], p[2] - q[2]
+        sides = math.hypot(ux, uy, uz) * math.hypot(vx, vy, vz) * math.hypot(wx, wy, wz)
+        return volume > 1e-9 * sides

@@ -1,4 +1,4 @@
-"""The shells of a spherical machine for a full turn: positions, lengths and gaps."""
+"""The shells of a spherical machine for a full turn: positions, lengths, gaps, largest roller."""
 
 from __future__ import annotations
 
@@ -8,19 +8,55 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.curves.sphere import Region
+from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly, assembled
 from geneva_cli.layout.ball import Ball
+from geneva_cli.layout.sphere_sizes import PartDoesNotFit, ball
 from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.named_tuple import NamedTuple
+from geneva_cli.numerics.preferred import to_digits
+from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import CONTACT
 from geneva_cli.parts.sphere.bounds import SpherePairs
-from geneva_cli.parts.sphere.fitted import fitted
+from geneva_cli.parts.sphere.crank import sectors
 from geneva_cli.parts.sphere.gaps import BallGaps
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
+
+
+def fitted(mechanism: Mechanism, advice: bool = True) -> tuple[Ball, list[Region]]:
+    """Return the sizes of a spherical machine, and its locking sectors.
+
+    Raises GenevaError, naming the key, where they leave no wheel or no lock. With ``advice`` the
+    message names the largest roller that fits, if there is one.
+    """
+    try:
+        return _sizes_and_sectors(mechanism, mechanism.roller_radius_mm)
+    except PartDoesNotFit as error:
+        if not advice:
+            raise
+        # 10 halvings give the two digits that are shown
+        most = boundary(lambda r: _fits(mechanism, r), 0.0, mechanism.roller_radius_mm, 10)
+        if not most:
+            raise
+        text = f"{error}; a roller of {to_digits(most, 2, math.floor):g} mm fits"
+        raise GenevaError(text, error.key) from None
+
+
+def _fits(mechanism: Mechanism, roller_mm: float) -> bool:
+    try:
+        _sizes_and_sectors(mechanism, roller_mm)
+    except GenevaError:
+        return False
+    return True
+
+
+def _sizes_and_sectors(mechanism: Mechanism, roller_mm: float) -> tuple[Ball, list[Region]]:
+    sizes = ball(mechanism, roller_mm)
+    return sizes, sectors(sizes)
 
 
 class BallLengths(NamedTuple):

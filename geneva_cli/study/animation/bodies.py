@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Circle, Contour, Line, Shape, closed
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.gear_curves import gears_table
 from geneva_cli.scene import Body, Track
 from geneva_cli.study.animation.rack import rack
+from geneva_cli.study.animation.teeth import DrawnTeeth, round_gears
 from geneva_cli.study.animation.tracks import still
 from geneva_cli.study.animation.turn import MachineTurn
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 WHEEL = "WHEEL"  # layer
 
 
-def bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
+def bodies(design: Design, turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Body]:
     """Wheel, crank with its arm, the cam's groove and gears, as far as the machine has them."""
     L = turn.L
     # parts of a sphere are drawn laid flat: these outlines do not turn about the shaft
@@ -45,8 +45,9 @@ def bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
         yield Body("groove", _shapes(design, "groove"), (L, 0.0), still(0.0))
         if turn.mechanism.frame > 0.0:
             yield Body("carrier", _shapes(design, "frame"), (0.0, 0.0), still(0.0))
+    yield from round_gears(turn, teeth)
     if design.spec.gears:
-        yield from _gears(design, turn)
+        yield from _gears(turn, teeth)
 
 
 def _wheels(shapes: tuple[Shape, ...], turn: MachineTurn) -> Iterator[Body]:
@@ -110,12 +111,12 @@ def _mark(shapes: tuple[Shape, ...], turn: MachineTurn) -> Shape:
     return Circle("PITCH", (0.78 * least if shapes else 1.01 * least, 0.0), 0.012 * turn.L)
 
 
-def _gears(design: Design, turn: MachineTurn) -> Iterator[Body]:
+def _gears(turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Body]:
     """Both gears, with their teeth or by their pitch curves."""
     machine = turn.mechanism
     gears, (x, sense) = machine.spec.gears, machine.gear_shaft
     assert gears
-    driven, driver = _toothed(design) or _pitch_curves(turn, -sense)
+    driven, driver = teeth.pair or _pitch_curves(turn, -sense)
     before = machine.spec.drive_before
     first = before is not None and before.GEARED  # the gears turn the shaft of the drive
     yield Body(
@@ -125,21 +126,6 @@ def _gears(design: Design, turn: MachineTurn) -> Iterator[Body]:
         turn.input_shaft(-sense) if first or before is None else turn.own_shaft(-sense),
     )
     yield Body("driven gear", driven, (x, 0.0), turn.own_shaft(sense) if first else turn.level())
-
-
-def _toothed(design: Design) -> list[tuple[Shape, ...]]:
-    """The driven gear and the driver with their teeth and bores.
-
-    Empty if no module is set, or where teeth do not fit.
-    """
-    if design.spec.size.gear_module_mm is None:
-        return []
-    with suppress(GenevaError):
-        # a hundredth of a millimetre is less than a screen shows
-        gears = design.parts_model.flat.within(0.01, "arcs").gear_pair
-        plates = [one.part for one in gears if isinstance(one.part, Plate)]
-        return [(one.outline, *one.holes) for one in plates]
-    return []
 
 
 def _pitch_curves(turn: MachineTurn, sign: float) -> list[tuple[Shape, ...]]:

@@ -36,7 +36,7 @@ def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
             arm = normal[:, 1]  # a rack is pushed along y
         normal *= np.where(arm * torque < 0.0, -1.0, 1.0)[:, None]
         contact = (pin + turn.mechanism.roller_radius_mm * normal)[sound]
-        arrow = (force[:, None] * normal)[sound]
+        arrow = force[sound, None] * normal[sound]
         at = (one.mid + local - turn.start)[sound]
         columns = (at, contact[:, 0], contact[:, 1], arrow[:, 0], arrow[:, 1])
         push = Push(*(tuple(column.tolist()) for column in columns))

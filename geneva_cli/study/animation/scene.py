@@ -8,18 +8,22 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from geneva_cli.curves.measure import at, bounds
 from geneva_cli.curves.shapes import Circle, Shape
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.link_positions import links_at
 from geneva_cli.outlines.rack import rack_sizes
 from geneva_cli.outlines.stop import wheel_stop
-from geneva_cli.scene import Bar, Body, Box, Phase, Place, Rotation, Scene, pose
+from geneva_cli.scene import Bar, Body, Box, CarriedShapes, Phase, Place, Rotation, Scene, pose
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.animation.bodies import bodies
 from geneva_cli.study.animation.carrier import frame_rotation
 from geneva_cli.study.animation.pushes import pushes
 from geneva_cli.study.animation.rack import rack_ends, view_of_rack
+from geneva_cli.study.animation.teeth import DrawnTeeth, carried_gear, drawn_teeth
 from geneva_cli.study.animation.turn import MachineTurn
 from geneva_cli.study.summary.titles import title_of
 from geneva_cli.verdict.report.words import words
@@ -41,11 +45,12 @@ def scene(design: Design) -> Scene:
     """
     mechanism = design.mechanism
     turn = MachineTurn(mechanism)
-    parts = tuple(body for body in bodies(design, turn) if body.shapes)
+    teeth = drawn_teeth(design)
+    parts = tuple(body for body in bodies(design, turn, teeth) if body.shapes)
     outlines = None
     with suppress(GenevaError):  # no flat parts
         outlines = design.parts
-    bars, rollers = turn.bars(outlines), turn.rollers()
+    bars, rollers = _bars(turn, outlines, teeth), turn.rollers()
     spec, title = design.spec, title_of(design)
     frame = frame_rotation(mechanism, turn.start, turn.whole)
     moving = parts if mechanism.output.turns else parts[1:]
@@ -54,7 +59,7 @@ def scene(design: Design) -> Scene:
         box = view_of_rack(parts[0], box, turn)
     return Scene(
         title,
-        words(mechanism) + _remark(design, bars),
+        words(mechanism) + _remark(design, bars, teeth),
         "\n".join((f"title = {quoted(title)}", *spec_lines(spec))),
         mechanism.shown_deg(turn.start),
         turn.whole,
@@ -82,11 +87,25 @@ def _stops(outlines: Outlines | None, turn: MachineTurn) -> tuple[float, float] 
     return stop.first_deg - stop.drawn_deg - turn.start, stop.last_deg - stop.drawn_deg - turn.start
 
 
-def _remark(design: Design, bars: tuple[Bar, ...]) -> str:
+def _bars(turn: MachineTurn, outlines: Outlines | None, teeth: DrawnTeeth) -> tuple[Bar, ...]:
+    """The links; a gear with teeth that turns with one of them is on that link."""
+    links = links_at(turn.mechanism, np.zeros(1))
+    out = []
+    for bar, link in zip(turn.bars(outlines), links, strict=True):
+        if gear := carried_gear(turn, teeth, link):
+            bar = bar._replace(plates=(*bar.plates, CarriedShapes(0, gear)))
+        if link.name not in teeth.round:
+            out.append(bar)
+    return tuple(out)
+
+
+def _remark(design: Design, bars: tuple[Bar, ...], teeth: DrawnTeeth) -> str:
     """A remark on simplifications in the picture."""
     if design.spec.wheel.SHELLS:
         return " Seen along the wheel's shaft."
     out = " Gears are shown by their pitch circles." if any(bar.radius for bar in bars) else ""
+    if teeth.why:
+        out += f" Their teeth are not drawn: {teeth.why}."
     if design.cycle.mechanism.period_deg > 360.0 * design.spec.turns:
         out += (
             " The forces are those of the first turn. A body off the wheel's axis makes them "

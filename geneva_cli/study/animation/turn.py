@@ -143,7 +143,8 @@ class MachineTurn:
             return even(x) + off
 
         first = shaft if sense else angle
-        return self._sampled(lambda x: turned + first(x - behind), ANGLE_ERROR, gain)
+        turned -= rate * behind  # cranks turn at one rate, also if that varies
+        return self._sampled(lambda x: turned + first(x), ANGLE_ERROR, gain)
 
     def pin(self, one: RollerPassage, input_deg: Array) -> Array:
         """The centre of the roller that moves the wheel in a passage, mm, (n, 2)."""

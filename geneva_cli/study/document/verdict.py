@@ -1,4 +1,4 @@
-"""The verdict on a design, each check, the warnings, and unknown values."""
+"""The verdict on a design: key figures, each check, the warnings, unknown values and sources."""
 
 from __future__ import annotations
 
@@ -7,11 +7,36 @@ from collections.abc import Iterator
 from geneva_cli.design import Design
 from geneva_cli.document import BAD, Block, Grid, Heading, Prose, Row, TextList
 from geneva_cli.loads.summary import missing
+from geneva_cli.machine.spec import Spec
+from geneva_cli.manual.explained import entries
 from geneva_cli.study.document.facts import capital
 from geneva_cli.study.document.rest import RemainingValues
-from geneva_cli.study.document.sources import sources
+from geneva_cli.study.summary import report
 from geneva_cli.verdict.headline import headline
 from geneva_cli.verdict.strength import OF_LIFE
+
+
+def sources(spec: Spec) -> tuple[str, ...]:
+    """The sources of the machine's kinds and its law, and those that all share."""
+    before = [spec.drive_before.NAME] if spec.drive_before else []
+    laws = [spec.motion.law.NAME] if spec.motion else []
+    names = [spec.wheel.NAME, spec.drive.NAME, *before, *laws]
+    known = {n: e.source for e in entries() if e.group in ("kind", "law") for n in e.names}
+    own = [f"{name[0].upper()}{name[1:]}: {known[name]}." for name in names if known.get(name)]
+    return (
+        *own,
+        "Cited: Malteski mehanizmi, a lecture; handbook no. 7, Maltese mechanisms; F. Krasniqi, "
+        "Improvements of kinetic properties and lifespan of Maltic cross through curved canal, "
+        "University of Prishtina; Polyudov and Kandyak, Kinematics of the Maltese cross mechanism "
+        "with a side-crank drive, Ukrainian Academy of Printing. Where our numbers differ, and "
+        "why: geneva help numbers.",
+        "Derivatives: Taylor coefficients that are carried along; peaks: roots of the next "
+        "derivative.",
+        "Contact stress: Hertz, line contact. Life of the roller: ISO 281. Shafts: the ASME code "
+        "for transmission shafting (B17c). Pins and arm: beams, by von Mises. Keys: DIN 6892. "
+        "Default steel: C45+N, EN 10083-2; of printed plates PLA, doi 10.1089/3dp.2020.0109.",
+        "Formula and source of each value and check: geneva explain NAME.",
+    )
 
 
 def verdict(design: Design, left: RemainingValues) -> tuple[str, str, tuple[str, ...]]:
@@ -64,3 +89,12 @@ def _notes(design: Design) -> tuple[str, ...]:
     """The keys that sizing and life need."""
     notes: tuple[str, ...] = design.loads_page.to_dict().get("not_known", ())
     return notes
+
+
+def key_figures(design: Design) -> Grid:
+    """The key figures of the summary of ``geneva report``."""
+    rows: list[Row] = []
+    for line in report.key_figures(design):
+        note = f"; {line.note}" if line.note else ""
+        rows.append((capital(line.label), f"{line.text}{note}"))
+    return Grid("In short", ("", ""), tuple(rows))

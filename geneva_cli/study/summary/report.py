@@ -62,17 +62,18 @@ def _cycle(design: Design, values: dict[str, Any]) -> SummaryLine:
 
 def _size(values: dict[str, Any]) -> SummaryLine:
     """Centre distance and wheel, or a sphere's radius, and the roller."""
-    roller = f"roller Ø {measured(2.0 * values['sizes.roller_radius_mm'], 'mm')}"
+    radius = values["sizes.roller_radius_mm"]
+    roller = "" if radius is None else f", roller Ø {measured(2.0 * radius, 'mm')}"
     if values["sizes.center_distance_mm"] is None:
         radius = measured(values["sizes.sphere_radius_mm"], "mm")
-        return SummaryLine("size", f"sphere of radius {radius}, {roller}")
+        return SummaryLine("size", f"sphere of radius {radius}{roller}")
     across = "centre distance", values["sizes.center_distance_mm"]
     if values["timing.index_mm"] is not None:  # a rack has no axis
         across = "crank radius", values["sizes.crank_radius_mm"]
     text = f"{across[0]} {measured(across[1], 'mm')}"
     rim = values["sizes.wheel_radius_mm"]
     text += "" if rim is None else f", wheel Ø {measured(2.0 * rim, 'mm')}"
-    return SummaryLine("size", f"{text}, {roller}")
+    return SummaryLine("size", f"{text}{roller}")
 
 
 def _peaks(values: dict[str, Any], unit: str) -> Iterator[SummaryLine]:

@@ -10,7 +10,7 @@ from typing import TypeGuard
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import N
-from geneva_cli.numerics.keeps import keeps
+from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.verdict.quantities.names import WORDS
 
 

@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.study.sweep.best_search import Row, SweepSearch
+from geneva_cli.study.sweep.values import Value
 
 PLACES_MAX = 24  # that are kept and refined
+
+
+class Place(NamedTuple):
+    """A choice of words and whole numbers, and the part of each span."""
+
+    choice: tuple[Value, ...]
+    parts: tuple[int, ...]
 
 
 class BestPlaces:
@@ -21,7 +30,7 @@ class BestPlaces:
 
     def __init__(self, search: SweepSearch) -> None:
         self.search = search
-        self.rows: dict[Hashable, Row] = {}
+        self.rows: dict[Place, Row] = {}
 
     def add(self, rows: Sequence[Row]) -> None:
         """Add rows; the first of equal rows stays."""
@@ -31,23 +40,30 @@ class BestPlaces:
             if best is None or self.search.merit(row) < self.search.merit(best):
                 self.rows[place] = row
         if len(self.rows) > 8 * PLACES_MAX:
-            self.rows = dict(sorted(self.rows.items(), key=self._merit)[: 4 * PLACES_MAX])
+            self.rows = dict(self._foremost(4 * PLACES_MAX))
 
     def best(self) -> list[Row]:
         """The best designs, the best first."""
-        return [row for _, row in sorted(self.rows.items(), key=self._merit)[:PLACES_MAX]]
+        return [row for _, row in self._foremost(PLACES_MAX)]
 
-    def _merit(self, item: tuple[Hashable, Row]) -> tuple[float, float]:
+    def _foremost(self, most: int) -> list[tuple[Place, Row]]:
+        """At most so many places, the best first: one of each choice before a second of any."""
+        every = sorted(self.rows.items(), key=self._merit)
+        best = {place.choice: place for place, _ in reversed(every)}
+        every.sort(key=lambda item: best[item[0].choice] != item[0])
+        return sorted(every[:most], key=self._merit)
+
+    def _merit(self, item: tuple[Place, Row]) -> tuple[float, float]:
         return self.search.merit(item[1])
 
-    def _place(self, row: Row) -> Hashable:
+    def _place(self, row: Row) -> Place:
         free = self.search.free
         if not free:  # no refinement follows
-            return ()
+            return Place((), ())
         # designs in different thirds of a span are in different places
         parts = np.minimum(self.search.fractions(row) * 3, 2).astype(int)
         keys = enumerate(self.search.keys(row))
-        return (*(v for i, v in keys if i not in free), *parts.tolist())
+        return Place(tuple(v for i, v in keys if i not in free), tuple(parts.tolist()))
 
 
 def closer(search: SweepSearch, rows: Sequence[Row]) -> list[Row]:

@@ -9,15 +9,57 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import TypeAlias
 
+from geneva_cli.kinematics.wheels.classic import rollers_max
 from geneva_cli.kinematics.wheels.gearing import Gearing
+from geneva_cli.machine.drives.carousel import Carousel
+from geneva_cli.machine.spec import Spec
 from geneva_cli.study.target import Target
 from geneva_cli.synthesis.families import below
-from geneva_cli.synthesis.families.carousels import carousels
 from geneva_cli.synthesis.families.curved import with_laws
-from geneva_cli.synthesis.families.family import Family
+from geneva_cli.synthesis.families.family import (
+    Family,
+    allowed_motions,
+    allows,
+    is_compatible,
+    machine,
+    natural_deg,
+    only,
+    rollers,
+)
 from geneva_cli.synthesis.families.four_bars import four_bars
 from geneva_cli.synthesis.families.straight import straight
 from geneva_cli.synthesis.families.two_numbers import two_numbers
+
+
+def carousels(target: Target, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
+    """One wheel with any number of fingers, or several wheels with one finger.
+
+    The wheels must not meet in time: each moves before the next one reaches the finger.
+    """
+    for wheel in wheels:
+        natural = natural_deg(wheel)
+        several = rollers(target, natural)
+        for fingers in several:
+            if not allows(allowed_motions(target, fingers, natural), natural):
+                continue
+            for count in target.wheels:
+                # each finger and each wheel has its own part of a turn
+                if count == 1 or (fingers == 1 and count <= rollers_max(natural)):
+                    spec = _carousel(target, wheel, fingers, count)
+                    if is_compatible(spec):
+                        yield only(spec)
+
+
+def _carousel(target: Target, wheel: Gearing, fingers: int, wheels: int) -> Spec:
+    """A carousel with radial slots."""
+    return machine(
+        target,
+        wheel,
+        lambda n: Carousel(n_rpm=n, rollers=fingers, wheels=wheels),
+        fingers,
+        natural_deg(wheel),
+    )
+
 
 # For a limit of peak acceleration alone, the lowest peak of each drive is added to the list.
 Kind: TypeAlias = Callable[[Target, Sequence[Gearing], list[float]], Iterator[Family]]

@@ -66,17 +66,6 @@ def checks_at_rest(mechanism: Mechanism, model: PartsModel | None) -> Iterator[C
         yield from standing_checks(model.built)
 
 
-def checks_turning(model: PartsModel) -> Iterator[Check]:
-    """The checks of the turn, repeated with ever closer sampling.
-
-    A check that fails once fails in the end. Raises WorkLimit if the sampling takes too long.
-    """
-    from geneva_cli.collisions.full_turn import turning
-
-    for closer in turning(model.parts):
-        yield from turn_checks(model.parts, closer)
-
-
 def proofs(model: PartsModel, to_mm: float | None = None) -> list[Check]:
     """The proof that no parts collide in a whole turn; none if they cannot be made or turned.
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.named_tuple import NamedTuple
-from geneva_cli.numerics.keeps import keeps
+from geneva_cli.numerics.tolerances import keeps
 
 if TYPE_CHECKING:
     from geneva_cli.drawings.shaft_gap import ShaftGap

@@ -1,24 +1,35 @@
-"""The wheel's play in its dwell, between lock and slot, and in its motion.
+"""Gaps and the wheel's play in a whole turn: in its dwell, between lock and slot, in its motion.
 
-It is an angle, or the travel of a rack: each check has a name for either unit.
+A play is an angle, or the travel of a rack: each check has a name for either unit.
 """
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 from geneva_cli.collisions.full_turn import FullTurn, Most
 from geneva_cli.collisions.machine_parts import MachineParts
+from geneva_cli.verdict.checks.check import Check, compared
 
-if TYPE_CHECKING:
-    from geneva_cli.verdict.checks.check import Check
+
+def smallest_gap(name: str, parts: MachineParts, turn: FullTurn) -> Check:
+    """The smallest gap between wheel and crank, mm, negative where they overlap."""
+    smallest, touch = turn.smallest, parts.contact
+    value = 0.0 if abs(smallest.mm) <= touch else smallest.mm
+    return compared(name, value, "at least", 0.0, smallest.at_deg, touch)
+
+
+def idle_roller(name: str, parts: MachineParts, turn: FullTurn) -> Check | None:
+    """The smallest gap between the wheel and a roller that does not drive it."""
+    idle, touch = turn.idle, parts.contact
+    if idle is None:
+        return None
+    gap = max(idle.mm, 0.0) if idle.mm >= -touch else idle.mm
+    return compared(name, gap, "at least", 0.0, idle.at_deg, touch)
 
 
 def dwell_hold(name: str, parts: MachineParts, turn: FullTurn) -> Check:
     """Check that something holds the wheel: its lock, or ``held_by`` of the spec."""
-    from geneva_cli.verdict.checks.check import Check
-
     holds = parts.assembly.full.spec.wheel.held_by is not None or turn.holds
     return Check(name, float(holds), "at least", 1.0, holds)
 
@@ -61,8 +72,6 @@ def _play(name: str, play: Most, limit_deg: float, parts: MachineParts) -> Check
 
 
 def _at_most(name: str, play: Most, limit: float) -> Check:
-    from geneva_cli.verdict.checks.check import compared
-
     return compared(name, play.deg, "at most", limit, play.at_deg if play.deg else None)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.keeps import keeps
+from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.verdict.checks.check import Check
 
 

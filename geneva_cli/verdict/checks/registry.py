@@ -23,10 +23,10 @@ Checks: TypeAlias = dict[str, str]  # name -> module:function in this folder
 
 # Checks of the motion, if they apply.
 MOTION: Checks = {
-    "dwell_deg": "dwell:shortest_dwell",
-    "driver_gear_convexity": "convexity:gear_convexity",
-    "driven_gear_convexity": "convexity:gear_convexity",
-    "velocity_min": "forwards:least_velocity",
+    "dwell_deg": "motion:shortest_dwell",
+    "driver_gear_convexity": "motion:gear_convexity",
+    "driven_gear_convexity": "motion:gear_convexity",
+    "velocity_min": "motion:least_velocity",
     "groove_pressure_deg": "groove:groove_pressure",
     "pressure_angle_deg": "pressure:curved_slot_pressure",
     "undercut_mm": "undercut:undercut_depth",
@@ -41,14 +41,14 @@ MOTION: Checks = {
 }
 # Checks of limits that the spec sets.
 LIMITS: Checks = {
-    "velocity_max": "invariants:limited_peak",
-    "acceleration_max": "invariants:limited_peak",
-    "acceleration_entry_max": "invariants:limited_peak",
-    "jerk_max": "invariants:limited_peak",
-    "pin_force_max_N": "load_limits:limited_load",
-    "input_torque_max_Nm": "load_limits:limited_load",
+    "velocity_max": "limits:limited_peak",
+    "acceleration_max": "limits:limited_peak",
+    "acceleration_entry_max": "limits:limited_peak",
+    "jerk_max": "limits:limited_peak",
+    "pin_force_max_N": "limits:limited_load",
+    "input_torque_max_Nm": "limits:limited_load",
     "pressure_angle_deg": "pressure:limited_pressure",
-    "contact_stress_max_MPa": "load_limits:limited_load",
+    "contact_stress_max_MPa": "limits:limited_load",
     "pv_max_W_m2": "strength:strength_limit",
     "roller_life_min_h": "strength:strength_limit",
     "slot_wear_max_mm_per_million": "strength:strength_limit",
@@ -117,6 +117,7 @@ SPHERE: Checks = {
 }
 # Checks of a rack's machine at rest.
 RACK: Checks = {
+    "gear_gap_mm": "shafts:passing_rack_gears",
     "cut_plate_mm": "process:thickest_of_rack",
     "cut_slot_mm": "process:width_in_rack",
     "parts": "buildable:plates",
@@ -134,8 +135,8 @@ STANDING = {
 # Checks of plates or shells in a whole turn.
 TURNING: Checks = {
     "dwell_hold": "play:dwell_hold",
-    "gap_mm": "touching:smallest_gap",
-    "idle_roller_mm": "touching:idle_roller",
+    "gap_mm": "play:smallest_gap",
+    "idle_roller_mm": "play:idle_roller",
     "dwell_play_deg": "play:dwell",
     "dwell_play_mm": "play:dwell",
     "hand_over_play_deg": "play:hand_over",

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from geneva_cli.drawings.shaft_gap import gear_gap, shaft_gap
+from geneva_cli.drawings.shaft_gap import gear_gap, rack_gear_gap, shaft_gap
 from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.outlines.crank import is_whole
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.rack_parts import RackParts
 from geneva_cli.verdict.checks.check import Check, compared, gap
 
 
@@ -64,6 +65,11 @@ def passing_parts(name: str, parts: FlatParts) -> Check | None:
 def passing_gears(name: str, parts: FlatParts) -> Check | None:
     """The gap between shafts and noncircular gears, at their pitch curves' farthest places."""
     return gap(name, lambda: gear_gap(parts), parts.outlines.assembly.L)
+
+
+def passing_rack_gears(name: str, parts: RackParts) -> Check | None:
+    """The least gap of gears before a rack's crank to its guide and to shafts."""
+    return gap(name, lambda: rack_gear_gap(parts), parts.mechanism.center_distance_mm)
 
 
 def _shaft(size: Sizes) -> float:

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.checks.check import Check, compared
@@ -55,8 +56,6 @@ def drag_words(mechanism: Mechanism) -> str:
     If one roller starts the wheel and another stops it, a drag would take the wheel off the second
     one, so less clearance is advised.
     """
-    from geneva_cli.numerics.rounding import to_digits
-
     if any(engagement.paired for engagement in mechanism.engagements):
         return "a smaller slot_clearance_mm reduces it"
     from geneva_cli.analysis.change_of_sides import lasting_drag_Nm
@@ -87,7 +86,6 @@ def _force_check(name: str, mechanism: Mechanism, impact: Impact) -> Check:
 def _tolerable(mechanism: Mechanism, limit: float) -> str:
     """The fraction to which the tolerances on R and L must shrink, whose root the force follows."""
     from geneva_cli.analysis.impacts import entry_impact
-    from geneva_cli.numerics.rounding import to_digits
 
     def holds(fraction: float) -> bool:
         impact = entry_impact(mechanism, fraction)

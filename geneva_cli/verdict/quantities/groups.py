@@ -190,7 +190,7 @@ REPORT = (
     QuantityGroup(
         "cycle",
         _product("input_torque_Nm power_W crank_bearing_N", "max min mean rms"),
-        "report.cycle:cycle",
+        "report.loads:cycle",
     ),
     _group("shock.entry", "at_deg jump force_N moment_Nms", batch="disturbances:entry"),
     _group(

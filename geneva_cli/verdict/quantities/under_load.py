@@ -16,8 +16,14 @@ from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.strength import lock, roller, shafts
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.numerics.arrays import parameter
-from geneva_cli.verdict.lock_sizes import LockSizes, design_lock_sizes, layouts_lock_sizes
-from geneva_cli.verdict.part_sizes import PartSizes, part_sizes, stressed_parts
+from geneva_cli.verdict.part_sizes import (
+    LockSizes,
+    PartSizes,
+    design_lock_sizes,
+    layouts_lock_sizes,
+    part_sizes,
+    stressed_parts,
+)
 
 if TYPE_CHECKING:
     from geneva_cli.layout.ball import Ball
@@ -69,19 +75,28 @@ class UnderLoad:
         """Sizes of each design on a sphere; None for a design without parts there."""
         return [sized_ball(one) for one in self.designs.each]
 
+    @cached_property
+    def flat_horns(self) -> tuple[float, float] | None:
+        """Half the slot's width and the recess's radius, (m, 1); None if no design has a lock."""
+        if self.machine.spec.output.turns:
+            sizes = self.lock_sizes
+            return sizes and (sizes.half_width, sizes.lock.recess)
+        from geneva_cli.verdict.rack_sizes import rack_horns  # no other machine needs a rack's
+
+        return rack_horns(self.designs.each)
+
     @property
     def has_horns(self) -> bool:
         """True if a design has horns: a locking disc and its recesses."""
-        return self.lock_sizes is not None or any(ball and ball.recess for ball in self.balls)
+        return self.flat_horns is not None or any(ball and ball.recess for ball in self.balls)
 
     def horn(self, width: float) -> HornStress:
         """The greatest stress in the horns under the roller, for a width of its contact."""
         from geneva_cli.loads.strength.horn import horn_stresses
         from geneva_cli.loads.strength.horn_search import HornStress
 
-        sizes = self.lock_sizes
-        if sizes is not None:
-            return horn_stresses(self.machine, sizes.half_width, sizes.lock.recess, width)
+        if self.flat_horns is not None:
+            return horn_stresses(self.machine, *self.flat_horns, width)
         from geneva_cli.loads.strength.sphere_horn import sphere_horn
 
         rows = np.full((len(HornStress._fields), len(self.balls)), np.nan)

@@ -23,14 +23,17 @@ def cranks(model: PartsModel) -> Values:
     if len(places) < 2:
         return {"cranks": None}
     spec = mechanism.spec
-    (one,) = mechanism.engagements  # one slot, which all cranks enter alike
+    each = mechanism.engagements  # one of each crank, if they differ
     every = math.gcd(len(places), spec.wheel.z)
     names = ("crank", "place_deg", "behind_deg", "entry_deg", "exit_deg", "entry_s", "slot")
     rows = []
-    for place, step in zip(places, spec.drive.cranks, strict=True):
-        behind = place.behind_deg
-        after_s = behind / (6.0 * spec.drive.n_rpm)  # n rpm is 6 n degrees a second
+    for k, (place, step) in enumerate(zip(places, spec.drive.cranks, strict=True)):
+        number, i = divmod(k, len(each))
+        one = each[i]
+        behind = number * mechanism.period_deg + one.mid_deg - each[0].mid_deg
         ends = behind + one.entry_deg, behind + one.exit_deg
+        # n rpm is 6 n degrees a second
+        after_s = (ends[0] - each[0].entry_deg) / (6.0 * spec.drive.n_rpm)
         slot = (int(step) - place.number + 1) % every
         place_deg = 360.0 * step / spec.wheel.z
         rows.append((place.number, place_deg, behind, *ends, after_s, slot, every))

@@ -51,19 +51,20 @@ def sizes(model: PartsModel) -> Values:
     L, r = mechanism.center_distance_mm, mechanism.roller_radius_mm
     if spec.wheel.SHELLS:
         return _sphere_sizes(mechanism, L, r)
+    toothed, clear = spec.wheel.toothed, spec.size.allowances.slot_clearance_mm
     return {
         **dict.fromkeys(_SPHERE),
         "sizes.center_distance_mm": L,
         "sizes.crank_radius_mm": mechanism.ratio * L,
         "sizes.ratio": mechanism.ratio,
-        "sizes.roller_radius_mm": r,
-        "sizes.slot_width_mm": 2.0 * (r + spec.size.allowances.slot_clearance_mm),
+        "sizes.roller_radius_mm": None if toothed else r,
+        "sizes.slot_width_mm": None if toothed else 2.0 * (r + clear),
         "sizes.clearances_from": spec.size.allowances.source,
         **_cut_radii(model),
         "sizes.pressure_angle_max_deg": (
             loads.greatest_pressure(mechanism).max if mechanism.engagements[0].slot.curved else None
         ),
-        "sizes.rollers_max": mechanism.rollers_max,
+        "sizes.rollers_max": None if toothed else mechanism.rollers_max,
     }
 
 
