@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
-from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.analysis.carried import inertia_kgm2
 from geneva_cli.analysis.peaks import worst
 from geneva_cli.analysis.quantities import REPORTED_PEAKS, sources
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.loads import loads
-
-if TYPE_CHECKING:
+from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.summary import reversals_deg, summaries
 from geneva_cli.verdict.report.values import Values
 
