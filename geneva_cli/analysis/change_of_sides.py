@@ -10,7 +10,8 @@ engagement's own mid-motion.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple, cast
+from functools import cache
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from geneva_cli.analysis.peak_search import landmarks
 from geneva_cli.kinematics.engagement import Engagement, WheelMotion
 from geneva_cli.machine.many import designs_in, taken
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.arrays import blocks, choose, joined, larger
 from geneva_cli.numerics.newton import find_roots
@@ -27,8 +29,6 @@ from geneva_cli.numerics.tolerances import ROUNDED
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
-
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)  # exact to a double over half a motion
 
 
 class WallImpacts(NamedTuple):
@@ -132,10 +132,17 @@ def _gained(motion: WheelMotion, start: Array, drag: Array, x: Array) -> tuple[A
     inner = [start, *[np.clip(b, start, end) for b in motion.breaks_deg], end]
     halves = [0.5 * (b - a) for a, b in zip(inner[:-1], inner[1:], strict=True)]
     parts = zip(inner[:-1], inner[1:], halves, strict=True)
-    t = np.hstack([0.5 * (a + b) + half * NODES for a, b, half in parts])
-    weight = np.hstack([half * (DEGREE * WEIGHTS) for half in halves])
+    nodes, weights = _rule()
+    t = np.hstack([0.5 * (a + b) + half * nodes for a, b, half in parts])
+    weight = np.hstack([half * (DEGREE * weights) for half in halves])
     torque = np.where(weight > 0.0, (motion(t, 2).arrays()[2] + drag) * weight, 0.0)
     return -(torque * ((end - t) * DEGREE)).sum(axis=1), -torque.sum(axis=1)
+
+
+@cache
+def _rule() -> tuple[Array, Array]:
+    """Nodes and weights of a quadrature that is exact to a double over half a motion."""
+    return np.polynomial.legendre.leggauss(24)
 
 
 def drag_over(mechanism: Mechanism) -> float:

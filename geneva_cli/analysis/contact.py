@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Generic, NamedTuple
+from typing import TYPE_CHECKING, Generic
 
 from geneva_cli.kinematics.engagement import Engagement, Vector
-from geneva_cli.kinematics.pitch_curve import pitch_at_retrace, retraces
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import all_true, choose, library
 from geneva_cli.numerics.jet import Jet, Number, V, piecewise, sin_cos, sqrt
 
@@ -226,6 +226,8 @@ def _reactions(
 
 def _middle(engagement: Engagement) -> list[Number]:
     """The contact at mid-motion of a curved slot, where the pin crosses the radius or reverses."""
+    from geneva_cli.kinematics.pitch_curve import retraces
+
     back = retraces(engagement)
     if isinstance(back, bool):
         return _cusp(engagement) if back else _crossing(engagement)
@@ -256,6 +258,8 @@ def _crossing(engagement: Engagement) -> list[Number]:
 
 def _cusp(engagement: Engagement) -> list[Number]:
     """The contact where the pin reverses in a cusp of its pitch curve."""
+    from geneva_cli.kinematics.pitch_curve import pitch_at_retrace
+
     at = pitch_at_retrace(engagement)
     m = library(at.x)
     lever = at.x * at.tangent_x + at.y * at.tangent_y

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -25,15 +25,16 @@ from geneva_cli.analysis.forces import (
     wheel_torque,
 )
 from geneva_cli.analysis.instant import Instant
-from geneva_cli.analysis.mid_motion import MidMotionValues, at_mid_motion
 from geneva_cli.analysis.quantities import PV, QUANTITIES, Quantity
 from geneva_cli.analysis.spread import spread_deg
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Jet
 
 if TYPE_CHECKING:
+    from geneva_cli.analysis.mid_motion import MidMotionValues
     from geneva_cli.numerics.arrays import Mask, Whole
     from geneva_cli.numerics.jet import Array, Number
     from geneva_cli.numerics.pieces import Which
@@ -166,6 +167,9 @@ class LoadFunctions:
     def at_mid_motion(self, n: int) -> list[MidMotionValues]:
         """The quantities of n designs at mid-motion, which no span of curved slots reaches."""
         engagement, case, wanted = self.batch
+        if not engagement.slot.curved:
+            return []
+        from geneva_cli.analysis.mid_motion import at_mid_motion
 
         def rows(
             at: Contact[Jet], drives: Number, slides: Number, feeds: Number
@@ -173,7 +177,7 @@ class LoadFunctions:
             instant = Instant(case, at, drives, slides, feeds)
             return [quantity(instant, at) for quantity in wanted]
 
-        return at_mid_motion(engagement, case, rows, n) if engagement.slot.curved else []
+        return at_mid_motion(engagement, case, rows, n)
 
     def bounded(self, pieces: Stretches, n: int) -> Mask:
         """Masks of the bounded quantities of n designs: (names, n).

@@ -23,11 +23,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple, cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from geneva_cli.analysis.tolerance.dimensions import Deviations, deviations
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import (
     Mask,
     Truth,
@@ -40,6 +40,9 @@ from geneva_cli.numerics.arrays import (
     smaller,
 )
 from geneva_cli.numerics.jet import Jet, atan2, sqrt
+
+if TYPE_CHECKING:
+    from geneva_cli.analysis.tolerance.dimensions import Deviations
 
 ROUNDING = 1e-13  # of an angle, or of the centre distance
 
@@ -125,6 +128,8 @@ class Lock(NamedTuple):
         >>> Lock(100.0, -1.0, 30.0, 30.5, 86.8, 2.0).contact().on  # an internal wheel
         'recess'
         """
+        from geneva_cli.analysis.tolerance.dimensions import Deviations, deviations
+
         L, corner, clearance = self.L, self.on_corner, self.recess - self.lock
         m = library(L, self.sign * self.lock, self.half * self.recess)
         x, y = L - self.sign * self.lock * m.cos(self.half), self.lock * m.sin(self.half)

@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
 
-from geneva_cli.analysis.timing import timings
 from geneva_cli.kinematics.engagement import Engagement, Peak, WheelMotion
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.roots import greatest_at
 from geneva_cli.table import Table, record_table, rows_table
 
@@ -107,6 +106,8 @@ def _placed(mechanism: Mechanism, engagement: Engagement, p: Peak[float]) -> Pea
 
 def peaks_table(mechanism: Mechanism) -> Table:
     """The greatest peaks, and a table of each engagement's peaks if there are several."""
+    from geneva_cli.analysis.timing import timings
+
     times = timings(mechanism)
     rows = [
         _record(placed_peaks(mechanism, engagement))

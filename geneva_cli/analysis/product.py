@@ -20,19 +20,17 @@ has peaks of its own, so that its square is searched.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.analysis.carried import G
 from geneva_cli.analysis.peak_search import PeakArray, greater, worst_peaks
 from geneva_cli.analysis.timing import timings
-from geneva_cli.analysis.vibration.oscillator import PERIOD_RATIO
-from geneva_cli.analysis.vibration.swing import Swing
-from geneva_cli.analysis.vibration.vibration import Oscillators
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import selection
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.arrays import Array, parameter
 from geneva_cli.numerics.extrema import greatest_sizes
@@ -169,6 +167,10 @@ def _swing(mechanism: Mechanism) -> Array:
 
     It is NaN too where the motion's time over the natural period is out of the range computed.
     """
+    from geneva_cli.analysis.vibration.oscillator import PERIOD_RATIO
+    from geneva_cli.analysis.vibration.swing import Swing
+    from geneva_cli.analysis.vibration.vibration import Oscillators
+
     product, m = mechanism.spec.product, mechanism.designs
     if product.swing_Hz is None:
         return np.full(m, np.nan)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import choose
 
 if TYPE_CHECKING:

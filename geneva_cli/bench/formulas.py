@@ -8,9 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
+
+from geneva_cli.named_tuple import NamedTuple
 
 
 class Proportions(NamedTuple):

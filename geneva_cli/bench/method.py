@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 from geneva_cli.bench.timing_pairs import processor_s
+from geneva_cli.named_tuple import NamedTuple
 
 
 class Method(NamedTuple):

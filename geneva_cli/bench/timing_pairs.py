@@ -9,7 +9,9 @@ import math
 import statistics
 from collections.abc import Callable, Sequence
 from time import perf_counter, process_time
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, TypeVar
+
+from geneva_cli.named_tuple import NamedTuple
 
 T = TypeVar("T")
 Pair = tuple[float, float]  # seconds of the baseline, and of the run after it

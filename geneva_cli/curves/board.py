@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.curves.measure import at, segment_length
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Segment, Shape, two_arcs
+from geneva_cli.curves.measure import at, points, segment_length
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Segment, Shape, two_arcs
 from geneva_cli.curves.sheet import ABOVE, BELOW, Label, Measure
 
 if TYPE_CHECKING:
@@ -38,8 +38,9 @@ class Board:
 
     def draw(self, shape: Shape) -> None:
         """Add the lines of a shape."""
-        self._keep(chords(shape))
-        self._part = np.concatenate((self._part, chords(shape)))
+        own = chords(shape)
+        self._keep(own)
+        self._part = np.concatenate((self._part, own))
         if isinstance(shape, Contour):
             lines = _chords(piece for piece in shape.segments if isinstance(piece, Line))
             self._drawn = np.concatenate((self._drawn, lines))
@@ -185,8 +186,8 @@ def _chords(pieces: Iterable[Segment]) -> Array:
     for piece in pieces:
         # chords of at most 1.5 mm
         count = 1 if isinstance(piece, Line) else max(1, math.ceil(segment_length(piece) / 1.5))
-        points: list[Point] = [at(piece, i / count) for i in range(count + 1)]
-        rows += [(*p, *q) for p, q in zip(points, points[1:], strict=False)]
+        ends = points(piece, count)
+        rows += [(*p, *q) for p, q in zip(ends, ends[1:], strict=False)]
     return np.array(rows).reshape(-1, 4)
 
 

@@ -5,15 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import reduce
-from typing import NamedTuple
+from typing import TYPE_CHECKING
 
-from geneva_cli.curves.cross_holes import CrossHole, drilled
 from geneva_cli.curves.hole_walls import require_faces
-from geneva_cli.curves.inset import inset, lines_and_arcs
 from geneva_cli.curves.measure import with_material_left
 from geneva_cli.curves.moments import Moments, moments, total
 from geneva_cli.curves.plates import Plate, Stack
 from geneva_cli.curves.shapes import Circle, Contour, Point, Shape, as_contour
+from geneva_cli.named_tuple import NamedTuple
+
+if TYPE_CHECKING:
+    from geneva_cli.curves.cross_holes import CrossHole
 
 MM = 1e-3  # metres
 
@@ -42,6 +44,8 @@ def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
         whole = added(whole, face_properties(edges, 2.0, density_kgm3))  # moments of 1 mm, twice
     if not plate.cross:
         return whole
+    from geneva_cli.curves.cross_holes import drilled
+
     contours = drilled((plate.outline, *plate.holes), plate.cross)
     taken = total(_removed(hole, contours) for hole in plate.cross)
     return added(whole, face_properties(taken, -1.0, density_kgm3))  # moments of 1 mm
@@ -92,6 +96,8 @@ def _between(plate: Plate) -> Moments:
 
     The moments of an inset are polynomials of the depth, but for the corners, whose share is small.
     """
+    from geneva_cli.curves.inset import inset, lines_and_arcs
+
     require_faces(plate)
     oriented = [
         (lines_and_arcs(with_material_left(as_contour(shape), i == 0)), 1.0 if i == 0 else -1.0)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 from geneva_cli.curves.shapes import (
     Arc,
@@ -21,6 +21,7 @@ from geneva_cli.curves.shapes import (
     Shape,
     backwards,
 )
+from geneva_cli.named_tuple import NamedTuple
 
 STRAIGHT = 1e-16  # a bulge below it moves no point of the arc by a rounding of the chord
 # Gauss-Legendre's abscissae and weights of eight points on -1..1, one sign of each pair
@@ -125,14 +126,30 @@ def at(segment: Segment, t: float) -> Point:
         return segment.end if t else segment.start
     if isinstance(segment, Cubic):
         return _halves(segment, t)[0].end
-    (x0, y0), (x1, y1) = segment.start, segment.end
     if isinstance(segment, Line) or abs(segment.bulge) < STRAIGHT:
+        (x0, y0), (x1, y1) = segment.start, segment.end
         return x0 + t * (x1 - x0), y0 + t * (y1 - y0)
-    # the chord to the point is the whole chord, rotated and shortened
-    half = 0.5 * segment.sweep
-    turn, scale = (t - 1.0) * half, math.sin(t * half) / math.sin(half)
-    c, s = scale * math.cos(turn), scale * math.sin(turn)
-    return x0 + c * (x1 - x0) - s * (y1 - y0), y0 + s * (x1 - x0) + c * (y1 - y0)
+    return _on_arc(segment, [t])[0]
+
+
+def points(segment: Segment, count: int) -> list[Point]:
+    """``count`` + 1 points at even parameters, both ends included."""
+    inner = [i / count for i in range(1, count)]
+    if isinstance(segment, Arc) and abs(segment.bulge) >= STRAIGHT:
+        return [segment.start, *_on_arc(segment, inner), segment.end]
+    return [segment.start, *(at(segment, t) for t in inner), segment.end]
+
+
+def _on_arc(arc: Arc, parameters: Iterable[float]) -> list[Point]:
+    """Points of an arc: the chord to a point is the whole chord, rotated and shortened."""
+    (x0, y0), (x1, y1) = arc.start, arc.end
+    u, v, half = x1 - x0, y1 - y0, 0.5 * arc.sweep
+    sine, out = math.sin(half), list[Point]()
+    for t in parameters:
+        turn, scale = (t - 1.0) * half, math.sin(t * half) / sine
+        c, s = scale * math.cos(turn), scale * math.sin(turn)
+        out.append((x0 + c * u - s * v, y0 + s * u + c * v))
+    return out
 
 
 def halves(segment: Segment) -> tuple[Segment, Segment]:

@@ -7,12 +7,12 @@ millimetres, angles in radians.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from geneva_cli.curves.edges import Edge
-from geneva_cli.curves.sphere_arcs import SphereArcs
+from geneva_cli.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.curves.cross_holes import CrossHole
@@ -101,6 +101,8 @@ class Shell(NamedTuple):
 
     def reach(self, direction: Vector) -> float:
         """Greatest coordinate of the shell along a direction, mm from the centre."""
+        from geneva_cli.curves.sphere_arcs import SphereArcs
+
         if any(
             SphereArcs(r.boundary).signed(np.array([direction]))[0][0] < 0.0 for r in self.regions
         ):

@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.quadrature import rule
 
 if TYPE_CHECKING:

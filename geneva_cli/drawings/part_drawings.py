@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.curves import fit
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.measure import bounds, turned
 from geneva_cli.curves.plates import Group, Member, Plate
@@ -26,12 +25,9 @@ from geneva_cli.curves.shapes import (
 )
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.layout.gear_curves import required_gears
 from geneva_cli.layout.projection import once, outlines_of, placed, shapes, titled
-from geneva_cli.outlines.walls.ways import parallel
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.gear_pair import FINE
 from geneva_cli.parts.plates import arm_plate
 
 if TYPE_CHECKING:
@@ -126,6 +122,9 @@ def gears(parts: FlatParts | RackParts) -> Drawing:
 
     The crank's axis is the origin. Raises GenevaError for a machine without gears.
     """
+    from geneva_cli.layout.gear_curves import required_gears
+    from geneva_cli.parts.gear_pair import FINE
+
     mechanism = parts.mechanism
     if mechanism.spec.drive.TOOTHED and not mechanism.spec.gears:
         members = parts.round_gears
@@ -180,6 +179,9 @@ def _pitch_line(parts: FlatParts, engagement: Engagement) -> Contour:
         mouth, end = assembly.L * np.column_stack((x.c[0], y.c[0] + 0.0 * at))
         ends = [(float(p[0]), float(p[1])) for p in (mouth, end)]
         return Contour(PITCH, (Line(*ends),), closed=False)
+    from geneva_cli.curves import fit
+    from geneva_cli.outlines.walls.ways import parallel
+
     pieces: list[Segment] = []
     for a, b in ((engagement.entry_deg, 0.0), (0.0, engagement.exit_deg)):
         way = parallel(assembly, engagement, 0.0, b > 0.0)

@@ -13,11 +13,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
-from geneva_cli.analysis.timing import timings
 from geneva_cli.curves.mass import MM, solid_properties
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Part, Shell, Solid
-from geneva_cli.curves.sphere import opposite
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.kinematics.layout import Dimension, Pivot
 from geneva_cli.layout.alike import alike
@@ -27,7 +25,6 @@ from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
-from geneva_cli.outlines.sphere_wheel import POLE
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.spec.tables import Size
 from geneva_cli.table import Reading, Table, rows_table
@@ -69,6 +66,7 @@ def parts_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) 
 
 def parts_list(model: PartsModel) -> Table:
     """Return the list of parts of a machine, whose outlines may already be computed."""
+
     mechanism = model.mechanism
     entries = [*_parts(model), *_pivots(mechanism), *_dimensions(model)]
     mappings = [{"row": "missing", **r._asdict()} if isinstance(r, Missing) else r for r in entries]
@@ -134,6 +132,9 @@ def _properties(solid: Solid, density: float, outside: float | None) -> Row:
             x, y = (at if abs(at) > near else 0.0 for at in body.centroid_mm)
             row = {"centroid_x_mm": x, "centroid_y_mm": y}
     else:
+        from geneva_cli.curves.sphere import opposite
+        from geneva_cli.outlines.sphere_wheel import POLE
+
         low, high = solid.inner, solid.outer
         across = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)  # axes along which its size is measured
         wide, deep = (solid.reach(axis) + solid.reach(opposite(axis)) for axis in across)
@@ -220,6 +221,8 @@ def _straight(mechanism: Mechanism) -> Iterator[Dimension]:
 
 def _motions(mechanism: Mechanism) -> Iterator[Dimension]:
     """Yield the step and the input angles of each engagement of a period."""
+    from geneva_cli.analysis.timing import timings
+
     output = mechanism.output
     for i, one in enumerate(mechanism.engagements):
         name = f"engagement {i + 1}: " if len(mechanism.engagements) > 1 else ""

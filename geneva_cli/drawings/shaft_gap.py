@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
@@ -17,15 +17,13 @@ from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.measure import at, with_material_left
 from geneva_cli.curves.plates import Group, Member, Part, Plate, Stack, plates
 from geneva_cli.curves.shapes import Arc, Point, Segment, as_contour
-from geneva_cli.layout.projection import placed
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.gear_pair import PITCH, gear_span, pitch_radii
-from geneva_cli.parts.pair_teeth import pair_teeth
 from geneva_cli.parts.rack_parts import RackParts
 
 Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere
@@ -115,6 +113,7 @@ def rack_gear_gap(parts: RackParts) -> ShaftGap | None:
 
     Raises GenevaError for sizes that leave no parts.
     """
+
     mechanism = parts.mechanism
     rings, near = list(_noncircular(mechanism, None)), SAME_LENGTH * mechanism.center_distance_mm
     gaps = [
@@ -137,6 +136,9 @@ def _noncircular(mechanism: Mechanism, drawn: Outlines | None) -> Iterator[Ring]
     pair, x = mechanism.spec.gears, mechanism.gear_shaft.x_mm
     if pair is None:
         return
+    from geneva_cli.parts.gear_pair import PITCH, gear_span, pitch_radii
+    from geneva_cli.parts.pair_teeth import pair_teeth
+
     (_, driven), (_, driver) = pitch_radii(pair)
     if teeth := pair_teeth(pair, mechanism.spec.size):
         driven, driver = driven + teeth.tips[0], driver + teeth.tips[1]
@@ -151,6 +153,8 @@ def _rings_of(members: Iterable[Member]) -> list[Ring]:
 
 def _rings(member: Member) -> Iterator[Ring]:
     """Yield the rings of a part's plates about the axis that it turns on."""
+    from geneva_cli.layout.projection import placed
+
     for plate, origin in _plates(member.part):
         shapes = [placed(as_contour(s), origin, 0.0) for s in (plate.outline, *plate.holes)]
         sides = [with_material_left(shape, i == 0) for i, shape in enumerate(shapes)]

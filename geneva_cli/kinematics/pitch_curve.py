@@ -5,9 +5,10 @@ The formulas hold for jets of floats and of arrays. Lengths are in units of the 
 
 from __future__ import annotations
 
-from typing import NamedTuple, cast
+from typing import cast
 
 from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import library, size
 from geneva_cli.numerics.jet import Number
 

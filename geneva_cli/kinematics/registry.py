@@ -5,13 +5,15 @@ A new kind is one file and one line here.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.kinematics.drive import Drive
-from geneva_cli.kinematics.laws.law import Law
 from geneva_cli.kinematics.wheels.gearing import Gearing
 from geneva_cli.spec.load_named import load_named
+
+if TYPE_CHECKING:
+    from geneva_cli.kinematics.laws.law import Law
 
 GEARINGS = {
     "external": "kinematics.wheels.external:External",

@@ -11,15 +11,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.layout.groove import roller_in_groove
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.tables import Z_DRAWN
 
 if TYPE_CHECKING:
@@ -97,6 +97,8 @@ class Assembly(NamedTuple):
     def _path(self, engagement: Engagement, behind: float, input_deg: Array) -> Array:
         at = (input_deg - behind + 0.5 * self.turn_deg) % self.turn_deg - 0.5 * self.turn_deg
         if engagement.groove is not None:
+            from geneva_cli.layout.groove import roller_in_groove
+
             return self.L * roller_in_groove(engagement.groove, at)
         x, y = engagement.path(at, 0)
         return self.L * np.column_stack((x.c[0], y.c[0]))

@@ -7,15 +7,14 @@ the thread is wide. The other jaw has the thread.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
-from geneva_cli.curves.cross_holes import CrossHole
 from geneva_cli.curves.measure import turned
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import ORIGIN, Circle, Contour, Line, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.screws import SCREWS, Screw, screw
 from geneva_cli.layout.written import length
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.tables import Size
 
 
@@ -133,6 +132,8 @@ def with_clamp(size: Size, part: str, hub: Plate | None, direction: float) -> Pl
             f"{part}_screw_mm: the clamp holds the shaft; remove one of {key} and {part}_screw_mm",
             ("size", f"{part}_screw_mm"),
         )
+    from geneva_cli.curves.cross_holes import CrossHole
+
     clamp = Clamp(screw(key, values[key]), bore.radius, hub.outline.radius)
     if not clamp.fits or hub.thickness < clamp.screw.head:
         fitting = [s.thread for s in SCREWS if clamp._replace(screw=s).fits]

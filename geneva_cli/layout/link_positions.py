@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.curves.shapes import Point
 from geneva_cli.kinematics.layout import Joint, Link
-from geneva_cli.layout.groove import roller_in_groove
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 
@@ -33,6 +32,8 @@ def _own_links(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
     groove = mechanism.engagements[0].groove
     if groove is None:
         return own
+    from geneva_cli.layout.groove import roller_in_groove
+
     L, m, still = mechanism.center_distance_mm, mechanism.spec.drive.rollers, 0.0 * input_deg
     joints = [(still + L, still)]
     for k in range(m):

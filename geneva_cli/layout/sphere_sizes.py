@@ -10,11 +10,10 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import arm_bore, hole_radius
-from geneva_cli.layout.axles import about_crank, wheel_axle
-from geneva_cli.layout.ball import Ball, inner_edge
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
 from geneva_cli.layout.sizes import lock_between, refuse_edges, require_lock_between
 from geneva_cli.machine.mechanism import Mechanism
@@ -22,6 +21,9 @@ from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.default_sizes import Thicknesses
 from geneva_cli.spec.tables import Z_DRAWN, Size
+
+if TYPE_CHECKING:
+    from geneva_cli.layout.ball import Ball
 
 
 class PartDoesNotFit(GenevaError):
@@ -61,6 +63,9 @@ def sized_ball(mechanism: Mechanism) -> Ball | None:
 
 def _ball(mechanism: Mechanism, radius_mm: float, thickness_mm: float | None) -> Ball:
     """Return the sizes for a roller and a thickness of the wheel, or else its default."""
+    from geneva_cli.layout.axles import about_crank, wheel_axle
+    from geneva_cli.layout.ball import Ball, inner_edge
+
     spec, L = mechanism.spec, mechanism.center_distance_mm
     size, z = spec.size, spec.wheel.z
     if z > Z_DRAWN:

@@ -7,7 +7,6 @@ of that bearing from the middle of the wheel's thickness, unless the spec has on
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
@@ -15,7 +14,6 @@ from geneva_cli.analysis.locking import Lock
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import arm_hub, arm_passing, eye_about, hole_radius
 from geneva_cli.layout.assembly import Assembly
-from geneva_cli.layout.bearings import bearing_within, shoulder_length
 from geneva_cli.layout.bores import reach_or_bore
 from geneva_cli.layout.keyways import key
 from geneva_cli.layout.link_positions import gear_plane, links_at
@@ -25,6 +23,7 @@ from geneva_cli.layout.roller_paths import roller_reaches
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
 from geneva_cli.machine.spec import Spec
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.default_sizes import value_or
 
 
@@ -90,10 +89,12 @@ def shaft_of(spec: Spec, part: str, bore: float, end: ShaftEnd) -> ShaftSize:
     """
     size, table = spec.size, vars(spec.shaft)
     diameter, overhang = 2.0 * bore or math.nan, end.to_frame + 0.5 * end.thick
-    bearing = bearing_within(diameter) if size.shafts == "turned" else None
-    if bearing:
-        diameter = bearing.bore
-        overhang = end.to_frame + shoulder_length(size, end.L) + 0.5 * bearing.width
+    if size.shafts == "turned":
+        from geneva_cli.layout.bearings import bearing_within, shoulder_length
+
+        if bearing := bearing_within(diameter):
+            diameter = bearing.bore
+            overhang = end.to_frame + shoulder_length(size, end.L) + 0.5 * bearing.width
     own = table[f"{part}_diameter_mm"], table[f"{part}_overhang_mm"]
     return ShaftSize(value_or(own[0], diameter), value_or(own[1], overhang))
 

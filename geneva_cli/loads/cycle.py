@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -19,8 +19,6 @@ from geneva_cli.analysis.contact import contact, contacts
 from geneva_cli.analysis.forces import LoadCase, feeding, load_case, sliding, wheel_torque
 from geneva_cli.analysis.instant import INSTANT_QUANTITIES, Instant, bounded, values
 from geneva_cli.analysis.load_functions import NO_MORE, LoadFunctions, load_batch
-from geneva_cli.analysis.mid_motion import at_crossing
-from geneva_cli.analysis.motion import local_deg, spans
 from geneva_cli.analysis.quantities import KINETIC, known_quantities, sources
 from geneva_cli.analysis.stretches import (
     Stretch,
@@ -39,6 +37,7 @@ from geneva_cli.loads.summaries import (
     sums_of,
 )
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
 from geneva_cli.numerics.search import SearchResult
@@ -89,6 +88,8 @@ class Cycle:
         A force without a bound is infinite. It is so where friction alone holds the wheel, and at
         mid-motion of a curved slot that lies across the roller's path.
         """
+        from geneva_cli.analysis.motion import local_deg, spans
+
         out: dict[str, Array | None] = {
             name: np.zeros(len(input_deg)) for name in INSTANT_QUANTITIES
         }
@@ -106,6 +107,8 @@ class Cycle:
 
     def moving(self, engagement: Engagement, input_deg: Array) -> Instant[Array]:
         """Arrays (n,) at input angles of an engagement, degrees from its own mid-motion."""
+        from geneva_cli.analysis.mid_motion import at_crossing
+
         case, at = self.case, contacts(engagement, input_deg)
         torque = wheel_torque(case, at)
         drives = np.copysign(1.0, torque)

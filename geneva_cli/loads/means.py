@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,8 +21,8 @@ from geneva_cli.analysis.load_functions import (
 from geneva_cli.analysis.quantities import SQUARED, multiples, plain_values, square_of
 from geneva_cli.analysis.stretches import mirror_images, spans_of
 from geneva_cli.loads.groups import of_groups
-from geneva_cli.loads.inertia_means import is_balanced, squares
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
@@ -103,6 +103,8 @@ def means_from(
 
 def _sums_of(load: LoadFunctions, n: int, plain: bool) -> Array:
     """The integrals without a search for extremes: designs are only divided where signs change."""
+    from geneva_cli.loads.inertia_means import is_balanced, squares
+
     if is_balanced(load) and not plain:
         return squares(load, n)
     spans, only = spans_of(load.engagement, n), SignFunctions(load)

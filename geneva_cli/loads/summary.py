@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from geneva_cli.analysis.instant import Instant
-from geneva_cli.analysis.motion import check_samples, derivatives, inputs, times_s
 from geneva_cli.analysis.quantities import (
     PRESSED,
     PV,
@@ -22,8 +21,8 @@ from geneva_cli.analysis.quantities import (
 )
 from geneva_cli.errors import Notice
 from geneva_cli.loads.cycle import Cycle
-from geneva_cli.loads.sizing import WHEEL_INERTIA, sizing
 from geneva_cli.loads.summaries import LoadSummary
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.table import Reading, Table, computed_table, record_table, rows_table
 
 if TYPE_CHECKING:
@@ -110,6 +109,8 @@ def loads_table(
     ``life`` and the wheel's own inertia are known from its parts. For people the quantities that
     have a value are rows of a table.
     """
+    from geneva_cli.loads.sizing import WHEEL_INERTIA, sizing
+
     spec = cycle.mechanism.spec
     values: dict[str, object] = {"spec": spec.path, "title": spec.title}
     loads = summaries(cycle)
@@ -171,12 +172,16 @@ def cycle_table(cycle: Cycle, samples: int) -> Table:
 
     A value that is unbounded or not known is None.
     """
+    from geneva_cli.analysis.motion import check_samples
+
     check_samples(samples)
     names = ("time_s", "input_deg", cycle.mechanism.output.column, *SHOWN_QUANTITIES)
     return computed_table(names, samples, lambda i, j: _rows(cycle, samples, i, j), "object")
 
 
 def _rows(cycle: Cycle, samples: int, begin: int, end: int) -> list[Any]:
+    from geneva_cli.analysis.motion import derivatives, inputs, times_s
+
     input_deg = inputs(cycle.mechanism, samples, begin, end)
     states = cycle.states(input_deg)
     searched = {name: plain_of(states, name) for name in known_quantities(cycle.mechanism)}

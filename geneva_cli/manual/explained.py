@@ -10,7 +10,8 @@ from __future__ import annotations
 import os
 import re
 from functools import cache
-from typing import NamedTuple
+
+from geneva_cli.named_tuple import NamedTuple
 
 GROUPS = {  # a page each, and what one of its entries is
     "checks": "check",

@@ -59,7 +59,14 @@ class Library(Protocol):
 
 
 class Undecided(ArithmeticError):
-    """A comparison that holds for some of the numbers between two bounds and not for others."""
+    """A comparison that holds for some of the numbers between two bounds and not for others.
+
+    Of several enclosures ``answers`` has each one's own, NaN where it is open.
+    """
+
+    def __init__(self, what: str = "", answers: Array | float = math.nan) -> None:
+        super().__init__(what)
+        self.answers = answers
 
 
 class Enclosed:

@@ -1,8 +1,8 @@
-"""Intervals of doubles: two bounds, rounded outwards at each step.
+"""Intervals of doubles: two bounds, rounded outwards at each step, for many numbers at once.
 
-A formula of intervals gives an interval that holds every value of the formula. It is wider than a
-ball of Arb (``balls``), and needs no library. It never becomes a float, and never answers a
-comparison that it cannot decide.
+A formula of intervals gives intervals that hold every value of the formula. They are wider than
+balls of Arb (``balls``), and need no library. They never become floats, and never answer a
+comparison whose answer is not the same for all of them.
 
 R. E. Moore, R. B. Kearfott and M. J. Cloud, Introduction to Interval Analysis (2009).
 """
@@ -10,11 +10,17 @@ R. E. Moore, R. B. Kearfott and M. J. Cloud, Introduction to Interval Analysis (
 from __future__ import annotations
 
 import math
-from bisect import bisect_left
 from collections.abc import Callable, Sequence
-from typing import ClassVar, NoReturn, cast
+from typing import TYPE_CHECKING, ClassVar, NoReturn, TypeAlias, cast
 
-from geneva_cli.numerics.arrays import Enclosed, Library, Number, Undecided
+import numpy as np
+
+from geneva_cli.numerics.arrays import Array, Enclosed, Library, Number, Undecided
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Mask, Truth
+
+    Bound: TypeAlias = Array | float
 
 NEAR = 1e-9  # radians: a peak of the sine this near to an interval counts as inside
 TINY = 2.0**-1074  # the least double
@@ -22,10 +28,12 @@ LIBRARY_UNITS = 2  # in the last place: greatest error of a function of ``math``
 
 
 class Interval(Enclosed):
-    """A number between two bounds.
+    """Numbers, each between two bounds: arrays (n,), or floats for the same bounds of all.
+
+    A formula takes one way for all of them: Undecided has each one's own answer.
 
     >>> third = Interval(1.0, 1.0) / 3.0
-    >>> third.low < 1.0 / 3.0 < third.high, third < 0.5
+    >>> bool(third.low < 1.0 / 3.0 < third.high), third < 0.5
     (True, True)
     """
 
@@ -33,27 +41,26 @@ class Interval(Enclosed):
     __array_ufunc__ = None  # NumPy's numbers leave the arithmetic to the interval
     library: ClassVar[Library]
 
-    def __init__(self, low: float, high: float) -> None:
+    def __init__(self, low: Bound, high: Bound) -> None:
         self.low, self.high = low, high
 
     @property
-    def size(self) -> float:
-        """The greatest size of its numbers; infinite where a bound is unknown."""
-        size = max(-self.low, self.high)
-        return math.inf if math.isnan(size) else size
+    def size(self) -> Array:
+        """The greatest sizes of its numbers; infinite where a bound is unknown."""
+        size = np.maximum(-self.low, self.high)
+        return np.where(np.isnan(size), math.inf, size)
 
     def piece(self, cuts: Sequence[float]) -> int:
-        """Number of the piece between ``cuts`` that holds its middle.
+        """Number of the piece between ``cuts`` that holds the middle.
 
-        Raises Undecided if it reaches over a cut by more than ``REACH``.
+        Raises Undecided if one reaches over a cut by more than ``REACH``.
         """
-        for cut in cuts:
-            if min(cut - self.low, self.high - cut) > self.REACH:
-                raise Undecided(f"the cut {cut!r} is inside {self!r}")
-        return bisect_left(cuts, 0.5 * (self.low + self.high))
+        index = np.searchsorted(cuts, 0.5 * (self.low + self.high))
+        inside = [np.minimum(cut - self.low, self.high - cut) > self.REACH for cut in cuts]
+        return int(_answer(np.where(np.any(inside, axis=0), math.nan, index)))
 
     def rising(self, f: Callable[[Number], Number]) -> Number:
-        """Interval of the values of a function that rises: from its lower end to its upper."""
+        """Intervals of the values of a function that rises: from the lower ends to the upper."""
         low, high = (_ends(cast("float", f(_number(x, x)))) for x in (self.low, self.high))
         return _number(low[0], high[1])
 
@@ -70,9 +77,8 @@ class Interval(Enclosed):
         return Interval(-self.high, -self.low)
 
     def __abs__(self) -> Interval:
-        if self.low < 0.0 < self.high:
-            return Interval(0.0, max(-self.low, self.high))
-        return self if self.low >= 0.0 else -self
+        low, high = np.maximum(self.low, -self.high), np.maximum(-self.low, self.high)
+        return Interval(np.maximum(low, 0.0), high)
 
     def __add__(self, other: Interval | float) -> Interval:
         low, high = _ends(other)
@@ -88,16 +94,17 @@ class Interval(Enclosed):
     def __mul__(self, other: Interval | float) -> Interval:
         if other is self:
             return self**2
-        low, high = _ends(other)
-        ends = self.low * low, self.low * high, self.high * low, self.high * high
-        return _outwards(min(ends), max(ends))
+        if not isinstance(other, Interval):
+            return _between(self.low * other, self.high * other)
+        low, high = other.low, other.high
+        return _between(self.low * low, self.low * high, self.high * low, self.high * high)
 
     def __truediv__(self, other: Interval | float) -> Interval:
-        low, high = _ends(other)
-        if low <= 0.0 <= high:
-            return Interval(-math.inf, math.inf)
-        ends = self.low / low, self.low / high, self.high / low, self.high / high
-        return _outwards(min(ends), max(ends))
+        if not isinstance(other, Interval):
+            other = Interval(other, other)
+        low, high = other.low, other.high
+        out = _between(self.low / low, self.low / high, self.high / low, self.high / high)
+        return _unknown((low <= 0.0) & (high >= 0.0), out)
 
     def __rtruediv__(self, other: Interval | float) -> Interval:
         return Interval(*_ends(other)) / self
@@ -106,17 +113,20 @@ class Interval(Enclosed):
         if power < 0:
             return 1.0 / self**-power
         base = self if power % 2 else abs(self)
-        return _outwards(base.low**power, base.high**power, power)
+        low, high = base.low, base.high
+        for _ in range(power - 1):
+            low, high = low * base.low, high * base.high
+        return _outwards(low, high, power)
 
     __radd__, __rmul__ = __add__, __mul__
 
     def __lt__(self, other: Interval | float) -> bool:
         low, high = _ends(other)
-        return self._decided(self.high < low, self.low >= high, other)
+        return _decided(self.high < low, self.low >= high)
 
     def __le__(self, other: Interval | float) -> bool:
         low, high = _ends(other)
-        return self._decided(self.high <= low, self.low > high, other)
+        return _decided(self.high <= low, self.low > high)
 
     def __gt__(self, other: Interval | float) -> bool:
         return not self <= other
@@ -126,37 +136,76 @@ class Interval(Enclosed):
 
     def __eq__(self, other: object) -> bool:
         low, high = _ends(cast("float", other))
-        equal = self.low == self.high == low == high
-        return self._decided(equal, self.high < low or self.low > high, other)
+        equal = (self.low == self.high) & (self.high == low) & (low == high)
+        return _decided(equal, (self.high < low) | (self.low > high))
 
     __hash__ = None  # type: ignore[assignment]
 
 
-def _ends(x: Interval | float) -> tuple[float, float]:
+def _answer(answers: Array) -> float:
+    """The one answer of all intervals; raises Undecided, with each one's own, if there is none."""
+    first = float(np.ravel(answers)[0])
+    if np.any(answers != first):  # also where it is open, NaN
+        raise Undecided("intervals with several answers", answers)
+    return first
+
+
+def _decided(yes: Truth, no: Truth) -> bool:
+    """The answer to a comparison."""
+    return bool(_answer(np.where(yes, 1.0, np.where(no, 0.0, math.nan))))
+
+
+def _ends(x: Interval | float) -> tuple[Bound, Bound]:
     return (x.low, x.high) if isinstance(x, Interval) else (x, x)
 
 
-def _number(low: float, high: float) -> float:
-    """An interval as the float that it is to the type checker."""
+def _number(low: Bound, high: Bound) -> float:
+    """Intervals as the float that they are to the type checker."""
     return cast("float", Interval(low, high))
 
 
-def _outwards(low: float, high: float, units: int = 1) -> Interval:
-    """An interval with some units in the last place on either side."""
-    if math.isnan(low) or math.isnan(high):
-        return Interval(-math.inf, math.inf)
+def _outwards(low: Bound, high: Bound, units: int = 1) -> Interval:
+    """Intervals with some units in the last place on either side."""
     share = units * 2.0**-52  # a unit in the last place of a number, or more
-    return Interval(low - (share * abs(low) + TINY), high + (share * abs(high) + TINY))
+    out = Interval(low - (share * np.abs(low) + TINY), high + (share * np.abs(high) + TINY))
+    return _unknown(np.isnan(low + high), out)
+
+
+def _unknown(where: Truth, x: Interval) -> Interval:
+    """Intervals without bounds where they are not known."""
+    if not np.any(where):
+        return x
+    return Interval(np.where(where, -math.inf, x.low), np.where(where, math.inf, x.high))
+
+
+def _between(*ends: Bound) -> Interval:
+    """Intervals of all numbers between the least and the greatest of some."""
+    first, *others = ends
+    low = high = first
+    for end in others:
+        low, high = np.minimum(low, end), np.maximum(high, end)
+    return _outwards(low, high)
+
+
+def _each(f: Callable[..., float], *x: Bound) -> Array:
+    """A function of ``math`` of each number: NumPy's own differ from processor to processor."""
+
+    def known(*numbers: float) -> float:
+        try:
+            return f(*numbers)
+        except (ValueError, OverflowError):
+            return math.nan
+
+    arrays = np.broadcast_arrays(*x)
+    values = map(known, *(a.ravel().tolist() for a in arrays))
+    return np.array([*values]).reshape(arrays[0].shape)
 
 
 def _rising(f: Callable[[float], float]) -> Callable[[object, Interval | float], Interval]:
     """A function that rises everywhere in its domain."""
 
     def of(_: object, x: Interval | float) -> Interval:
-        try:
-            low, high = (f(end) for end in _ends(x))
-        except (ValueError, OverflowError):
-            return Interval(-math.inf, math.inf)
+        low, high = (_each(f, end) for end in _ends(x))
         return _outwards(low, high, LIBRARY_UNITS)
 
     return of
@@ -180,48 +229,49 @@ class _Intervals:
     def _wave(self, x: Interval | float, top: float, f: Callable[[float], float]) -> Interval:
         """Sine or cosine, which is 1 at ``top``."""
         low, high = _ends(x)
-        if not high - low < math.tau:
-            return Interval(-1.0, 1.0)
-        ends = _outwards(min(f(low), f(high)), max(f(low), f(high)), LIBRARY_UNITS)
+        values = [_each(f, end) for end in (low, high)]
+        ends = _outwards(np.minimum(*values), np.maximum(*values), LIBRARY_UNITS)
+        whole = ~np.less(high - low, math.tau)  # of all values: a turn, or without bounds
+        lowest = _passes(low, high, top + math.pi) | whole
+        highest = _passes(low, high, top) | whole
         return Interval(
-            -1.0 if _passes(low, high, top + math.pi) else max(ends.low, -1.0),
-            1.0 if _passes(low, high, top) else min(ends.high, 1.0),
+            np.where(lowest, -1.0, np.maximum(ends.low, -1.0)),
+            np.where(highest, 1.0, np.minimum(ends.high, 1.0)),
         )
 
     def hypot(self, x: Interval | float, y: Interval | float) -> Interval:
         return self.sqrt(Interval(*_ends(x)) ** 2 + Interval(*_ends(y)) ** 2)
 
     def atan2(self, y: Interval | float, x: Interval | float) -> Interval:
-        """The angle of a box that does not reach the negative x axis."""
+        """The angles of boxes that do not reach the negative x axis."""
         (a, b), (c, d) = _ends(x), _ends(y)
-        if a <= 0.0 and c <= 0.0 <= d:
-            raise Undecided("the origin, or the negative x axis, is inside")
-        angles = [math.atan2(v, u) for u in (a, b) for v in (c, d)]
-        return _outwards(min(angles), max(angles), LIBRARY_UNITS)
+        across = np.less_equal(a, 0.0) & np.less_equal(c, 0.0) & np.less_equal(0.0, d)
+        _answer(np.where(across, math.nan, 0.0))
+        angles = [_each(math.atan2, v, u) for u in (a, b) for v in (c, d)]
+        low, high = np.min(angles, axis=0), np.max(angles, axis=0)
+        return _outwards(low, high, LIBRARY_UNITS)
 
     def degrees(self, x: Interval | float) -> Interval:
         return x * (180.0 / self.pi)
 
     def floor(self, x: Interval) -> float:
-        low, high = math.floor(x.low), math.floor(x.high)
-        if low != high:
-            raise Undecided(f"a whole number is inside {x!r}")
-        return float(low)
+        low, high = np.floor(x.low), np.floor(x.high)
+        return _answer(np.where(low == high, low, math.nan))
 
     def copysign(self, x: Interval | float, y: Interval | float) -> Interval:
         size = abs(Interval(*_ends(x)))
         return size if y > 0.0 else -size
 
 
-def _passes(low: float, high: float, at: float) -> bool:
-    """True if ``at``, or a whole number of turns from there, may lie between two angles."""
-    below = math.floor((high + NEAR - at) / math.tau) * math.tau + at
-    return below >= low - NEAR
+def _passes(low: Bound, high: Bound, at: float) -> Mask:
+    """True where ``at``, or a whole number of turns from there, may lie between two angles."""
+    below = np.floor((high + NEAR - at) / math.tau) * math.tau + at
+    return np.greater_equal(below, low - NEAR)
 
 
 Interval.library = cast("Library", _Intervals())
 
 
-def size_of(x: Number) -> float:
-    """The greatest size of a formula's number: an interval, or a double that needs none."""
+def size_of(x: Number) -> Array | float:
+    """The greatest sizes of a formula's numbers: intervals, or a double that needs none."""
     return x.size if isinstance(x, Interval) else abs(cast("float", x))

@@ -14,10 +14,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import joined, read_only
 
 if TYPE_CHECKING:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from functools import cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.collisions.gaps import Gaps
 from geneva_cli.collisions.machine_parts import Pose
 from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.extents import farthest
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly, assembly
@@ -19,15 +18,15 @@ from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.reliefs import has_arcs, without_lock
 from geneva_cli.layout.sizes import sizes
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.outlines.bounds import AXIS, FlatPairs
 from geneva_cli.outlines.crank import crank_contours, is_whole
-from geneva_cli.outlines.walls.curved import curved_walls
 from geneva_cli.outlines.walls.straight import straight_walls
 from geneva_cli.outlines.wheel import wheel_contour
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
+    from geneva_cli.outlines.bounds import FlatPairs
 
 CURVED = 2e-6  # of the centre distance: accuracy of curved walls
 # Of the centre distance, 0.2 um in 100 mm: parts that overlap by less count as touching. No cutter
@@ -80,6 +79,9 @@ class Outlines(NamedTuple):
 
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
+        from geneva_cli.curves.extents import farthest
+        from geneva_cli.outlines.bounds import AXIS, FlatPairs
+
         outside, wheel = self.assembly.sign > 0.0, self.gaps.wheel
         rim = float(farthest(wheel, AXIS).max() if outside else wheel.signed(AXIS)[0])
         return FlatPairs(self.gaps, self.crank, target, rim)
@@ -118,6 +120,8 @@ def slot_walls(
 ) -> Contour:
     """Return the walls of a slot, straight or curved; ``curves`` is "arcs" or "cubics"."""
     if engagement.slot.curved:
+        from geneva_cli.outlines.walls.curved import curved_walls
+
         return curved_walls(assembly, sizes, engagement, tolerance, curves)
     return straight_walls(assembly, sizes, engagement)
 

@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
-from itertools import pairwise
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, TypeAlias, cast
 
 import numpy as np
 
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.layout.groove import dwell_rates
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import Undecided
 from geneva_cli.numerics.intervals import Interval, size_of
 from geneva_cli.numerics.jet import Jet, Number
 
 if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Mask, Whole
     from geneva_cli.numerics.jet import Array
 
     Curve: TypeAlias = Callable[[Number, int], tuple[Jet, Jet]]
-    Rates: TypeAlias = tuple[float, float]  # sizes of a curve's two derivatives
 
 UNKNOWN = 1e30  # mm: a bound that is not known, so large that no interval closes with it
 
@@ -27,15 +26,15 @@ UNKNOWN = 1e30  # mm: a bound that is not known, so large that no interval close
 class Travel:
     """Bounds of the speed and the second derivative of a curve between two input angles.
 
-    The angles are those of one engagement, from its mid-motion; lengths are mm. ``rates`` has the
-    bounds on the cells between ``edges``, infinite if unknown, in units of ``length``. A curve that
-    runs all round repeats after ``turn_deg``.
+    The angles are those of one engagement, from its mid-motion; lengths are mm. ``rates`` (2, n)
+    has the bounds on the n cells between ``edges``, infinite if unknown, in units of ``length``. A
+    curve that runs all round repeats after ``turn_deg``.
     """
 
     def __init__(
-        self, edges: Sequence[float], rates: Iterable[Rates], length: float, turn_deg: float = 0.0
+        self, edges: Sequence[float], rates: Array, length: float, turn_deg: float = 0.0
     ) -> None:
-        speed, bend = np.minimum(length * np.array([*rates]).T, UNKNOWN)
+        speed, bend = np.minimum(length * rates, UNKNOWN)
         self.edges = np.array(edges)
         if turn_deg:  # an interval may begin in one turn and end in the next
             speed, bend = np.tile(speed, 2), np.tile(bend, 2)
@@ -64,22 +63,26 @@ class Travel:
 
 def path_travel(engagement: Engagement, length: float, turn_deg: float) -> Travel:
     """Return the travel of a roller's path through a whole turn in the fixed frame."""
-    half, path, groove = 0.5 * turn_deg, engagement.path, engagement.groove
-    edges = _edges(engagement, -half, half)
-    dwell = None if groove is None else dwell_rates(groove)
-    rates = [
-        dwell
-        if dwell and not engagement.entry_deg <= a < b <= engagement.exit_deg
-        else curve_rates(path, a, b)
-        for a, b in pairwise(edges)
-    ]
+    edges = _edges(engagement, -0.5 * turn_deg, 0.5 * turn_deg)
+    start, end = np.array(edges[:-1]), np.array(edges[1:])
+    moving = np.full(len(start), True)
+    if engagement.groove is not None:
+        from geneva_cli.layout.groove import dwell_rates
+
+        dwell = dwell_rates(engagement.groove)
+        if dwell:
+            moving = (engagement.entry_deg <= start) & (end <= engagement.exit_deg)
+    rates = np.empty((2, len(start)))
+    rates[:, moving] = curve_rates(engagement.path, start[moving], end[moving])
+    if not moving.all():
+        rates[:, ~moving] = np.array(dwell)[:, None]
     return Travel(edges, rates, length, turn_deg)
 
 
 def slot_travel(engagement: Engagement, length: float) -> Travel:
     """Return the travel of a roller in its slot, in the wheel's frame."""
     edges = _edges(engagement, engagement.entry_deg, engagement.exit_deg)
-    rates = [curve_rates(engagement.slot, a, b) for a, b in pairwise(edges)]
+    rates = curve_rates(engagement.slot, np.array(edges[:-1]), np.array(edges[1:]))
     return Travel(edges, rates, length)
 
 
@@ -91,25 +94,51 @@ def _edges(engagement: Engagement, start: float, end: float) -> list[float]:
     return sorted({*np.linspace(start, end, count + 1).tolist(), *seams})
 
 
-def curve_rates(curve: Curve, start: float, end: float) -> Rates:
-    """Return the greatest sizes of a curve's two derivatives; infinite where none is known.
+class _Boxes(NamedTuple):
+    """Parts of cells: the number of each one's cell, and its ends."""
 
-    Where another formula takes over within a cell, it is halved down to that place.
+    cell: Whole
+    start: Array
+    end: Array
+
+    def some(self, which: Mask) -> _Boxes:
+        return _Boxes(self.cell[which], self.start[which], self.end[which])
+
+    def halves(self) -> _Boxes:
+        middle = 0.5 * (self.start + self.end)
+        starts, ends = (self.start, middle), (middle, self.end)
+        return _Boxes(np.tile(self.cell, 2), np.concatenate(starts), np.concatenate(ends))
+
+
+def curve_rates(curve: Curve, start: Array, end: Array) -> Array:
+    """Return the greatest sizes of a curve's two derivatives on n cells (2, n).
+
+    They are infinite where none is known. Cells with different formulas are evaluated apart. Where
+    another formula takes over within a cell, it is halved down to that place.
     """
-    speed = bend = 0.0
-    left = [(start, end)]
-    # an interval may reach over the end of a formula's piece by some 1e-12 degrees: each such place
-    # takes 80 halves
-    for _ in range(400):
-        if not left:
-            return speed, bend
-        start, end = left.pop()
-        try:
-            x, y = curve(cast("Number", Interval(start, end)), 2)
-        except Undecided:
-            middle = 0.5 * (start + end)
-            left += [(start, middle), (middle, end)]
+    rates, tries = np.zeros((2, len(start))), np.zeros(len(start), dtype=int)
+    left = [_Boxes(np.arange(len(start)), start, end)]
+    while left:
+        boxes = left.pop()
+        # an interval may reach over the end of a formula's piece by some 1e-12 degrees: each such
+        # place takes 80 halves
+        boxes = boxes.some(tries[boxes.cell] < 400)
+        if not len(boxes.cell):
             continue
-        speed = max(speed, math.hypot(size_of(x.c[1]), size_of(y.c[1])))
-        bend = max(bend, 2.0 * math.hypot(size_of(x.c[2]), size_of(y.c[2])))
-    return math.inf, math.inf
+        try:
+            with np.errstate(all="ignore"):
+                x, y = curve(cast("Number", Interval(boxes.start, boxes.end)), 2)
+        except Undecided as error:
+            answers = np.broadcast_to(error.answers, len(boxes.cell))
+            is_open = np.isnan(answers)
+            left += [boxes.some(answers == one) for one in np.unique(answers[~is_open])]
+            done = boxes.some(is_open)
+            left.append(done.halves())
+        else:
+            done = boxes
+            for k, total in enumerate(rates, start=1):
+                size = k * np.hypot(size_of(x.c[k]), size_of(y.c[k]))
+                np.maximum.at(total, boxes.cell, size)
+        np.add.at(tries, done.cell, 1)
+    rates[:, tries >= 400] = math.inf
+    return rates

@@ -10,7 +10,6 @@ from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
-from geneva_cli.layout.bolt_holes import bolt_circle
 from geneva_cli.layout.bores import bore_of, has_shape
 from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -67,6 +66,8 @@ def dial_bolts(assembly: Assembly, sizes: Sizes) -> list[Circle]:
 
     By default their circle is in the middle between the bore and the slots and recesses.
     """
+    from geneva_cli.layout.bolt_holes import bolt_circle
+
     size = assembly.mechanism.spec.size
     ring = sizes.wheel_reach, sizes.slot_end
     if sizes.outer:

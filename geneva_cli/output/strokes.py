@@ -6,7 +6,7 @@ least 3 to the paper (checked in tests/output/test_plot.py).
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from geneva_cli.named_tuple import NamedTuple
 
 
 class Paper(NamedTuple):

@@ -6,14 +6,12 @@ import re
 import sys
 import textwrap
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
 
 from geneva_cli.document import FAILS, PASSES, WARNS, Summary, SummaryLine
 from geneva_cli.errors import clean
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.output.document.values import RAISED, TIMES
 from geneva_cli.output.layout import DIM, styled
-from geneva_cli.output.markdown import escaped
-from geneva_cli.output.window import window
 
 SIGNS = {PASSES: "✓", WARNS: "!", FAILS: "✗"}
 INKS = {PASSES: "\x1b[32m", WARNS: "\x1b[33m", FAILS: "\x1b[31m"}  # green, yellow, red
@@ -38,6 +36,8 @@ def style_of(output: str, is_seen: bool) -> TextStyle:
         unicode = False
     if not is_seen:
         return TextStyle(unicode=unicode)
+    from geneva_cli.output.window import window
+
     terminal = window(False, False)
     # Lines of more than 100 letters are hard to read.
     return TextStyle(min(terminal.columns, 100), terminal.styled, unicode)
@@ -103,6 +103,8 @@ def _letters(text: str, look: TextStyle) -> str:
 
 def markdown(summaries: Iterable[Summary]) -> Iterator[str]:
     """Each summary as a paragraph and a list."""
+    from geneva_cli.output.markdown import escaped
+
     for summary in summaries:
         yield f"**{escaped(summary.head)}**\n\n"
         for line in summary.lines:

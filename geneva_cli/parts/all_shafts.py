@@ -15,13 +15,11 @@ from geneva_cli.layout.plain_sizes import drawn_thicknesses
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.arm import crank_arm, has_arm
-from geneva_cli.parts.gear_pair import NAMES, gear_shafts, gear_span
 from geneva_cli.parts.link_shafts import carried, link_shafts
 from geneva_cli.parts.links import Links
 from geneva_cli.parts.planes import crank_stop
 from geneva_cli.parts.shaft import Ends, Seat, Shaft
 from geneva_cli.parts.shafts import crank_shaft_radius, shafts, wheel_shaft_radius
-from geneva_cli.parts.turned_shafts import bearing_of, shoulder_mm, turned_shaft
 from geneva_cli.spec.tables import Size
 
 
@@ -41,6 +39,8 @@ def all_shafts(
         here = (axis for axis in bars.axes if same(axis.at, at, L))
         seats = [seat for axis in here for seat in carried(bars, axis, first, L)]
         if mechanism.spec.gears and same(at, mechanism.gear_shaft.at, L):
+            from geneva_cli.parts.gear_pair import NAMES, gear_span
+
             seats.append(Seat(NAMES[0], *gear_span(mechanism, outlines)))
         return tuple(sorted(seats, key=lambda seat: seat.low))
 
@@ -60,7 +60,10 @@ def all_shafts(
     top = drawn_thicknesses(size, L, drawn).wheel
     ends = Ends(lowest, top, stop, *has_one)
     yield from link_shafts(mechanism, bars, ends, on)
-    yield from gear_shafts(mechanism, outlines, ends)
+    if mechanism.spec.gears:
+        from geneva_cli.parts.gear_pair import gear_shafts
+
+        yield from gear_shafts(mechanism, outlines, ends)
 
 
 def _of_crank(first: Shaft, place: AxisPlace, outlines: Outlines) -> Shaft:
@@ -82,8 +85,12 @@ def built_shafts(
     """
     usual, top, free = heights
     turned = [size.shafts == "turned" and one.turns and one.low <= usual for one in own]
-    widths = (bearing_of(one).width for one, steps in zip(own, turned, strict=True) if steps)
-    bottom = min([usual, *(top - width for width in widths)])
+    bottom = usual
+    if any(turned):
+        from geneva_cli.parts.turned_shafts import bearing_of, turned_shaft
+
+        widths = (bearing_of(one).width for one, steps in zip(own, turned, strict=True) if steps)
+        bottom = min([usual, *(top - width for width in widths)])
     axles = []
     for one, steps in zip(own, turned, strict=True):
         if steps:
@@ -100,11 +107,15 @@ def passing(
     gears = (gear.member for gear in bars.gears)
     yield from map(_span, (*bars.cut, *bars.joined, *gears, *others))
     if mechanism.spec.gears:
+        from geneva_cli.parts.gear_pair import NAMES, gear_span
+
         yield from (Seat(name, *gear_span(mechanism, outlines)) for name in NAMES)
 
 
 def passing_arm(outlines: Outlines, own: Iterable[Shaft]) -> Iterator[Seat]:
     """Yield the faces of an arm whose end passes a wheel's shaft nearer than its shoulder."""
+    from geneva_cli.parts.turned_shafts import shoulder_mm
+
     if not has_arm(outlines):
         return
     arm, L = crank_arm(outlines), outlines.assembly.L

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from geneva_cli.curves import fit
 from geneva_cli.curves.edges import Edge
 from geneva_cli.curves.plates import Member, Plate, edged
 from geneva_cli.machine.mechanism import Mechanism
@@ -34,6 +33,8 @@ class EdgedParts(PartsOfMachine):
 
     def writer(self, fine: float) -> Writer:
         """Return a function that fits curves: within ``fine`` mm where no tolerance is set."""
+        from geneva_cli.curves import fit
+
         if self.tolerance is None:
             return lambda curve, a, b: fit.cubics(curve, a, b, fine)
         kind, tolerance = fit.KINDS[self.curves], self.tolerance

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,7 +18,6 @@ from geneva_cli.curves.shapes import Contour, Point
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.layout import Dimension, Joint
 from geneva_cli.layout.link_positions import links_at
-from geneva_cli.layout.missing import NamedParts
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.crank import roller_centres
@@ -25,16 +25,14 @@ from geneva_cli.outlines.outlines import Outlines, outlines, slot_walls
 from geneva_cli.outlines.wheel import wheel_contour
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
 from geneva_cli.parts.edged_parts import EdgedParts
-from geneva_cli.parts.first_pair import first_pair, in_front
 from geneva_cli.parts.frame import FrameAndShafts, framed
-from geneva_cli.parts.gear_blanks import Gear
-from geneva_cli.parts.gear_pair import FINE, gear_pair, pair_with_teeth
-from geneva_cli.parts.groove_plate import groove_base, groove_lines, groove_stack
-from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.links import Links, drawn_links
-from geneva_cli.parts.pair_teeth import pair_teeth
 from geneva_cli.parts.plates import arm_plate, locking_plates, roller_plates, wheel_part
 from geneva_cli.parts.shafts import crank_hub
+
+if TYPE_CHECKING:
+    from geneva_cli.layout.missing import NamedParts
+    from geneva_cli.parts.gear_blanks import Gear
 
 
 class FlatParts(EdgedParts):
@@ -143,6 +141,8 @@ class FlatParts(EdgedParts):
 
     def _on_links(self) -> tuple[Point, ...]:
         """Return the centres of rollers on links in the plane below the wheel."""
+        from geneva_cli.parts.link_sizes import places
+
         return tuple(
             (float(joint[0].real), float(joint[0].imag))
             for link in links_at(self.mechanism, np.zeros(1))
@@ -205,6 +205,8 @@ class FlatParts(EdgedParts):
         """The first wheel and its crank, of two wheels in series, as a machine of their own."""
         if not self.drawn or not self.mechanism.spec.drive.IN_SERIES:
             return None
+        from geneva_cli.parts.first_pair import first_pair
+
         return FlatParts(first_pair(self.mechanism, self.links))
 
     @cached_property
@@ -212,20 +214,26 @@ class FlatParts(EdgedParts):
         """Of two wheels in series, the first and its locking disc."""
         if self.front is None:
             return ()
+        from geneva_cli.parts.first_pair import in_front
+
         L = self.mechanism.center_distance_mm
         return self._edged(in_front(self.front.outlines, self.links, L))
 
     @cached_property
     def toothed(self) -> tuple[Gear, ...]:
         """Gears with round pitch circles, with teeth if they have a module; no first wheel."""
-        if self.first:
+        if self.first or not self.links.gears:
             return ()
+        from geneva_cli.parts.gear_pair import FINE
+
         write = self.writer(FINE["cubics"] * self.mechanism.center_distance_mm)
         return tuple(gear.with_teeth(write) for gear in self.links.gears)
 
     @property
     def tooth_dimensions(self) -> tuple[Dimension, ...]:
         """Dimensions of the gears' teeth; none without teeth."""
+        from geneva_cli.parts.pair_teeth import pair_teeth
+
         teeth = pair_teeth(self.mechanism.spec.gears, self.mechanism.spec.size)
         meshes = (teeth, self.links.mesh)
         return tuple(one for mesh in meshes if mesh for one in mesh.layout)
@@ -238,17 +246,25 @@ class FlatParts(EdgedParts):
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
         """The noncircular gears in front of a crank, with teeth or up to their pitch curves."""
+        if self.mechanism.spec.gears is None:
+            return ()
+        from geneva_cli.parts.gear_pair import gear_pair
+
         return gear_pair(self.mechanism, self.drawn, self.writer)
 
     @cached_property
     def _base(self) -> Plate | None:
         if self.drawn is None or self.drawn.assembly.rollers[0][0].groove is None:
             return None
+        from geneva_cli.parts.groove_plate import groove_base
+
         return groove_base(self.drawn, self.links)
 
     @cached_property
     def groove(self) -> tuple[Contour, Contour, Contour]:
         """The flanks of a cam's groove and its pitch curve; raises GenevaError without a groove."""
+        from geneva_cli.parts.groove_plate import groove_lines
+
         return groove_lines(self.outlines, self.tolerance, self.curves)
 
     @cached_property
@@ -256,6 +272,8 @@ class FlatParts(EdgedParts):
         """The plates with a cam's groove: base, ring and island."""
         if self._base is None:
             return ()
+        from geneva_cli.parts.groove_plate import groove_stack
+
         stack = groove_stack(self.outlines, self._base, self.links, self.groove[:2])
         return self._edged(Member(plate, (self.outlines.assembly.L, 0.0)) for plate in stack)
 
@@ -289,7 +307,10 @@ class FlatParts(EdgedParts):
         for member in (*turning, *self.links.cut, self.frame):
             for plate in plates(member.part):
                 require_faces(plate)
-        pair_with_teeth(self.mechanism)
+        if self.mechanism.spec.gears is not None:
+            from geneva_cli.parts.gear_pair import pair_with_teeth
+
+            pair_with_teeth(self.mechanism)
 
     @property
     def linked(self) -> tuple[Member, ...]:

@@ -12,7 +12,6 @@ as thick.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
 
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate, Stack
@@ -23,12 +22,12 @@ from geneva_cli.layout.link_positions import same
 from geneva_cli.layout.plain_sizes import drawn_thicknesses
 from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import wheel_hub
 from geneva_cli.parts.all_shafts import all_shafts, built_shafts, passing, passing_arm
 from geneva_cli.parts.arm import has_arm
-from geneva_cli.parts.gear_pair import gear_span
 from geneva_cli.parts.link_shafts import outside_links
 from geneva_cli.parts.links import Links, placed_holes
 from geneva_cli.parts.mounted_plate import (
@@ -79,6 +78,8 @@ def framed(
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     lows = [base.low] if base else []
     if mechanism.spec.gears:
+        from geneva_cli.parts.gear_pair import gear_span
+
         lows.append(gear_span(mechanism, outlines)[0])
     drawn = outlines.sizes if outlines else None
     thick = drawn_thicknesses(size, L, drawn).arm

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,16 +20,18 @@ from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint, Link
-from geneva_cli.layout.gear_mesh import GearMesh, gear_mesh
 from geneva_cli.layout.link_positions import links_at, same
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.parts.gear_blanks import Gear, link_gear
-from geneva_cli.parts.link_axes import LinkAxis, axes
-from geneva_cli.parts.link_pins import pins, rollers
-from geneva_cli.parts.link_sizes import SLOT_MARGIN, LinkSizes, link_sizes, places, refuse_hexagon
+from geneva_cli.parts.link_axes import LinkAxis
+
+if TYPE_CHECKING:
+    from geneva_cli.layout.gear_mesh import GearMesh
+    from geneva_cli.parts.gear_blanks import Gear
+    from geneva_cli.parts.link_sizes import LinkSizes
 
 LAYER, HOLES, SHAFT = "LINK", "BORE", Joint.SHAFT
 
@@ -95,12 +97,17 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
     links = links_at(mechanism, turn)
     if not links:
         return Links()
+    from geneva_cli.parts.link_axes import axes as axes_of
+    from geneva_cli.parts.link_pins import pins, rollers
+    from geneva_cli.parts.link_sizes import link_sizes
+
     sizes = link_sizes(mechanism, links, parts)
     L = mechanism.center_distance_mm
     bars = [link for link in links if not link.radius_mm]
     unbored = [_bar(link, sizes, L) for link in bars]
     turning = [
-        _with_shaft(axis, unbored, links, sizes, parts, L) for axis in axes(links, SAME_LENGTH * L)
+        _with_shaft(axis, unbored, links, sizes, parts, L)
+        for axis in axes_of(links, SAME_LENGTH * L)
     ]
     _refuse_unused(mechanism, turning, sizes, parts)
     cut = [member for bar in unbored for member in _members(bar, turning, sizes, L)]
@@ -134,6 +141,8 @@ def _known(axis: LinkAxis, sizes: LinkSizes, parts: Outlines | None, L: float) -
 
     Raises GenevaError for a hexagonal one.
     """
+    from geneva_cli.parts.link_sizes import refuse_hexagon
+
     if same(axis.at, (L, 0.0), L):
         return sizes.crank_shaft or 0.0
     if parts is None or not same(axis.at, (0.0, 0.0), L):
@@ -191,6 +200,9 @@ def _gears(
 
     Raises GenevaError, naming the key, for teeth that do not mesh, or not in both directions.
     """
+    from geneva_cli.layout.gear_mesh import gear_mesh
+    from geneva_cli.parts.gear_blanks import link_gear
+
     L, size = mechanism.center_distance_mm, mechanism.spec.size
     at = [_axis(link) for link in links]
     mesh = None
@@ -214,6 +226,8 @@ def _gears(
 
 def _axis(link: Link) -> Point:
     """Return the axis of a gear at input angle 0."""
+    from geneva_cli.parts.link_sizes import places
+
     (path,) = places(link)
     z = complex(path[len(path) // 2])
     return z.real, z.imag
@@ -221,6 +235,8 @@ def _axis(link: Link) -> Point:
 
 def _bar(link: Link, sizes: LinkSizes, L: float) -> _UnboredLink:
     """Return a link without bores for shafts, and the blocks that slide along it."""
+    from geneva_cli.parts.link_sizes import SLOT_MARGIN, places
+
     middle = len(link.joints[0][0]) // 2  # input angle 0
     joints = places(link)
     at = [complex(joint[middle]) for joint in joints]

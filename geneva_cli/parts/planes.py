@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,17 +21,17 @@ from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.layout.link_positions import gear_plane, links_at, same
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import wheel_hub_length
 from geneva_cli.parts.arm import has_arm
-from geneva_cli.parts.link_pins import joined
-from geneva_cli.parts.link_sizes import LinkSizes, places
 from geneva_cli.parts.links import Links
 from geneva_cli.parts.shafts import wheel_shaft_ends, wheel_shaft_radius
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
+    from geneva_cli.parts.link_sizes import LinkSizes
 
 LOOKS = 1440  # input angles in a turn: the error of a gap is quadratic in their distance
 
@@ -99,6 +99,8 @@ def _gears(parts: Outlines, bars: Links, links: tuple[Link, ...], turn: Array) -
 
     A first wheel is no gear: ``shaft_gap`` computes its gap.
     """
+    from geneva_cli.parts.link_sizes import places
+
     assert bars.sizes is not None
     if parts.assembly.full.spec.drive.IN_SERIES:
         return
@@ -139,6 +141,8 @@ def _outlines(bars: Links) -> dict[str, Contour]:
 
 
 def _passing(parts: Outlines, links: list[Link], sizes: LinkSizes, turn: Array) -> Iterator[Round]:
+    from geneva_cli.parts.link_pins import joined
+
     yield from _on_wheel(parts, links, sizes, 0.0 * turn)
     for one in joined(links, SAME_LENGTH * parts.assembly.L):
         for plane in range(min(one.planes) + 1, max(one.planes)):
@@ -194,6 +198,8 @@ class _Shaft:
         outlines: dict[str, Contour],
         bars: Links,
     ) -> None:
+        from geneva_cli.parts.link_sizes import places
+
         L, sizes = parts.assembly.L, bars.sizes
         assert sizes is not None
         self.links, self.outlines = links, outlines
@@ -245,6 +251,8 @@ class _Shaft:
 
 
 def _meeting(link: Link, outline: Contour, one: Round, turn: Array) -> Meeting:
+    from geneva_cli.parts.link_sizes import places
+
     joints = places(link)
     ahead = joints[1] - joints[0]
     size = np.abs(ahead)

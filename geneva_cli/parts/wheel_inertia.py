@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
-from geneva_cli.curves.mass import MassProperties, added, face_properties, mass_properties
-from geneva_cli.curves.moments import Moments, moments, total
 from geneva_cli.curves.shapes import Contour, Line, about
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
@@ -16,7 +15,10 @@ from geneva_cli.machine.materials import wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.walls.straight import straight_walls
 from geneva_cli.outlines.wheel import LAYER, wheel_circles, wheel_contour
-from geneva_cli.outlines.wheel_hub import wheel_hub
+
+if TYPE_CHECKING:
+    from geneva_cli.curves.mass import MassProperties
+    from geneva_cli.curves.moments import Moments
 
 
 def wheel_body(mechanism: Mechanism) -> MassProperties | None:
@@ -34,6 +36,10 @@ def wheel_body(mechanism: Mechanism) -> MassProperties | None:
         from geneva_cli.parts.sphere.body import wheel_body as of_shell  # only on a sphere
 
         return of_shell(mechanism)
+    from geneva_cli.curves.mass import added, face_properties, mass_properties
+    from geneva_cli.curves.moments import moments, total
+    from geneva_cli.outlines.wheel_hub import wheel_hub
+
     where = assembly(mechanism)
     size = sizes(where)
     circles = wheel_circles(where, size)
@@ -63,6 +69,8 @@ def _contour(where: Assembly, size: Sizes) -> Moments:
     It is the area of a wheel with closed mouths, less what the slots remove, turned to each slot's
     position. The opening of an internal wheel gains that instead.
     """
+    from geneva_cli.curves.moments import moments, total
+
     slots = {engagement: _slot(where, size, engagement) for engagement in where.kinds}
     mouths = {engagement: mouth for engagement, (mouth, _) in slots.items()}
     around = [slots[engagement][1].turned(direction) for engagement, direction in where.slots]
@@ -71,6 +79,8 @@ def _contour(where: Assembly, size: Sizes) -> Moments:
 
 def _slot(where: Assembly, size: Sizes, engagement: Engagement) -> tuple[Contour, Moments]:
     """Return a line that closes a slot's mouth, and the area of the slot beyond that line."""
+    from geneva_cli.curves.moments import moments
+
     if engagement.slot.curved:
         from geneva_cli.outlines.walls.rings import removed_face  # not needed for straight slots
 

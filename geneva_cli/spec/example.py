@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from geneva_cli.named_tuple import NamedTuple
 
 
 class Example(NamedTuple):

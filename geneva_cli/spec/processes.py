@@ -7,7 +7,7 @@ of DIN 988, which fills it.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from geneva_cli.named_tuple import NamedTuple
 
 
 class Allowances(NamedTuple):

@@ -17,7 +17,6 @@ from typing import (
     Annotated,
     Any,
     ClassVar,
-    NamedTuple,
     Self,
     TypeAlias,
     TypeVar,
@@ -27,8 +26,8 @@ from typing import (
 )
 
 from geneva_cli.errors import GenevaError, cut, few, nearest, refuse
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.rules import Csv, OneOf, Words, is_array, plain
-from geneva_cli.spec.units import in_unit_of
 
 LIST: TypeAlias = tuple[float, ...]
 LIST_MAX = 1000
@@ -340,6 +339,8 @@ def _list(table: str, field: Field, values: Sequence[Any]) -> tuple[float, ...]:
 
 def _with_unit(place: tuple[str, ...], field: Field, text: str) -> float:
     """The number that a text such as "8 in" is in the key's unit."""
+    from geneva_cli.spec.units import in_unit_of
+
     try:
         return in_unit_of(field.key, text)
     except GenevaError as error:

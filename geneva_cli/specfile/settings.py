@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import tomli
 
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.named_tuple import NamedTuple
 
 
 class Setting(NamedTuple):

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Collection, Iterator
-from typing import Any, NamedTuple
+from typing import Any
 
 from geneva_cli.errors import GenevaError, clean, cut, few, nearest
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.drive import Drive
 from geneva_cli.kinematics.motion import Motion
 from geneva_cli.machine.spec import BEFORE, Spec, attribute
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import REQUIRED, Points, SpecTable, fields, require, shown, unknown
 from geneva_cli.spec.tables import LISTS, PLAIN
-from geneva_cli.specfile.points import read_pairs
-from geneva_cli.specfile.writer import own_fields
 
 TABLES = ("wheel", "drive", "motion", *dict.fromkeys(t.partition(".")[0] for t in PLAIN))
 
@@ -42,6 +41,8 @@ class _Files:
 
     def points(self, name: Any, rule: Csv, place: tuple[str, str]) -> Points:
         """Pairs in the file that a key names, relative to the spec."""
+        from geneva_cli.specfile.points import read_pairs
+
         if not isinstance(name, str):
             raise GenevaError(f"{rule.key} must be text, not {shown(name)}", place)
         path = os.path.join(self.folder, name)
@@ -151,6 +152,8 @@ def _kind(values: dict[str, Any], kinds: _Kinds, files: _Files) -> Any:
 
 def _before(values: Any, drives: _Kinds, files: _Files) -> Any:
     """The drive before another one; an error names its table."""
+    from geneva_cli.specfile.writer import own_fields
+
     place = tuple(BEFORE.split("."))
     if not isinstance(values, dict):
         raise GenevaError(f"before must be a table: write [{BEFORE}] above its keys", place)
@@ -183,7 +186,8 @@ def _motion(values: dict[str, Any], files: _Files) -> Motion | None:
     values = dict(values)
     name = values.pop("law", None)
     if name is None:
-        _refuse_lawless(values)
+        if values:
+            _refuse_lawless(values)
         return None
     cls = registry.law(name)
     own = {field.key for field in fields(cls)}

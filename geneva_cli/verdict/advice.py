@@ -20,15 +20,14 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.roots import Falsi
 from geneva_cli.numerics.work import counted
-from geneva_cli.verdict.changes import Change, Value, value_now
 from geneva_cli.verdict.checks import checks, checks_at_rest, single_check
 from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
 from geneva_cli.verdict.checks.registry import SPHERE, STATIC, turn_checks
 from geneva_cli.verdict.failures import JAMS
-from geneva_cli.verdict.remedies import remedies
 
 if TYPE_CHECKING:
     from geneva_cli.drawings.model import PartsModel
+    from geneva_cli.verdict.changes import Change, Value
 
 # Work of all searches of a design: evaluations of a motion at an array of angles, of 0.5 to 1 ms.
 WORK = 3000
@@ -140,6 +139,9 @@ class Adviser:
 
     def _changes(self, wanted: list[Check]) -> Iterator[Change]:
         """Changes that may help any of some checks, each change once."""
+        from geneva_cli.verdict.changes import value_now
+        from geneva_cli.verdict.remedies import remedies
+
         seen = set()
         for check in wanted:
             for change in remedies(check.name, self.mechanism):
@@ -183,6 +185,8 @@ class _Search:
 
     def least(self, change: Change) -> str:
         """The least sufficient change of one key, as a line of the spec; empty if there is none."""
+        from geneva_cli.verdict.changes import value_now
+
         now = value_now(self.mechanism, change.table, change.key)
         bad, short = now, self.short
         for good in map(_as_written, change.values(now)):

@@ -1,4 +1,4 @@
-"""Warnings about a cycle: where the wheel drives the motor, unlikely numbers, unbounded loads."""
+"""Warnings about a cycle: where the wheel drives the motor or lags, and unbounded loads."""
 
 from __future__ import annotations
 
@@ -19,8 +19,7 @@ from geneva_cli.spec.load_limits import limits_by_key, load_limits
 
 def cycle_warnings(cycle: Cycle, loads: Mapping[str, QuantitySummary]) -> list[Notice]:
     """The warnings, for the summaries of a cycle's loads."""
-    lags = _lags(cycle.mechanism)
-    return [*_back_driven(cycle, loads), *lags, *_heavy(cycle), *_fast(cycle.mechanism, loads)]
+    return [*_back_driven(cycle, loads), *_lags(cycle.mechanism)]
 
 
 def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
@@ -93,47 +92,8 @@ def _lags(mechanism: Mechanism) -> list[Notice]:
     ]
 
 
-def _heavy(cycle: Cycle) -> list[Notice]:
-    L = cycle.case.L
-    inertia = cycle.case.inertia_Nm / cycle.case.speed_rad_s**2
-    # The largest table expected is solid steel, 6 L across and L/2 thick; J = pi rho h D^4 / 32. A
-    # larger inertia is nearly always meant in kg cm2.
-    diameter, thickness, density = 6.0 * L, 0.5 * L, 7850.0  # m, m, kg/m3
-    most = math.pi * density * thickness * diameter**4 / 32.0
-    if not inertia > most or not cycle.mechanism.output.turns:
-        return []
-    return [
-        Notice(
-            "heavy-inertia",
-            f"an inertia of {inertia:.4g} kg m² is large for a centre distance of {1e3 * L:.4g} "
-            f"mm. A solid steel table {1e3 * diameter:.4g} mm across and {1e3 * thickness:.4g} "
-            f"mm thick has {most:.3g} kg m². If it is in kg cm², write {1e-4 * inertia:.4g}",
-        )
-    ]
-
-
-def _fast(mechanism: Mechanism, loads: Mapping[str, QuantitySummary]) -> list[Notice]:
-    engagement = mechanism.engagements[0]
-    x, y = engagement.path(engagement.entry_deg, 0)
-    rim = math.hypot(x.c[0], y.c[0]) * mechanism.center_distance_mm / 1000.0
-    speed = rim * (loads["omega_rad_s"].max or 0.0)
-    sound_m_s = 343.0
-    if not speed > sound_m_s:
-        return []
-    n = mechanism.spec.drive.n_rpm
-    return [
-        Notice(
-            "faster-than-sound",
-            f"the wheel's rim moves at up to {speed:.4g} m/s, faster than sound ({sound_m_s:g} "
-            f"m/s): check n_rpm = {n:g}, the input's turns a minute",
-        )
-    ]
-
-
 def load_warnings(mechanism: Mechanism) -> list[Notice]:
-    """The warnings that need the loads; none without a load."""
-    if not mechanism.spec.is_loaded:
-        return []
+    """The warnings that need the loads, of a machine with a load."""
     cycle = cycle_of(mechanism)
     out = [*_jammed(cycle), *_on_an_edge(cycle)]
     # the search for a speed is needed only if the present one breaks a limit

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from geneva_cli.document import FAILS, PASSES, WARNS, SummaryLine
 from geneva_cli.errors import Notice, is_warning
 from geneva_cli.names import spoken
 from geneva_cli.table import Table, record_table
-from geneva_cli.verdict.checks.check import Check
-from geneva_cli.verdict.failures import meaning
 from geneva_cli.verdict.measured import bare, measured
+
+if TYPE_CHECKING:
+    from geneva_cli.verdict.checks.check import Check
 
 
 def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str]:
@@ -75,6 +77,8 @@ def input_lines(with_units: Iterable[str]) -> list[SummaryLine]:
 
 def _failure(check: Check) -> SummaryLine:
     """The line of a failing check: its value, its limit, and the change."""
+    from geneva_cli.verdict.failures import meaning
+
     label, unit = spoken(check.name)
     explained = f"geneva explain {check.name}"
     if check.value is None or check.limit is None:

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 from geneva_cli.analysis.peaks import peak
 from geneva_cli.errors import Notice
 from geneva_cli.kinematics.engagement import WheelMotion
-from geneva_cli.kinematics.law_motion import LawMotion
-from geneva_cli.kinematics.laws.law import Law
-from geneva_cli.kinematics.pitch_curve import retraces
 from geneva_cli.layout.fits import loosest_mm
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.spec.tables import Z_USUAL
+
+if TYPE_CHECKING:
+    from geneva_cli.kinematics.laws.law import Law
 
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
 
@@ -56,6 +57,8 @@ def motion_warnings(mechanism: Mechanism) -> list[Notice]:
                 f"{law.TURNS_BACK}",
             )
         )
+    from geneva_cli.kinematics.pitch_curve import retraces
+
     if engagement.slot.curved and not retraces(engagement):
         out.append(_off_the_mid_condition(mechanism))
     if max(abs(half(0.0, 2).scalars()[2]) for half in (law.first, law.second)) > 1e-9:
@@ -192,6 +195,8 @@ def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:
 @lru_cache(maxsize=128)
 def _law_turns_back(law: Law) -> bool:
     """Return True if a wheel turns back with a law, whatever its step and its motion angle."""
+    from geneva_cli.kinematics.law_motion import LawMotion
+
     return _least_velocity(LawMotion(-0.5, 0.5, 0.5, law)) is not None
 
 

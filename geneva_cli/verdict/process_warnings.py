@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.plates import Plate, Shell, Solid, solids
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.drawings.single_parts import is_cut
 from geneva_cli.errors import GenevaError, Notice
-from geneva_cli.layout.missing import Missing, NamedParts, built_of
 from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.spec.workshops import workshop
+
+if TYPE_CHECKING:
+    from geneva_cli.curves.plates import Solid
+    from geneva_cli.layout.missing import Missing, NamedParts
 
 
 def process_warnings(model: PartsModel) -> Iterator[Notice]:
@@ -41,6 +43,9 @@ def process_warnings(model: PartsModel) -> Iterator[Notice]:
 
 def _small_holes(named: list[NamedParts], least: float) -> Iterator[Notice]:
     """A warning that names each part with a hole below ``least`` thicknesses."""
+    from geneva_cli.curves.plates import solids
+    from geneva_cli.layout.missing import built_of
+
     if not least:
         return
     missing: list[Missing] = []  # the check of the parts reports them
@@ -63,6 +68,9 @@ def _small_holes(named: list[NamedParts], least: float) -> Iterator[Notice]:
 
 def _holes(solid: Solid) -> Iterator[tuple[float, float]]:
     """Yield the widths of a part's holes and its thickness, if it is cut out of a plate."""
+    from geneva_cli.curves.plates import Plate, Shell
+    from geneva_cli.drawings.single_parts import is_cut
+
     if isinstance(solid, Shell):
         for bored in solid.holes:
             yield 2.0 * bored.radius, solid.outer - solid.inner

@@ -12,7 +12,6 @@ import numpy as np
 from geneva_cli.errors import Notice
 from geneva_cli.layout.sizes import sized
 from geneva_cli.loads.strength import horn, lock, shafts
-from geneva_cli.loads.strength.sphere_horn import sphere_stoutness
 from geneva_cli.verdict.quantities.designs import single
 from geneva_cli.verdict.quantities.groups import REPORT, only
 from geneva_cli.verdict.quantities.under_load import under_load
@@ -82,6 +81,8 @@ class Strength:
         if sizes is not None:
             return float(horn.stoutness(self.mechanism, *sizes)[0]), sizes[1]
         assert ball is not None  # without a lock there is no stress
+        from geneva_cli.loads.strength.sphere_horn import sphere_stoutness
+
         stout = sphere_stoutness(self.mechanism, ball.half_width, ball.recess, ball.axes)
         return stout, ball.radius_mm * math.sin(ball.recess)
 

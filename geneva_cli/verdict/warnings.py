@@ -4,18 +4,15 @@ from __future__ import annotations
 
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import Notice
-from geneva_cli.loads.cycle import cycle_of
-from geneva_cli.loads.summary import summaries
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.wheel_inertia import known_wheel_body
 from geneva_cli.verdict.carried_warnings import carried_warnings
-from geneva_cli.verdict.cycle_warnings import cycle_warnings, load_warnings
 from geneva_cli.verdict.direction_warnings import direction_warnings
 from geneva_cli.verdict.motion_warnings import motion_warnings
 from geneva_cli.verdict.process_warnings import process_warnings
-from geneva_cli.verdict.strength import strength
 from geneva_cli.verdict.turn_warnings import turn_warnings
+from geneva_cli.verdict.unlikely_warnings import unlikely_warnings
 
 
 def warnings(model: PartsModel) -> list[Notice]:
@@ -40,7 +37,7 @@ def warnings(model: PartsModel) -> list[Notice]:
 def one_way_warnings(model: PartsModel) -> list[Notice]:
     """Warnings about a machine in its own direction, in the order of ``warnings``."""
     mechanism = model.mechanism
-    of_strength = strength(mechanism).warnings()
+    of_strength = _of_strength(mechanism) if mechanism.spec.is_loaded else []
     return [
         *motion_warnings(mechanism),
         *under_load(mechanism),
@@ -51,10 +48,27 @@ def one_way_warnings(model: PartsModel) -> list[Notice]:
 
 
 def under_load(mechanism: Mechanism) -> list[Notice]:
-    """Warnings about the loads of a machine, and about what it carries."""
-    cycle = cycle_of(mechanism)
+    """Warnings about the loads of a machine, about unlikely numbers, and about what it carries."""
     return [
-        *load_warnings(mechanism),
-        *cycle_warnings(cycle, summaries(cycle)),
+        *(_of_loads(mechanism) if mechanism.spec.is_loaded else ()),
+        *unlikely_warnings(mechanism),
         *carried_warnings(mechanism, known_wheel_body(mechanism)),
     ]
+
+
+# What a load needs is imported for a load.
+
+
+def _of_strength(mechanism: Mechanism) -> list[Notice]:
+    from geneva_cli.verdict.strength import strength
+
+    return strength(mechanism).warnings()
+
+
+def _of_loads(mechanism: Mechanism) -> list[Notice]:
+    from geneva_cli.loads.cycle import cycle_of
+    from geneva_cli.loads.summary import summaries
+    from geneva_cli.verdict.cycle_warnings import cycle_warnings, load_warnings
+
+    cycle = cycle_of(mechanism)
+    return [*load_warnings(mechanism), *cycle_warnings(cycle, summaries(cycle))]

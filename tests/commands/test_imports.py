@@ -126,14 +126,33 @@ ROWS = [
 
 # The quick ones may import this much of the program, and no more.
 OWN = {
-    "--help": "app errors progress streams manual",
+    "--help": "app errors named_tuple progress streams manual",
     "--version": "app errors progress streams",
     # no spec, no registry of kinds, no record of either: of the wheels their closed forms alone
-    "table --z 6": "app errors progress streams table commands commands.completion "
+    "table --z 6": "app errors named_tuple progress streams table commands commands.completion "
     "commands.options commands.table kinematics kinematics.wheels kinematics.wheels.classic output "
     "output.finite output.formats output.text spec.ranges study study.survey analysis "
     "analysis.cam_factors analysis.timing numerics numerics.angles numerics.arrays spec "
     "spec.rules",
+}
+
+# Modules of the program that a run of an unloaded wheel imports, at most: a few more than today.
+# A module costs a fifth of a millisecond, and most branches of a large program are of no use for a
+# given machine. Where a number is exceeded, see which branch imported too much.
+STRAIGHT, CURVED = "[wheel]\nz = 6\n", '[wheel]\nz = 6\n[motion]\nlaw = "modified-sine"\n'
+MOST = {
+    "peaks -": (80, 100),
+    "motion -": (82, 102),
+    "loads - --set load.inertia_kgm2=0.05": (218, 238),
+    "vibration - --period-ratio 5": (110, 116),
+    "check -": (229, 274),
+    "report -": (328, 347),
+    "compare - --vary drive.n_rpm=60,90": (258, 264),
+    "profile -": (94, 114),
+    "profile - --part wheel --format svg": (212, 258),
+    "profile - --part wheel --format dxf": (210, 256),
+    "profile - --part sheet --format svg": (234, 282),
+    "plot - --format svg": (138, 146),
 }
 
 
@@ -207,6 +226,14 @@ def test_a_fork_has_imported_what_a_process_has(forks):
 @pytest.mark.parametrize("line", OWN)
 def test_own_modules(line):
     assert own(loaded(line.split())) <= set(OWN[line].split())
+
+
+@pytest.mark.parametrize("line", MOST)
+@pytest.mark.sampled(3)
+def test_few_own_modules(line):
+    for text, most in zip((STRAIGHT, CURVED), MOST[line], strict=True):
+        modules = own(loaded(line.split(), input=text, stdout=subprocess.DEVNULL))
+        assert len(modules) <= most
 
 
 @pytest.mark.parametrize("words", ["geneva ", "geneva ta", "geneva table --", "geneva motion --s"])

@@ -24,7 +24,7 @@ ONE_OF = {
 
 
 def holds(interval, value):
-    return mpmath.mpf(interval.low) <= value <= mpmath.mpf(interval.high)
+    return mpmath.mpf(float(interval.low)) <= value <= mpmath.mpf(float(interval.high))
 
 
 @pytest.mark.parametrize("take", [float, bool, int, round, math.sin, np.sin, np.float64])
@@ -81,6 +81,41 @@ def test_every_operation_holds_the_exact_values():
                 assert x.low <= 0.0 and y.low <= 0.0 <= y.high
             else:
                 assert holds(angle, mpmath.atan2(v, u))
+
+
+@np.errstate(all="ignore")  # some have no bounds
+def test_intervals_together_are_those_of_each_alone():
+    rng = np.random.default_rng(2)
+    ends = np.sort(rng.uniform(-9.0, 9.0, (2, 200)), axis=0)
+    together = Interval(*ends)
+    for f in (
+        lambda x: x * (x + 2.0) - 3.0 / x,
+        lambda x: (x - 0.5) ** 3 * abs(x),
+        lambda x: library(x).sin(x) * library(x).cos(3.0 * x),
+        lambda x: library(x).sqrt(x * x + 1.0) / library(x).exp(x),
+        lambda x: library(x).acos(x / 10.0) + library(x).hypot(x, 2.0 - x),
+        lambda x: library(x).atan2(x, x * x + 0.5),
+    ):
+        out = f(together)
+        each = [f(Interval(low, high)) for low, high in ends.T.tolist()]
+        assert out.low.tolist() == [float(one.low) for one in each]
+        assert out.high.tolist() == [float(one.high) for one in each]
+        assert out.size.tolist() == [float(one.size) for one in each]
+
+
+@pytest.mark.parametrize(
+    ("ask", "answers"),
+    [
+        (lambda x: x < 1.0, [1.0, math.nan, 0.0]),
+        (lambda x: x.piece([0.25, 1.0]), [1.0, math.nan, 2.0]),
+        (lambda x: library(x).floor(x), [0.0, math.nan, 1.0]),
+    ],
+)
+def test_each_interval_has_its_own_answer(ask, answers):
+    x = Interval(np.array([0.5, 0.9, 1.2]), np.array([0.9, 1.1, 1.5]))
+    with pytest.raises(Undecided) as refused:
+        ask(x)
+    np.testing.assert_equal(refused.value.answers, answers)
 
 
 def test_peaks_of_the_sine_are_inside():

@@ -204,8 +204,9 @@ def test_a_path_that_is_unknown_closes_no_interval():
     def curve(x, order):
         raise Undecided
 
-    assert curve_rates(curve, 0.0, 1.0) == (math.inf, math.inf)
-    travel = Travel([0.0, 1.0, 2.0], [(math.inf, math.inf), (1.0, 1.0)], 100.0)
+    ends = np.array([0.0, 1.0]), np.array([1.0, 2.0])
+    assert np.isinf(curve_rates(curve, *ends)).all()
+    travel = Travel([0.0, 1.0, 2.0], np.array([[math.inf, 1.0], [math.inf, 1.0]]), 100.0)
     at = np.array([0.5])
     assert travel.most(at, at + 1e-9) == travel.most(at, at + 1.0) == UNKNOWN
     assert travel.aside(at, at + 1e-6) > 1e12

@@ -30,7 +30,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.written import is_metric, length, number
 from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.machine.spec import Spec
-from geneva_cli.output.inches import value_in_inches
 from geneva_cli.spec.tables import Material, TitleBlock
 from geneva_cli.spec.workshops import Stock, workshop
 
@@ -179,6 +178,8 @@ def _material(own: Material, of: Stock, usual: Stock) -> str:
     density = of.density_kgm3
     if is_metric():
         return f"{density:g} kg/m³"
+    from geneva_cli.output.inches import value_in_inches
+
     return f"{value_in_inches(density, 'kg/m³')[0]:.4g} lb/in³"
 
 

@@ -12,7 +12,6 @@ from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.view import Block, times
 from geneva_cli.layout.fits import Fits
-from geneva_cli.layout.groove import groove_curve
 from geneva_cli.layout.written import coordinate, is_metric, length, number
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -50,6 +49,8 @@ def tables(parts: Outlines, tolerance: float) -> list[Block]:
         blocks.append(point_table(what + more, points, close))
     guide = assembly.rollers[0][0].groove
     if guide is not None:
+        from geneva_cli.layout.groove import groove_curve
+
         guided = groove_curve(guide, assembly.L, 0.0)
         symmetric = guide.motion.symmetric
         last = 180.0 if symmetric else 360.0
@@ -64,6 +65,7 @@ def gear_tables(mechanism: Mechanism, tolerance: float) -> list[Block]:
     pair, L = mechanism.spec.gears, mechanism.center_distance_mm
     if pair is None:
         return []
+
     close, blocks = max(tolerance, COARSE * L), []
     for name, of in (("driven gear", driven_curve), ("driver gear", driver_curve)):
         both = of(pair, mechanism.gear_shaft.sense)

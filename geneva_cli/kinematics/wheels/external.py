@@ -11,9 +11,7 @@ from geneva_cli.kinematics.layout import Dimension, Layout
 from geneva_cli.kinematics.path_and_slot import AnchoredPath
 from geneva_cli.kinematics.wheels import classic, poses
 from geneva_cli.kinematics.wheels.gearing import FollowedRate, Gearing, RollerPlace
-from geneva_cli.kinematics.wheels.offset_slot import OffsetSlot, OffsetSlotMotion, exact_rate
 from geneva_cli.kinematics.wheels.poses import HalfStep
-from geneva_cli.kinematics.wheels.skew import margin, skew
 from geneva_cli.numerics.arrays import choose
 from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import LENGTH, Range
@@ -117,6 +115,8 @@ class External(Gearing):
         if isinstance(e, float) and not e:
             return RollerPlace(step, half, poses.radial(self.SIGN, step), step.sin_cos[0])
 
+        from geneva_cli.kinematics.wheels.skew import margin, skew
+
         def error() -> GenevaError:
             # b + |d| < 90 degrees means |e| < 1 - l; at the limit e = cos b sin d, d = 90 deg - b
             limit = step.sin_cos[1] ** 2 * center_distance_mm
@@ -137,6 +137,8 @@ class External(Gearing):
         """Radial or offset slot for a roller's path, and the motion that follows."""
         if place.skew is None:
             return super().follow(path, place, turn)
+        from geneva_cli.kinematics.wheels.offset_slot import OffsetSlot, OffsetSlotMotion
+
         slot = OffsetSlot(path, place.skew)
         return slot, OffsetSlotMotion(path, place.step.b, place.skew)
 
@@ -146,6 +148,8 @@ class External(Gearing):
         """Rate of a wheel with radial or offset slots, as in ``Gearing.exact_rate``."""
         if not self.offset_mm:
             return super().exact_rate(step, L, exact)
+        from geneva_cli.kinematics.wheels.offset_slot import exact_rate
+
         return exact_rate(exact(self.offset_mm) / exact(L), *step)
 
     def closed_form(self, place: RollerPlace) -> tuple[float, float, float] | None:

@@ -6,12 +6,12 @@ import math
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import field
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self, TypeAlias
+from typing import TYPE_CHECKING, Annotated, ClassVar, Self, TypeAlias
 
 from geneva_cli.kinematics.layout import Layout, Pivot
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose
-from geneva_cli.kinematics.wheels.skew import Skew
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import larger
 from geneva_cli.numerics.jet import Jet, turning
 from geneva_cli.spec.example import Example
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
         WheelMotion,
     )
     from geneva_cli.kinematics.plane_motion import PlaneMotion
+    from geneva_cli.kinematics.wheels.skew import Skew
 
 
 # The wheel's rate from sin d and 1 - cos d of the crank's rotation d since mid-motion.

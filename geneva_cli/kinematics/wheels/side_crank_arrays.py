@@ -23,10 +23,11 @@ of it).
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import DEGREE
 
 if TYPE_CHECKING:

@@ -27,16 +27,15 @@ from __future__ import annotations
 
 import math
 from functools import reduce
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from geneva_cli.analysis.forces import contact_modulus_GPa, hertz_MPa
 from geneva_cli.analysis.locking import Lock
-from geneva_cli.analysis.unbalance import held_unbalance_Nm
-from geneva_cli.loads.strength.horn import SHEAR, horns, product
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.materials import wheel_material
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import all_true, blocks, choose_record, only_of, parameter
 
 if TYPE_CHECKING:
@@ -85,6 +84,8 @@ def held_torque_Nm(mechanism: Mechanism) -> float:
     held = load.torque_Nm if load.dwell_torque_Nm is None else load.dwell_torque_Nm
     if not mechanism.unbalanced:
         return held
+    from geneva_cli.analysis.unbalance import held_unbalance_Nm
+
     return held + parameter(held_unbalance_Nm(mechanism))
 
 
@@ -172,6 +173,8 @@ def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) 
 
 def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> HornBending:
     """The weakest horn of designs that are computed together."""
+    from geneva_cli.loads.strength.horn import SHEAR, horns, product
+
     material = wheel_material(mechanism.spec)
     E = 1e3 * material.youngs_modulus_GPa
     G = E / (2.0 * (1.0 + material.poisson_ratio))

@@ -16,14 +16,14 @@ moment. Their greatest combination over the cycle is exact.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.analysis.forces import QuantityValue
 from geneva_cli.analysis.instant import Instant
-from geneva_cli.loads.strength.sphere_shafts import on_sphere_crank, on_sphere_wheel
 from geneva_cli.loads.summaries import load_peaks
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import only_of, parameter
 
 if TYPE_CHECKING:
@@ -109,12 +109,18 @@ def on_driven_crank(i: Instant[Jet], at: Contact[Jet], overhang: Number) -> tupl
 
 def wheel_forces(spec: Spec) -> ShaftForces:
     """The loads of the wheel's shaft."""
-    return on_sphere_wheel if spec.wheel.SHELLS else on_wheel
+    if spec.wheel.SHELLS:
+        from geneva_cli.loads.strength.sphere_shafts import on_sphere_wheel
+
+        return on_sphere_wheel
+    return on_wheel
 
 
 def crank_forces(spec: Spec) -> ShaftForces:
     """The loads of the crank's shaft."""
     if spec.wheel.SHELLS:
+        from geneva_cli.loads.strength.sphere_shafts import on_sphere_crank
+
         return on_sphere_crank
     return on_driven_crank if spec.drive.CRANKED else on_crank
 

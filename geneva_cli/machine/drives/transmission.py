@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, ClassVar
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.kinematics import path_and_motion
 from geneva_cli.kinematics.drive import Drive, Needs, Plan
 from geneva_cli.kinematics.engagement import (
     Anchor,
@@ -19,13 +18,12 @@ from geneva_cli.kinematics.engagement import (
     Engagement,
     Path,
 )
-from geneva_cli.kinematics.law_motion import refuse_alpha0
-from geneva_cli.kinematics.path_and_motion import MiddlePath
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, ClassicMotion
 from geneva_cli.kinematics.wheels.classic import refuse_jam, rollers_max
 from geneva_cli.kinematics.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.kinematics.wheels.poses import PinPose, middle
 from geneva_cli.machine.rollers import places
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.numerics.jet import Jet, Number, sine_versine
@@ -150,6 +148,9 @@ class Transmission(Drive, kw_only=True):
 
     def _curved(self, wheel: Gearing, motion: Motion, L: float) -> Plan:
         """Plan of curved slots, solved for from a law and the crank's circle."""
+        from geneva_cli.kinematics import path_and_motion
+        from geneva_cli.kinematics.law_motion import refuse_alpha0
+
         law = motion.law
         half = wheel.half_motion_deg(wheel.step)
         self._refuse_reach(wheel, half)
@@ -160,7 +161,7 @@ class Transmission(Drive, kw_only=True):
         ratio = self._ratio(wheel, motion, motion_deg)
         pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
         anchor = self._anchor(pose, 0.0)
-        path = MiddlePath(anchor, self.about(0.0).even)
+        path = path_and_motion.MiddlePath(anchor, self.about(0.0).even)
         reactions = self.reactions(wheel, path, 0.0, L) if wheel.FLAT else None
         body = self.turning(0.0, -wheel.SIGN)
         engagement = path_and_motion.engagement(

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.outlines.walls.ways import Wall
 
 if TYPE_CHECKING:

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.verdict.checks.check import Check, refused
 
 if TYPE_CHECKING:
     from geneva_cli.parts.counter_parts import CounterParts
     from geneva_cli.parts.rack_parts import RackParts
+    from geneva_cli.parts.sphere.sphere_parts import SphereParts
 
 
 def plates(name: str, parts: FlatParts | RackParts | CounterParts) -> Check | None:

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from geneva_cli.layout.clamps import clamp_of
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.verdict.checks.check import Check, compared
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.sphere.sphere_parts import SphereParts
 
 
 def held_torque(name: str, parts: FlatParts | SphereParts) -> Check | None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from geneva_cli.loads import loads
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.verdict.checks.check import Check
@@ -23,6 +22,8 @@ def limited_pressure(name: str, mechanism: Mechanism) -> Check | None:
 
 
 def _greatest(name: str, mechanism: Mechanism, limit: float) -> Check:
+    from geneva_cli.loads import loads
+
     peak = loads.greatest_pressure(mechanism)
     # At 90 degrees nothing turns the wheel, whatever the limit.
     passes = keeps(peak.max, "at most", limit) and peak.max < 90.0

@@ -6,17 +6,16 @@ import math
 from typing import TYPE_CHECKING
 
 from geneva_cli.curves.plates import plates
-from geneva_cli.drawings.single_parts import is_cut
 from geneva_cli.layout.plain_sizes import drawn_thicknesses
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.spec.workshops import workshop
 from geneva_cli.verdict.checks.check import Check, compared
 
 if TYPE_CHECKING:
     from geneva_cli.parts.counter_parts import CounterParts
     from geneva_cli.parts.rack_parts import RackParts
+    from geneva_cli.parts.sphere.sphere_parts import SphereParts
 
 
 def thickest_plate(name: str, parts: FlatParts) -> Check | None:
@@ -44,6 +43,8 @@ def thickest_of_rack(name: str, parts: RackParts) -> Check | None:
 
 def thickest_of_counter(name: str, parts: CounterParts) -> Check | None:
     """The thickest plate of a counter, where the process has a limit."""
+    from geneva_cli.drawings.single_parts import is_cut
+
     every = [one for member in parts.members for one in plates(member.part)]
     return _thickness(name, parts.mechanism, max(one.thickness for one in every if is_cut(one)))
 

@@ -7,7 +7,6 @@ from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.verdict.checks.check import Check, compared
-from geneva_cli.verdict.strength import strength
 
 
 def rack_horn(name: str, mechanism: Mechanism) -> Check | None:
@@ -32,5 +31,7 @@ def guide_locks(name: str, mechanism: Mechanism) -> Check | None:
     friction = value_or(load.guide_friction, load.friction)
     if mechanism.output.turns or not friction:
         return None
+    from geneva_cli.verdict.strength import strength
+
     value = strength(mechanism)["guide.locks_at_friction"]
     return compared(name, value, "at least", friction) if value else None

@@ -8,7 +8,6 @@ import numpy as np
 
 from geneva_cli.analysis.carried import carried_kg
 from geneva_cli.analysis.peak_search import worst_peaks
-from geneva_cli.analysis.unbalance import centrifugal_N, held_unbalance_Nm
 
 if TYPE_CHECKING:
     from geneva_cli.verdict.quantities.designs import Columns, Designs
@@ -19,6 +18,8 @@ def carousel(of: Designs) -> Columns:
     machine, wheels = of.machine, of.spec.drive.wheels_on_carrier
     if not wheels:
         return {}
+    from geneva_cli.analysis.unbalance import centrifugal_N, held_unbalance_Nm
+
     own = sum(2.0 * one.half_step for one in machine.engagements) * (360.0 / machine.period_deg)
     fastest = worst_peaks(machine, ["velocity"])["velocity"].max
     every = machine.under_load  # its period has the motions of all wheels

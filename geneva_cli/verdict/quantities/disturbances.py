@@ -9,8 +9,6 @@ import numpy as np
 from geneva_cli.analysis.carried import inertia_kgm2
 from geneva_cli.analysis.change_of_sides import lasting_drag_Nm
 from geneva_cli.analysis.impacts import Impacts, entry_impacts, reversal_impacts
-from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst, motion_plays, used
-from geneva_cli.analysis.vibration.vibration import Vibrations, design_vibrations
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number
@@ -20,6 +18,8 @@ if TYPE_CHECKING:
 
 def vibration(of: Designs) -> Columns:
     """The vibration of a load on its elastic shaft."""
+    from geneva_cli.analysis.vibration.vibration import Vibrations, design_vibrations
+
     shaken = design_vibrations(of.machine, of.requested("vibration"))
     if shaken is None:
         return dict.fromkeys(Vibrations._fields)
@@ -55,6 +55,8 @@ def tolerances(of: Designs) -> Columns:
     The jump at entry is computed as a batch if all designs have tolerances, none of which is too
     wide.
     """
+    from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst, motion_plays, used
+
     plays = motion_plays(of.machine)
     if plays is None:
         return dict.fromkeys(("motion_play.worst_deg", "motion_play.rss_deg", "entry_jump.worst"))

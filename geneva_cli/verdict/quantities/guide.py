@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.strength.guide import guide_force, locks_at_friction
-from geneva_cli.outlines.rack import rack_sizes
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
@@ -27,6 +25,9 @@ def guide(of: Designs) -> Columns:
 
 def _guide(machine: Mechanism) -> tuple[float, float, float, float]:
     """Length, friction that locks, force and its angle; infinite for what a design lacks."""
+    from geneva_cli.loads.strength.guide import guide_force, locks_at_friction
+    from geneva_cli.outlines.rack import rack_sizes
+
     try:
         sizes = rack_sizes(machine)
     except GenevaError:  # the check of the horn reports the error

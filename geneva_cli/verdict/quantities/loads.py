@@ -11,7 +11,6 @@ from geneva_cli.analysis.positive_drive import positive_drives
 from geneva_cli.analysis.quantities import REPORTED_PEAKS, sources
 from geneva_cli.loads.loads import kinetic_power_W
 from geneva_cli.loads.means import load_means
-from geneva_cli.loads.sizing import sizings
 from geneva_cli.loads.summaries import load_peaks, load_summaries
 from geneva_cli.numerics.arrays import parameter
 
@@ -63,6 +62,8 @@ def summaries(of: Designs) -> Columns:
 
 def sizing(of: Designs) -> Columns:
     """Motor, flywheel and the makers' form; None for values that need keys that no design has."""
+    from geneva_cli.loads.sizing import sizings
+
     requested = of.requested("sizing")
     out: dict[str, Number | None] = dict.fromkeys(requested)
     for name, row in sizings(of.machine, requested).items():

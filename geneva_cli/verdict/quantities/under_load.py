@@ -10,15 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.analysis.quantities import FORCE, PV
-from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.sizes import Layout, sized
 from geneva_cli.layout.sphere_sizes import sized_ball
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.strength import lock, roller, shafts
-from geneva_cli.loads.strength.horn import horn_stresses
-from geneva_cli.loads.strength.horn_search import HornStress
-from geneva_cli.loads.strength.part_loads import PartLoads, own_loads, part_loads, sizing_loads
-from geneva_cli.loads.strength.sphere_horn import sphere_horn
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.verdict.part_sizes import (
@@ -31,7 +26,10 @@ from geneva_cli.verdict.part_sizes import (
 )
 
 if TYPE_CHECKING:
+    from geneva_cli.layout.ball import Ball
+    from geneva_cli.loads.strength.horn_search import HornStress
     from geneva_cli.loads.strength.lock import LockUnderTorque
+    from geneva_cli.loads.strength.part_loads import PartLoads
     from geneva_cli.loads.strength.roller import SlotPassage
     from geneva_cli.numerics.jet import Array
     from geneva_cli.verdict.quantities.designs import Designs
@@ -94,8 +92,13 @@ class UnderLoad:
 
     def horn(self, width: float) -> HornStress:
         """The greatest stress in the horns under the roller, for a width of its contact."""
+        from geneva_cli.loads.strength.horn import horn_stresses
+        from geneva_cli.loads.strength.horn_search import HornStress
+
         if self.flat_horns is not None:
             return horn_stresses(self.machine, *self.flat_horns, width)
+        from geneva_cli.loads.strength.sphere_horn import sphere_horn
+
         rows = np.full((len(HornStress._fields), len(self.balls)), np.nan)
         widths = np.broadcast_to(np.ravel(width), len(self.balls))
         for i, (one, ball) in enumerate(zip(self.designs.each, self.balls, strict=True)):
@@ -114,6 +117,8 @@ class UnderLoad:
     @cached_property
     def sizing_loads(self) -> PartLoads:
         """The loads for which the parts are sized: the greatest of all directions."""
+        from geneva_cli.loads.strength.part_loads import sizing_loads
+
         return sizing_loads(self.machine, self.part_loads)
 
     @cached_property
@@ -143,6 +148,8 @@ class UnderLoad:
     @cached_property
     def part_loads(self) -> PartLoads:
         """The greatest loads on arm, keys and shafts."""
+        from geneva_cli.loads.strength.part_loads import part_loads
+
         return part_loads(self.machine)
 
     def shaft(
@@ -165,6 +172,8 @@ class SingleUnderLoad(UnderLoad):
     @cached_property
     def part_loads(self) -> PartLoads:
         """The greatest loads on arm, keys and shafts."""
+        from geneva_cli.loads.strength.part_loads import own_loads
+
         return own_loads(self.machine)
 
     @cached_property

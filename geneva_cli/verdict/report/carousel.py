@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.table import rows_table
 from geneva_cli.verdict.checks.carrier import reach_mm
-from geneva_cli.verdict.report.values import Values
+
+if TYPE_CHECKING:
+    from geneva_cli.verdict.report.values import Values
 
 
 def envelope(model: PartsModel) -> Values:

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.verdict.report.values import Values
 from geneva_cli.verdict.strength import REASONS, strength
+
+if TYPE_CHECKING:
+    from geneva_cli.verdict.report.values import Values
 
 
 def needs(model: PartsModel) -> Values:

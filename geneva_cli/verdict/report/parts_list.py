@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.drawings.parts_list import FIRST, KINDS, parts_list
 from geneva_cli.table import Reading, rows_table
-from geneva_cli.verdict.report.values import Values
+
+if TYPE_CHECKING:
+    from geneva_cli.verdict.report.values import Values
 
 
 def parts_list_tables(model: PartsModel) -> Values:

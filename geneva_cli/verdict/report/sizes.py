@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
+from typing import TYPE_CHECKING
 
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads import loads
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import scalar
-from geneva_cli.verdict.report.values import Values
+
+if TYPE_CHECKING:
+    from geneva_cli.verdict.report.values import Values
 
 _SPHERE = [
     f"sizes.{name}"

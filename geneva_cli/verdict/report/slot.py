@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from geneva_cli.analysis.positive_drive import positive_drive
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.verdict.report.values import Values
+
+if TYPE_CHECKING:
+    from geneva_cli.verdict.report.values import Values
 
 
 def slot(model: PartsModel) -> Values:

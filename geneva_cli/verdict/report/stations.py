@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from geneva_cli.analysis.peaks import Peaks, placed_peaks, worst
 from geneva_cli.analysis.timing import timings
@@ -13,7 +14,9 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
 from geneva_cli.table import rows_table
 from geneva_cli.verdict.quantities.motion import peak_values
-from geneva_cli.verdict.report.values import Numbers, Values
+
+if TYPE_CHECKING:
+    from geneva_cli.verdict.report.values import Numbers, Values
 
 
 def timing(model: PartsModel) -> Values:

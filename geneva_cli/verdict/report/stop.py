@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.strength.stop import stop_contact
 from geneva_cli.outlines.stop import wheel_stop
 from geneva_cli.verdict.quantities.groups import own_names
-from geneva_cli.verdict.report.values import Values
+
+if TYPE_CHECKING:
+    from geneva_cli.verdict.report.values import Values
 
 
 def stop(model: PartsModel) -> Values:
@@ -21,6 +24,8 @@ def stop(model: PartsModel) -> Values:
         return values
     stops = wheel_stop(outlines)
     assert stops is not None  # the wheel has a convex face
+    from geneva_cli.loads.strength.stop import stop_contact
+
     contact = stop_contact(model.mechanism, stops.lever_mm, outlines.sizes.rim)
     named = {
         "turns": stops.turns,

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.quantities.groups import own_names
-from geneva_cli.verdict.report.values import Values
+
+if TYPE_CHECKING:
+    from geneva_cli.verdict.report.values import Values
 
 SAMPLES = 65536  # random machines
 
