@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.table import Table, rows_table
 
 Piece: TypeAlias = tuple[Sequence[float], Sequence[float]]  # x ascending, and y

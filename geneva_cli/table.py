@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import accumulate, islice
-from typing import Any
+from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
-from geneva_cli.named_tuple import NamedTuple
 
 PIECE = 65536  # rows of a long table that are computed at once; a multiple of a block
 WHOLE_ROWS = 100_000  # longer tables are computed while they are written

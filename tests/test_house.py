@@ -19,7 +19,7 @@ ROOT = os.path.dirname(geneva_cli.__file__)
 
 # From the ground up. A room imports rooms of the floors below its own.
 FLOORS = [
-    {"errors", "named_tuple", "names", "progress"},
+    {"errors", "names", "progress"},
     {"table"},
     {"spec", "numerics", "streams", "figure", "scene", "document", "manual"},
     {"kinematics", "curves"},
@@ -387,16 +387,6 @@ def test_few_rooms_know_typer():
         return [n for n in read(source(module)).imports if n.startswith(("typer", "click"))]
 
     assert broken(typer, [m for m in MODULES if room(m) not in TYPER]) == {}
-
-
-def test_nobody_takes_the_slow_named_tuple():
-    """And a module with one postpones its annotations, as ours reads their names alone."""
-    texts = {m: source(m) for m in MODULES if m != "named_tuple"}
-    assert not [
-        m for m, text in texts.items() if "typing.NamedTuple (theirs)" in read(text).imports
-    ]
-    named_tuples = [m for m, text in texts.items() if "(NamedTuple" in text]
-    assert not [m for m in named_tuples if "from __future__ import annotations" not in texts[m]]
 
 
 def test_nobody_asks_which_machine_it_is():

@@ -17,10 +17,11 @@ With a larger m it stops short. Angles are input angles in radians.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from geneva_cli.analysis.carried import inertia_kgm2, resisting_torque_Nm
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.roots import boundary
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from geneva_cli.named_tuple import NamedTuple
+from typing import NamedTuple
+
 from geneva_cli.numerics.angles import radians
 
 

@@ -9,14 +9,13 @@ import math
 from collections.abc import Callable, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 from geneva_cli.analysis.certificate_loads import LOADS, load_formula, not_proved
 from geneva_cli.analysis.peaks import QUANTITIES
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.table import Table, rows_table

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from functools import cache
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -20,7 +20,6 @@ from geneva_cli.analysis.peak_search import landmarks
 from geneva_cli.kinematics.engagement import Engagement, WheelMotion
 from geneva_cli.machine.many import designs_in, taken
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.arrays import blocks, choose, joined, larger
 from geneva_cli.numerics.newton import find_roots

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Generic
+from typing import TYPE_CHECKING, Generic, NamedTuple
 
 from geneva_cli.kinematics.engagement import Engagement, Vector
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import all_true, choose, library
 from geneva_cli.numerics.jet import Jet, Number, V, piecewise, sin_cos, sqrt
 

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import TYPE_CHECKING, Generic
+from typing import TYPE_CHECKING, Generic, NamedTuple
 
 from geneva_cli.analysis.carried import MM, inertia_kgm2, resisting_torque_Nm, unbalance_kgm
 from geneva_cli.analysis.contact import Contact
@@ -24,7 +24,6 @@ from geneva_cli.analysis.guide_place import guide_place
 from geneva_cli.analysis.pin import pin_diameter_mm
 from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import N, all_true, choose, designs_of, library
 from geneva_cli.numerics.jet import Jet, Number, V

@@ -7,11 +7,10 @@ first one begins, it ends R - w past the crank's axis, w being half a slot.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.analysis.pin import pin_diameter_mm
 from geneva_cli.machine.least_wall import wall_min
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import choose, larger
 from geneva_cli.spec.default_sizes import value_or
 

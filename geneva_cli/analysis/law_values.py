@@ -6,6 +6,7 @@ They are for the table of laws; the peaks of machines' motions are in ``peak_sea
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.analysis.cam_factors import CamFactors
 from geneva_cli.analysis.peaks import peak
@@ -13,7 +14,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.law_motion import LawMotion
 from geneva_cli.kinematics.laws.law import Law
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.schema import REQUIRED, fields
 from geneva_cli.table import Reading, Table, rows_table
 

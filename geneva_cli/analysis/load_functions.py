@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
@@ -29,7 +29,6 @@ from geneva_cli.analysis.quantities import PV, QUANTITIES, Quantity
 from geneva_cli.analysis.spread import spread_deg
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Jet
 

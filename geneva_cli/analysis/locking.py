@@ -23,11 +23,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import (
     Mask,
     Truth,

@@ -7,7 +7,7 @@ it.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -24,7 +24,6 @@ from geneva_cli.analysis.forces import (
 from geneva_cli.analysis.instant import Instant, bounded, values
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.pitch_curve import retraces
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.jet import Jet, Number

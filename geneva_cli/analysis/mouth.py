@@ -19,13 +19,12 @@ P' / (P - C) . (z x C), for any path of the roller. On a sphere P and C are dire
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.shock import OCTAVES, FirstContacts, RestingAxis
 from geneva_cli.machine.many import taken
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import DEGREE, radians
 from geneva_cli.numerics.arrays import library, parameter
 from geneva_cli.numerics.jet import Jet, sqrt

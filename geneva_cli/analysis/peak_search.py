@@ -15,14 +15,13 @@ array([1.   , 0.625,   nan])
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.kinematics.engagement import Peak, WheelMotion
 from geneva_cli.machine.many import designs_in, selection, taken
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, blocks, joined, parameter
 from geneva_cli.numerics.extrema import GROUP, Rough, Stationary, greatest_sizes, stationary_points

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from geneva_cli.kinematics.engagement import Engagement, Peak, WheelMotion
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.roots import greatest_at
 from geneva_cli.table import Table, record_table, rows_table
 

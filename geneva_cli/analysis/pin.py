@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import choose, parameter
 from geneva_cli.numerics.preferred import rounded_below
 

@@ -13,13 +13,12 @@ results are (m,).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.kinematics.engagement import Anchor, Engagement
 from geneva_cli.machine.many import taken
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import N, library, parameter
 from geneva_cli.numerics.newton import find_roots

@@ -25,10 +25,10 @@ The play is computed in the middle of a dwell, as on a plane.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.analysis.locking import ROUNDING, LockPlay, positive_root
 from geneva_cli.analysis.tolerance.dimensions import Deviations
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import array, choose
 from geneva_cli.numerics.jet import Jet, atan2, sqrt
 

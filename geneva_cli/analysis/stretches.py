@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -18,7 +18,6 @@ from geneva_cli.analysis.contact import NEAR_CUSP, contact
 from geneva_cli.analysis.forces import NEGLIGIBLE, LoadCase, wheel_torque
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.roots import root
 from geneva_cli.numerics.search import Stretches

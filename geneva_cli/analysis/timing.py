@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import choose
 
 if TYPE_CHECKING:

@@ -8,13 +8,12 @@ roller's radius. The flank then runs backwards, and the roller cuts away the wal
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
 from geneva_cli.kinematics.pitch_curve import Pitch, pitch, retraces
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import choose_record, only_of
 from geneva_cli.numerics.tolerances import TIE
 

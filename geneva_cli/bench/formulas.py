@@ -8,11 +8,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
-
-from geneva_cli.named_tuple import NamedTuple
 
 
 class Proportions(NamedTuple):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -25,7 +25,6 @@ from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.tables import Size
 
 QUICK = 100  # designs of a quick run

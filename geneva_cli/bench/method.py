@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from geneva_cli.bench.timing_pairs import processor_s
-from geneva_cli.named_tuple import NamedTuple
 
 
 class Method(NamedTuple):

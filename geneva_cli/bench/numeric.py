@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from geneva_cli.bench.formulas import Proportions, acceleration, jerk
-from geneva_cli.named_tuple import NamedTuple
 
 
 def size_at(d: Proportions, x: float) -> float:

@@ -9,9 +9,7 @@ import math
 import statistics
 from collections.abc import Callable, Sequence
 from time import perf_counter, process_time
-from typing import Any, TypeVar
-
-from geneva_cli.named_tuple import NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 T = TypeVar("T")
 Pair = tuple[float, float]  # seconds of the baseline, and of the run after it

@@ -6,9 +6,9 @@ import os
 import subprocess
 import sys
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from geneva_cli.bench.method import Method, Task
-from geneva_cli.named_tuple import NamedTuple
 
 # What the installed ``geneva`` does.
 GENEVA = "import sys; sys.argv[0] = 'geneva'; from geneva_cli.__main__ import main; main()"

@@ -9,14 +9,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.collisions.one_motion import one_motion
 from geneva_cli.collisions.pairs import Intervals, Pair, Window
 from geneva_cli.collisions.play import windows
-from geneva_cli.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.collisions.machine_parts import Clearances, MachineParts

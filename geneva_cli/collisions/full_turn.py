@@ -9,7 +9,7 @@ into line and not jam.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -17,7 +17,6 @@ from geneva_cli.collisions.free_angles import EXACT, free_angles, search_deg
 from geneva_cli.collisions.machine_parts import MachineParts
 from geneva_cli.collisions.play import Play, play_of, push_deg, windows
 from geneva_cli.collisions.smallest import Earlier, Gap, smallest_gaps
-from geneva_cli.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -12,14 +12,13 @@ from collections.abc import Iterator
 from functools import reduce
 from itertools import groupby
 from operator import or_
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.collisions.free_angles import search_deg, touching, wheel_stops
 from geneva_cli.collisions.machine_parts import MachineParts, rim_lever
 from geneva_cli.collisions.pairs import Window
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import rising
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 

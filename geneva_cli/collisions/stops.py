@@ -12,7 +12,7 @@ in one of them.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -20,7 +20,6 @@ from geneva_cli.collisions.machine_parts import Pose, Stop
 from geneva_cli.collisions.pieces import Lines, Rounds, lines, rounds, spans
 from geneva_cli.collisions.touch import WAYS, Touch, first_stops, triangles, within
 from geneva_cli.curves.distance import Polyarc
-from geneva_cli.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
 from geneva_cli.curves.measure import directions, fraction_at
 from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, closed
 from geneva_cli.errors import GenevaError
-from geneva_cli.named_tuple import NamedTuple
 
 
 class TooWide(GenevaError):

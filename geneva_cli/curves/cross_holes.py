@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from typing import NamedTuple
 
 from geneva_cli.curves.measure import fraction_at
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Shape, closed, two_arcs
 from geneva_cli.errors import GenevaError
-from geneva_cli.named_tuple import NamedTuple
 
 
 class Opening(NamedTuple):

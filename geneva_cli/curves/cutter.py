@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,7 +20,6 @@ from geneva_cli.curves.pieces import prepared
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Shape
 from geneva_cli.errors import GenevaError
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import SAME_CUT_MM

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.curves.measure import Box, bounds
 from geneva_cli.curves.shapes import Arc, Point, Shape
 from geneva_cli.errors import GenevaError
-from geneva_cli.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.curves.plates import Part

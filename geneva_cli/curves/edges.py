@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from geneva_cli.curves.measure import GAUSS
-from geneva_cli.named_tuple import NamedTuple
 
 
 class Edge(NamedTuple):

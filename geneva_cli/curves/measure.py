@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 from geneva_cli.curves.shapes import (
     Arc,
@@ -21,7 +21,6 @@ from geneva_cli.curves.shapes import (
     Shape,
     backwards,
 )
-from geneva_cli.named_tuple import NamedTuple
 
 STRAIGHT = 1e-16  # a bulge below it moves no point of the arc by a rounding of the chord
 # Gauss-Legendre's abscissae and weights of eight points on -1..1, one sign of each pair

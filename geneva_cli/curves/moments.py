@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
 from geneva_cli.curves.measure import GAUSS, STRAIGHT, halves
 from geneva_cli.curves.shapes import Arc, Circle, Cubic, Line, Point, Segment, Shape
-from geneva_cli.named_tuple import NamedTuple
 
 
 class Moments(NamedTuple):

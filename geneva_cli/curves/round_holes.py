@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from itertools import combinations
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.curves.sphere import Region, Vector, dot
 from geneva_cli.curves.sphere_arcs import SphereArcs
-from geneva_cli.named_tuple import NamedTuple
 
 
 class RoundHole(NamedTuple):

@@ -7,10 +7,10 @@ corner.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.curves.helvetica import width
 from geneva_cli.curves.shapes import Contour, Line, Point, Segment, Shape
-from geneva_cli.named_tuple import NamedTuple
 
 ARROW = 3.0, 0.4  # mm: an arrow's length, and half its width (ISO 129-1: filled, 15 degrees)
 SMALL, LARGE = 2.5, 3.5  # mm: capitals of dimensions, and of titles (ISO 3098-1)

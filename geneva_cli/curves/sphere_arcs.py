@@ -7,12 +7,11 @@ has a corner, or the points and the axes of both circles are on one great circle
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.curves.sphere import SphereArc
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 
 if TYPE_CHECKING:

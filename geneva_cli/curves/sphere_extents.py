@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.curves.sphere import Region, SphereArc
 from geneva_cli.curves.sphere_arcs import SphereArcs, half_chords
-from geneva_cli.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

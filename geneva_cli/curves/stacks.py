@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from geneva_cli.curves.measure import area, with_material_left
 from geneva_cli.curves.plates import Plate, Stack
 from geneva_cli.curves.shapes import Arc, Contour, Line, as_contour
-from geneva_cli.named_tuple import NamedTuple
 
 Side: TypeAlias = Line | Arc
 

@@ -5,11 +5,10 @@ A new part is one function, and one line here.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from geneva_cli.drawings.kinds.kind import kind_of
 from geneva_cli.errors import GenevaError, cut, few, nearest
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.rules import Range, require_mm
 from geneva_cli.table import Table

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.plates import Plate, Shell, Solid
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.layout.alike import alike
 from geneva_cli.layout.missing import Missing, built_of
 from geneva_cli.layout.projection import outlines_of, titled
-from geneva_cli.named_tuple import NamedTuple
 
 
 class SinglePart(NamedTuple):

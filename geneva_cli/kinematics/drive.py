@@ -6,11 +6,10 @@ import math
 from abc import abstractmethod
 from collections.abc import Callable
 from enum import Enum
-from typing import TYPE_CHECKING, Annotated, ClassVar, Self
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.kinematics.engagement import Displacement, Engagement
 from geneva_cli.kinematics.layout import Layout, Link
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import SPEED, Z_MAX, Range
 from geneva_cli.spec.schema import SpecTable

@@ -12,9 +12,8 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar, Generic, Protocol, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import all_true, array, blocks, library
 from geneva_cli.numerics.batchable import Batchable

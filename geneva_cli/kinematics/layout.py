@@ -8,9 +8,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from enum import Enum
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import sin_cos_pi
 
 if TYPE_CHECKING:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from geneva_cli.kinematics.engagement import Vector, cross
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 

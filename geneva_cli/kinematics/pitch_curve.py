@@ -5,10 +5,9 @@ The formulas hold for jets of floats and of arrays. Lengths are in units of the 
 
 from __future__ import annotations
 
-from typing import cast
+from typing import NamedTuple, cast
 
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import library, size
 from geneva_cli.numerics.jet import Number
 

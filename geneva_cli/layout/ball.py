@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.curves.sphere import Vector, place
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.tables import Size
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.layout.plain_sizes import half_or
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.tables import Size
 
 

@@ -7,6 +7,7 @@ the thread is wide. The other jaw has the thread.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.curves.measure import turned
 from geneva_cli.curves.plates import Plate
@@ -14,7 +15,6 @@ from geneva_cli.curves.shapes import ORIGIN, Circle, Contour, Line, about, close
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.screws import SCREWS, Screw, screw
 from geneva_cli.layout.written import length
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.tables import Size
 
 

@@ -7,8 +7,9 @@ here too.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from geneva_cli.layout.written import deviation, signed
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.workshops import workshop
 
 

@@ -10,6 +10,7 @@ curves can be hobbed. With derivatives by the driver's angle, the curves are con
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,7 +19,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.drive import Gears
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.quadrature import rule

@@ -15,12 +15,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from geneva_cli.curves.gear_teeth import Rack, RoundTeeth, involute
 from geneva_cli.curves.shapes import Point
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Dimension, Link
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.preferred import gear_modules
 from geneva_cli.spec.tables import Size
 

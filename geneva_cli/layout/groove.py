@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -12,7 +12,6 @@ from geneva_cli.curves import chords
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.pitch_curve import WALLED
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import scalar, smaller
 from geneva_cli.numerics.roots import boundary_by_sections, greatest_at

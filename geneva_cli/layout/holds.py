@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -14,7 +14,6 @@ from geneva_cli.loads.strength.arm import arm_stress_MPa
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress
 from geneva_cli.loads.strength.shafts import shear_MPa
 from geneva_cli.machine.materials import roller_material, wheel_material
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.preferred import rounded_from
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.spec.default_sizes import value_or

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import TypeAlias, TypeVar
+from typing import NamedTuple, TypeAlias, TypeVar
 
 from geneva_cli.curves.plates import Part
 from geneva_cli.errors import GenevaError
-from geneva_cli.named_tuple import NamedTuple
 
 T = TypeVar("T")
 NamedParts: TypeAlias = tuple[str, Callable[[], Iterable[Part]]]

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.preferred import rounded_below
 from geneva_cli.spec.default_sizes import Thicknesses
 

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.curves.shapes import Point
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import scalar
 
 if TYPE_CHECKING:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.named_tuple import NamedTuple
 
 
 class Screw(NamedTuple):

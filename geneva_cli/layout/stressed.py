@@ -7,6 +7,7 @@ of that bearing from the middle of the wheel's thickness, unless the spec has on
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,7 +24,6 @@ from geneva_cli.layout.roller_paths import roller_reaches
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
 from geneva_cli.machine.spec import Spec
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.default_sizes import value_or
 
 

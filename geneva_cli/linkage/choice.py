@@ -6,14 +6,13 @@ The gentlest has the least peak velocity. A few points of each wheel give bounds
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.kinematics.paths.samples import blocks, joined, points
 from geneva_cli.kinematics.roller_path import RollerPath
 from geneva_cli.linkage.wheels import PathWheels
-from geneva_cli.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Number, Whole

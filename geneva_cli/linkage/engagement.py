@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from decimal import localcontext
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -16,7 +16,6 @@ from geneva_cli.kinematics.wheels.poses import HalfStep
 from geneva_cli.linkage.exact_path import ExactPoint, angle, length, unit
 from geneva_cli.linkage.wheel_for_path import Fit
 from geneva_cli.linkage.wheels_for_paths import LONG_PI, Fits, long_point, polished
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library, parameter

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from decimal import Decimal
-from typing import TypeAlias, cast
+from typing import NamedTuple, TypeAlias, cast
 
 from geneva_cli.kinematics.roller_path import RollerPath, exactly
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.jet import Jet
 

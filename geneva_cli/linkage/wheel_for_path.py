@@ -10,6 +10,7 @@ from __future__ import annotations
 import cmath
 import math
 from decimal import Decimal, localcontext
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,7 +21,6 @@ from geneva_cli.kinematics.wheels.poses import HalfStep
 from geneva_cli.linkage.choice import chosen
 from geneva_cli.linkage.exact_path import Exact, ExactPoint, cross, length
 from geneva_cli.linkage.wheels import PathWheels, WheelSearch, followed, wheels
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import scaled_sin_cos
 

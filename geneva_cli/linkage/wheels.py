@@ -7,7 +7,7 @@ point, leaves at the other and stays outside the slot otherwise.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -15,7 +15,6 @@ from geneva_cli.kinematics.paths.course import PinCourse, PlacedWheel, leaves_sl
 from geneva_cli.kinematics.paths.pairs import DOUBLE_ROOT_SLOPE, EndPairs, newton, pairs, residual
 from geneva_cli.kinematics.paths.samples import PathSamples, blocks, joined, points, sampled
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Which, Whole

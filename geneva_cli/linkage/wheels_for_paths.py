@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import TYPE_CHECKING, TypeAlias, cast
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
 import numpy as np
 
@@ -21,7 +21,6 @@ from geneva_cli.kinematics.wheels.poses import HalfStep
 from geneva_cli.linkage.choice import chosen
 from geneva_cli.linkage.wheel_for_path import fit
 from geneva_cli.linkage.wheels import WheelSearch, wheels
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import rising
 from geneva_cli.numerics.digits import PI
 from geneva_cli.numerics.jet import Jet

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -28,7 +28,6 @@ from geneva_cli.loads.stages import (
     pieces,
 )
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import ROUNDED, SAME_INPUT_DEG
 
 MACHINES_MAX = 6  # machines in one figure that the eye can tell apart

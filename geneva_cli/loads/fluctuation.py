@@ -15,7 +15,7 @@ integrated between to the last digits.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -34,7 +34,6 @@ from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.loads.groups import parts
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.quadrature import Integrands, span_integrals

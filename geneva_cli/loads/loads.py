@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -32,7 +32,6 @@ from geneva_cli.kinematics.pitch_curve import retraces
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.summaries import load_peaks, search_loads
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import array, parameter
 from geneva_cli.numerics.jet import Jet, Number

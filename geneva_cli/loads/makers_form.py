@@ -6,8 +6,9 @@ for its transfer to the input. The exact cycle is in ``cycle``.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from geneva_cli.analysis.cam_factors import CamFactors
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import radians
 
 

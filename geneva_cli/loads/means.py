@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -22,7 +22,6 @@ from geneva_cli.analysis.quantities import SQUARED, multiples, plain_values, squ
 from geneva_cli.analysis.stretches import mirror_images, spans_of
 from geneva_cli.loads.groups import of_groups
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.quadrature import Integrands, span_integrals

@@ -16,7 +16,7 @@ designs are searched together, one block of designs after the other.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -41,7 +41,6 @@ from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.loads.groups import of_groups
 from geneva_cli.loads.means import means_from, sources_of, sums
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.search import SearchResult, search
 
 if TYPE_CHECKING:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Drive, Needs
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.rules import is_array
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Shaft

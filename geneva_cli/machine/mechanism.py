@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.kinematics.drive import Plan
 from geneva_cli.kinematics.engagement import Engagement
@@ -12,7 +12,6 @@ from geneva_cli.machine import compatible
 from geneva_cli.machine.size_rules import refuse_sizes
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.tolerance_rules import refuse_tolerances
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import N, choose, designs_of, larger, library
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 from geneva_cli.kinematics.anchors import cuts
 from geneva_cli.kinematics.drive import Plan
@@ -31,7 +31,6 @@ from geneva_cli.kinematics.engagement import (
     WheelMotion,
 )
 from geneva_cli.machine.driven_shaft import DrivenShaft, ShaftPath
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import DEGREE, radians
 from geneva_cli.numerics.arrays import array, library, narrowed
 from geneva_cli.numerics.batchable import Batchable

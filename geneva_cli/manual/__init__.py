@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import os
 import re
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.named_tuple import NamedTuple
 
 # Pages of each kind (https://diataxis.fr): learning by doing, one task, facts, reasons.
 GROUPS: dict[str, dict[str, str]] = {

@@ -10,8 +10,7 @@ from __future__ import annotations
 import os
 import re
 from functools import cache
-
-from geneva_cli.named_tuple import NamedTuple
+from typing import NamedTuple
 
 GROUPS = {  # a page each, and what one of its entries is
     "checks": "check",

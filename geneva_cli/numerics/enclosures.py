@@ -16,9 +16,8 @@ import heapq
 import math
 from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import distinct
 from geneva_cli.numerics.arrays import Undecided
 from geneva_cli.numerics.balls import NOWHERE, Ball

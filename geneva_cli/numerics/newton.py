@@ -7,11 +7,10 @@ is NaN anywhere has NaN for a result, and disturbs no other.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.roots import MOST_STEPS
 
 if TYPE_CHECKING:

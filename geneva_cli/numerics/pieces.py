@@ -9,11 +9,10 @@ halved if a series does not show where its zeros are.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics import chebyshev
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import columns_taken, joined, rows_taken

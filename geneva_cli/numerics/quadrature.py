@@ -14,11 +14,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import joined, read_only
 
 if TYPE_CHECKING:

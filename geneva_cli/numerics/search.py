@@ -9,11 +9,10 @@ function may exceed the known values; there the function itself is evaluated, by
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics import chebyshev
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import blocks, columns_taken, joined, rows_joined, rows_taken

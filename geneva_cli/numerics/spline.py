@@ -12,10 +12,10 @@ import math
 from collections.abc import Sequence
 from decimal import Decimal
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import SINGLE, Array, N, piece_of
 
 SPLINE_DEGREE = 5

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -19,7 +19,6 @@ from geneva_cli.collisions.gaps import Gaps
 from geneva_cli.collisions.pairs import Bounds, Intervals, Pair, raised
 from geneva_cli.curves.extents import farthest, from_segments, near_segments, short_pieces
 from geneva_cli.kinematics.plane_motion import turned_points
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.outlines.travel import Travel, path_travel, slot_travel
 
 if TYPE_CHECKING:

@@ -19,7 +19,7 @@ number wheels are in a plane without a rim, and have the whole teeth.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -28,7 +28,6 @@ from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import ORIGIN, Arc, Contour, Segment, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.roots import boundary
 
 if TYPE_CHECKING:

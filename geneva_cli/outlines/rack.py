@@ -18,13 +18,13 @@ covers all but R - rho to R + rho. After it the next recess mirrors the first.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.analysis.guide_place import GuidePlace, guide_place
 from geneva_cli.curves.shapes import Contour, Line, Segment, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.sizes import lock_between, require_lock_between
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.default_sizes import value_or
 
 

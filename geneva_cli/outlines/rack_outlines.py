@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -12,7 +12,6 @@ from geneva_cli.collisions.sliding_stops import SlidingStops
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.layout.assembly import Assembly, assembled
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.bounds import FlatPairs
 from geneva_cli.outlines.outlines import CONTACT

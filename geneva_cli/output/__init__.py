@@ -8,10 +8,9 @@ import sys
 from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from itertools import chain
-from typing import TYPE_CHECKING, Any, Protocol, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, cast
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.output.formats import (
     DOCUMENTS,
     DRAWN,

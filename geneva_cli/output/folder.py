@@ -13,9 +13,9 @@ import os
 import shutil
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.output.files import stopping_cleanly, write, write_errors
 
 LIST = "contents.csv"

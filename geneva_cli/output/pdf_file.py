@@ -10,12 +10,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 from geneva_cli.curves import helvetica
 from geneva_cli.curves.measure import halves
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Point, Segment, Shape, about
 from geneva_cli.errors import clean
-from geneva_cli.named_tuple import NamedTuple
 
 POINT = 72.0 / 25.4  # points per millimetre
 # a power of ten is raised: its size and its height, over that of the text

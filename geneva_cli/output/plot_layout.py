@@ -7,11 +7,10 @@ pictures.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import Protocol, TypeAlias
+from typing import NamedTuple, Protocol, TypeAlias
 
 from geneva_cli.errors import clean, cut
 from geneva_cli.figure import LINE, POINTS, Curve, Figure, Panel
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.output.letters import LETTER, width
 from geneva_cli.output.ticks import labels, mark_text, named, ticks
 

@@ -6,7 +6,7 @@ least 3 to the paper (checked in tests/output/test_plot.py).
 
 from __future__ import annotations
 
-from geneva_cli.named_tuple import NamedTuple
+from typing import NamedTuple
 
 
 class Paper(NamedTuple):

@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 import shutil
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from geneva_cli.errors import clean
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.output.layout import styled, wrapped
 from geneva_cli.output.text import WIDTH
 

@@ -10,6 +10,7 @@ carries the locking sectors.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -29,7 +30,6 @@ from geneva_cli.layout.arm_sizes import (
 from geneva_cli.layout.bolt_holes import bolt_radius
 from geneva_cli.layout.bores import bore_of, has_shape
 from geneva_cli.layout.reliefs import keyway_direction, sectors
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.outlines.crank import crank_circles, is_whole, roller_centres
 from geneva_cli.outlines.outlines import Outlines
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from geneva_cli.curves.plates import Member, Plate, Stack
 from geneva_cli.curves.shapes import Circle
@@ -19,7 +20,6 @@ from geneva_cli.layout.bores import Bore, bore_of, has_shape
 from geneva_cli.layout.plain_sizes import drawn_thicknesses
 from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.outlines.counter import CounterSizes
 from geneva_cli.parts.all_shafts import built_shafts

@@ -8,7 +8,7 @@ percent. A gear that stands still is screwed to the frame.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.curves.hole_walls import least_wall
 from geneva_cli.curves.measure import turned
@@ -28,7 +28,6 @@ from geneva_cli.kinematics.layout import Link, Teeth
 from geneva_cli.layout.bolt_holes import bolt_circle
 from geneva_cli.layout.gear_mesh import ToothedGear
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.parts.link_sizes import LinkSizes
 
 if TYPE_CHECKING:

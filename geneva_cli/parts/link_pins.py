@@ -6,14 +6,13 @@ Pins that stand in the frame belong to the frame, like shafts, and are omitted h
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.kinematics.layout import Joint, Link
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.parts.link_sizes import LinkSizes, places
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ must fit their length, which is proportional to the distance of the axes.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -18,7 +18,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.drive import Gears
 from geneva_cli.kinematics.layout import Dimension
 from geneva_cli.layout.gear_curves import CurveLength, curve_length
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:

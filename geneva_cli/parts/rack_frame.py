@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from geneva_cli.curves.plates import Member, Plate, Stack
 from geneva_cli.curves.shapes import Circle
@@ -24,7 +25,6 @@ from geneva_cli.layout.bolt_holes import bolt_radius
 from geneva_cli.layout.bores import bore_of
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.outlines.rack import RackSizes, rack_ends, rack_sizes, slot_places
 from geneva_cli.parts.gear_pair import NAMES, gear_shafts, gear_span
 from geneva_cli.parts.mounted_plate import (

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Point
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bores import Bore, fitted
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.tables import Size
 
 SHAFT = "SHAFT"

@@ -11,13 +11,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from itertools import pairwise
+from typing import NamedTuple
 
 from geneva_cli.curves.plates import Member, Plate, Stack
 from geneva_cli.curves.shapes import ORIGIN, Circle, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bearings import Bearing, bearing_up_to, circlip_up_to
 from geneva_cli.layout.bores import Bore, fitted, rounded
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.parts.shaft import SHAFT, Seat, Shaft
 from geneva_cli.spec.tables import Size
 

@@ -7,7 +7,7 @@ of DIN 988, which fills it.
 
 from __future__ import annotations
 
-from geneva_cli.named_tuple import NamedTuple
+from typing import NamedTuple
 
 
 class Allowances(NamedTuple):

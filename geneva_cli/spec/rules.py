@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.named_tuple import NamedTuple
 
 
 class Range(NamedTuple):

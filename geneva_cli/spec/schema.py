@@ -17,6 +17,7 @@ from typing import (
     Annotated,
     Any,
     ClassVar,
+    NamedTuple,
     Self,
     TypeAlias,
     TypeVar,
@@ -26,7 +27,6 @@ from typing import (
 )
 
 from geneva_cli.errors import GenevaError, cut, few, nearest, refuse
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.rules import Csv, OneOf, Words, is_array, plain
 
 LIST: TypeAlias = tuple[float, ...]

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.names import SHORT_UNITS, unit_of
 
 if TYPE_CHECKING:

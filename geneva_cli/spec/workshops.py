@@ -6,8 +6,7 @@ Thermal cuts deviate by ISO 9013:2017, tolerance class 1, which lasers keep.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-
-from geneva_cli.named_tuple import NamedTuple
+from typing import NamedTuple
 
 # Limit deviations in micrometres, plus and minus, of nominal sizes from 0, 3, 10, 35, 125, 315,
 # 1000 and 2000 mm on, by the greatest thickness of the plate, mm (table for class 1). Where the

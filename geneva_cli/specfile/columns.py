@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import csv
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.named_tuple import NamedTuple
 
 
 class Columns(NamedTuple):

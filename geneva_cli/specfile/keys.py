@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.motion import Motion
 from geneva_cli.machine.spec import BEFORE
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.names import unit_of
 from geneva_cli.spec.rules import Csv, OneOf, Words
 from geneva_cli.spec.schema import LIST, REQUIRED, Field, SpecTable, fields

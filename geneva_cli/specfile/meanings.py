@@ -5,11 +5,11 @@ from __future__ import annotations
 import inspect
 import textwrap
 from functools import cache
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.kinematics import registry
 from geneva_cli.manual.explained import Entry, entries
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.names import unit_of
 from geneva_cli.specfile.keys import Key, all_keys
 

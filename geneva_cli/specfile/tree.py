@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Collection, Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, clean, cut, few, nearest
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.drive import Drive
 from geneva_cli.kinematics.motion import Motion
 from geneva_cli.machine.spec import BEFORE, Spec, attribute
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import REQUIRED, Points, SpecTable, fields, require, shown, unknown
 from geneva_cli.spec.tables import LISTS, PLAIN

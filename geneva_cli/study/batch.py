@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import partial
+from typing import NamedTuple
 
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError, Notice
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.progress import tracked
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.table import Table, record_table, rows_table

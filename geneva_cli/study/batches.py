@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -11,7 +11,6 @@ from geneva_cli.machine.many import many, may_vary
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import BEFORE, Spec
 from geneva_cli.machine.spec import attribute as attribute_of
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.schema import SpecTable, fields
 from geneva_cli.study.sweep.columns import columns
 

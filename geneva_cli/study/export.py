@@ -6,14 +6,13 @@ import os
 import re
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 from geneva_cli.design import CURVES, Design
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.drawings.single_parts import SinglePart, single_parts
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.layout.missing import Missing
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.output import animate, draw, draw_sheet, show, show_document, show_text
 from geneva_cli.output.folder import LIST
 from geneva_cli.output.formats import of_curves, usual_curves, usual_tolerance

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.named_tuple import NamedTuple
 
 
 class Objective(NamedTuple):

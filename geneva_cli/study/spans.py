@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import ROUNDED
 
 

@@ -13,13 +13,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.law_motion import MOTION_MIN
 from geneva_cli.kinematics.wheels.gearing import Gearing, Output
 from geneva_cli.machine.spec import Spec
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.tables import DISTANCE_MM
 from geneva_cli.study.goals import Objective
 from geneva_cli.study.spans import AllowedSpan

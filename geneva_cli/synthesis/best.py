@@ -11,9 +11,9 @@ from __future__ import annotations
 import math
 from bisect import bisect_left, insort
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from geneva_cli.machine.spec import Spec
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.study.batches import numbers
 from geneva_cli.study.goals import Objective
 from geneva_cli.study.target import Target

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.synthesis.parts import SPARE, USUAL, exact, parts, with_roller
 from geneva_cli.synthesis.parts_data import parts_data
 from geneva_cli.synthesis.turns import HAND_OVER_PLAY, LOST, Failure, Turns

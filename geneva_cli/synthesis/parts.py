@@ -12,6 +12,7 @@ import math
 from bisect import bisect_left
 from collections.abc import Callable
 from functools import lru_cache
+from typing import NamedTuple
 
 from geneva_cli.analysis.undercut import depths_mm
 from geneva_cli.errors import GenevaError
@@ -21,7 +22,6 @@ from geneva_cli.layout.sphere_sizes import ball
 from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.outlines.outlines import CONTACT
 from geneva_cli.outlines.rack import rack_sizes

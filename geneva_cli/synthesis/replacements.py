@@ -7,11 +7,10 @@ range between it and the nearest better place, which cannot be built, is then sa
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from geneva_cli.linkage.wheels_for_paths import searches_kept
 from geneva_cli.machine.spec import Spec
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.study.target import Target
 from geneva_cli.synthesis.best import FamilySearch, Trial
 from geneva_cli.synthesis.families.family import Family

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import partial
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.wheels.classic import rollers_max
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.progress import tracked
 from geneva_cli.study.batches import numbers
 from geneva_cli.study.pool import cores, mapped

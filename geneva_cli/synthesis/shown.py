@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.output.text import cell
 from geneva_cli.table import Reading, Table
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import cached_property
+from typing import NamedTuple
 
 from geneva_cli.collisions.full_turn import full_turn
 from geneva_cli.collisions.gaps import WorkLimit
@@ -19,7 +20,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import CLEARLY
 from geneva_cli.study.target import USUAL_RPM
 from geneva_cli.verdict.checks.check import Check

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-
-from geneva_cli.named_tuple import NamedTuple
+from typing import NamedTuple
 
 # Rated outputs of motors, kW, by IEC 60072-1; 3 and 4 kW, common in catalogues, by EN 50347.
 RATED_kW = (

@@ -126,10 +126,10 @@ ROWS = [
 
 # The quick ones may import this much of the program, and no more.
 OWN = {
-    "--help": "app errors named_tuple progress streams manual",
+    "--help": "app errors progress streams manual",
     "--version": "app errors progress streams",
     # no spec, no registry of kinds, no record of either: of the wheels their closed forms alone
-    "table --z 6": "app errors named_tuple progress streams table commands commands.completion "
+    "table --z 6": "app errors progress streams table commands commands.completion "
     "commands.options commands.table kinematics kinematics.wheels kinematics.wheels.classic output "
     "output.finite output.formats output.text spec.ranges study study.survey analysis "
     "analysis.cam_factors analysis.timing numerics numerics.angles numerics.arrays spec "

@@ -6,7 +6,7 @@ slot's axis (see ``analysis.shock``).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -14,7 +14,6 @@ from geneva_cli.analysis.impacts import arm_mm
 from geneva_cli.analysis.shock import RestingAxis
 from geneva_cli.analysis.tolerance.dimensions import Deviations
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import array
 

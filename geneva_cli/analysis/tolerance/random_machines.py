@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -11,7 +11,6 @@ from geneva_cli.analysis.sphere_locking import SphereLock
 from geneva_cli.analysis.tolerance.dimensions import Draws
 from geneva_cli.analysis.tolerance.entry_jump import EntryJumpFunction
 from geneva_cli.analysis.tolerance.motion_error import MotionError
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.progress import tracked
 
 if TYPE_CHECKING:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.tolerance.dimensions import Deviations, deviations, slope_of
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.jet import Jet, Number
 
 if TYPE_CHECKING:

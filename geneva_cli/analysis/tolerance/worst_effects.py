@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from itertools import product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -38,7 +38,6 @@ from geneva_cli.analysis.tolerance.motion_error import (
 )
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import array, blocks, joined, parameter
 
 if TYPE_CHECKING:

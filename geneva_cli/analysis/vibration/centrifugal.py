@@ -23,7 +23,7 @@ as U grows with its square.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -31,7 +31,6 @@ from geneva_cli.analysis.carried import MM, inertia_kgm2, unbalance_kgm
 from geneva_cli.analysis.vibration.shape import motion_shapes
 from geneva_cli.analysis.vibration.swing import Swing, residual_swing
 from geneva_cli.machine.many import taken
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import sin_cos
 

@@ -9,12 +9,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.vibration.panels import Panels
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import joined
 
 if TYPE_CHECKING:

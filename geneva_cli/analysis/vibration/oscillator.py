@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.analysis.carried import inertia_kgm2
 from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import library
 from geneva_cli.spec.rules import Range
 

@@ -17,12 +17,11 @@ exceeds the number of terms, the upward recurrence is stable and needs only the 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.vibration.panels import TERMS, Panels
-from geneva_cli.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -6,10 +6,10 @@ The exponent is that of a power of the size: 1 is linear, and n log n is 1.1 to 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.bench.whole_runs import geneva, task
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.specfile.template import template
 
 SWEEP = "sweep - --set drive.kind=side-crank --vary drive.A=-0.3..0.5 --jobs 1 --random {n}"

@@ -6,6 +6,7 @@ They are compared with the same designs one by one, as no other program computes
 from __future__ import annotations
 
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,7 +17,6 @@ from geneva_cli.kinematics.motion import Motion
 from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.jet import Array
 from geneva_cli.spec.tables import Load, Shaft, Tolerance
 from geneva_cli.study.sweep.columns import columns

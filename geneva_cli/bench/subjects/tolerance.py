@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -22,7 +22,6 @@ from geneva_cli.bench.method import Method, Subject
 from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:

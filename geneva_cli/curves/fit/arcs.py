@@ -9,13 +9,12 @@ between the curve's own and the mean of the chords on both sides.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.curves.fit.path import CurvePath, fewest, points_of
 from geneva_cli.curves.shapes import Arc, Line
-from geneva_cli.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

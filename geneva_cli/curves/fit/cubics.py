@@ -7,13 +7,12 @@ power. The error is measured along the normal, so that a point may slide along t
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.curves.fit.path import CurvePath, fewest, points_of
 from geneva_cli.curves.shapes import Cubic
-from geneva_cli.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from typing import NamedTuple
 
 from geneva_cli.curves.measure import at
 from geneva_cli.curves.plates import Plate
@@ -13,7 +14,6 @@ from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.view import View, times
 from geneva_cli.layout.bores import bore_of, radius_of
 from geneva_cli.layout.written import length, number
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.outlines.wheel_hub import about_axis
 from geneva_cli.spec.tables import Size
 

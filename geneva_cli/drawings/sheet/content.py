@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, NamedTuple
 
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Member, Plate, Stack, plates
@@ -21,7 +21,6 @@ from geneva_cli.drawings.sheet.paper import scale_name
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.layout.alike import alike
 from geneva_cli.machine.spec import Spec
-from geneva_cli.named_tuple import NamedTuple
 
 
 class SheetContent(NamedTuple):

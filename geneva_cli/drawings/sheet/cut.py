@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from typing import NamedTuple
 
 from geneva_cli.curves.board import chords
 from geneva_cli.curves.measure import at, mapped
@@ -17,7 +18,6 @@ from geneva_cli.curves.sheet import HATCH, OUTLINE, line, rectangle
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.layout.projection import placed
 from geneva_cli.layout.written import length
-from geneva_cli.named_tuple import NamedTuple
 
 
 class Face(NamedTuple):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 from geneva_cli.curves.helvetica import width
 from geneva_cli.curves.shapes import Circle, Point, Shape
@@ -19,7 +20,6 @@ from geneva_cli.curves.sheet import (
     rectangle,
 )
 from geneva_cli.drawings.sheet.view import Block
-from geneva_cli.named_tuple import NamedTuple
 
 LEFT, MARGIN = 20.0, 10.0  # mm: margin of the frame on the filing side, and on the others
 TITLE_WIDTH = 180.0  # mm: width of the title block

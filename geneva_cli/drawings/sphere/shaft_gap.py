@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from itertools import product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -17,7 +17,6 @@ from geneva_cli.curves.plates import Plate, plates, steps_of
 from geneva_cli.drawings.shaft_gap import ShaftGap, ring_gap
 from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.bores import around
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.sphere.sphere_parts import ROLLER, SphereParts
 

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from functools import cached_property, partial
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.kinematics.laws.law import Law
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.spec.rules import Range
 

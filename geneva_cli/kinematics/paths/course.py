@@ -8,14 +8,13 @@ wrong sign. Otherwise the interval is sampled more closely.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.kinematics.paths.pairs import EndPairs
 from geneva_cli.kinematics.paths.samples import PathPoints, points
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import ROUNDED
 
 if TYPE_CHECKING:

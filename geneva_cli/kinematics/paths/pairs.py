@@ -22,14 +22,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.kinematics.paths.boxes import OVERLAP, Boxes, boxes_of, halved, newton_steps
 from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, joined, points
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import ROUNDED
 
 if TYPE_CHECKING:

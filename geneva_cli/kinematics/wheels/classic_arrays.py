@@ -16,11 +16,10 @@ in the processor's cache between the steps. On whole arrays the steps take 1.5 t
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import DEGREE
 
 if TYPE_CHECKING:

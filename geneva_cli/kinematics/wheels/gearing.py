@@ -6,12 +6,11 @@ import math
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import field
-from typing import TYPE_CHECKING, Annotated, ClassVar, Self, TypeAlias
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self, TypeAlias
 
 from geneva_cli.kinematics.layout import Layout, Pivot
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import larger
 from geneva_cli.numerics.jet import Jet, turning
 from geneva_cli.spec.example import Example

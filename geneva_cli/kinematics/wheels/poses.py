@@ -15,9 +15,9 @@ exactly zero. So are the wheel's angle and velocity there.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.kinematics.wheels.classic import gap, half_motion_deg
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.numerics.jet import Jet
 

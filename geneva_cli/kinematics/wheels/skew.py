@@ -11,9 +11,10 @@ computed once, exactly.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from geneva_cli.kinematics.wheels.classic import gap, half_motion_deg
 from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose, middle
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import cos_squared_less, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, library
 

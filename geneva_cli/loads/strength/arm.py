@@ -18,11 +18,10 @@ are neglected.
 from __future__ import annotations
 
 import math
-from typing import cast
+from typing import NamedTuple, cast
 
 import numpy as np
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import Truth, parameter
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.roots import boundary

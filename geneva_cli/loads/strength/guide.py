@@ -23,13 +23,12 @@ shortens it. So the guide locks from nu = h/(R - x0) on.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.analysis.forces import QuantityValue, guide_lever
 from geneva_cli.analysis.guide_place import guide_place
 from geneva_cli.kinematics.engagement import Peak
 from geneva_cli.loads.summaries import load_peaks
-from geneva_cli.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.contact import Contact

@@ -22,7 +22,7 @@ higher if h < R/6, and 5 % lower to 7 % higher at R/2.
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -30,7 +30,6 @@ from geneva_cli.analysis.contact import NEAR_CUSP
 from geneva_cli.kinematics.pitch_curve import pitch
 from geneva_cli.loads.strength.horn_search import HornStress, UnitStress, greatest_stress, squeezed
 from geneva_cli.machine.many import taken
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import blocks, joined, parameter
 
 if TYPE_CHECKING:

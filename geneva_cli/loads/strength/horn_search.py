@@ -8,14 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Protocol, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
 from geneva_cli.analysis.contact import NEAR_CUSP
 from geneva_cli.loads.loads import state
 from geneva_cli.machine.many import taken
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import array, parameter
 from geneva_cli.numerics.tolerances import TIE
 

@@ -9,10 +9,10 @@ fit between hub and shaft are neglected.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.jet import Array
 
 

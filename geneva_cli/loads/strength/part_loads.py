@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import reduce
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -11,7 +11,6 @@ from geneva_cli.analysis.quantities import FORCE
 from geneva_cli.loads.strength.shafts import Torque, crank_forces, wheel_forces
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.machine.both_ways import every_way
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import larger, parameter
 from geneva_cli.numerics.known import Known
 

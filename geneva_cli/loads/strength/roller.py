@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -31,7 +31,6 @@ from geneva_cli.analysis.quantities import FORCE
 from geneva_cli.analysis.stretches import refuse_noise, spans_of, to_mid_motion
 from geneva_cli.loads.groups import of_groups
 from geneva_cli.machine.many import taken
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import all_true, array, only_of, parameter
 from geneva_cli.numerics.quadrature import Integrands, span_integrals

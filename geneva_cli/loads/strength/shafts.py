@@ -16,14 +16,13 @@ moment. Their greatest combination over the cycle is exact.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.forces import QuantityValue
 from geneva_cli.analysis.instant import Instant
 from geneva_cli.loads.summaries import load_peaks
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import only_of, parameter
 
 if TYPE_CHECKING:

@@ -27,13 +27,12 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache, partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.loads.strength.arm import torsion_MPa
 from geneva_cli.loads.strength.horn_search import HornStress, UnitStress, greatest_stress, squeezed
-from geneva_cli.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

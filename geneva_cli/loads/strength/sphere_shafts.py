@@ -15,9 +15,8 @@ The roller is taken to be thin: its cone presses on the wall beside u.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.jet import sqrt
 
 if TYPE_CHECKING:

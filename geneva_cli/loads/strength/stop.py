@@ -8,11 +8,10 @@ wheel's axis: F = T/h.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.analysis.forces import contact_modulus_GPa, hertz_MPa
 from geneva_cli.machine.materials import wheel_material
-from geneva_cli.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism

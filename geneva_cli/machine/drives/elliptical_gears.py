@@ -10,7 +10,7 @@ Source: the focal property of the ellipse; Kepler's true anomaly follows this la
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Gears, Plan
@@ -19,7 +19,6 @@ from geneva_cli.kinematics.layout import Dimension, Layout, Pivot
 from geneva_cli.kinematics.wheels.gearing import Gearing
 from geneva_cli.machine.drives.pushed import Mesh, PushedCrank
 from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number, cosines_after, sine_versine_of

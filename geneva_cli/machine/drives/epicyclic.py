@@ -10,7 +10,7 @@ lowers the peak instead.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Annotated, ClassVar, cast
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics import path_and_slot
@@ -20,7 +20,6 @@ from geneva_cli.kinematics.layout import Dimension, Joint, Layout, Link, Pivot, 
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.kinematics.wheels.classic import gap
 from geneva_cli.machine.drives.pin_path import PinPath
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, sine_versine

@@ -12,7 +12,7 @@ circles are R and L - R. The step is 2 (b - psi_t) + u D.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Plan
@@ -22,7 +22,6 @@ from geneva_cli.kinematics.path_and_slot import AnchoredPath, RadialSlot, Straig
 from geneva_cli.kinematics.wheels import poses
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.drives.transmission import PinTravel, same
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, library, parameter, size
 from geneva_cli.numerics.jet import Jet, Number, piecewise

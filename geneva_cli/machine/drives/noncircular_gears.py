@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from functools import lru_cache
-from typing import TYPE_CHECKING, Annotated, ClassVar, Self
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.drive import Gears, Plan
@@ -21,7 +21,6 @@ from geneva_cli.kinematics.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.machine.drives import whitworth
 from geneva_cli.machine.drives.pushed import Mesh, PushedCrank
 from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number, sine_versine_of
 from geneva_cli.numerics.roots import boundary

@@ -7,14 +7,13 @@ from the line AB. The wheel's centre is solved for.
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Self
+from typing import Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Plan
 from geneva_cli.kinematics.layout import Dimension, Joint, Layout, Link
 from geneva_cli.kinematics.roller_path import PointDisplacement, rounded
 from geneva_cli.machine.drives.linkage import Linkage, Moving, RodPath, refuse_proportions
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range

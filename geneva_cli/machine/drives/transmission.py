@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Drive, Needs, Plan
@@ -23,7 +23,6 @@ from geneva_cli.kinematics.wheels.classic import refuse_jam, rollers_max
 from geneva_cli.kinematics.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.kinematics.wheels.poses import PinPose, middle
 from geneva_cli.machine.rollers import places
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.numerics.jet import Jet, Number, sine_versine

@@ -7,12 +7,13 @@ is f.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.engagement import Peak, Vector
 from geneva_cli.kinematics.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.machine.drives.pushed import PushedCrank
 from geneva_cli.machine.drives.transmission import LocalTransmission
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.angles import radians, sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library, parameter
 from geneva_cli.numerics.jet import Jet, Number, cosines_after, sin_cos, sine_versine_of

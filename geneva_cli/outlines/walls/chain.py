@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -19,7 +19,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.plain_sizes import Sizes
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.outlines.walls.joint import WallPlace, joint, points_at, runs
 from geneva_cli.outlines.walls.ways import Wall, walls

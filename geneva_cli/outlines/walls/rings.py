@@ -12,13 +12,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.curves.moments import Moments
 from geneva_cli.layout.roller_paths import rest
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.quadrature import rule
 

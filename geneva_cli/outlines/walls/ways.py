@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -19,7 +19,6 @@ from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.roller_paths import rest
 from geneva_cli.layout.slot_profile import heading_at, pitch_at
 from geneva_cli.layout.slot_sampling import nodes
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.roots import boundary_by_sections
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from typing import NamedTuple
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.output import pdf_file
 from geneva_cli.output.letters import western
 from geneva_cli.output.pdf_file import POINT, Page, number

@@ -10,13 +10,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
+from typing import NamedTuple
 
 from geneva_cli.curves.cross_holes import CrossHole, Opening
 from geneva_cli.curves.inset import away, inset, lines_and_arcs
 from geneva_cli.curves.measure import fraction_at, with_material_left
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, as_contour
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.output.mesh.polygons import (
     Triangle,
     arc_chords,

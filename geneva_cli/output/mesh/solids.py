@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -14,7 +14,6 @@ from geneva_cli.curves.plates import Group, Member, Part, Shell, Solid, Stack
 from geneva_cli.curves.shapes import Point
 from geneva_cli.curves.stacks import Run, Side, levels, outline_of, sides
 from geneva_cli.errors import GenevaError
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.output.mesh.plates import plate_mesh
 from geneva_cli.output.mesh.polygons import Triangle, chord_points, triangles
 from geneva_cli.output.mesh.shells import shell_mesh

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from geneva_cli.curves.cross_holes import CrossHole, Opening
 from geneva_cli.curves.measure import with_material_left
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Circle, Shape
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.output.step.curves import smooth_curve
 from geneva_cli.output.step.entities import Entities, edge, face, loop, real
 from geneva_cli.output.step.splines import Piece

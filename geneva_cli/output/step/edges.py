@@ -9,12 +9,12 @@ a spline with the exact ends and tangents.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.curves.edges import Edge
 from geneva_cli.curves.inset import corner, corner_slope, inset, lines_and_arcs
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Contour, Line
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.output.step.curves import curve, smooth_curve
 from geneva_cli.output.step.entities import (
     DIRECTION,

@@ -9,11 +9,11 @@ line through the centre, which meets both spheres in circles.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.curves.plates import Shell
 from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.curves.sphere import SphereArc, Vector, cross, opposite, square_to, unit
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.output.solid_part import require_thick
 from geneva_cli.output.step.entities import (
     Entities,

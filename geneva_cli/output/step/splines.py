@@ -10,12 +10,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from geneva_cli.curves.measure import directions
 from geneva_cli.curves.shapes import Arc, Cubic, Line, Point, Segment
 from geneva_cli.curves.sheet import polar
-from geneva_cli.named_tuple import NamedTuple
 
 
 class Spline(NamedTuple):

@@ -9,7 +9,7 @@ at the centre. The hub has flat faces and the bore; it sits in a round hole abou
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.curves.round_holes import RoundHole, least_wall
 from geneva_cli.curves.sphere import Region, dot, place
@@ -25,7 +25,6 @@ from geneva_cli.layout.arm_sizes import (
 from geneva_cli.layout.axles import refuse_wide
 from geneva_cli.layout.bolt_holes import bolt_radius
 from geneva_cli.layout.bores import Bore, bore_of
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.outlines.sphere_wheel import POLE
 from geneva_cli.parts.sphere.crank import locked
 

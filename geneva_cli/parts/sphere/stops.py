@@ -10,13 +10,12 @@ triangle of known sides.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.collisions.touch import SLACK, WAYS, Touch, triangles, within
 from geneva_cli.curves.sphere_arcs import SphereArcs
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 
 if TYPE_CHECKING:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,7 +15,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Link
 from geneva_cli.layout.link_positions import links_at, same
 from geneva_cli.layout.projection import placed
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.link_sizes import places
 from geneva_cli.scene import Body, Track

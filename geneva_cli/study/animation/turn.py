@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -17,7 +17,6 @@ from geneva_cli.kinematics.plane_motion import turned_points
 from geneva_cli.layout.groove import roller_in_groove
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.scene import Bar, CarriedShapes, Place, Track
 from geneva_cli.study.animation.tracks import Moving, cut, resting, sampled, track

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
-from typing import TypeGuard
+from typing import NamedTuple, TypeGuard
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.arrays import N
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.verdict.quantities.names import WORDS

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.study.sweep.best_search import Row, SweepSearch
 from geneva_cli.study.sweep.values import Value
 

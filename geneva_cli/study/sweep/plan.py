@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.study.sweep.values import POINTS_MAX, Value, VariedKey
 
 if TYPE_CHECKING:

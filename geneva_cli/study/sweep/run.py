@@ -7,13 +7,13 @@ import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
+from typing import NamedTuple
 
 from geneva_cli import __version__
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.known import KEPT
 from geneva_cli.specfile.reader import Text
 from geneva_cli.specfile.settings import Setting, setting

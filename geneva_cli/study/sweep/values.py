@@ -6,10 +6,9 @@ import math
 import re
 from collections.abc import Iterable, Sequence
 from decimal import Decimal, InvalidOperation
-from typing import TypeAlias, overload
+from typing import NamedTuple, TypeAlias, overload
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.spec.ranges import RangeText, range_text
 from geneva_cli.spec.units import in_unit_of, unit_key
 from geneva_cli.specfile.keys import is_whole

@@ -15,11 +15,10 @@ which is no solution; the other one is the solution.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.jet import Jet, atan2, sin_cos, sqrt
 
 if TYPE_CHECKING:

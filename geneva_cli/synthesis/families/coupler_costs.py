@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.peak_search import ORDERS
 from geneva_cli.analysis.timing import Timing, timing
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.target import Target
 from geneva_cli.verdict.quantities.groups import RATES

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache, partial
+from typing import NamedTuple
 
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.laws.law import Law
@@ -17,7 +18,6 @@ from geneva_cli.kinematics.wheels.gearing import Gearing
 from geneva_cli.machine.drives.cam import Cam
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.spec import Spec
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.target import Target
 from geneva_cli.synthesis.families import closed

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics import registry
@@ -14,7 +15,6 @@ from geneva_cli.kinematics.wheels.classic import rollers_max
 from geneva_cli.kinematics.wheels.gearing import Gearing
 from geneva_cli.machine.compatible import refuse_conflicts
 from geneva_cli.machine.spec import Spec
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.target import Target
 

@@ -7,12 +7,11 @@ cube, equal in every run. The next ones are ever closer to the best.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from geneva_cli.kinematics.wheels.gearing import Gearing
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.target import Target

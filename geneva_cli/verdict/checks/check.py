@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.numerics.tolerances import keeps
 
 if TYPE_CHECKING:

@@ -6,11 +6,10 @@ A section is a group of quantities in ``verdict.quantities.groups``, and its fun
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import Notice
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.table import Table, in_digits, record_table
 from geneva_cli.verdict.checks.check import Check, all_pass
 from geneva_cli.verdict.quantities.groups import REPORT

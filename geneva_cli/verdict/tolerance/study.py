@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -25,7 +25,6 @@ from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.named_tuple import NamedTuple
 from geneva_cli.verdict.tolerance.needed import RequiredClearances, required_clearances
 from geneva_cli.verdict.tolerance.recesses import locks, sphere_locks
 
