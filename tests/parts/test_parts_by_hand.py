@@ -6,17 +6,20 @@ The parts are compared with their hand calculation, and the sheet's dimensions w
 import math
 
 import pytest
-from words import Drive, Keys, Spec, Wheel
+from drawing_witness import vertices
+from words import Drive, Keys, Motion, Spec, Wheel
 
-from geneva_cli import Design, Linear
+from geneva_cli import Counter, Design, Linear
+from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Arc
-from geneva_cli.drawings.sheet.crank import draw_arm
+from geneva_cli.drawings.sheet.crank import draw_arm, draw_roller
 from geneva_cli.drawings.sheet.view import View
-from geneva_cli.layout.sizes import machine_sizes
 from geneva_cli.parts.arm import crank_arm
+from geneva_cli.parts.counter_parts import CounterParts
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.rack_arm import crank_arm as rack_arm
+from geneva_cli.parts.rack_frame import guide
 from geneva_cli.spec.tables import Size
 
 L = 100.0
@@ -24,11 +27,6 @@ L = 100.0
 
 def of(**size):
     return Design.of(Spec(Wheel(6), size=Size(center_distance_mm=L, roller_radius_mm=6.0, **size)))
-
-
-def sizes_of(spec):
-    """The sizes of a machine's parts, without the parts."""
-    return machine_sizes(Design.of(spec).mechanism)[1]
 
 
 def dimensions(draw, *shown):
@@ -66,49 +64,6 @@ def test_the_arm_is_the_hull_of_hub_and_eyes():
     on_sheet = {"R 8", "R 13", "2× R 3", "50", "Ø 6 P7 (-0.008/-0.02)"}
     on_sheet |= {"Ø 12 H7 (+0.018/0)", "2× Ø 3 H7 (+0.01/0) on Ø 30"}
     assert dimensions(draw_arm, design.mechanism, arm) == on_sheet
-
-
-def test_default_sizes_are_those_of_the_reference_page():
-    """L = 150 mm, six slots: r = L/20 and R = L/2, whose keys are left out.
-
-    The bore of the wheel is up to L/6, which is 25 mm, the bore of a standard bearing. The next
-    smaller one has 20 mm. The hub is 1.6 bores wide, which is a rounded number too.
-    """
-    sizes = sizes_of(Spec(Wheel(6), size=Size(150.0)))
-    assert sizes.roller == 7.5
-    assert sizes.rim == pytest.approx(math.hypot(75.0 * math.sqrt(3.0), 7.5))
-    assert sizes.slot_bottom == pytest.approx(7.5 / 20.0)
-    assert sizes.slot_end == pytest.approx(150.0 - 75.0 - 7.5 - 7.5 / 20.0)
-    assert sizes.lock == pytest.approx(75.0 - 7.5 - 7.5)  # the horn is as thick as r
-    assert sizes.relief == sizes.wall_min == pytest.approx(150.0 / 200.0)
-    assert (sizes.wheel_bore, sizes.wheel_hub, sizes.pin) == (12.5, 20.0, 3.5)
-    assert sizes_of(Spec(Wheel(6), size=Size(149.9))).wheel_bore == 10.0
-
-
-def test_default_sizes_of_an_internal_wheel():
-    """Its slots end at L + R + r and their clearance; a roller's width is left, at least L/20."""
-    for r, left in ((4.0, 5.0), (8.0, 8.0)):
-        sizes = sizes_of(Spec(Wheel(6, "internal"), size=Size(L, r)))
-        assert sizes.slot_end == pytest.approx(L + 50.0 + r + r / 20.0)
-        assert sizes.outer == pytest.approx(sizes.slot_end + left)
-
-
-def test_default_sizes_of_the_arm():
-    """An eye is twice as wide as its hole, up to what passes the wheel's hub; a hub is 1.6 bores.
-
-    The bolts' holes are at most L/40 wide, and at most half as wide as the ring that they are in.
-    """
-    parts = of(arm_bore_mm=25.0, crank_bore_mm=0.0).parts
-    arm = crank_arm(parts)
-    assert (arm.hub, arm.eye) == (20.0, 6.0)
-    assert {bolt.radius for bolt in arm.bolts} == {L / 80.0}
-    wide = crank_arm(of(wheel_hub_mm=90.0, pin_mm=6.0).parts)
-    # from the pin, at R = L/2, to the hub are 5 mm
-    assert (wide.eye, wide.hub_gap) == (pytest.approx(5.0), pytest.approx(0.0, abs=1e-12))
-    ring = crank_arm(of(lock_bolts=1, lock_bolt_circle_mm=74.0, crank_bore_mm=8.0).parts)
-    (bolt,) = ring.bolts
-    # the disc's radius is R - 2 r, so that 1 mm is left outside of the bolts' circle
-    assert (*bolt.centre, bolt.radius) == pytest.approx((-37.0, 0.0, 0.5))
 
 
 def test_each_sector_has_its_own_bolts():
@@ -160,6 +115,110 @@ def test_a_guide_is_as_long_as_its_block_needs():
     eyes = {(x, 0.0, 10.0) for x in beyond} | {(x, 0.0, 13.0) for x in ends}
     outline = {tuple(round(x, 3) for x in one) for one in rounds(cut["guide"].outline)}
     assert outline == eyes
-    (spacer,) = (one.part for one in links.joined if one.part.name.startswith("spacer"))
+    # the default bore of L/10 is 20 mm, and 30 mm is the rounded number below 1.6 of that
+    assert rounds(cut["crank"].outline) == [(0.0, 0.0, 15.0), (40.0, 0.0, 10.0)]
+    joined = {one.part.name: one.part for one in links.joined}
+    spacer, pin = (joined[f"{name} of rod and guide"] for name in ("spacer", "pin"))
     # amid the edges of hole and eye, between the planes of the links that it keeps apart
     assert (spacer.outline.radius, spacer.high, spacer.low) == (7.5, -20.0, -40.0)
+    assert (pin.outline.radius, pin.high, pin.low) == (5.0, 0.0, -60.0)
+
+
+def test_pins_and_rollers_run_with_the_fit():
+    """A pin in links is thinner than its hole by ``shaft_fit_mm``, and a roller's bore wider."""
+    size = Size(L, 4.0, pin_mm=4.0, shaft_fit_mm=0.2)
+    plain, cam = (
+        Design.of(Spec(Wheel(6), drive, motion=motion, size=size))
+        for drive, motion in ((Drive(), None), (Drive("cam"), Motion("cycloidal")))
+    )
+    shown = {"Ø 8 g6 (-0.005/-0.014)", "Ø 4.2 H7 (+0.012/0)"}
+    assert dimensions(draw_roller, plain.mechanism) == shown
+    bores = [one for one in plates(plain.drawing("crank").solid) if one.name == "roller"]
+    links = drawn_links(cam.mechanism, cam.parts)
+    bores += [one.part for one in links.joined if one.part.name == "roller in the groove"]
+    assert [hole.radius for one in bores for hole in one.holes] == [2.1, 2.1]
+    keys = Keys("slider-crank", 40.0, 100.0, 80.0, 90.0)
+    size = Size(roller_radius_mm=6.0, link_pin_mm=10.0, shaft_fit_mm=0.2)
+    sliding = Design.of(Spec(Wheel(8), Drive("slider-crank"), keys, size=size))
+    joined = drawn_links(sliding.mechanism, sliding.parts).joined
+    assert {one.part.outline.radius for one in joined if one.part.name.startswith("pin")} == {4.9}
+
+
+def test_heights_above_and_below_the_wheel():
+    """The arm is ``pin_gap_mm`` below the wheel, and disc, crank's hub and pin stand on it.
+
+    The wheel's hub reaches as far down as the arm, and the frame is a washer below both.
+    """
+    thick = {"wheel_thickness_mm": 8.0, "lock_thickness_mm": 7.0, "arm_thickness_mm": 5.0}
+    hubs = {"wheel_hub_mm": 24.0, "crank_hub_mm": 14.0, "crank_hub_length_mm": 12.0}
+    design = of(**thick, **hubs, pin_gap_mm=0.5, washer_mm=0.25, crank_bore_mm=8.0)
+    every = {one.name: (one.low, one.high) for one in plates(design.drawing("assembly").solid)}
+    assert every == {
+        "wheel": (0.0, 8.0),
+        "wheel's hub": (-5.5, 0.0),
+        "arm": (-5.5, -0.5),
+        "locking disc": (-0.5, 6.5),
+        "crank's hub": (6.5, 11.5),
+        "roller": (0.0, 8.0),
+        "pin": (-5.5, 8.0),
+        "wheel's shaft": (-10.75, 8.0),
+        "crank's shaft": (-10.75, 11.5),
+        "frame": (-10.75, -5.75),
+    }
+
+
+def test_a_groove_plate_has_its_screws_amid_its_rim():
+    """The rim is 1.5 rollers wide, with four screws at 45°, each half as wide as the rim."""
+    drive, motion = Drive("cam"), Motion("cycloidal")
+    design = Design.of(Spec(Wheel(6), drive, motion=motion, size=Size(L, 4.0, wheel_hub_mm=12.0)))
+    base, ring, _ = plates(design.drawing("groove-plate").solid)
+    groove, *screws = ring.holes
+    # the flank is written within a micrometre, as are its chords
+    far = max(math.hypot(*point) for point in vertices(groove, 1e-3))
+    assert base.outline.radius - far == pytest.approx(6.0, abs=2e-3)
+    at = (base.outline.radius - 3.0) * math.sqrt(0.5)
+    corners = [(at, at), (-at, at), (-at, -at), (at, -at)]
+    assert [one.centre for one in screws] == [pytest.approx(corner) for corner in corners]
+    assert {one.radius for one in screws} == {1.5}
+    assert (base.low, base.high, ring.high) == (-30.0, -20.0, -10.0)
+
+
+def test_a_counters_heights():
+    """Gears of 10 mm and gaps of 0.5 mm: a pinion's wide teeth lie beside the driver's rim."""
+    size = Size(center_distance_mm=L, wheel_thickness_mm=10.0, pin_gap_mm=0.5)
+    parts = CounterParts(Design(Counter(4, driver_teeth=20), size=size).mechanism, 0.1)
+    pinion, wheel, driver = (
+        [(one.low, one.high) for one in plates(member.part)]
+        for member in (*parts.pinions, *parts.number_wheels, parts.driver)
+    )
+    assert pinion == [(0.0, 20.5), (20.5, 31.0)]
+    assert wheel == [(0.0, 10.0)]
+    assert driver == [(10.5, 21.0), (21.0, 31.0)]
+
+
+def test_screws_are_amid_the_guides_bars():
+    """R = 50: bars of R/10, whose screws are half a bar from their ends."""
+    design = Design(Linear(6), size=Size(center_distance_mm=50.0, roller_radius_mm=6.0))
+    for bar in guide(design.mechanism)[:2]:
+        box = bounds(bar.outline)
+        middle = 0.5 * (box.x0 + box.x1)
+        far = 50.0 - 6.0 - 2.5
+        places = [pytest.approx((middle, y)) for y in (-far, 0.0, far)]
+        assert [one.centre for one in bar.holes] == places
+
+
+def test_a_low_mouth_is_raised_by_a_fifth():
+    """Steps of 90° and 30° have two cranks' radii, L sin 45° and L sin 15°, and two rims.
+
+    The recess is that of the shorter arm, less a roller and a horn. It ends L - rho from the
+    wheel's axis, and the lower mouths are raised to a fifth of the way from there to the rim.
+    """
+    spec = Spec(Wheel(6, steps_deg=(90.0, 30.0)), size=Size(L, 4.0, wheel_bore_mm=6.0))
+    arcs = [one for one in Design.of(spec).parts.wheel.segments if isinstance(one, Arc)]
+    about_axis = {one.radius for one in arcs if math.hypot(*one.centre) < 1e-9}
+    short = math.radians(15.0)
+    rim, reach = math.hypot(L * math.cos(short), 4.0), L - (L * math.sin(short) - 8.0)
+    raised = reach + 0.2 * (rim - reach)
+    assert sorted({round(one, 6) for one in about_axis}) == [
+        pytest.approx(one, abs=1e-6) for one in (raised, rim)
+    ]
