@@ -6,18 +6,22 @@ The parts are compared with their hand calculation, and the sheet's dimensions w
 import math
 
 import pytest
+import repo
 from drawing_witness import vertices
 from words import Drive, Keys, Motion, Spec, Wheel
 
-from geneva_cli import Counter, Design, Linear
+from geneva_cli import Counter, Design, External, Linear, load
 from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.plates import plates
+from geneva_cli.curves.moments import moments
+from geneva_cli.curves.plates import plates, solids
 from geneva_cli.curves.shapes import Arc
 from geneva_cli.drawings.sheet.crank import draw_arm, draw_roller
 from geneva_cli.drawings.sheet.view import View
+from geneva_cli.layout.bores import bore_of
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.counter_parts import CounterParts
 from geneva_cli.parts.links import drawn_links
+from geneva_cli.parts.planes import planes
 from geneva_cli.parts.rack_arm import crank_arm as rack_arm
 from geneva_cli.parts.rack_frame import guide
 from geneva_cli.spec.tables import Size
@@ -197,14 +201,54 @@ def test_a_counters_heights():
 
 
 def test_screws_are_amid_the_guides_bars():
-    """R = 50: bars of R/10, whose screws are half a bar from their ends."""
-    design = Design(Linear(6), size=Size(center_distance_mm=50.0, roller_radius_mm=6.0))
+    """R = 50, half a slot 6.1: bars of R/10, whose screws are half a bar from their ends."""
+    keys = {"roller_radius_mm": 6.0, "slot_clearance_mm": 0.1}
+    design = Design(Linear(6), size=Size(center_distance_mm=50.0, **keys))
     for bar in guide(design.mechanism)[:2]:
         box = bounds(bar.outline)
-        middle = 0.5 * (box.x0 + box.x1)
-        far = 50.0 - 6.0 - 2.5
+        middle, far = 0.5 * (box.x0 + box.x1), 50.0 - 6.1 - 2.5
         places = [pytest.approx((middle, y)) for y in (-far, 0.0, far)]
         assert [one.centre for one in bar.holes] == places
+
+
+def test_a_fixed_gear_is_screwed_to_the_frame_below_the_hub():
+    """Three screws, from 45° on; a hub of 60 mm lowers the frame, so rings stand between both.
+
+    The planet of 19.5 mm rolls about the gear of 58.5 mm, and so past the hub of 20 mm.
+    """
+    sizes = {"wheel_hub_mm": 40, "wheel_hub_length_mm": 60, "gear_bolts": 3}
+    sizes |= {"gear_bolt_circle_mm": 66, "gear_bolt_mm": 4}
+    own = [f"size.{key}={value}" for key, value in sizes.items()]
+    design = load(str(repo.DESIGNS / "epicyclic-soft-z6.toml"), own)
+    parts = design.parts_model.flat
+    turns = [math.radians(45.0 + 120.0 * k) for k in range(3)]
+    screws = [(160.0 + 33.0 * math.cos(turn), 33.0 * math.sin(turn)) for turn in turns]
+    assert [ring.at for ring in parts.spacers] == [pytest.approx(at) for at in screws]
+    held = [hole.centre for hole in parts.frame.part.holes if hole.radius == 2.0]
+    assert held == [pytest.approx(at) for at in screws]
+    for ring in (one.part for one in parts.spacers):
+        (bore,) = ring.holes
+        assert (ring.outline.radius, bore.radius) == (4.0, 2.0)
+        assert (ring.low, ring.high) == (parts.frame.part.high, -48.0) == (-60.0, -48.0)
+    gap = planes(design.parts, parts.links).nearest
+    assert gap.gap == pytest.approx(160.0 - 58.5 - 2.0 * 19.5 - 20.0)
+
+
+def test_keyways_of_a_shaft():
+    """DIN 6885-1 for 20 mm: b = 6 and t1 = 3.5, over all but a tenth of the seat at either end.
+
+    The keyway is a rectangle from the shaft's circle down to r - t1, whose area is that of the
+    circle's strip of width b beyond that.
+    """
+    size = Size(wheel_keyway="DIN 6885-1", wheel_bore_mm=20.0, shafts="turned")
+    section = bore_of(size, "wheel", 10.0).section("SHAFT", 0.3)
+    strip = 3.0 * math.sqrt(91.0) + 100.0 * math.asin(0.3)
+    cut = strip - 6.0 * (10.0 - 3.5)
+    assert moments(section).area == pytest.approx(100.0 * math.pi - cut, rel=1e-12)
+    solid = Design(External(6), size=size).drawing("assembly").solid
+    (shaft,) = (one for one in solids(solid) if one.name == "wheel's shaft")
+    ends = [one.high for one in shaft.plates if one.name.startswith("seat of wheel")]
+    assert ends == pytest.approx([1.0, 9.0, 10.0])
 
 
 def test_a_low_mouth_is_raised_by_a_fifth():
