@@ -15,7 +15,9 @@ from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.moments import moments
 from geneva_cli.curves.plates import plates, solids
 from geneva_cli.curves.shapes import Arc
-from geneva_cli.drawings.sheet.crank import draw_arm, draw_roller
+from geneva_cli.drawings.sheet.crank import draw_arm, draw_disc, draw_roller
+from geneva_cli.drawings.sheet.links import draw_link
+from geneva_cli.drawings.sheet.standing import draw_frame
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.layout.bores import bore_of
 from geneva_cli.parts.arm import crank_arm
@@ -119,6 +121,12 @@ def test_a_guide_is_as_long_as_its_block_needs():
     eyes = {(x, 0.0, 10.0) for x in beyond} | {(x, 0.0, 13.0) for x in ends}
     outline = {tuple(round(x, 3) for x in one) for one in rounds(cut["guide"].outline)}
     assert outline == eyes
+    # from the first screw to the slot, and from end to end of the slot and of the screws
+    on_sheet = {"18", "90.5", "126.5", "16 H7 (+0.018/0)", "4× R 13", "2× R 10"}
+    on_sheet.add("2× Ø 10 H7 (+0.015/0)")
+    views = [on_sheet, {"24", "16 g6 (-0.006/-0.017)", "Ø 10 H7 (+0.015/0)"}]
+    shown = [one for one in links.cut if one.part.name.startswith("guide")]
+    assert [dimensions(draw_link, one, links, design.mechanism) for one in shown] == views
     # the default bore of L/10 is 20 mm, and 30 mm is the rounded number below 1.6 of that
     assert rounds(cut["crank"].outline) == [(0.0, 0.0, 15.0), (40.0, 0.0, 10.0)]
     joined = {one.part.name: one.part for one in links.joined}
@@ -249,6 +257,35 @@ def test_keyways_of_a_shaft():
     (shaft,) = (one for one in solids(solid) if one.name == "wheel's shaft")
     ends = [one.high for one in shaft.plates if one.name.startswith("seat of wheel")]
     assert ends == pytest.approx([1.0, 9.0, 10.0])
+
+
+def test_the_relief_of_the_disc():
+    """The wheel turns over 120° of the crank. The arc is the triangle of entry, scaled to the disc.
+
+    Its angle at the crank is 60°, so its legs are rho/cos 60° and rho tan 60°. A sector ends half a
+    millimetre, L/200, below the rim.
+    """
+    lock, rim = 50.0 - 6.0 - 6.0, math.hypot(50.0 * math.sqrt(3.0), 6.0)
+    shown = {"120°", "Ø 76 g6 (-0.01/-0.029)", "Ø 8 H7 (+0.015/0)"}
+    radius, away = lock * math.sqrt(3.0), 2.0 * lock
+    reliefs = {
+        "arc": {f"R {radius:.3f}", f"{away - radius:.3f}"},
+        "sector": {f"R {L - rim - 0.5:.3f}".rstrip("0")},
+    }
+    for relief, own in reliefs.items():
+        parts = of(relief=relief, crank_bore_mm=8.0, lock_bolts=0).parts_model.flat
+        assert dimensions(draw_disc, parts) == shown | own
+
+
+def test_a_frame_leaves_three_corners_about_its_holes():
+    """Corners of L/20 have screws of 0.8 of that; their centres are three corners beyond the holes.
+
+    The shafts of 16 and 8 mm are at 0 and L: the frame is L + 8 + 4 + 8 (L/20) long.
+    """
+    parts = of(wheel_bore_mm=16.0, crank_bore_mm=8.0).parts_model.flat
+    shown = {f"{L + 12.0 + 40.0:g}", "56", "28", "100", "23", "119", "4× R 5"}
+    shown |= {"Ø 16 H7 (+0.018/0)", "Ø 8 H7 (+0.015/0)", "4× Ø 4 H7 (+0.012/0)"}
+    assert dimensions(draw_frame, parts.frame.part) == shown
 
 
 def test_a_low_mouth_is_raised_by_a_fifth():
