@@ -12,6 +12,7 @@ from words import Spec, Wheel
 from geneva_cli import Counter, Design
 from geneva_cli.layout.sizes import machine_sizes
 from geneva_cli.outlines.counter import counter_sizes
+from geneva_cli.outlines.wheel import dial_bolts
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.counter_frame import bore as counter_bore
 from geneva_cli.spec.tables import Size
@@ -61,7 +62,7 @@ def test_default_sizes_of_the_arm():
     parts = of(arm_bore_mm=25.0, crank_bore_mm=0.0).parts
     arm = crank_arm(parts)
     assert (arm.hub, arm.eye) == (20.0, 6.0)
-    assert {bolt.radius for bolt in arm.bolts} == {L / 80.0}
+    assert [bolt.radius for bolt in arm.bolts] == [L / 80.0, L / 80.0]
     wide = crank_arm(of(wheel_hub_mm=90.0, pin_mm=6.0).parts)
     # from the pin, at R = L/2, to the hub are 5 mm
     assert (wide.eye, wide.hub_gap) == (pytest.approx(5.0), pytest.approx(0.0, abs=1e-12))
@@ -129,6 +130,24 @@ def test_a_keyway_leaves_the_least_wall_of_the_arms_hub():
     size = {"crank_keyway": "DIN 6885-1", "arm_bore_mm": 20.0, "crank_bore_mm": 0.0}
     arm = crank_arm(of(**size, wall_min_mm=5.0, lock_bolts=0).parts)
     assert arm.hub == pytest.approx(10.0 + 2.8 + 5.0)
+
+
+def test_bolts_of_a_dial():
+    """Amid the bore and the slots' ends, or those and the edge of an internal wheel.
+
+    They are L/40 wide, and the first is between two slots, 30° from each.
+    """
+    for gearing, far in (
+        ("external", 0.5 * (10.0 + L - 50.0 - 6.0 - 0.3)),
+        ("internal", L + 50.0 + 6.0 + 0.3 + 3.0),
+    ):
+        own = {"wheel_bore_mm": 20.0} if gearing == "external" else {}
+        size = Size(L, 6.0, dial_bolts=3, **own)
+        parts = Design.of(Spec(Wheel(6, gearing), size=size)).parts
+        bolts = dial_bolts(parts.assembly, parts.sizes)
+        assert {(round(math.hypot(*one.centre), 9), one.radius) for one in bolts} == {(far, 1.25)}
+        first = math.degrees(math.atan2(*reversed(bolts[0].centre)))
+        assert first % 60.0 == pytest.approx(30.0)
 
 
 def test_bores_of_a_counter():

@@ -15,6 +15,7 @@ from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.moments import moments
 from geneva_cli.curves.plates import plates, solids
 from geneva_cli.curves.shapes import Arc
+from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.drawings.sheet.crank import draw_arm, draw_disc, draw_roller
 from geneva_cli.drawings.sheet.links import draw_link
 from geneva_cli.drawings.sheet.standing import draw_frame
@@ -70,6 +71,23 @@ def test_the_arm_is_the_hull_of_hub_and_eyes():
     on_sheet = {"R 8", "R 13", "2× R 3", "50", "Ø 6 P7 (-0.008/-0.02)"}
     on_sheet |= {"Ø 12 H7 (+0.018/0)", "2× Ø 3 H7 (+0.01/0) on Ø 30"}
     assert dimensions(draw_arm, design.mechanism, arm) == on_sheet
+
+
+def test_the_arm_is_drawn_whole_with_its_centre_lines():
+    """They are as much longer than the hub as than the eye, and all that is cut is a full line."""
+    design, view = of(**ARM, crank_bore_mm=12.0), View("", 1.0)
+    draw_arm(view, design.mechanism, crank_arm(design.parts))
+    lines = [
+        one.segments[0] for one in view.shapes if one.layer == CENTRE if hasattr(one, "segments")
+    ]
+    halves = {
+        (0.5 * (start[0] + end[0]), 0.5 * (start[1] + end[1])): 0.5 * math.dist(start, end)
+        for start, end in lines
+    }
+    assert halves[0.0, 0.0] - 13.0 == pytest.approx(halves[50.0, 0.0] - 8.0)
+    assert halves[0.0, 0.0] > 13.0
+    closed = [one for one in view.shapes if getattr(one, "closed", one.layer != CENTRE)]
+    assert {one.layer for one in closed} == {OUTLINE} and len(closed) == 5
 
 
 def test_each_sector_has_its_own_bolts():
