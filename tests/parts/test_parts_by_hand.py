@@ -306,6 +306,35 @@ def test_a_frame_leaves_three_corners_about_its_holes():
     assert dimensions(draw_frame, parts.frame.part) == shown
 
 
+def test_holes_of_a_frame_are_bores_for_its_shafts():
+    """They are ``shaft_fit_mm`` wider than a shaft, and L/10 for a wheel of one piece with its own.
+
+    Corners are at least three walls wide. A rounded number is below 0.8 of 6 mm: 4.5 mm.
+    """
+    fit = {"shaft_fit_mm": 0.2, "wall_min_mm": 2.0}
+    for bore, hole in ((16.0, 8.0), (0.0, 5.0)):
+        parts = of(wheel_bore_mm=bore, crank_bore_mm=8.0, **fit).parts_model.flat
+        wheel, crank, *mounts = parts.frame.part.holes
+        assert (wheel.radius, crank.radius) == (pytest.approx(hole), pytest.approx(4.0))
+        assert {one.radius for one in mounts} == {2.25}
+        assert {radius for *_, radius in rounds(parts.frame.part.outline)} == {6.0}
+        shafts = {one.part.name: one.part.outline.radius for one in parts.shafts}
+        assert shafts["crank's shaft"] == pytest.approx(3.9)
+
+
+def test_a_ring_gear_is_as_wide_as_two_eyes():
+    """A link's pin is L/20 wide, and an eye twice that; screws of L/40 are amid the rim, at 45°."""
+    keys = Keys("epicyclic", "shockless", fixed="ring")
+    design = Design.of(Spec(Wheel(4), Drive("epicyclic"), keys, size=Size(L)))
+    (ring,) = (one for one in design.parts_model.flat.links.gears if one.teeth.inside)
+    assert ring.plate.outline.radius == pytest.approx(ring.radius + 10.0)
+    at = (ring.radius + 5.0) * math.sqrt(0.5)
+    assert [one.centre for one in ring.bolts] == [
+        pytest.approx(corner) for corner in ((at, at), (-at, at), (-at, -at), (at, -at))
+    ]
+    assert {one.radius for one in ring.bolts} == {L / 80.0}
+
+
 def test_a_low_mouth_is_raised_by_a_fifth():
     """Steps of 90° and 30° have two cranks' radii, L sin 45° and L sin 15°, and two rims.
 
