@@ -21,6 +21,7 @@ from geneva_cli.drawings.sheet.links import draw_link
 from geneva_cli.drawings.sheet.standing import draw_frame
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.layout.bores import bore_of
+from geneva_cli.layout.reliefs import arc_floor
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.counter_parts import CounterParts
 from geneva_cli.parts.links import drawn_links
@@ -293,6 +294,7 @@ def test_the_relief_of_the_disc():
     for relief, own in reliefs.items():
         parts = of(relief=relief, crank_bore_mm=8.0, lock_bolts=0).parts_model.flat
         assert dimensions(draw_disc, parts) == shown | own
+    assert arc_floor(parts.outlines.assembly, lock) == pytest.approx(away - radius)
 
 
 def test_a_frame_leaves_three_corners_about_its_holes():
