@@ -14,12 +14,13 @@ from geneva_cli import Counter, Design, External, Linear, load
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.moments import moments
 from geneva_cli.curves.plates import plates, solids
-from geneva_cli.curves.shapes import Arc
+from geneva_cli.curves.shapes import Arc, Circle
 from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.drawings.sheet.crank import draw_arm, draw_disc, draw_roller
 from geneva_cli.drawings.sheet.links import draw_link
 from geneva_cli.drawings.sheet.standing import draw_frame
 from geneva_cli.drawings.sheet.view import View
+from geneva_cli.drawings.sheet.wheel import draw_wheel
 from geneva_cli.layout.bores import bore_of
 from geneva_cli.layout.reliefs import arc_floor
 from geneva_cli.parts.arm import crank_arm
@@ -28,6 +29,7 @@ from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.planes import planes
 from geneva_cli.parts.rack_arm import crank_arm as rack_arm
 from geneva_cli.parts.rack_frame import guide
+from geneva_cli.parts.shafts import crank_hub
 from geneva_cli.spec.tables import Size
 
 L = 100.0
@@ -284,17 +286,66 @@ def test_the_relief_of_the_disc():
     Its angle at the crank is 60°, so its legs are rho/cos 60° and rho tan 60°. A sector ends half a
     millimetre, L/200, below the rim.
     """
-    lock, rim = 50.0 - 6.0 - 6.0, math.hypot(50.0 * math.sqrt(3.0), 6.0)
-    shown = {"120°", "Ø 76 g6 (-0.01/-0.029)", "Ø 8 H7 (+0.015/0)"}
+    lock, rim = 50.0 - 6.0 - 0.1 - 6.0, math.hypot(50.0 * math.sqrt(3.0), 6.0)
+    shown = {"120°", "Ø 75.8 h6 (0/-0.019)", "Ø 8 H7 (+0.015/0)"}
     radius, away = lock * math.sqrt(3.0), 2.0 * lock
     reliefs = {
         "arc": {f"R {radius:.3f}", f"{away - radius:.3f}"},
         "sector": {f"R {L - rim - 0.5:.3f}".rstrip("0")},
     }
     for relief, own in reliefs.items():
-        parts = of(relief=relief, crank_bore_mm=8.0, lock_bolts=0).parts_model.flat
+        keys = {"relief": relief, "crank_bore_mm": 8.0, "lock_bolts": 0}
+        parts = of(**keys, lock_clearance_mm=0.1).parts_model.flat
         assert dimensions(draw_disc, parts) == shown | own
     assert arc_floor(parts.outlines.assembly, lock) == pytest.approx(away - radius)
+
+
+def test_the_dimensions_of_a_wheel():
+    """Six slots, 0.1 mm wider than the roller on either side, and recesses as much wider than rho.
+
+    The disc leaves a horn of 6 mm beside half a slot of 6.1 mm. A slot begins where the rim,
+    sqrt(L² cos² 30° + r²), meets its wall, half a slot off its axis.
+    """
+    clearances = {"slot_clearance_mm": 0.1, "lock_clearance_mm": 0.1}
+    parts = of(**clearances, wheel_bore_mm=16.0).parts_model.flat
+    rim, end = math.hypot(50.0 * math.sqrt(3.0), 6.0), L - 50.0 - 0.3 - 6.1
+    long = math.sqrt(rim**2 - 6.1**2) - end
+    shown = {f"Ø {2.0 * rim:.2f}", f"{end:g}", f"6× {long:.3f}", "100", "6× 30°", "6× 60°"}
+    shown |= {"6× 12.2 H7 (+0.018/0)", "6× R 6.1", "6× Ø 75.8 H7 (+0.03/0)", "Ø 16 H7 (+0.018/0)"}
+    assert dimensions(draw_wheel, parts) == shown
+
+
+def test_a_coupon_has_its_slots_side_by_side():
+    """r = 6: walls of 0.6 r and numbers 0.6 r high; the widest of eight slots has 0.3 mm a side.
+
+    The roller has its own diameter to travel in each. Holes are thinner than the pin by the press.
+    """
+    drawing = of(pin_mm=6.0).drawing("coupon")
+    plate, roller = plates(drawing.solid)
+    box = bounds(plate.outline)
+    wall, widest = 3.6, 6.3
+    # below the slots: the pin's holes, and a number below either row
+    high = 2.0 * 3.6 + wall + 2.0 * (wall + 3.0) + 2.0 * (wall + widest + 6.0)
+    assert (box.x1, box.y1) == pytest.approx((wall + 8.0 * (2.0 * widest + wall), high))
+    holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
+    presses = (0.0, 0.01, 0.02, 0.03, 0.05, 0.08, 0.1, 0.15)
+    assert [6.0 - 2.0 * hole.radius for hole in holes] == pytest.approx(presses, abs=1e-12)
+    boxes = [bounds(hole) for hole in plate.holes[len(holes) :]]
+    clearances = (0.0, 0.02, 0.04, 0.06, 0.1, 0.15, 0.2, 0.3)
+    assert [one.x1 - one.x0 for one in boxes] == pytest.approx([12.0 + 2.0 * c for c in clearances])
+    assert [one.y1 - one.y0 for one in boxes] == pytest.approx([24.0 + 2.0 * c for c in clearances])
+    assert (roller.outline.radius, roller.holes[0].radius) == (6.0, 3.0)
+
+
+def test_set_screws_are_amid_their_hubs():
+    """A quarter of a turn after the keyway, which points away from the crank's roller."""
+    keys = {"crank_bore_mm": 10.0, "crank_hub_mm": 20.0, "crank_hub_length_mm": 22.0}
+    parts = of(**keys, crank_keyway="DIN 6885-1", crank_screw_mm=3.0, lock_bolts=0).parts
+    hub = crank_hub(parts)
+    (hole,) = hub.cross
+    # amid the hub's wall, from the keyway's corner at 5 + 1.4 mm and 1.5 mm aside, to 10 mm
+    assert hole.at == pytest.approx((0.0, -0.5 * (10.0 + math.hypot(6.4, 1.5))), abs=1e-9)
+    assert (hole.height, hole.radius) == (pytest.approx(16.0), 1.25)
 
 
 def test_a_frame_leaves_three_corners_about_its_holes():
