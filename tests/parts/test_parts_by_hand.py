@@ -10,12 +10,13 @@ import repo
 from drawing_witness import vertices
 from words import Drive, Keys, Motion, Spec, Wheel
 
-from geneva_cli import Counter, Design, External, Linear, load
+from geneva_cli import Counter, Design, EllipticalGears, External, Linear, load
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.moments import moments
 from geneva_cli.curves.plates import plates, solids
 from geneva_cli.curves.shapes import Arc, Circle
 from geneva_cli.curves.sheet import CENTRE, OUTLINE
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.drawings.sheet.crank import draw_arm, draw_disc, draw_roller
 from geneva_cli.drawings.sheet.links import draw_link
 from geneva_cli.drawings.sheet.standing import draw_frame
@@ -25,11 +26,13 @@ from geneva_cli.layout.bores import bore_of
 from geneva_cli.layout.reliefs import arc_floor
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.counter_parts import CounterParts
+from geneva_cli.parts.first_pair import first_pair
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.planes import planes
 from geneva_cli.parts.rack_arm import crank_arm as rack_arm
 from geneva_cli.parts.rack_frame import guide
 from geneva_cli.parts.shafts import crank_hub
+from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.spec.tables import Size
 
 L = 100.0
@@ -386,6 +389,47 @@ def test_a_ring_gear_is_as_wide_as_two_eyes():
         pytest.approx(corner) for corner in ((at, at), (-at, at), (-at, -at), (at, -at))
     ]
     assert {one.radius for one in ring.bolts} == {L / 80.0}
+
+
+def test_the_crank_of_a_sphere():
+    """Its arm is outside of the wheel, and locks over 180°: two bolts are at 135° and 225°.
+
+    Their circle's diameter is across the sphere of the machine, whose radius is L. Half of the
+    wheel's thickness is inside of that sphere.
+    """
+    bolts = {"lock_bolts": 2, "lock_bolt_circle_mm": 60.0, "lock_bolt_mm": 2.0}
+    size = Size(L, 6.0, shaft_fit_mm=0.2, pin_mm=6.0, press_fit_mm=0.1, pin_gap_mm=0.5, **bolts)
+    mechanism = Design.of(Spec(Wheel(6, "spherical"), size=size)).mechanism
+    parts = SphereParts(PartsModel(mechanism).shells)
+    far, height = 30.0 * math.sqrt(0.5), math.sqrt(L**2 - 30.0**2)
+    places = [(hole.axis[0] * L, hole.axis[1] * L, hole.axis[2] * L) for hole in parts.arm.bolts]
+    assert places == [pytest.approx((-far, side * far, height)) for side in (1.0, -1.0)]
+    assert {hole.radius for hole in parts.arm.bolts} == {1.0}
+    every = {one.name: one for one in solids(parts.crank.part)}
+    assert (every["pin"].outline.radius, parts.arm.pins[0].radius) == (3.0, pytest.approx(2.95))
+    assert [hole.radius for hole in every["roller"].holes] == [pytest.approx(3.1)]
+    spans = {name: (one.inner, one.outer) for name, one in every.items() if hasattr(one, "inner")}
+    assert spans["roller"] == (95.0, 105.0)
+    assert spans["arm"] == (105.5, 115.5)
+
+
+def test_a_first_crank_is_as_wide_as_its_link():
+    """The first of two wheels has a machine of its own, whose arm is the drawn link."""
+    design = load(str(repo.DESIGNS / "geneva-pair.toml"))
+    (link,) = drawn_links(design.mechanism, design.parts).plates
+    (_, _, eye), (_, _, hub) = sorted(rounds(link.outline), key=lambda one: one[2])
+    size = first_pair(design.mechanism).spec.size
+    assert (size.arm_eye_mm, size.arm_hub_mm) == pytest.approx((2.0 * eye, 2.0 * hub))
+
+
+def test_a_driver_gear_has_the_usual_bore():
+    """Up to L/10: of a standard bearing, so 10 or 9 mm."""
+    gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=60.0)
+    for distance, bore in ((100.0, 10.0), (99.9, 9.0)):
+        design = Design(External(6), gears, size=Size(center_distance_mm=distance))
+        _, driver = design.parts_model.flat.gear_pair
+        (hole,) = driver.part.holes
+        assert 2.0 * hole.radius == bore
 
 
 def test_a_low_mouth_is_raised_by_a_fifth():
