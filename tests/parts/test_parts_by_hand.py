@@ -24,6 +24,8 @@ from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel import draw_wheel
 from geneva_cli.layout.bores import bore_of
 from geneva_cli.layout.reliefs import arc_floor
+from geneva_cli.layout.sizes import machine_sizes
+from geneva_cli.layout.stressed import stressed
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.counter_parts import CounterParts
 from geneva_cli.parts.first_pair import first_pair
@@ -405,6 +407,8 @@ def test_the_crank_of_a_sphere():
     places = [(hole.axis[0] * L, hole.axis[1] * L, hole.axis[2] * L) for hole in parts.arm.bolts]
     assert places == [pytest.approx((-far, side * far, height)) for side in (1.0, -1.0)]
     assert {hole.radius for hole in parts.arm.bolts} == {1.0}
+    # slots end R/L = 30° off the crank's axis, which is 90° off, less a roller and r/20
+    assert parts.ball.slot_end == pytest.approx(math.pi / 3.0 - 0.06 - 0.003)
     every = {one.name: one for one in solids(parts.crank.part)}
     assert (every["pin"].outline.radius, parts.arm.pins[0].radius) == (3.0, pytest.approx(2.95))
     assert [hole.radius for hole in every["roller"].holes] == [pytest.approx(3.1)]
@@ -430,6 +434,31 @@ def test_a_driver_gear_has_the_usual_bore():
         _, driver = design.parts_model.flat.gear_pair
         (hole,) = driver.part.holes
         assert 2.0 * hole.radius == bore
+
+
+def test_levers_of_the_pin_and_of_the_shafts():
+    """The force is amid the wheel's 8 mm; levers are from there to the middle of arm or frame.
+
+    Between wheel and frame are a gap of 0.5 mm, the arm's 5 mm and a washer; the frame is as thick
+    as the arm, and bears a shaft in its middle.
+    """
+    thick = {"wheel_thickness_mm": 8.0, "arm_thickness_mm": 5.0, "pin_gap_mm": 0.5}
+    design = of(**thick, washer_mm=0.25, crank_bore_mm=8.0)
+    parts = stressed(*machine_sizes(design.mechanism))
+    assert parts.arm.offset == pytest.approx(4.0 + 0.5 + 2.5)
+    assert parts.arm.length == pytest.approx(50.0)
+    for shaft in (parts.crank_shaft, parts.wheel_shaft):
+        assert shaft.overhang == pytest.approx(4.0 + 0.5 + 5.0 + 0.25 + 2.5)
+
+
+def test_teeth_leave_the_backlash_between_them():
+    """Along the pitch circles at work both teeth and the backlash fill the pitch."""
+    keys = ["size.gear_module_mm=2", "size.gear_backlash_mm=0.2"]
+    design = load(str(repo.DESIGNS / "gear-sector.toml"), keys)
+    gears = design.parts_model.flat.links.gears
+    thick = sum(one.cut.teeth.thickness(one.radius) for one in gears)
+    for one in gears:
+        assert thick == pytest.approx(one.radius * one.cut.teeth.step - 0.2, rel=1e-9)
 
 
 def test_a_low_mouth_is_raised_by_a_fifth():
