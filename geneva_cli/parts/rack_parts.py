@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import cached_property
-from typing import Self
 
 from geneva_cli.curves.hole_walls import require_faces
 from geneva_cli.curves.plates import Group, Member, Plate, plates
@@ -39,14 +38,6 @@ class RackParts(EdgedParts):
 
     A part that the sizes leave no place for raises GenevaError, naming the key.
     """
-
-    def within(self, tolerance: float, curves: str) -> Self:
-        """Return these parts with curves of a kind within a tolerance, mm."""
-        return type(self)(self.mechanism, tolerance, curves)
-
-    def finer(self, tolerance: float) -> Self:
-        """Return these parts with curves that are at least so accurate, mm."""
-        return self.within(self.finer_mm(tolerance), self.curves)
 
     @cached_property
     def sizes(self) -> RackSizes:
