@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class SharedParts(Protocol):
-    """What is computed once for all who need it."""
+    """What a ``PartsModel`` computes once for all; a protocol, as the model imports the kinds."""
 
     @property
     def mechanism(self) -> Mechanism:
