@@ -22,7 +22,7 @@ from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.outlines.counter import CounterSizes
-from geneva_cli.parts.all_shafts import built_shafts
+from geneva_cli.parts.built_shafts import built_shafts
 from geneva_cli.parts.mounted_plate import corner_radius, mounted_plate, require_walls, shaft_holes
 from geneva_cli.parts.shaft import Seat, Shaft, shaft_ends
 

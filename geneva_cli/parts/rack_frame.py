@@ -27,7 +27,7 @@ from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
 from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.rack import RackSizes, rack_ends, rack_sizes, slot_places
-from geneva_cli.parts.all_shafts import built_shafts
+from geneva_cli.parts.built_shafts import built_shafts
 from geneva_cli.parts.gear_pair import NAMES, gear_shafts, gear_span
 from geneva_cli.parts.mounted_plate import (
     HOLES,
