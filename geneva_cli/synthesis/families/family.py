@@ -107,16 +107,20 @@ def machine(
     """
     own = target.frame or BARE
     own_drive = drive(target.n_rpm(m, motion_deg))
-    L = target.center_distance_mm(own.size.center_distance_mm)
     return own.replace(
         wheel=wheel,
         drive=own_drive,
         motion=motion,
-        size=own.size.replace(center_distance_mm=L),
+        size=own.size.replace(center_distance_mm=center_distance_mm(target)),
         title="",
         path="",
         files=(),
     )
+
+
+def center_distance_mm(target: Target) -> float | None:
+    """The centre distance of the requirement or its frame; None for the default."""
+    return target.center_distance_mm((target.frame or BARE).size.center_distance_mm)
 
 
 def is_compatible(spec: Spec) -> bool:

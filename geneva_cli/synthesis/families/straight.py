@@ -25,6 +25,7 @@ from geneva_cli.synthesis.families.family import (
     Family,
     allowed_motions,
     allows,
+    center_distance_mm,
     closed_span,
     is_compatible,
     machine,
@@ -170,10 +171,14 @@ def side_crank(target: Target, wheel: Gearing, A: float) -> Spec:
 
 
 def gears(target: Target, wheel: Gearing, e: float) -> Spec:
-    """Elliptical gears in front of a wheel, in the phase given by the sign of e."""
+    """Elliptical gears in front of a wheel, in the phase given by the sign of e.
+
+    Their axes are as far apart as the wheel's and the crank's: gears grow with the machine.
+    """
     size, phase = closed.phased(e)
+    distance = center_distance_mm(target) or EllipticalGears.gear_distance_mm
 
     def drive(n: float) -> EllipticalGears:
-        return EllipticalGears(eccentricity=size, phase=phase, n_rpm=n)
+        return EllipticalGears(eccentricity=size, phase=phase, gear_distance_mm=distance, n_rpm=n)
 
     return machine(target, wheel, drive, 1, closed.gears_motion(natural_deg(wheel), e))
