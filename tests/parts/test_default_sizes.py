@@ -15,7 +15,7 @@ from geneva_cli.outlines.counter import counter_sizes
 from geneva_cli.outlines.wheel import dial_bolts
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.counter_frame import bore as counter_bore
-from geneva_cli.spec.tables import Size
+from geneva_cli.spec.tables import Load, Size
 
 L = 100.0
 
@@ -85,6 +85,13 @@ def test_bores_and_hubs_of_a_narrow_wheel():
     for end, hub in ((8.0, 6.0), (7.99, 5.5)):
         size = Size(L, 5.0, slot_bottom_clearance_mm=whole - end, wheel_bore_mm=10.0)
         assert sizes_of(Spec(Wheel(3), size=size)).wheel_hub == hub
+
+
+def test_a_load_leaves_a_third_of_the_wheel():
+    """Of six slots that end at 45 mm; no bore of a bearing up to 60 mm holds a load so large."""
+    for bottom, bore in ((0.0, 30.0), (0.01, 27.5)):
+        size = Size(L, 5.0, slot_bottom_clearance_mm=bottom)
+        assert sizes_of(Spec(Wheel(6), size=size, load=Load(torque_Nm=1e5))).wheel_bore == bore
 
 
 def test_a_large_roller_leaves_a_thinner_horn():

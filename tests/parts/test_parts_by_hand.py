@@ -415,6 +415,9 @@ def test_the_crank_of_a_sphere():
     spans = {name: (one.inner, one.outer) for name, one in every.items() if hasattr(one, "inner")}
     assert spans["roller"] == (95.0, 105.0)
     assert spans["arm"] == (105.5, 115.5)
+    # a cap about a hub leaves a wall as thick as the hub's, or the least one
+    for bored, edge in ((50.0, 70.0), (59.0, 62.0)):
+        assert parts.ball.cap(60.0, bored, 2.0) == pytest.approx(math.asin(edge / 105.5))
 
 
 def test_a_first_crank_is_as_wide_as_its_link():
