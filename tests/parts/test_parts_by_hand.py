@@ -29,10 +29,12 @@ from geneva_cli.layout.stressed import stressed
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.counter_parts import CounterParts
 from geneva_cli.parts.first_pair import first_pair
+from geneva_cli.parts.gear_pair import gear_shafts
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.planes import planes
 from geneva_cli.parts.rack_arm import crank_arm as rack_arm
 from geneva_cli.parts.rack_frame import guide
+from geneva_cli.parts.shaft import Ends
 from geneva_cli.parts.shafts import crank_hub
 from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.spec.tables import Size
@@ -351,6 +353,9 @@ def test_set_screws_are_amid_their_hubs():
     # amid the hub's wall, from the keyway's corner at 5 + 1.4 mm and 1.5 mm aside, to 10 mm
     assert hole.at == pytest.approx((0.0, -0.5 * (10.0 + math.hypot(6.4, 1.5))), abs=1e-9)
     assert (hole.height, hole.radius) == (pytest.approx(16.0), 1.25)
+    keys |= {"crank_hub_mm": 30.0}
+    holes = crank_hub(of(**keys, crank_clamp_mm=3.0, lock_bolts=0).parts).cross
+    assert [one.height for one in holes] == pytest.approx([16.0, 16.0])
 
 
 def test_a_frame_leaves_three_corners_about_its_holes():
@@ -400,7 +405,16 @@ def test_the_crank_of_a_sphere():
     wheel's thickness is inside of that sphere.
     """
     bolts = {"lock_bolts": 2, "lock_bolt_circle_mm": 60.0, "lock_bolt_mm": 2.0}
-    size = Size(L, 6.0, shaft_fit_mm=0.2, pin_mm=6.0, press_fit_mm=0.1, pin_gap_mm=0.5, **bolts)
+    size = Size(
+        L,
+        6.0,
+        shaft_fit_mm=0.2,
+        pin_mm=6.0,
+        press_fit_mm=0.1,
+        pin_gap_mm=0.5,
+        washer_mm=0.25,
+        **bolts,
+    )
     mechanism = Design.of(Spec(Wheel(6, "spherical"), size=size)).mechanism
     parts = SphereParts(PartsModel(mechanism).shells)
     far, height = 30.0 * math.sqrt(0.5), math.sqrt(L**2 - 30.0**2)
@@ -415,6 +429,7 @@ def test_the_crank_of_a_sphere():
     spans = {name: (one.inner, one.outer) for name, one in every.items() if hasattr(one, "inner")}
     assert spans["roller"] == (95.0, 105.0)
     assert spans["arm"] == (105.5, 115.5)
+    assert parts.ball.shafts_end_mm(size) == 115.75
     # a cap about a hub leaves a wall as thick as the hub's, or the least one
     for bored, edge in ((50.0, 70.0), (59.0, 62.0)):
         assert parts.ball.cap(60.0, bored, 2.0) == pytest.approx(math.asin(edge / 105.5))
@@ -432,11 +447,26 @@ def test_a_first_crank_is_as_wide_as_its_link():
 def test_a_driver_gear_has_the_usual_bore():
     """Up to L/10: of a standard bearing, so 10 or 9 mm."""
     gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=60.0)
-    for distance, bore in ((100.0, 10.0), (99.9, 9.0)):
-        design = Design(External(6), gears, size=Size(center_distance_mm=distance))
-        _, driver = design.parts_model.flat.gear_pair
-        (hole,) = driver.part.holes
-        assert 2.0 * hole.radius == bore
+    for distance, bore in ((100.0, 5.0), (99.9, 4.5)):
+        mechanism = Design(External(6), gears, size=Size(center_distance_mm=distance)).mechanism
+        ends = Ends(-20.0, 10.0, crank_has_one=True)
+        (driver,) = gear_shafts(mechanism, None, ends, 5.0)
+        assert (driver.name, driver.bore.radius) == ("driver gear's shaft", bore)
+
+
+def test_an_eye_about_a_rollers_pin_passes_the_wheels_hub():
+    """The hub is three quarters of the way from the axis to a slot of 1.05 rollers.
+
+    The roller comes as near to that as L less carrier and planet's arm, in line.
+    """
+    keys = Keys("epicyclic", "shockless")
+    size = Size(L, 8.0, pin_mm=15.0)
+    design = Design.of(Spec(Wheel(4), Drive("epicyclic"), keys, size=size))
+    links = design.parts_model.flat.links
+    arms = (max(abs(hole.centre[0]) for hole in plate.holes) for plate in links.plates)
+    near = L - sum(arms)
+    eye = near - 0.75 * (near - 1.05 * 8.0)
+    assert links.sizes.roller_eye == pytest.approx(eye)
 
 
 def test_levers_of_the_pin_and_of_the_shafts():
