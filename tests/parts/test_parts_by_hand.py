@@ -22,10 +22,11 @@ from geneva_cli.drawings.sheet.links import draw_link
 from geneva_cli.drawings.sheet.standing import draw_frame
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel import draw_wheel
-from geneva_cli.layout.bores import bore_of
+from geneva_cli.layout.bores import RoundBore, bore_of
 from geneva_cli.layout.reliefs import arc_floor
 from geneva_cli.layout.sizes import machine_sizes
 from geneva_cli.layout.stressed import stressed
+from geneva_cli.parts.all_shafts import passing_arm
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.counter_parts import CounterParts
 from geneva_cli.parts.first_pair import first_pair
@@ -34,7 +35,7 @@ from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.planes import planes
 from geneva_cli.parts.rack_arm import crank_arm as rack_arm
 from geneva_cli.parts.rack_frame import guide
-from geneva_cli.parts.shaft import Ends
+from geneva_cli.parts.shaft import Ends, Shaft
 from geneva_cli.parts.shafts import crank_hub
 from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.spec.tables import Size
@@ -467,6 +468,14 @@ def test_an_eye_about_a_rollers_pin_passes_the_wheels_hub():
     near = L - sum(arms)
     eye = near - 0.75 * (near - 1.05 * 8.0)
     assert links.sizes.roller_eye == pytest.approx(eye)
+
+
+def test_the_end_of_an_arm_passes_a_shoulder():
+    """Its end is R + eye from the crank's axis; a shoulder is 1.25 bores wide."""
+    shaft = Shaft("wheel's shaft", "wheel", RoundBore(8.0), (), -20.0, 10.0, (0.0, 0.0))
+    for eye, near in ((40.1, [("arm", -10.0, 0.0)]), (39.9, [])):
+        parts = of(arm_eye_mm=2.0 * eye).parts
+        assert list(passing_arm(parts, [shaft])) == near
 
 
 def test_levers_of_the_pin_and_of_the_shafts():
