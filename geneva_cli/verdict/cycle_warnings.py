@@ -112,23 +112,25 @@ def _keeps_limits(cycle: Cycle) -> bool:
 
 
 def _jammed(cycle: Cycle) -> list[Notice]:
-    force = cycle.extremes[FORCE]
-    friction = cycle.mechanism.spec.load.friction
+    force, case = cycle.extremes[FORCE], cycle.case
     endless = [
         at
         for at, value in ((force.max_at_deg, force.max), (force.min_at_deg, force.min))
         if math.isinf(value)
     ]
-    if not friction or not endless:
+    if not case.all_friction or not endless:
         return []
-    return [
-        Notice(
-            "friction-holds-the-wheel",
-            f"friction of {friction:g} holds the wheel at {min(endless):.4g} deg, however hard the "
-            "roller presses: it takes as much torque as the wall gives. Use a smaller roller or "
-            "less friction",
+    when = f"at {min(endless):.4g} deg, however hard the roller presses"
+    text = (
+        f"friction of {case.friction:g} holds the wheel {when}: it takes as much torque as the "
+        "wall gives. Use a smaller roller or less friction"
+    )
+    if case.guided:  # the slot's friction is across the travel, and holds no rack
+        text = (
+            f"friction of {case.guide_friction:g} in the guide holds the rack {when}: it takes as "
+            "much force as the roller gives. Use a smaller roller or less guide_friction"
         )
-    ]
+    return [Notice("friction-holds-the-wheel", text)]
 
 
 def _on_an_edge(cycle: Cycle) -> list[Notice]:
@@ -150,8 +152,10 @@ def _on_an_edge(cycle: Cycle) -> list[Notice]:
 def _no_speed(mechanism: Mechanism) -> Notice:
     limits = limits_by_key(mechanism.spec.limits)
     broken = " and ".join(f"{key} = {limit:g}" for key, limit in limits.items())
+    resisting = "torque" if mechanism.output.turns else "force"
+    key = "torque_Nm" if mechanism.output.turns else "force_N"
     return Notice(
         "no-speed",
-        f"no speed keeps {broken}, so there is no shortest motion: the resisting torque alone "
-        "exceeds it, or nothing bounds the load. Use a larger machine or less torque_Nm",
+        f"no speed keeps {broken}, so there is no shortest motion: the resisting {resisting} "
+        f"alone exceeds it, or nothing bounds the load. Use a larger machine or less {key}",
     )

@@ -13,6 +13,7 @@ from geneva_cli.layout.fits import loosest_mm
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.tolerances import keeps
+from geneva_cli.numerics.work import counted
 from geneva_cli.spec.tables import Z_USUAL
 
 if TYPE_CHECKING:
@@ -90,6 +91,8 @@ def _loose_fits(mechanism: Mechanism) -> Iterator[Notice]:
     """
     size, disc = mechanism.spec.size, mechanism.spec.size.lock_radius_mm
     pairs = [("slot_clearance_mm", "roller", "slot", mechanism.roller_radius_mm)]
+    if mechanism.spec.wheel.toothed:
+        pairs = []
     if not _no_lock(mechanism):
         radius = mechanism.ratio * mechanism.center_distance_mm if disc is None else disc
         pairs.append(("lock_clearance_mm", "locking disc", "recess", radius))
@@ -197,7 +200,8 @@ def _law_turns_back(law: Law) -> bool:
     """Return True if a wheel turns back with a law, whatever its step and its motion angle."""
     from geneva_cli.kinematics.law_motion import LawMotion
 
-    return _least_velocity(LawMotion(-0.5, 0.5, 0.5, law)) is not None
+    with counted():  # the design that comes first is charged no more than the next
+        return _least_velocity(LawMotion(-0.5, 0.5, 0.5, law)) is not None
 
 
 def _least_velocity(motion: WheelMotion) -> tuple[float, float] | None:
