@@ -17,9 +17,9 @@ from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.load_limits import limits_by_key, load_limits
 
 
-def cycle_warnings(cycle: Cycle, loads: Mapping[str, QuantitySummary]) -> list[Notice]:
-    """The warnings, for the summaries of a cycle's loads."""
-    return [*_back_driven(cycle, loads), *_lags(cycle.mechanism)]
+def cycle_warnings(cycle: Cycle, summaries: Mapping[str, QuantitySummary]) -> list[Notice]:
+    """Warnings about a wheel that drives the motor or lags, for the summaries of its loads."""
+    return [*_back_driven(cycle, summaries), *_lags(cycle.mechanism)]
 
 
 def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
@@ -38,8 +38,8 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
     return out
 
 
-def _back_driven(cycle: Cycle, loads: Mapping[str, QuantitySummary]) -> list[Notice]:
-    torque, noun = loads["input_torque_Nm"], cycle.mechanism.output.noun
+def _back_driven(cycle: Cycle, summaries: Mapping[str, QuantitySummary]) -> list[Notice]:
+    torque, noun = summaries["input_torque_Nm"], cycle.mechanism.output.noun
     least, most = torque.min, torque.max
     if least is None or not least < -ROUNDED * abs(most or least):
         return []

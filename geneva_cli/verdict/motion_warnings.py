@@ -13,6 +13,7 @@ from geneva_cli.layout.fits import loosest_mm
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.tolerances import keeps
+from geneva_cli.numerics.work import counted
 from geneva_cli.spec.tables import Z_USUAL
 
 if TYPE_CHECKING:
@@ -199,7 +200,8 @@ def _law_turns_back(law: Law) -> bool:
     """Return True if a wheel turns back with a law, whatever its step and its motion angle."""
     from geneva_cli.kinematics.law_motion import LawMotion
 
-    return _least_velocity(LawMotion(-0.5, 0.5, 0.5, law)) is not None
+    with counted():  # the design that comes first is charged no more than the next
+        return _least_velocity(LawMotion(-0.5, 0.5, 0.5, law)) is not None
 
 
 def _least_velocity(motion: WheelMotion) -> tuple[float, float] | None:

@@ -327,6 +327,26 @@ def test_without_a_wish_for_a_motion_the_nearest_to_the_plain_crank_keeps_the_bo
     assert pytest.approx(0.25, rel=1e-7) == ours["side-crank"].candidate.A
 
 
+@pytest.mark.parametrize("limit", [12.0, 1.2, 0.3])
+@pytest.mark.parametrize("gearing", ["external", "internal"])
+def test_a_limit_of_acceleration_alone_gives_what_general_bounds_give(gearing, limit):
+    """Its cams, from the law's peak in closed form, are those of the search with two bounds.
+
+    A law's peak goes with 1/motion². A loose limit leaves the plain crank's motion.
+    """
+    target = {"z": "6", "rollers": 1, gearing: True}
+    bound = f"acceleration.max <= {limit}"
+    alone = rows(**target, subject_to=[bound])
+    general = rows(**target, subject_to=[bound, "velocity.max <= 100"])
+    (own,), (other,) = ([c for c in told(found) if c.drive == "cam"] for found in (alone, general))
+    natural = 120.0 if gearing == "external" else 240.0
+    # the modified sine's C_a is 4 pi² / (4 + pi), over a step of 60 degrees
+    C_a = 4.0 * math.pi**2 / (4.0 + math.pi)
+    least = math.degrees(math.sqrt(C_a * math.pi / 3.0 / limit))
+    assert own.motion_deg == pytest.approx(max(natural, least), rel=1e-9)
+    assert other.motion_deg == pytest.approx(own.motion_deg, rel=1e-8)
+
+
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("target", "bounds", "same"),

@@ -15,6 +15,7 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.numerics.work import counted
 from geneva_cli.spec.schema import fields
 from geneva_cli.specfile.writer import keys_of
+from geneva_cli.study.batch import verdicts
 from geneva_cli.verdict import advice
 from geneva_cli.verdict.advice import judged, rounded
 from geneva_cli.verdict.checks import Check, all_pass, checks
@@ -212,6 +213,42 @@ def test_all_searches_of_a_design_share_their_trials(
     monkeypatch.setattr(advice, "build", lambda spec: built.append(spec) or build(spec))
     judged(mechanism)
     assert 0 < len(built) * advice.TRIAL <= advice.WORK
+
+
+def test_the_work_of_an_advice_does_not_depend_on_earlier_searches(tmp_path: Path) -> None:
+    """A result that is kept for later designs costs no work, not even that of the first one.
+
+    No other test has these numbers, so the first search finds no result of them kept.
+    """
+    texts = (
+        ALL["sine"].replace("0.2", "0.2037"),
+        LOADED.replace("200", "203.7") + "contact_stress_max_MPa = 250\n",
+        ALL["wall-least"].replace("12", "12.37"),
+    )
+
+    def spent(text: str) -> tuple[int, str]:
+        mechanism = read(tmp_path, text)
+        parts = "wall_min_mm" in text
+        failing = [c for c in checks(mechanism, parts=parts) if c.passes is False]
+        adviser = advice.Adviser(mechanism, failing, parts)
+        said, _ = adviser.advice(failing)
+        return advice.WORK - adviser.work, said
+
+    alone = [spent(text) for text in texts]
+    assert all(work > advice.TRIAL and said for work, said in alone)
+    assert [spent(text) for text in reversed(texts)] == alone[::-1]
+
+
+def test_several_files_get_the_advice_of_each(tmp_path: Path) -> None:
+    """The files of one command, by turns in other processes, are judged as each is alone."""
+    texts = {"rim.toml": ALL["rim"], "horn.toml": ALL["horn"], "again.toml": ALL["rim"]}
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text)
+    paths = [str(tmp_path / name) for name in texts]
+    together = [[c for c in v.checks if c.passes is False] for v in verdicts(paths)]
+    alone = [[c for c in judged(load(path)) if c.passes is False] for path in paths]
+    assert together == alone
+    assert all(rows[0].nearest for rows in alone)
 
 
 def test_searches_of_loads_count(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -78,7 +78,7 @@ def _driven(target: Target, wheel: Gearing, limit: float, reached: list[float]) 
 
 
 def with_laws(target: Target, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
-    """Curved slots and cams, with a motion so long that the law's peak is the limit."""
+    """Curved slots and cams, with a motion long enough for the law's peak to keep the limit."""
     yield from map(only, _with_laws(target, wheels, reached))
 
 
@@ -98,26 +98,22 @@ def _with_laws(target: Target, wheels: Sequence[Gearing], reached: list[float]) 
 def _lines(
     target: Target, wheel: Gearing, law: str, reached: list[float]
 ) -> Iterator[tuple[float, Callable[[int], Spec]]]:
-    """Makers of curved slots and cams by their number of rollers, with the plain crank's motion.
+    """Makers of a curved slot and a cam by their number of rollers.
 
-    Inside, the limit's own motion may be too quick for curved slots of any R/L. Cams and curved
-    slots then get the plain crank's motion too, and curved slots a longer one if that is also too
-    quick.
+    Their motion is the plain crank's, or one so much longer that the law's peak is the limit.
+    Inside, that may be too quick for curved slots of any R/L: they get a longer one.
     """
     assert target.acceleration_max is not None
     limit = target.acceleration_max * (1.0 - MARGIN)
     natural, step = natural_deg(wheel), 2.0 * math.pi / wheel.z
     cost = characteristic(standard(law))
-    motion = closed.law_motion_deg(step, cost.acceleration, limit)
+    motion = max(natural, closed.law_motion_deg(step, cost.acceleration, limit))
     inside, fast = wheel.SIGN < 0.0, cost.velocity * step
     for m in rollers(target, natural):
         whole = 2.0 * math.pi / m
         if not inside or fast < PARALLEL * whole:
             reached.append(cost.acceleration * step / whole**2)
-    slower = motion
-    if inside and fast >= PARALLEL * math.radians(motion):
-        enough = fast < PARALLEL * math.radians(natural)
-        slower = max(motion, natural if enough else math.degrees(fast / 0.45))  # R/L is 9/11
-        yield natural, lambda m: cam(target, wheel, law, m, max(motion, natural))
+    parallel = inside and fast >= PARALLEL * math.radians(motion)
+    slower = math.degrees(fast / 0.45) if parallel else motion  # R/L is 9/11
     yield natural, lambda m: curved(target, wheel, law, m, slower)
     yield natural, lambda m: cam(target, wheel, law, m, motion)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.preferred import to_digits
-from geneva_cli.numerics.roots import boundary
+from geneva_cli.numerics.roots import Falsi
 from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.checks.check import Check, compared
 
@@ -28,7 +28,7 @@ def entry_shock(name: str, mechanism: Mechanism) -> Check | None:
     check = _force_check(name, mechanism, impact)
     if check.passes is not False:
         return check
-    return check._replace(why=_tolerable(mechanism, check.limit or 0.0))
+    return check._replace(why=_tolerable(mechanism, check))
 
 
 def reversal_shock(name: str, mechanism: Mechanism) -> Check | None:
@@ -83,15 +83,23 @@ def _force_check(name: str, mechanism: Mechanism, impact: Impact) -> Check:
     )
 
 
-def _tolerable(mechanism: Mechanism, limit: float) -> str:
+def _tolerable(mechanism: Mechanism, check: Check) -> str:
     """The fraction to which the tolerances on R and L must shrink, whose root the force follows."""
     from geneva_cli.analysis.impacts import entry_impact
 
-    def holds(fraction: float) -> bool:
-        impact = entry_impact(mechanism, fraction)
-        return impact is None or (impact.force_N or 0.0) <= limit
+    limit = check.limit or 0.0
 
-    low = boundary(holds, 0.0, 1.0)
+    def spare(fraction: float) -> float:
+        impact = entry_impact(mechanism, fraction)
+        return limit - (impact.force_N or 0.0 if impact else 0.0)
+
+    force = Falsi(0.0, limit, 1.0, limit - (check.value or 0.0))
+    for _ in range(60):  # about ten are enough, except where the force jumps
+        if force.bad - force.good <= 1e-11 * force.good:  # of which two digits are shown
+            break
+        fraction = force.middle()
+        force.add(fraction, spare(fraction))
+    low = force.good
     tolerance = mechanism.spec.tolerance
     names = [
         f"{key} = {to_digits(low * value * (1.0 + 1e-9), 2, math.floor):g}"
