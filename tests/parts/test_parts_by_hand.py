@@ -22,6 +22,8 @@ from geneva_cli.drawings.sheet.links import draw_link
 from geneva_cli.drawings.sheet.standing import draw_frame
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel import draw_wheel
+from geneva_cli.drawings.sphere.arm_drawing import arm_cone
+from geneva_cli.drawings.sphere.drawings import wheel_cone
 from geneva_cli.layout.bores import RoundBore, bore_of
 from geneva_cli.layout.reliefs import arc_floor
 from geneva_cli.layout.sizes import machine_sizes
@@ -434,6 +436,19 @@ def test_the_crank_of_a_sphere():
     # a cap about a hub leaves a wall as thick as the hub's, or the least one
     for bored, edge in ((50.0, 70.0), (59.0, 62.0)):
         assert parts.ball.cap(60.0, bored, 2.0) == pytest.approx(math.asin(edge / 105.5))
+
+
+def test_cones_that_shells_are_laid_flat_on():
+    """They touch the arm amid its thickness at the pin, and the wheel amid its slots.
+
+    The pin is 30° off the crank's axis. At entry the roller is 90° off the wheel's.
+    """
+    size = Size(L, 6.0, pin_gap_mm=0.5, wheel_thickness_mm=8.0, arm_thickness_mm=5.0)
+    mechanism = Design.of(Spec(Wheel(6, "spherical"), size=size)).mechanism
+    ball = PartsModel(mechanism).shells.ball
+    assert arm_cone(ball) == pytest.approx((L + 4.0 + 0.5 + 2.5, math.pi / 6.0))
+    slot = math.pi / 3.0 - 0.003, math.pi / 2.0
+    assert wheel_cone(ball) == pytest.approx((L, 0.5 * sum(slot)))
 
 
 def test_a_first_crank_is_as_wide_as_its_link():
