@@ -159,8 +159,9 @@ class _Search:
     """The search for the least change with which some failing checks pass, and its trials."""
 
     def __init__(self, adviser: Adviser, wanted: list[Check]) -> None:
-        # of several searches each may use one half of the work that is left
-        self.adviser, self.reserve = adviser, adviser.work // 2 if adviser.failing[1:] else 0
+        # of several searches the first may use a half of the work, others a quarter of what is left
+        quarters = 0 if not adviser.failing[1:] else 2 if len(wanted) > 1 else 3
+        self.adviser, self.reserve = adviser, adviser.work * quarters // 4
         self.mechanism, self.parts = adviser.mechanism, adviser.parts
         self.wanted = sorted(wanted, key=_needs_parts)  # the quick ones first
         self.turned = any(c.name in TURNED for c in wanted)
@@ -286,8 +287,9 @@ class _Search:
     def _holds_one_way(self, machine: Mechanism, turn: bool) -> bool:
         from geneva_cli.drawings.model import PartsModel
 
-        is_turned = self.parts and machine.spec.is_turned
-        model = PartsModel(machine, advice=False) if is_turned else None
+        # parts that cannot be built, and need not be, hide no check of the motion
+        built = self.parts and machine.spec.is_turned and "parts" not in self.may_fail
+        model = PartsModel(machine, advice=False) if built else None
         self._spend(PARTS if model else 0)
         if not self._pass(checks_at_rest(machine, model)):
             return False
