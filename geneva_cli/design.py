@@ -214,9 +214,9 @@ class Design:
 
     @property
     def frame(self) -> Spec:
-        """The spec, as one whose sizes, loads and limits a search keeps.
+        """The spec, if ``geneva synth`` can seek other machines with its sizes, loads and limits.
 
-        Raises GenevaError for a motion that leaves a search nothing to choose.
+        Raises GenevaError where a search has nothing to choose, or does not know the drive.
 
         >>> Design(External(6)).frame.wheel.z
         6
@@ -229,6 +229,12 @@ class Design:
                 f'--from: gearing = "{self.spec.wheel.NAME}" has no motion to choose, as its speed '
                 'jumps to a constant: use "external", "internal", "spherical" or "linear"',
                 ("wheel", "gearing"),
+            )
+        if self.spec.drive_before:
+            raise GenevaError(
+                "--from: synth finds the numbers of each drive by the input's angle, which "
+                "[drive.before] would change: remove it; `geneva sweep --best` varies both drives",
+                ("drive", "before"),
             )
         return self.spec
 

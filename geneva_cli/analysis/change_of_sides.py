@@ -10,7 +10,6 @@ engagement's own mid-motion.
 from __future__ import annotations
 
 import math
-from functools import cache
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
@@ -23,6 +22,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.arrays import blocks, choose, joined, larger
 from geneva_cli.numerics.newton import find_roots
+from geneva_cli.numerics.quadrature import rule
 from geneva_cli.numerics.tolerances import ROUNDED
 
 if TYPE_CHECKING:
@@ -131,17 +131,11 @@ def _gained(motion: WheelMotion, start: Array, drag: Array, x: Array) -> tuple[A
     inner = [start, *[np.clip(b, start, end) for b in motion.breaks_deg], end]
     halves = [0.5 * (b - a) for a, b in zip(inner[:-1], inner[1:], strict=True)]
     parts = zip(inner[:-1], inner[1:], halves, strict=True)
-    nodes, weights = _rule()
+    nodes, weights = rule(24)  # exact to a double over half a motion
     t = np.hstack([0.5 * (a + b) + half * nodes for a, b, half in parts])
     weight = np.hstack([half * (DEGREE * weights) for half in halves])
     torque = np.where(weight > 0.0, (motion(t, 2).arrays()[2] + drag) * weight, 0.0)
     return -(torque * ((end - t) * DEGREE)).sum(axis=1), -torque.sum(axis=1)
-
-
-@cache
-def _rule() -> tuple[Array, Array]:
-    """Nodes and weights of a quadrature that is exact to a double over half a motion."""
-    return np.polynomial.legendre.leggauss(24)
 
 
 def drag_over(mechanism: Mechanism) -> float:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.analysis.pin import pin_diameter_mm
-from geneva_cli.machine.least_wall import wall_min
+from geneva_cli.machine.least_wall import eye_about, wall_min
 from geneva_cli.numerics.arrays import choose, larger
 from geneva_cli.spec.default_sizes import value_or
 
@@ -57,6 +57,5 @@ def _eye_mm(mechanism: Mechanism, wall: float) -> float:
     """Return the radius of the arm's eye about the pin; 0 without a pin, and so without an arm."""
     size = mechanism.spec.size
     hole = 0.5 * (pin_diameter_mm(mechanism) - size.allowances.press_fit_mm)
-    default = larger(2.0 * hole, hole + wall)  # twice the hole, as of every arm's eye
-    eye = default if size.arm_eye_mm is None else 0.5 * size.arm_eye_mm
+    eye = eye_about(hole, wall) if size.arm_eye_mm is None else 0.5 * size.arm_eye_mm
     return eye if size.pin_mm is None else choose(size.pin_mm > 0.0, eye, 0.0 * eye)

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from geneva_cli.curves.drawing import Annotations, Drawing, LevelDistance
 from geneva_cli.curves.plates import Group, Member
-from geneva_cli.curves.shapes import Circle
-from geneva_cli.layout.projection import circle_key, once, outlines_of, shapes, titled
+from geneva_cli.layout.projection import outlines_of, titled, with_frame
 from geneva_cli.parts.counter_parts import CounterParts
 
 
@@ -26,16 +25,9 @@ def number_wheel(parts: CounterParts) -> Drawing:
 
 def assembly(parts: CounterParts) -> Drawing:
     """Return the counter at input angle 0."""
-    moving = list(shapes(parts.moving))
-    seen = {circle_key(shape) for shape in moving if isinstance(shape, Circle)}
-    standing = [
-        shape._replace(layer="FRAME")
-        for shape in shapes([parts.frame])
-        if not (isinstance(shape, Circle) and circle_key(shape) in seen)
-    ]
-    title = titled(parts.mechanism)
+    title, drawn = titled(parts.mechanism), with_frame(parts.moving, [parts.frame])
     look = Annotations((LevelDistance((0.0, 0.0), parts.axis, "L"),))
-    return Drawing(title, tuple(once([*moving, *standing])), look, Group(title, parts.members))
+    return Drawing(title, drawn, look, Group(title, parts.members))
 
 
 def _drawn(parts: CounterParts, member: Member) -> Drawing:

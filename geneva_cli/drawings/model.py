@@ -59,12 +59,12 @@ class PartsModel:
         They are equal if wheel, drive, motion and ``[size]`` are, but for the speed, and all sizes
         that follow from the load.
         """
-        done = vars(self)
-        if "outlines" not in done or not self._has_parts_of(mechanism):
+        computed = vars(self)
+        if "outlines" not in computed or not self._has_parts_of(mechanism):
             return PartsModel(mechanism)
         model = self.over(mechanism)
-        if "_turn" in done:
-            vars(model)["_turn"] = done["_turn"]
+        if "_turn" in computed:
+            vars(model)["_turn"] = computed["_turn"]
         return model
 
     def _has_parts_of(self, mechanism: Mechanism) -> bool:

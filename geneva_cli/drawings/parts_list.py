@@ -66,7 +66,6 @@ def parts_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) 
 
 def parts_list(model: PartsModel) -> Table:
     """Return the list of parts of a machine, whose outlines may already be computed."""
-
     mechanism = model.mechanism
     entries = [*_parts(model), *_pivots(mechanism), *_dimensions(model)]
     mappings = [{"row": "missing", **r._asdict()} if isinstance(r, Missing) else r for r in entries]

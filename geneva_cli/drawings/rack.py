@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from geneva_cli.curves.drawing import Annotations, Drawing, LevelDistance
 from geneva_cli.curves.plates import Group
-from geneva_cli.curves.shapes import Circle, Contour, Line, closed
-from geneva_cli.layout.projection import circle_key, once, outlines_of, shapes, titled
+from geneva_cli.curves.shapes import Contour, Line, closed
+from geneva_cli.layout.projection import outlines_of, titled, with_frame
 from geneva_cli.outlines.rack import slot_walls
 from geneva_cli.parts.rack_arm import rack_arm
 from geneva_cli.parts.rack_parts import RackParts
@@ -40,14 +40,7 @@ def guide(parts: RackParts) -> Drawing:
 def assembly(parts: RackParts) -> Drawing:
     """Return the machine at input angle 0: the roller is at the origin, the axis at (R, 0)."""
     gears = parts.gear_pair if parts.mechanism.spec.has_parts else ()
-    turned = parts.wheel, parts.crank, parts.bar, *gears
-    moving = [shape for one in turned for shape in shapes([one])]
-    seen = {circle_key(shape) for shape in moving if isinstance(shape, Circle)}
-    standing = [
-        shape._replace(layer="FRAME")
-        for shape in shapes(parts.standing)
-        if not (isinstance(shape, Circle) and circle_key(shape) in seen)
-    ]
-    title = titled(parts.mechanism)
+    moving = parts.wheel, parts.crank, parts.bar, *gears
+    title, drawn = titled(parts.mechanism), with_frame(moving, parts.standing)
     look = Annotations((LevelDistance((0.0, 0.0), parts.axis, "R"),))
-    return Drawing(title, tuple(once([*moving, *standing])), look, Group(title, parts.members))
+    return Drawing(title, drawn, look, Group(title, parts.members))

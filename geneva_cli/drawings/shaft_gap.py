@@ -112,7 +112,6 @@ def rack_gear_gap(parts: RackParts) -> ShaftGap | None:
 
     Raises GenevaError for sizes that leave no parts.
     """
-
     mechanism = parts.mechanism
     rings, near = list(_noncircular(mechanism, None)), SAME_LENGTH * mechanism.center_distance_mm
     gaps = [

@@ -126,6 +126,15 @@ class Drive(SpecTable, kw_only=True):
         return False
 
     @property
+    def turned_at_crank(self) -> bool:
+        """True if its own input shaft turns about the crank's axis, as the crank or another arm.
+
+        >>> Crank().turned_at_crank, SideCrank(A=0.6).turned_at_crank
+        (True, False)
+        """
+        return self.direct or not self.CRANKED
+
+    @property
     def wheels_on_carrier(self) -> int:
         """Number of wheels that orbit on a carrier, which the input turns; 0 without a carrier."""
         return 0

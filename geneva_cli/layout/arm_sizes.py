@@ -9,6 +9,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.bores import bore_of, has_shape, reach_or_bore
 from geneva_cli.layout.plain_sizes import Sizes, half_or
+from geneva_cli.machine.least_wall import eye_about
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.spec.tables import Size
@@ -113,12 +114,6 @@ def _reach_and_hub(
     reach, usual = reach_or_bore(size, part, bore), rounded_radius(usual)
     default = max(usual, reach + wall) if reach > bore else usual
     return reach, half_or(vars(size)[f"{part}_hub_mm"], default)
-
-
-def eye_about(hole: float, wall: float, most: float = math.inf) -> float:
-    """Return the radius of the arm around a hole, up to ``most`` if that leaves the least wall."""
-    # twice the hole, where there is space
-    return max(min(2.0 * hole, most), hole + wall)
 
 
 def wall_of_bolts(size: Size, wall: float) -> float:

@@ -13,7 +13,20 @@ from geneva_cli.layout.screws import screw
 from geneva_cli.spec.tables import Size
 
 
-def with_set_screw(size: Size, part: str, hub: Plate | None, direction: float) -> Plate | None:
+def held_hub(size: Size, part: str, hub: Plate | None, direction: float) -> Plate | None:
+    """Return the hub of a part, "wheel" or "crank", with its screw's holes in a direction, radians.
+
+    Raises GenevaError, naming the key, for a screw that the hub does not hold.
+    """
+    return _with_set_screw(size, part, with_clamp(size, part, hub, direction), direction)
+
+
+def hub_note(size: Size, part: str) -> str:
+    """Return the sheet's note on what holds a hub on its shaft; "" for nothing."""
+    return clamp_note(size, part) or _screw_note(size, part)
+
+
+def _with_set_screw(size: Size, part: str, hub: Plate | None, direction: float) -> Plate | None:
     """Return the hub of a part with the hole of its set screw, if the spec has one.
 
     The hole is for the thread to be cut, amid the hub's length, and reaches the bore at its flat or
@@ -56,10 +69,10 @@ def with_set_screw(size: Size, part: str, hub: Plate | None, direction: float) -
     return hub._replace(cross=(hole,))
 
 
-def screw_note(size: Size, part: str) -> str:
+def _screw_note(size: Size, part: str) -> str:
     """Return the sheet's note on a set screw; "" without one.
 
-    >>> screw_note(Size(wheel_screw_mm=4.0, wheel_bore="D"), "wheel")
+    >>> _screw_note(Size(wheel_screw_mm=4.0, wheel_bore="D"), "wheel")
     'set screw M4 (ISO 4026), radial, onto the flat'
     """
     values = vars(size)
@@ -68,16 +81,3 @@ def screw_note(size: Size, part: str) -> str:
         return ""
     onto = "the flat" if shape == "D" else "the shaft"
     return f"set screw M{thread:g} (ISO 4026), radial, onto {onto}"
-
-
-def held_hub(size: Size, part: str, hub: Plate | None, direction: float) -> Plate | None:
-    """Return the hub of a part, "wheel" or "crank", with its screw's holes in a direction, radians.
-
-    Raises GenevaError, naming the key, for a screw that the hub does not hold.
-    """
-    return with_set_screw(size, part, with_clamp(size, part, hub, direction), direction)
-
-
-def hub_note(size: Size, part: str) -> str:
-    """Return the sheet's note on what holds a hub on its shaft; "" for nothing."""
-    return clamp_note(size, part) or screw_note(size, part)

@@ -53,6 +53,21 @@ def placed(shape: S, at: Point, turn: float) -> S:
     return mapped(turned(shape, turn), lambda p: (p[0] + at[0], p[1] + at[1]))
 
 
+def with_frame(moving: Iterable[Member], standing: Iterable[Member]) -> tuple[Shape, ...]:
+    """Return the outlines of parts that move, and on layer FRAME those of parts that stand.
+
+    Holes of the latter that shafts and bores cover are left out.
+    """
+    drawn = list(shapes(moving))
+    seen = {circle_key(shape) for shape in drawn if isinstance(shape, Circle)}
+    fixed = [
+        shape._replace(layer="FRAME")
+        for shape in shapes(standing)
+        if not (isinstance(shape, Circle) and circle_key(shape) in seen)
+    ]
+    return tuple(once([*drawn, *fixed]))
+
+
 def once(shapes: Iterable[Shape]) -> Iterator[Shape]:
     """Yield shapes without those of one layer that coincide; circles coincide to 1e-6 mm."""
     seen = set()

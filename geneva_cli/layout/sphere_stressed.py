@@ -16,13 +16,13 @@ import math
 
 import numpy as np
 
-from geneva_cli.layout.arm_sizes import arm_hub, eye_about, hole_radius
+from geneva_cli.layout.arm_sizes import arm_hub, hole_radius
 from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.bores import reach_or_bore
 from geneva_cli.layout.plain_sizes import half_or
 from geneva_cli.layout.stressed import ShaftEnd, Stressed, key_of, shaft_of
 from geneva_cli.loads.strength.arm import ArmDimensions
-from geneva_cli.machine.least_wall import wall_min
+from geneva_cli.machine.least_wall import eye_about, wall_min
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.default_sizes import value_or
 

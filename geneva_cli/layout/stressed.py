@@ -13,7 +13,7 @@ import numpy as np
 
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.arm_sizes import arm_hub, arm_passing, eye_about, hole_radius
+from geneva_cli.layout.arm_sizes import arm_hub, arm_passing, hole_radius
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.bores import reach_or_bore
 from geneva_cli.layout.keyways import key
@@ -23,6 +23,7 @@ from geneva_cli.layout.reliefs import is_whole, sectors
 from geneva_cli.layout.roller_paths import roller_reaches
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
+from geneva_cli.machine.least_wall import eye_about
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.default_sizes import value_or
 

@@ -108,6 +108,16 @@ CONFLICTS = (
         'gearing = "{gearing}" needs kind = "{drives}" without [drive.before]',
     ),
     Conflict(
+        lambda s: s.wheel.toothed & (s.drive.rollers > 1),
+        ("drive", "rollers"),
+        'the driver of gearing = "{gearing}" has one pair of teeth: remove rollers',
+    ),
+    Conflict(
+        lambda s: s.wheel.toothed and s.drive.roller_angles_deg is not None,
+        ("drive", "roller_angles_deg"),
+        'the driver of gearing = "{gearing}" has one pair of teeth: remove roller_angles_deg',
+    ),
+    Conflict(
         lambda s: s.drive.LAW is Needs.LAW and s.motion is None,
         ("drive", "kind"),
         'kind = "{drive}" needs a law in [motion]: the groove is cut for it',

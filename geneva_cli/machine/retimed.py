@@ -59,7 +59,7 @@ def retimed(plan: Plan, spec: Spec, in_front: Drive) -> Plan:
 def _engagement(own: Engagement, timing: Timing, spec: Spec, L: float) -> RetimedEngagement:
     """Return an engagement behind the drive before, with the reactions of the shaft between."""
     push = None
-    if not spec.drive.CRANKED or spec.drive.direct:  # the shaft turns about the crank's axis
+    if spec.drive.turned_at_crank:
         path = ShaftPath(spec.wheel.SIGN, timing)
         push = timing.before.reactions(spec.wheel, path, timing.within_deg, L)
     reactions: Reactions | None = push  # of a crank that carries its rollers
@@ -130,7 +130,10 @@ class Timing(Batchable):
         return self.before.about(self.rest_deg + own_deg).input_deg - self.within_deg
 
     def inputs_deg(self, own_deg: Array) -> Array:
-        """Machine's input angles at angles of the driven shaft within the motion, degrees."""
+        """Machine's input angles at angles of the driven shaft within the motion, degrees.
+
+        They are bisected, as the gears of a ratio file are known about one angle at a time.
+        """
         import numpy as np
 
         ends = (np.broadcast_to(self.each[k].input_deg, own_deg.shape) for k in (0, -1))

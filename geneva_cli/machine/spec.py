@@ -338,12 +338,12 @@ class Spec:
                 f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '
                 "built: one pair of noncircular-gears with the ratio of both does the same"
             )
-        if before is not None and not (before.GEARED or self._turns_crank):
+        if before is not None and not (before.GEARED or self.drive.turned_at_crank):
             return (
                 f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '
                 "built: the shaft between them has no bearing, since the input crank turns below it"
             )
-        if not (self.output.turns or self.drive.direct or self.drive.GEARED):
+        if not (self.output.turns or self.guided):
             return (
                 f"frame and guide of a rack behind {self.drive.WORDS} are not built: the crank's "
                 "shaft has no bearing between the rack above it and the input crank below it"
@@ -351,11 +351,6 @@ class Spec:
         if self.wheel.z > Z_DRAWN:
             return f"wheels of more than {Z_DRAWN} slots are not drawn"
         return ""
-
-    @property
-    def _turns_crank(self) -> bool:
-        """True if the input shaft of the drive stands at the crank's axis."""
-        return self.drive.direct or not self.drive.CRANKED
 
     def roller_radius_mm(self, center_distance_mm: float) -> float:
         """Roller radius r in millimetres, by default L/20.

@@ -178,7 +178,7 @@ def omega(n_rpm: float) -> float:
 
 
 def distinct(places: Sequence[float], least: float) -> list[float]:
-    """The first and the last of ascending places, and of the others those farther apart.
+    """Return ascending places without those within ``least`` of another; both ends stay.
 
     Two formulas of one place differ by rounding.
 

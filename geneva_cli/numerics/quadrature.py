@@ -24,6 +24,12 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole
     from geneva_cli.numerics.jet import Array
 
+NODES = 20  # nodes of a rule that suffice for most loads between two cuts
+NARROW_NODES = 12  # nodes for a span that is narrow compared with its design's widest
+WIDE_NODES = 28  # nodes for a span that is wider than the distance of its poles
+# Fraction of a design's integral that the last terms may have; the error is a tenth at most.
+LAST_TERMS = 2e-12
+
 
 def legendre(x: Array, degree: int) -> tuple[Array, Array]:
     """The Legendre polynomials of ``degree`` - 1 and ``degree`` at some places.
@@ -56,13 +62,6 @@ def lobatto(nodes: int) -> tuple[Array, Array]:
         before, here = legendre(x, nodes - 1)
         x = x - (x * here - before) / (nodes * here)
     return read_only((x, 2.0 / (nodes * (nodes - 1) * here * here)))
-
-
-NODES = 20  # nodes of a rule that suffice for most loads between two cuts
-NARROW_NODES = 12  # nodes for a span that is narrow compared with its design's widest
-WIDE_NODES = 28  # nodes for a span that is wider than the distance of its poles
-# Fraction of a design's integral that the last terms may have; the error is a tenth at most.
-LAST_TERMS = 2e-12
 
 
 class Integrands(NamedTuple):

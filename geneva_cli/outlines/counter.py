@@ -61,11 +61,41 @@ def counter_sizes(mechanism: Mechanism) -> CounterSizes:
     spec, L = mechanism.spec, mechanism.center_distance_mm
     z = spec.wheel.z
     large = round(2 * z * mechanism.ratio / (1.0 - mechanism.ratio))
-    counts = large, 2 * z
-    plain = Rack(1.0)
-    total = sum(counts)
+    mesh = _meshing((large, 2 * z), L, spec.size.gear_backlash_mm)
+    number, pinion = mesh.number, mesh.pinion
+    touch = _touching_circle(pinion, L)
+    rim = touch - spec.size.allowances.lock_clearance_mm
+    driver = number._replace(tip=min(number.tip, rim))
+    if driver.tip <= driver.base or rim <= L - pinion.tip:
+        raise GenevaError(
+            f"z = {z}: the rim that locks {z} wide teeth, of radius {rim:.4g} mm, leaves the "
+            f"driver no teeth, which begin at {driver.base:.4g} mm; use more teeth, or a smaller "
+            "lock_clearance_mm",
+            ("wheel", "z"),
+        )
+    return CounterSizes(
+        driver, number, pinion, L, mesh.shifts, mesh.pressure_angle, mesh.contact_ratio, touch, rim
+    )
+
+
+class _Meshing(NamedTuple):
+    """The whole teeth of a number wheel and a pinion in mesh."""
+
+    number: RoundTeeth
+    pinion: RoundTeeth
+    shifts: tuple[float, float]  # in modules, without backlash
+    pressure_angle: float  # at work, radians
+    contact_ratio: float
+
+
+def _meshing(counts: tuple[int, int], L: float, backlash_mm: float) -> _Meshing:
+    """Return the teeth of number wheel and pinion, by their numbers.
+
+    Raises GenevaError, naming the key, for teeth that lose contact.
+    """
+    plain, total = Rack(1.0), sum(counts)
     # modules by which a backlash along the pitch circles at work thins both, a half each
-    thinner = spec.size.gear_backlash_mm * total / (8.0 * L * math.tan(plain.angle))
+    thinner = backlash_mm * total / (8.0 * L * math.tan(plain.angle))
     # no undercut: the rack's straight flank ends above the base circle's tangent
     least = [1.0 - 0.5 * n * math.sin(plain.angle) ** 2 + thinner for n in counts]
     own = max(0.0, least[1])
@@ -94,22 +124,11 @@ def counter_sizes(mechanism: Mechanism) -> CounterSizes:
         path = sum(teeth.tangent(teeth.tip) for teeth in both) - far
         contact = path / (math.pi * m * math.cos(plain.angle))
     if contact < 1.0:
-        raise _lost(spec.size.gear_backlash_mm, large, max(0.0, contact))
-    number, pinion = both
-    touch = _touching_circle(pinion, L)
-    rim = touch - spec.size.allowances.lock_clearance_mm
-    driver = number._replace(tip=min(number.tip, rim))
-    if driver.tip <= driver.base or rim <= L - pinion.tip:
-        raise GenevaError(
-            f"z = {z}: the rim that locks {z} wide teeth, of radius {rim:.4g} mm, leaves the "
-            f"driver no teeth, which begin at {driver.base:.4g} mm; use more teeth, or a smaller "
-            "lock_clearance_mm",
-            ("wheel", "z"),
-        )
-    return CounterSizes(driver, number, pinion, L, shifts, angle, contact, touch, rim)
+        raise _lost_contact(backlash_mm, counts[0], max(0.0, contact))
+    return _Meshing(both[0], both[1], shifts, angle, contact)
 
 
-def _lost(backlash_mm: float, teeth: int, contact: float) -> GenevaError:
+def _lost_contact(backlash_mm: float, teeth: int, contact: float) -> GenevaError:
     """Return the error for teeth of number wheel and pinion that lose contact."""
     key, value, other = ("wheel", "driver_teeth"), float(teeth), "more teeth"
     if backlash_mm:

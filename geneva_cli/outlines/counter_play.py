@@ -144,4 +144,5 @@ def _rim(sizes: CounterSizes, inputs: Array, at: Array) -> tuple[Array, Array]:
     side = reach * (2.0 * at - 1.0) - inputs
     gap = sizes.half_space - sizes.driver.half_angle(r)
     beyond = np.abs(np.remainder(side + math.pi, math.tau) - math.pi) >= gap
+    # in the gap there is no rim: points on the axis are out of the pinion's reach
     return np.where(beyond, r, 0.0), side

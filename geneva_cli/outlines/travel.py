@@ -131,13 +131,13 @@ def curve_rates(curve: Curve, start: Array, end: Array) -> Array:
             answers = np.broadcast_to(error.answers, len(boxes.cell))
             is_open = np.isnan(answers)
             left += [boxes.some(answers == one) for one in np.unique(answers[~is_open])]
-            done = boxes.some(is_open)
-            left.append(done.halves())
+            tried = boxes.some(is_open)
+            left.append(tried.halves())
         else:
-            done = boxes
+            tried = boxes
             for k, total in enumerate(rates, start=1):
                 size = k * np.hypot(size_of(x.c[k]), size_of(y.c[k]))
                 np.maximum.at(total, boxes.cell, size)
-        np.add.at(tries, done.cell, 1)
+        np.add.at(tries, tried.cell, 1)
     rates[:, tries >= 400] = math.inf
     return rates

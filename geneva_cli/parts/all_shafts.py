@@ -1,4 +1,4 @@
-"""All shafts of a flat machine, plain or turned, and what passes below the parts on them."""
+"""All shafts of a flat machine before they are built, and what passes below the parts on them."""
 
 from __future__ import annotations
 
@@ -20,7 +20,6 @@ from geneva_cli.parts.links import Links
 from geneva_cli.parts.planes import crank_stop
 from geneva_cli.parts.shaft import Ends, Seat, Shaft
 from geneva_cli.parts.shafts import crank_shaft_radius, shafts, wheel_shaft_radius
-from geneva_cli.spec.tables import Size
 
 
 def all_shafts(
@@ -74,32 +73,6 @@ def _of_crank(first: Shaft, place: AxisPlace, outlines: Outlines) -> Shaft:
     return first._replace(at=place.at, turn=first.turn + place.turn + float(later - now))
 
 
-def built_shafts(
-    size: Size, own: list[Shaft], adjacent: list[Seat], heights: tuple[float, float, float]
-) -> tuple[list[Member], float]:
-    """Return the shafts, plain or turned, and the frame's lower face.
-
-    Shafts that turn in the frame and reach its lower face are turned. ``adjacent`` are the faces of
-    parts that pass them. ``heights`` are the lower face of a frame of plain shafts, the upper face,
-    and the lowest height at which parts pass.
-    """
-    usual, top, free = heights
-    turned = [size.shafts == "turned" and one.turns and one.low <= usual for one in own]
-    bottom = usual
-    if any(turned):
-        from geneva_cli.parts.turned_shafts import bearing_of, turned_shaft
-
-        widths = (bearing_of(one).width for one, steps in zip(own, turned, strict=True) if steps)
-        bottom = min([usual, *(top - width for width in widths)])
-    axles = []
-    for one, steps in zip(own, turned, strict=True):
-        if steps:
-            axles.append(turned_shaft(size, one, top, free if _is_passed(one, adjacent) else None))
-        else:
-            axles.append(one._replace(low=bottom if one.low == usual else one.low).plain(size))
-    return axles, bottom
-
-
 def passing(
     mechanism: Mechanism, outlines: Outlines | None, bars: Links, others: Iterable[Member]
 ) -> Iterator[Seat]:
@@ -129,10 +102,3 @@ def passing_arm(outlines: Outlines, own: Iterable[Shaft]) -> Iterator[Seat]:
 def _span(member: Member) -> Seat:
     assert isinstance(member.part, Plate)
     return Seat(member.part.name, member.part.low, member.part.high)
-
-
-def _is_passed(shaft: Shaft, adjacent: Iterable[Seat]) -> bool:
-    """Return True if parts on other axes are lower than what a shaft carries."""
-    low = shaft.seats[0].low if shaft.seats else shaft.high
-    own = {seat.part for seat in shaft.seats}
-    return any(one.low < low and one.part not in own for one in adjacent)

@@ -21,7 +21,6 @@ from geneva_cli.curves.shapes import Circle, Contour, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import (
     arm_passing,
-    eye_about,
     hub_and_eye,
     lock_bolt_directions,
     pin_hole,
@@ -30,6 +29,7 @@ from geneva_cli.layout.arm_sizes import (
 from geneva_cli.layout.bolt_holes import bolt_radius
 from geneva_cli.layout.bores import bore_of, has_shape
 from geneva_cli.layout.reliefs import keyway_direction, sectors
+from geneva_cli.machine.least_wall import eye_about
 from geneva_cli.outlines.crank import crank_circles, is_whole, roller_centres
 from geneva_cli.outlines.outlines import Outlines
 

@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from geneva_cli.curves.plates import Member, Plate, Stack
+from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bearings import shoulder_length
@@ -22,8 +22,8 @@ from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.outlines.counter import CounterSizes
-from geneva_cli.parts.all_shafts import built_shafts
-from geneva_cli.parts.mounted_plate import corner_radius, mounted_plate, require_walls, shaft_hole
+from geneva_cli.parts.built_shafts import built_shafts
+from geneva_cli.parts.mounted_plate import corner_radius, mounted_plate, require_walls, shaft_holes
 from geneva_cli.parts.shaft import Seat, Shaft, shaft_ends
 
 
@@ -104,12 +104,7 @@ def shafts_and_frame(mechanism: Mechanism, sizes: CounterSizes) -> tuple[tuple[M
     lowest = top - drawn_thicknesses(size, L).arm
     own = list(_shafts(mechanism, sizes, lowest))
     axles, bottom = built_shafts(size, own, [], (lowest, top, free))
-    holes: list[Circle] = []
-    for one in axles:
-        assert isinstance(one.part, Plate | Stack)
-        if one.part.low < top:
-            fit = size.allowances.shaft_fit_mm
-            holes.append(shaft_hole(one.part, one.at, top, fit))
+    holes = shaft_holes(size, axles, top)
     require_walls(holes, wall_min(size, L), axles)
     reach = [*holes, *(Circle("BORE", one.at, 0.0) for one in own)]
     frame = mounted_plate(holes, reach, corner_radius(size, L), (bottom, top))

@@ -31,24 +31,13 @@ from geneva_cli.parts.edged_parts import EdgedParts
 
 if TYPE_CHECKING:
     from geneva_cli.curves.gear_teeth import Writer
-    from geneva_cli.machine.mechanism import Mechanism
 
 
 class CounterParts(EdgedParts):
     """The parts of a counter.
 
-    Parts that the sizes leave no place for raise GenevaError, naming the key. Teeth are ``curves``,
-    "arcs" or "cubics", within ``tolerance`` mm; without one as accurate as the checks need them.
+    Parts that the sizes leave no place for raise GenevaError, naming the key.
     """
-
-    def __init__(
-        self, mechanism: Mechanism, tolerance: float | None = None, curves: str = "arcs"
-    ) -> None:
-        super().__init__(mechanism, tolerance, curves)
-
-    def within(self, tolerance: float, curves: str) -> CounterParts:
-        """Return these parts with curves of a kind within a tolerance, mm."""
-        return CounterParts(self.mechanism, tolerance, curves)
 
     @cached_property
     def sizes(self) -> CounterSizes:
@@ -75,68 +64,62 @@ class CounterParts(EdgedParts):
         return self.writer(1e-9 * self.sizes.distance)
 
     @cached_property
-    def _bores(self) -> tuple[Bore, Bore]:
-        """The bores of the pinions, and of the driver."""
-        both = (bore(self.mechanism, self.sizes, part) for part in ("wheel", "crank"))
-        pinion, driver = both
-        return pinion, driver
-
-    @cached_property
     def _pinion_hole(self) -> Shape:
         # below a tooth, where the wall is thickest
-        return self._bores[0].shape("BORE", math.pi)
+        return bore(self.mechanism, self.sizes, "wheel").shape("BORE", math.pi)
 
     @cached_property
-    def _driver_hole(self) -> Shape:
-        # opposite the driver's teeth
-        return self._bores[1].shape("BORE", math.pi)
+    def _driver_bore(self) -> Bore:
+        return bore(self.mechanism, self.sizes, "crank")
 
     @cached_property
     def _number_hole(self) -> Shape:
         turned = self.mechanism.spec.size.shafts == "turned"
-        return self._bores[1].running(turned).shape("BORE", 0.0)
+        return self._driver_bore.running(turned).shape("BORE", 0.0)
 
     @cached_property
     def pinions(self) -> tuple[Member, ...]:
         """The pinions, from the lowest up; each has a wide tooth between the driver's two."""
-        tall, write = self.heights, self._write
-        all_, wide = (pinion_teeth(self.sizes, only, write) for only in (False, True))
-        hole, out = (self._pinion_hole,), []
+        tall, write, hole = self.heights, self._write, (self._pinion_hole,)
+        all_teeth = pinion_teeth(self.sizes, False, write)
+        wide_teeth = pinion_teeth(self.sizes, True, write)
+        members = []
         for k in range(tall.pinions):
             low = k * tall.pitch
             middle, high = low + tall.narrow, low + tall.pinion
-            teeth = Plate("pinion's teeth", "WHEEL", all_, hole, low, middle)
-            above = Plate("pinion's wide teeth", "WHEEL", wide, hole, middle, high)
-            out.append(Member(Group("pinion", (Member(teeth), Member(above)))))
-        return tuple(out)
+            teeth = Plate("pinion's teeth", "WHEEL", all_teeth, hole, low, middle)
+            above = Plate("pinion's wide teeth", "WHEEL", wide_teeth, hole, middle, high)
+            members.append(Member(Group("pinion", (Member(teeth), Member(above)))))
+        return tuple(members)
 
     @cached_property
     def number_wheels(self) -> tuple[Member, ...]:
         """The number wheels but the driver, from the lowest up."""
-        tall, write, hole = self.heights, self._write, self._number_hole
-        gear, out = number_teeth(self.sizes, write), []
+        tall, hole = self.heights, self._number_hole
+        gear, members = number_teeth(self.sizes, self._write), []
         for k in range(tall.pinions):
             high = k * tall.pitch + tall.tooth
-            carry: tuple[Member, ...] = ()
+            below: tuple[Member, ...] = ()  # the lowest turns no pinion
             low = high - tall.tooth
             if k:
                 low -= tall.gap
-                carry = self._carrying("number wheel", k - 1, low, hole)
+                below = self._teeth_and_rim("number wheel", k - 1, low, hole)
             plate = Plate("number wheel", "CRANK", gear, (hole,), low, high)
-            group = Group("number wheel", (Member(plate), *carry))
-            out.append(Member(group, self.axis, math.pi))
-        return tuple(out)
+            group = Group("number wheel", (Member(plate), *below))
+            members.append(Member(group, self.axis, math.pi))
+        return tuple(members)
 
     @cached_property
     def driver(self) -> Member:
         """The driver: its two teeth, and the locking rim on them."""
         last = self.heights.pinions - 1
-        carry = self._carrying("driver", last, self.heights.top, self._driver_hole)
-        return Member(Group("driver", carry), self.axis, math.pi)
+        hole = self._driver_bore.shape("BORE", math.pi)  # with its shape opposite the teeth
+        members = self._teeth_and_rim("driver", last, self.heights.top, hole)
+        return Member(Group("driver", members), self.axis, math.pi)
 
-    def _carrying(self, name: str, k: int, high: float, hole: Shape) -> tuple[Member, ...]:
+    def _teeth_and_rim(self, name: str, k: int, high: float, hole: Shape) -> tuple[Member, ...]:
         """Return the two teeth and the rim, up to a height, that turn and lock the k-th pinion."""
-        two, rim = self._carry
+        two, rim = self._teeth_and_rim_outlines
         tall = self.heights
         low = k * tall.pitch + tall.tooth + tall.gap
         middle = k * tall.pitch + tall.narrow + tall.gap
@@ -146,8 +129,7 @@ class CounterParts(EdgedParts):
         )
 
     @cached_property
-    def _carry(self) -> tuple[Contour, Contour]:
-        """The outlines of two teeth and of the rim."""
+    def _teeth_and_rim_outlines(self) -> tuple[Contour, Contour]:
         write = self._write
         return driver_teeth(self.sizes, write), driver_rim(self.sizes, write)
 

@@ -1,9 +1,9 @@
-"""What the parts of flat machines and of racks share: all their plates have the spec's edges."""
+"""The base of parts that are plates with the spec's edges: of wheels, racks and counters."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 from geneva_cli.curves.edges import Edge
 from geneva_cli.curves.plates import Member, Plate, edged
@@ -27,9 +27,14 @@ class EdgedParts(PartsOfMachine):
         self.mechanism = mechanism
         self.tolerance, self.curves = tolerance, curves
 
-    def finer_mm(self, tolerance: float) -> float:
-        """Return the tolerance of parts whose curves are at least so accurate, mm."""
-        return tolerance if self.tolerance is None else min(tolerance, self.tolerance)
+    def within(self, tolerance: float, curves: str) -> Self:
+        """Return these parts with curves of a kind within a tolerance, mm."""
+        return type(self)(self.mechanism, tolerance, curves)
+
+    def finer(self, tolerance: float) -> Self:
+        """Return these parts with curves that are at least so accurate, mm."""
+        own = self.tolerance
+        return self.within(tolerance if own is None else min(tolerance, own), self.curves)
 
     def writer(self, fine: float) -> Writer:
         """Return a function that fits curves: within ``fine`` mm where no tolerance is set."""

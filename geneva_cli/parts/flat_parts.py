@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -53,13 +53,9 @@ class FlatParts(EdgedParts):
         super().__init__(mechanism, tolerance, curves)
         self._known = known
 
-    def within(self, tolerance: float, curves: str) -> FlatParts:
+    def within(self, tolerance: float, curves: str) -> Self:
         """Return these parts with curves of a kind within a tolerance, mm."""
-        return FlatParts(self.mechanism, self.drawn, tolerance, curves)
-
-    def finer(self, tolerance: float) -> FlatParts:
-        """Return these parts with curves that are at least so accurate, mm."""
-        return self.within(self.finer_mm(tolerance), self.curves)
+        return type(self)(self.mechanism, self.drawn, tolerance, curves)
 
     @cached_property
     def outlines(self) -> Outlines:

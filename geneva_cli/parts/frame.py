@@ -26,8 +26,9 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import wheel_hub
-from geneva_cli.parts.all_shafts import all_shafts, built_shafts, passing, passing_arm
+from geneva_cli.parts.all_shafts import all_shafts, passing, passing_arm
 from geneva_cli.parts.arm import has_arm
+from geneva_cli.parts.built_shafts import built_shafts
 from geneva_cli.parts.link_shafts import outside_links
 from geneva_cli.parts.links import Links, placed_holes
 from geneva_cli.parts.mounted_plate import (

@@ -14,10 +14,10 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint, Link
-from geneva_cli.layout.arm_sizes import HUB, eye_about, pin_hole
+from geneva_cli.layout.arm_sizes import HUB, pin_hole
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, half_or, pin_radius
 from geneva_cli.layout.sizes import sized
-from geneva_cli.machine.least_wall import wall_min
+from geneva_cli.machine.least_wall import eye_about, wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.outlines.outlines import Outlines

@@ -57,6 +57,16 @@ def shaft_hole(shaft: Plate | Stack, at: Point, top: float, fit_mm: float) -> Ci
     return Circle(HOLES, at, around(shaft.outline) + 0.5 * fit_mm)
 
 
+def shaft_holes(size: Size, axles: Iterable[Member], top: float) -> list[Circle]:
+    """Return the holes of a frame for the shafts that reach below its upper face."""
+    holes = []
+    for one in axles:
+        assert isinstance(one.part, Plate | Stack)
+        if one.part.low < top:
+            holes.append(shaft_hole(one.part, one.at, top, size.allowances.shaft_fit_mm))
+    return holes
+
+
 def hole_without_shaft(diameter_mm: float | None, at: Point, L: float) -> Circle:
     """Return the hole for a part that is one piece with its shaft, of the spec or L/10 wide."""
     return Circle(HOLES, at, half_or(diameter_mm, bore_radius(L / 20.0)))

@@ -1,4 +1,4 @@
-"""What the parts of every machine answer, whatever they are built of."""
+"""The base of the parts of every machine, whatever they are built of."""
 
 from __future__ import annotations
 

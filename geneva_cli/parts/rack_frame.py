@@ -15,7 +15,7 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from geneva_cli.curves.plates import Member, Plate, Stack
+from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.curves.sheet import rectangle
 from geneva_cli.errors import GenevaError
@@ -24,8 +24,10 @@ from geneva_cli.layout.bearings import bearing_up_to, shoulder_length
 from geneva_cli.layout.bolt_holes import bolt_radius
 from geneva_cli.layout.bores import bore_of
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
+from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.rack import RackSizes, rack_ends, rack_sizes, slot_places
+from geneva_cli.parts.built_shafts import built_shafts
 from geneva_cli.parts.gear_pair import NAMES, gear_shafts, gear_span
 from geneva_cli.parts.mounted_plate import (
     HOLES,
@@ -33,18 +35,18 @@ from geneva_cli.parts.mounted_plate import (
     corner_radius,
     hole_without_shaft,
     mounted_plate,
-    shaft_hole,
+    require_walls,
+    shaft_holes,
 )
 from geneva_cli.parts.rack_arm import rack_bore
 from geneva_cli.parts.shaft import Ends, Seat, Shaft, shaft_ends
-from geneva_cli.parts.turned_shafts import turned_shaft
 
 
 class RackFrame(NamedTuple):
     """The heights of a rack's parts along the crank's axis, mm; 0 is the rack's lower face."""
 
-    bottom: float  # of the frame
-    top: float
+    plain: float  # lower face of a frame of plain shafts
+    top: float  # upper face of the frame
     low: float  # lower face of what is on the crank's shaft: the arm, or gears below it
     arm: float  # lower face of the arm
     stands: float  # its upper face
@@ -56,15 +58,13 @@ def rack_frame(mechanism: Mechanism) -> RackFrame:
     """Return the heights of a machine's parts."""
     size, R = mechanism.spec.size, mechanism.center_distance_mm
     thick, gap = drawn_thicknesses(size, R), size.allowances.pin_gap_mm
-    arm, thickness = -gap - thick.arm, thick.arm
+    arm = -gap - thick.arm
     low = gear_span(mechanism, None)[0] if mechanism.spec.gears else arm
     top = low - size.washer_mm
-    if size.shafts == "turned" and has_arm(mechanism):
+    if has_arm(mechanism) or mechanism.spec.gears:
         top -= shoulder_length(size, 2.0 * R)  # as on a wheel of 6 slots, whose L is 2 R
-        bearing = bearing_up_to(2.0 * rack_bore(mechanism), "crank's shaft", "arm_bore_mm")
-        thickness = max(thickness, bearing.width)
     stands = 0.0 - gap  # no -0.0
-    return RackFrame(top - thickness, top, low, arm, stands, thick.wheel, thick.arm)
+    return RackFrame(top - thick.arm, top, low, arm, stands, thick.wheel, thick.arm)
 
 
 def has_arm(mechanism: Mechanism) -> bool:
@@ -77,30 +77,44 @@ def shaft_radius(mechanism: Mechanism) -> float:
     return rack_bore(mechanism) if has_arm(mechanism) else 0.0
 
 
-def rack_shafts(mechanism: Mechanism) -> tuple[Member, ...]:
-    """Return the crank's shaft, from the frame's lower face to the arm's upper one, and a driver's.
+def shafts_and_frame(mechanism: Mechanism) -> tuple[tuple[Member, ...], Plate]:
+    """Return the shafts, plain or turned, and the frame, with holes for them and guide's screws.
 
-    A driver gear's shaft is there with gears. There is no crank's shaft without an arm, as the
-    crank is one piece with its shaft then. Raises GenevaError, naming the key, where a shaft's
-    lower end is not below its upper one.
+    Raises GenevaError, naming the key, where they do not fit.
     """
-    size, heights = mechanism.spec.size, rack_frame(mechanism)
-    geared, own = mechanism.spec.gears is not None, list[Shaft]()
+    size, sizes, heights = mechanism.spec.size, rack_sizes(mechanism), rack_frame(mechanism)
+    L = 2.0 * sizes.arm  # as a wheel of 6 slots has it
+    span = heights.plain, heights.top, heights.top
+    axles, bottom = built_shafts(size, list(_shafts(mechanism, heights)), [], span)
+    bored = shaft_holes(size, axles, heights.top)
+    require_walls(bored, wall_min(size, sizes.arm), axles)
+    if not has_arm(mechanism):
+        diameter = mechanism.spec.shaft.crank_diameter_mm
+        bored.insert(0, hole_without_shaft(diameter, mechanism.crank_shaft.at, L))
+    holes = [*bored, *(hole for at in _rows(sizes) for hole in _row(sizes, at))]
+    frame = mounted_plate(holes, holes, corner_radius(size, L), (bottom, heights.top))
+    return tuple(axles), frame
+
+
+def _shafts(mechanism: Mechanism, heights: RackFrame) -> Iterator[Shaft]:
+    """Yield the crank's shaft, up to the arm's upper face, and that of a driver gear.
+
+    There is no crank's shaft without an arm, as the crank is one piece with its shaft then.
+    """
+    size, geared = mechanism.spec.size, mechanism.spec.gears is not None
     if has_arm(mechanism):
-        bore, axis = bore_of(size, "crank", rack_bore(mechanism)), mechanism.crank_shaft.at
+        radius, axis = rack_bore(mechanism), mechanism.crank_shaft.at
+        if size.shafts == "turned":  # a rack's crank has its bore in the arm: errors name that key
+            bearing_up_to(2.0 * radius, "crank's shaft", "arm_bore_mm")
         driven = (Seat(NAMES[0], *gear_span(mechanism, None)),) if geared else ()
         seats = (*driven, Seat("crank", heights.arm, heights.stands))
-        low, high = shaft_ends(size, "crank", heights.bottom, heights.stands)
+        low, high = shaft_ends(size, "crank", heights.plain, heights.stands)
+        bore = bore_of(size, "crank", radius)
         # the keyway is on the side of the locking sector, as in the arm
-        own.append(Shaft("crank's shaft", "crank", bore, seats, low, high, axis, math.pi, math.pi))
-    ends = Ends(heights.bottom, heights.rack, crank_has_one=True)
-    own += gear_shafts(mechanism, None, ends, shaft_radius(mechanism)) if geared else ()
-    return tuple(
-        turned_shaft(size, one, heights.top)
-        if size.shafts == "turned" and one.low <= heights.bottom
-        else one.plain(size)
-        for one in own
-    )
+        yield Shaft("crank's shaft", "crank", bore, seats, low, high, axis, math.pi, math.pi)
+    if geared:
+        ends = Ends(heights.plain, heights.rack, crank_has_one=True)
+        yield from gear_shafts(mechanism, None, ends, shaft_radius(mechanism))
 
 
 def guide_bar(mechanism: Mechanism, count: int) -> Plate:
@@ -162,22 +176,6 @@ def rack_dimensions(sizes: RackSizes) -> Iterator[Dimension]:
     }
     for name, value in named.items():
         yield Dimension(name, value, "mm")
-
-
-def frame_plate(mechanism: Mechanism) -> Plate:
-    """Return the frame, with holes for its shafts and the guide's screws."""
-    size, sizes, heights = mechanism.spec.size, rack_sizes(mechanism), rack_frame(mechanism)
-    span, axis = (heights.bottom, heights.top), mechanism.crank_shaft.at
-    L = 2.0 * sizes.arm  # as a wheel of 6 slots has it
-    bored = []
-    if not has_arm(mechanism):
-        bored.append(hole_without_shaft(mechanism.spec.shaft.crank_diameter_mm, axis, L))
-    for shaft in rack_shafts(mechanism):
-        assert isinstance(shaft.part, Plate | Stack)
-        fit = size.allowances.shaft_fit_mm
-        bored.append(shaft_hole(shaft.part, shaft.at, heights.top, fit))
-    holes = [*bored, *(hole for at in _rows(sizes) for hole in _row(sizes, at))]
-    return mounted_plate(holes, holes, corner_radius(size, L), span)
 
 
 def _rows(sizes: RackSizes) -> tuple[float, float]:

@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import cached_property
-from typing import Self
 
 from geneva_cli.curves.hole_walls import require_faces
 from geneva_cli.curves.plates import Group, Member, Plate, plates
@@ -25,12 +24,11 @@ from geneva_cli.parts.gear_pair import gear_pair
 from geneva_cli.parts.rack_arm import rack_arm, rack_crank
 from geneva_cli.parts.rack_frame import (
     bar_bolts,
-    frame_plate,
     guide,
     guide_bar,
     has_arm,
-    rack_shafts,
     shaft_radius,
+    shafts_and_frame,
 )
 
 
@@ -39,14 +37,6 @@ class RackParts(EdgedParts):
 
     A part that the sizes leave no place for raises GenevaError, naming the key.
     """
-
-    def within(self, tolerance: float, curves: str) -> Self:
-        """Return these parts with curves of a kind within a tolerance, mm."""
-        return type(self)(self.mechanism, tolerance, curves)
-
-    def finer(self, tolerance: float) -> Self:
-        """Return these parts with curves that are at least so accurate, mm."""
-        return self.within(self.finer_mm(tolerance), self.curves)
 
     @cached_property
     def sizes(self) -> RackSizes:
@@ -97,8 +87,7 @@ class RackParts(EdgedParts):
     @cached_property
     def shafts(self) -> tuple[Member, ...]:
         """The crank's shaft, if it has an arm, and that of a driver gear."""
-        self._require_built()
-        return self._edged(rack_shafts(self.mechanism))
+        return self._edged(self._framed[0])
 
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
@@ -119,8 +108,12 @@ class RackParts(EdgedParts):
     @cached_property
     def frame(self) -> Member:
         """The frame, which holds the crank's shaft and the guide."""
+        return self._edged([Member(self._framed[1])])[0]
+
+    @cached_property
+    def _framed(self) -> tuple[tuple[Member, ...], Plate]:
         self._require_built()
-        return self._edged([Member(frame_plate(self.mechanism))])[0]
+        return shafts_and_frame(self.mechanism)
 
     def _require_built(self) -> None:
         """Raise GenevaError where the crank's shaft has no bearing in the frame."""

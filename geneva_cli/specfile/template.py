@@ -118,7 +118,7 @@ def template(kind: str, schema: bool = True, whole: bool = True) -> str:
             "drive": {"n_rpm": 60, "rollers": 1},
             "size": {"center_distance_mm": 160, "roller_radius_mm": 9, "face_width_mm": 16},
             "load": gearing.USUAL_LOAD,
-            "limits": {"acceleration_max": 1.5, "pin_force_max_N": 600},
+            "limits": gearing.USUAL_LIMITS,
         }
         usual = usual_tables.get(name, {})
         block = (

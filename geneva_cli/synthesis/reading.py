@@ -78,11 +78,6 @@ def read_target(
             "no requirement; give one or more of --tau, --motion-deg, --dwell-deg, --motion-s, "
             "--dwell-s, --cycle, --index-mm and --subject-to"
         )
-    if frame and frame.drive_before:
-        raise GenevaError(
-            "--from: synth finds the numbers of each drive by the input's angle, which "
-            "[drive.before] would change: remove it; `geneva sweep --best` varies both drives"
-        )
     phrases = [spans[name].words(*SPANS[name][1:]) for name in spans]
     phrases = [w if w[:2] == "a " else " = ".join(w.split(" ", 1)) for w in phrases]
     bounds = tuple(constraint(text) for text in subject_to)

@@ -76,38 +76,39 @@ def judged(
     failing = [c for c in rows if c.passes is False]
     if not failing:
         return rows
-    asked = tuple(Check(c.name, None, c.must_be, None, False, at_deg=c.at_deg) for c in failing)
-    found, why, each = _remedies(mechanism, asked, parts)
-    partly = iter(each)
-    return [_advised(c, found, why, next(partly)) if c.passes is False else c for c in rows]
+    # the search needs neither values nor limits, and finds its cache whatever they are
+    bare = tuple(Check(c.name, None, c.must_be, None, False, at_deg=c.at_deg) for c in failing)
+    change, why, own_changes = _remedies(mechanism, bare, parts)
+    own = iter(own_changes)
+    return [_advised(c, change, why, next(own)) if c.passes is False else c for c in rows]
 
 
 @lru_cache(maxsize=4)  # a folder of files and the report in it need the same advice
 def _remedies(
     mechanism: Mechanism, failing: tuple[Check, ...], parts: bool
 ) -> tuple[str, str, list[str]]:
-    """The change with which all checks pass, or the reason for its absence.
+    """The change with which all checks pass, or an empty text and the reason for its absence.
 
     Without it, for each failing check a change with which this check passes, or an empty text.
     """
     adviser = Adviser(mechanism, list(failing), parts)
-    found, why = adviser.advice(list(failing))
-    partly = not found and len(failing) > 1
-    return found, why, [adviser.advice([c])[0] if partly else "" for c in failing]
+    change, why = adviser.advice(list(failing))
+    one_by_one = not change and len(failing) > 1
+    return change, why, [adviser.advice([c])[0] if one_by_one else "" for c in failing]
 
 
-def _advised(check: Check, found: str, why: str, partly: str) -> Check:
+def _advised(check: Check, change: str, why: str, own_change: str) -> Check:
     """A failing check with the change that passes all checks, or the reason for its absence.
 
-    The reason names the change ``partly``, with which this check passes, if there is one.
+    The reason names ``own_change``, with which this check passes, if there is one.
     """
-    if found:
+    if change:
         # where the same key passes, the other sizes may have changed with it
-        is_, but, _ = check.why.partition(", but ")
-        own = but and is_.startswith(f"{found.partition(' ')[0]} is ")
-        return check._replace(nearest=found, why=is_ if own else check.why)
-    says = (check.why, why, partly and f"{partly} passes this one")
-    return check._replace(why="; ".join(text for text in says if text))
+        value, but, _ = check.why.partition(", but ")
+        same_key = but and value.startswith(f"{change.partition(' ')[0]} is ")
+        return check._replace(nearest=change, why=value if same_key else check.why)
+    reasons = (check.why, why, own_change and f"{own_change} passes this one")
+    return check._replace(why="; ".join(text for text in reasons if text))
 
 
 class Adviser:
@@ -131,9 +132,8 @@ class Adviser:
         try:
             search = _Search(self, wanted)
             for change in self._changes(wanted):
-                found = search.least(change)
-                if found:
-                    return found, ""
+                if sufficient := search.least(change):
+                    return sufficient, ""
         except OutOfWork:
             return "", STOPPED
         return "", NONE
@@ -159,9 +159,10 @@ class _Search:
     """The search for the least change with which some failing checks pass, and its trials."""
 
     def __init__(self, adviser: Adviser, wanted: list[Check]) -> None:
+        self.adviser = adviser
         # of several searches the first may use a half of the work, others a quarter of what is left
-        quarters = 0 if not adviser.failing[1:] else 2 if len(wanted) > 1 else 3
-        self.adviser, self.reserve = adviser, adviser.work * quarters // 4
+        kept = 0.0 if len(adviser.failing) == 1 else 0.5 if len(wanted) > 1 else 0.75
+        self.reserve = kept * adviser.work
         self.mechanism, self.parts = adviser.mechanism, adviser.parts
         self.wanted = sorted(wanted, key=_needs_parts)  # the quick ones first
         self.turned = any(c.name in TURNED for c in wanted)
@@ -179,11 +180,11 @@ class _Search:
     def _trial(self) -> Iterator[None]:
         """Spend the work of one trial: that of every trial, and its evaluations of motions."""
         self._spend(TRIAL)
-        with counted() as done:
+        with counted() as work:
             try:
                 yield
             finally:
-                self.adviser.work -= done.evaluations
+                self.adviser.work -= work.evaluations
 
     def least(self, change: Change) -> str:
         """The least sufficient change of one key, as a line of the spec; empty if there is none."""
@@ -211,15 +212,15 @@ class _Search:
             bad, short = good, left
         return ""
 
-    def _edge(self, change: Change, now: float, found: Falsi) -> float:
+    def _edge(self, change: Change, now: float, bracket: Falsi) -> float:
         """The nearest value to the present one that passes the failing checks in quick trials."""
         # 20 trials between a value that fails and one that passes
         for _ in range(20):
-            if abs(found.good - found.bad) <= NEARLY * abs(found.good - now):
+            if abs(bracket.good - bracket.bad) <= NEARLY * abs(bracket.good - now):
                 break
-            middle = found.middle(NEARLY)
-            found.add(middle, self._glance(change, middle))
-        return found.good
+            middle = bracket.middle(NEARLY)
+            bracket.add(middle, self._glance(change, middle))
+        return bracket.good
 
     def _halved(self, change: Change, now: float, good: float, bad: float) -> float:
         """The nearest value to the present one with which all checks pass, beyond a failing one."""

@@ -17,9 +17,9 @@ from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.load_limits import limits_by_key, load_limits
 
 
-def cycle_warnings(cycle: Cycle, loads: Mapping[str, QuantitySummary]) -> list[Notice]:
-    """The warnings, for the summaries of a cycle's loads."""
-    return [*_back_driven(cycle, loads), *_lags(cycle.mechanism)]
+def cycle_warnings(cycle: Cycle, summaries: Mapping[str, QuantitySummary]) -> list[Notice]:
+    """Warnings about a wheel that drives the motor or lags, for the summaries of its loads."""
+    return [*_back_driven(cycle, summaries), *_lags(cycle.mechanism)]
 
 
 def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
@@ -38,8 +38,8 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
     return out
 
 
-def _back_driven(cycle: Cycle, loads: Mapping[str, QuantitySummary]) -> list[Notice]:
-    torque, noun = loads["input_torque_Nm"], cycle.mechanism.output.noun
+def _back_driven(cycle: Cycle, summaries: Mapping[str, QuantitySummary]) -> list[Notice]:
+    torque, noun = summaries["input_torque_Nm"], cycle.mechanism.output.noun
     least, most = torque.min, torque.max
     if least is None or not least < -ROUNDED * abs(most or least):
         return []
@@ -112,23 +112,25 @@ def _keeps_limits(cycle: Cycle) -> bool:
 
 
 def _jammed(cycle: Cycle) -> list[Notice]:
-    force = cycle.extremes[FORCE]
-    friction = cycle.mechanism.spec.load.friction
+    force, case = cycle.extremes[FORCE], cycle.case
     endless = [
         at
         for at, value in ((force.max_at_deg, force.max), (force.min_at_deg, force.min))
         if math.isinf(value)
     ]
-    if not friction or not endless:
+    if not case.all_friction or not endless:
         return []
-    return [
-        Notice(
-            "friction-holds-the-wheel",
-            f"friction of {friction:g} holds the wheel at {min(endless):.4g} deg, however hard the "
-            "roller presses: it takes as much torque as the wall gives. Use a smaller roller or "
-            "less friction",
+    when = f"at {min(endless):.4g} deg, however hard the roller presses"
+    text = (
+        f"friction of {case.friction:g} holds the wheel {when}: it takes as much torque as the "
+        "wall gives. Use a smaller roller or less friction"
+    )
+    if case.guided:  # the slot's friction is across the travel, and holds no rack
+        text = (
+            f"friction of {case.guide_friction:g} in the guide holds the rack {when}: it takes as "
+            "much force as the roller gives. Use a smaller roller or less guide_friction"
         )
-    ]
+    return [Notice("friction-holds-the-wheel", text)]
 
 
 def _on_an_edge(cycle: Cycle) -> list[Notice]:
@@ -150,8 +152,10 @@ def _on_an_edge(cycle: Cycle) -> list[Notice]:
 def _no_speed(mechanism: Mechanism) -> Notice:
     limits = limits_by_key(mechanism.spec.limits)
     broken = " and ".join(f"{key} = {limit:g}" for key, limit in limits.items())
+    resisting = "torque" if mechanism.output.turns else "force"
+    key = "torque_Nm" if mechanism.output.turns else "force_N"
     return Notice(
         "no-speed",
-        f"no speed keeps {broken}, so there is no shortest motion: the resisting torque alone "
-        "exceeds it, or nothing bounds the load. Use a larger machine or less torque_Nm",
+        f"no speed keeps {broken}, so there is no shortest motion: the resisting {resisting} "
+        f"alone exceeds it, or nothing bounds the load. Use a larger machine or less {key}",
     )

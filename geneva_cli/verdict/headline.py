@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str]:
     """State of a design (PASSES, WARNS or FAILS), and counts of its checks and warnings in words.
 
+    >>> from geneva_cli.verdict.checks.check import Check
     >>> headline([Check("jerk_max", 31.4, "at most", 30.0, False)], [])
     ('fails', '1 of 1 checks fails')
     """

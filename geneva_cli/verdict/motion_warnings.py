@@ -91,6 +91,8 @@ def _loose_fits(mechanism: Mechanism) -> Iterator[Notice]:
     """
     size, disc = mechanism.spec.size, mechanism.spec.size.lock_radius_mm
     pairs = [("slot_clearance_mm", "roller", "slot", mechanism.roller_radius_mm)]
+    if mechanism.spec.wheel.toothed:
+        pairs = []
     if not _no_lock(mechanism):
         radius = mechanism.ratio * mechanism.center_distance_mm if disc is None else disc
         pairs.append(("lock_clearance_mm", "locking disc", "recess", radius))

@@ -24,7 +24,6 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import parameter
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.jet import Array
 
 

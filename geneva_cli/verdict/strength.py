@@ -126,7 +126,8 @@ class Strength:
         return self.spec.is_loaded, self.spec.load_keys
 
     @property
-    def _has_bound(self) -> Key:
+    def has_bound(self) -> Key:
+        """True if the roller's force has a bound, and the words for it."""
         return math.isfinite(self.load.force_N[0]), "a force with a bound: see the warnings"
 
     def _drawn_parts(self) -> Sequence[Key]:
@@ -141,7 +142,7 @@ class Strength:
 
     def _pin(self) -> Keys:
         yield self._has_width, self._has_load
-        yield [self._has_bound]
+        yield [self.has_bound]
 
     def _horn(self) -> Keys:
         if self.load.balls == [None] and self.spec.output.turns:
@@ -176,7 +177,7 @@ class Strength:
 
     def _shaft(self, which: str, ends: shafts.ShaftDimensions) -> Keys:
         if self.spec.is_loaded:
-            yield [self._has_bound]
+            yield [self.has_bound]
         drawn = self.load.parts and getattr(self.load.parts, f"{which}_shaft")
         has_shaft = drawn is not None and not np.isnan(drawn[0][0])
         placed = (ends.overhang_mm is not None or drawn, f"{which}_overhang_mm in [shaft]")
@@ -196,17 +197,17 @@ class Strength:
         """The needs of an arm or a key, which a machine may lack."""
         if self.load.parts is None or not np.isnan(getattr(self.load.parts, name)[0][0]):
             yield [self._has_load]
-            yield [self._has_bound]
+            yield [self.has_bound]
 
     def _rated(self) -> Keys:
         if self.spec.is_loaded:
-            yield [self._has_bound]
+            yield [self.has_bound]
         rated = self.spec.material_roller.dynamic_capacity_N is not None
         yield (rated, "dynamic_capacity_N in [material.roller]"), self._has_load
 
     def _bearing(self) -> Keys:
         yield [self._has_load]
-        yield [self._has_bound]
+        yield [self.has_bound]
 
     def _friction(self) -> Keys:
         yield (bool(self.spec.load.friction), "friction in [load]"), self._has_load
@@ -221,7 +222,7 @@ class Strength:
         worn = self.spec.material_wheel.wear_mm3_Nm is not None
         rubs = (self.spec.load.rubs_in_slot, 'friction_at = "slot" in [load]')
         yield (worn, "wear_mm3_Nm in [material.wheel]"), rubs, self._has_face, self._has_load
-        yield [self._has_bound]
+        yield [self.has_bound]
 
 
 # The needs of each value, step by step, under its name in checks and in ``life``.

@@ -56,7 +56,7 @@ def under_load(mechanism: Mechanism) -> list[Notice]:
     ]
 
 
-# What a load needs is imported for a load.
+# Machines without a load do not import what these two need.
 
 
 def _of_strength(mechanism: Mechanism) -> list[Notice]:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from geneva_cli import Carousel, Design, External, Load, Mass, Shaft
+from geneva_cli import Carousel, Crank, Design, External, Load, Mass, Shaft
 from geneva_cli.analysis.vibration.oscillator import oscillator
 from geneva_cli.analysis.vibration.swing import Swing
 from geneva_cli.analysis.vibration.vibration import Oscillators, design_vibrations
@@ -153,5 +153,13 @@ def test_a_shaft_too_soft_for_the_force_has_no_values():
 
 
 def test_on_the_ground_and_in_balance_nothing_pulls():
-    balanced = carousel(200.0, body=BODY.replace(count=2)).vibration().to_dict()
-    assert balanced["stations"] is None
+    """The bodies are inertia only: with it on the wheel itself the load vibrates alike."""
+    balanced = carousel(200.0, body=BODY.replace(count=2))
+    shaft, load = Shaft(stiffness_Nm_rad=200.0), Load(inertia_kgm2=0.02)
+    ground = Design(External(6), Crank(n_rpm=60.0), load=load, mass=(BODY,), shaft=shaft)
+    for design, inertia in ((balanced, 2.0 * INERTIA - 0.02), (ground, INERTIA)):
+        alone = Design.of(design.spec.replace(mass=(), load=Load(inertia_kgm2=inertia))).vibration()
+        values, own = alone.to_dict(), design.vibration().to_dict()
+        assert own["stations"] is None
+        for name in ("period_ratio", "residual_deg", "residual_share_worst", "dynamic_factor"):
+            assert own[name] == pytest.approx(values[name], rel=1e-12), name

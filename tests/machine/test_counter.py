@@ -162,8 +162,10 @@ def test_a_batch_is_one_by_one():
 def test_what_a_counter_refuses():
     with pytest.raises(GenevaError, match='needs kind = "crank"'):
         build(Spec(Counter(4), SideCrank(A=0.3)))
-    with pytest.raises(GenevaError, match="rollers"):
-        build(Spec(Counter(4), Crank(rollers=10)))  # ten pairs of teeth are a whole gear
+    with pytest.raises(GenevaError, match="has one pair of teeth: remove rollers"):
+        build(Spec(Counter(4), Crank(rollers=2)))  # the driver is drawn with one
+    with pytest.raises(GenevaError, match="remove roller_angles_deg"):
+        build(Spec(Counter(4), Crank(roller_angles_deg=(0.0, 100.0))))
     with pytest.raises(GenevaError, match="at least 6"):
         Counter(4, driver_teeth=5)
 

@@ -41,6 +41,9 @@ CASES = [
 ]
 
 
+LOCKED = {"friction-holds-the-wheel"}
+
+
 def design(mass: float, force: float, mu: float, nu: float | None, **more: float) -> Design:
     load = Load(mass_kg=mass, force_N=force, friction=mu, guide_friction=nu, **more)
     return Design(Linear(6), size=SIZE, load=load)
@@ -120,8 +123,11 @@ def test_a_guide_that_locks_leaves_no_bound():
     forces = [one.loads_table.to_dict()["pin_force_N.max"] for one in loads.values()]
     push = 4.0 * 0.05 * (2.0 * math.pi) ** 2 + 30.0
     assert forces == [pytest.approx(push / 0.001, rel=1e-9), None]
-    rows = [{row.name: row for row in one.checks}["guide_locks"].passes for one in loads.values()]
-    assert rows == [True, False]
+    rows = [{row.name: row for row in one.checks} for one in loads.values()]
+    assert [row["guide_locks"].passes for row in rows] == [True, False]
+    (text,) = [one for one in loads[1.001 * locks].warnings if one.name in LOCKED]
+    assert "in the guide holds the rack at -90 deg" in text
+    assert "wheel_shaft_stress_MPa" not in rows[1]  # a rack has no shaft, with or without a bound
 
 
 def test_a_batch_gives_the_numbers_of_single_designs():

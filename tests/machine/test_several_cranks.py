@@ -262,7 +262,7 @@ def test_gears_before_the_cranks_turn_all_of_them(z, places):
     """As elliptical gears turn one crank with as many rollers: the same engagements.
 
     The wheel then follows psi(g(phi)), and each crank stands an even part of a turn behind the
-    first. 1e-9: tracks of the page, of 1e-7 of a turn, at pins 60 mm from their axis.
+    first. 2e-3 mm: tracks of the page are within 1e-5 of a radian, at pins 60 mm from their axis.
     """
     design = eased(z, places)
     one = Design(External(z), EllipticalGears(rollers=len(places), **BEFORE), load=LOAD)
@@ -277,19 +277,12 @@ def test_gears_before_the_cranks_turn_all_of_them(z, places):
     R = 100.0 * math.sin(math.pi / z)
     for t in np.linspace(0.5, 359.5, 61):
         half = math.radians(shown.start_deg + t) / 2.0
-        # equal ellipses with centres 2 a apart: tan(theta/2) = (1 + e)/(1 - e) tan(phi/2), or less
-        driven = [
-            math.degrees(2.0 * math.atan2(ratio * math.sin(half), math.cos(half)))
-            for ratio in ((1.0 + e) / (1.0 - e), (1.0 - e) / (1.0 + e))
-        ]
-        errors = []
-        for angle in driven:
-            off = 0.0
-            for j, roller in enumerate(shown.rollers):
-                at, turn = by_hand(z, places, j, angle)
-                off = max(off, abs(complex(*place_at(roller, t)) - at - R * np.exp(1j * turn)))
-            errors.append(off)
-        assert min(errors) < 2e-3
+        # equal ellipses about foci 2 a apart, slow at mid-motion
+        ratio = (1.0 - e) / (1.0 + e)
+        angle = math.degrees(2.0 * math.atan2(ratio * math.sin(half), math.cos(half)))
+        for j, roller in enumerate(shown.rollers):
+            at, turn = by_hand(z, places, j, angle)
+            assert abs(complex(*place_at(roller, t)) - at - R * np.exp(1j * turn)) < 2e-3
 
 
 def test_gears_turn_cranks_whose_slots_a_law_gives():

@@ -344,6 +344,21 @@ def test_a_rack_behind_gears_has_a_lower_frame():
     assert low.crank_shaft.overhang == pytest.approx(plain.crank_shaft.overhang + 5.0)
 
 
+def test_a_frame_is_as_thick_as_its_widest_bearing():
+    """ISO 15: 5 x 14 x 5 for the crank's shaft, and 20 x 42 x 12 for that of the driver gear."""
+    gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=60.0)
+    size = {"shafts": "turned", "arm_bore_mm": 5.0, "link_bore_mm": 20.0}
+    geared = design(**size).spec.replace(drive=gears)
+    parts = Design.of(geared).parts_model.built
+    assert parts.frame.part.high - parts.frame.part.low == pytest.approx(12.0)
+    radii = {hole.centre: hole.radius for hole in parts.frame.part.holes}
+    assert (radii[R, 0.0], radii[R + 60.0, 0.0]) == (7.0, 21.0)
+    # 26 mm between axes and 28 mm of bearings
+    near = Design.of(geared.replace(drive=gears.replace(gear_distance_mm=26.0)))
+    with pytest.raises(GenevaError, match="crank's shaft and driver gear's shaft leave a wall of"):
+        _ = near.parts_model.built.frame
+
+
 def test_a_gear_that_reaches_the_guide_fails():
     """Large gears: the driven one's farthest point is C (1 + e)/2 from its axis."""
     gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=110.0)

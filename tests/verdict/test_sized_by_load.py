@@ -251,7 +251,7 @@ def test_no_default_passes_beyond_its_steel(seed):
 
 
 def test_a_batch_has_the_numbers_of_its_designs():
-    """Loads over decades; a design of a batch is sized as alone, to the last digit."""
+    """Loads over decades; a design of a batch is sized as alone, to the last digits."""
     spec = Spec(
         External(8), size=Size(center_distance_mm=160.0, crank_keyway="DIN 6885-1"), load=Load(1e-9)
     )

@@ -9,7 +9,7 @@ import numpy as np
 
 from geneva_cli.analysis.forces import unbalance_Nm
 from geneva_cli.analysis.motion import check_samples
-from geneva_cli.analysis.vibration.centrifugal import MOST, stiffness_share
+from geneva_cli.analysis.vibration.centrifugal import STIFFEST, stiffness_ratio
 from geneva_cli.analysis.vibration.oscillator import NO_INERTIA, Oscillator
 from geneva_cli.analysis.vibration.swing import Swing
 from geneva_cli.analysis.vibration.vibration import (
@@ -62,12 +62,12 @@ def _unknown(mechanism: Mechanism, load: Oscillator | None) -> str:
         return "the wheel's speed jumps at entry, and so does the load's"
     if load is None:
         return NO_INERTIA
-    share = float(stiffness_share(mechanism, np.array([load.ratio])).max())
-    if share <= MOST:
+    ratio = float(stiffness_ratio(mechanism, np.array([load.ratio])).max())
+    if ratio <= STIFFEST:
         return ""
     return (
         "the centrifugal force of bodies off the wheel's axis acts as a spring of "
-        f"{share:.3g} times the shaft's stiffness, above {MOST:g}: use a stiffer shaft"
+        f"{ratio:.3g} times the shaft's stiffness, above {STIFFEST:g}: use a stiffer shaft"
     )
 
 

@@ -33,6 +33,7 @@ from geneva_cli.analysis.vibration.swing import Swing, residual_swing
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import sin_cos
+from geneva_cli.numerics.quadrature import rule
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.vibration.panels import Panels
@@ -41,7 +42,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex, Whole
     from geneva_cli.numerics.jet import Jet
 
-MOST = 0.2  # U/k up to which the stiffness of the unbalance counts by its mean
+STIFFEST = 0.2  # U/k up to which the stiffness of the unbalance counts by its mean
 
 
 class Pull(NamedTuple):
@@ -65,8 +66,11 @@ class Pull(NamedTuple):
         return out
 
 
-def vibrating(mechanism: Mechanism) -> Mechanism:
-    """Return the machine with all the motions of one wheel that leave it different vibrations."""
+def with_each_motion(mechanism: Mechanism) -> Mechanism:
+    """Return the machine with one wheel's motions in all directions of its bodies.
+
+    Each leaves its own vibration. Balanced wheels have equal motions, and are returned as they are.
+    """
     if not mechanism.unbalanced:
         return mechanism
     loaded, wheels = mechanism.under_load, mechanism.spec.drive.wheels_on_carrier
@@ -92,7 +96,7 @@ def pull(mechanism: Mechanism, engagement: Engagement) -> Pull | None:
         out: Array = (np.cos(x) * along - np.sin(x) * ahead) * factor
         return out
 
-    node, weight = np.polynomial.legendre.leggauss(64)  # exact for a motion without knots
+    node, weight = rule(64)  # exact for a motion without knots
     span = motion.exit_deg - motion.entry_deg
     angles = np.atleast_2d(motion(motion.entry_deg + span * (0.5 + 0.5 * node), 0).c[0])
     moving = stiffness(angles) @ (0.5 * weight)
@@ -100,7 +104,7 @@ def pull(mechanism: Mechanism, engagement: Engagement) -> Pull | None:
     return Pull(motion_shapes(motion, mechanism.designs, torque), moving, resting)
 
 
-def stiffness_share(mechanism: Mechanism, ratio: Array) -> Array:
+def stiffness_ratio(mechanism: Mechanism, ratio: Array) -> Array:
     """Return U/k of m designs, the greatest stiffness of the unbalance over the shaft's: (m,).
 
     ``ratio`` are the period ratios of the first motion. It is 0 for balanced wheels.
@@ -109,8 +113,8 @@ def stiffness_share(mechanism: Mechanism, ratio: Array) -> Array:
         return np.zeros(1)
     factor = np.ravel(_factor(mechanism, mechanism.engagements[0]))
     size = float(np.hypot(*unbalance_kgm(mechanism.spec)))
-    share: Array = size * factor / (2.0 * np.pi * ratio) ** 2
-    return share
+    ratios: Array = size * factor / (2.0 * np.pi * ratio) ** 2
+    return ratios
 
 
 def _factor(mechanism: Mechanism, engagement: Engagement) -> float:

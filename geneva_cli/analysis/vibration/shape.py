@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Whole
     from geneva_cli.numerics.jet import Jet
 
-    # The wheel's angles, and the numbers of their designs -> another angle of each.
-    Turned = Callable[[Jet, Whole], Jet]
+    # The wheel's angles, and the numbers of their designs -> another value of each.
+    AngleFunction = Callable[[Jet, Whole], Jet]
 
 
 @lru_cache(maxsize=64)
@@ -44,16 +44,15 @@ def law_shape(law: Law) -> Panels:
     return read_only(panels_of(derivatives, np.array([sorted({0.0, *law.knots, 0.5, 1.0})])))
 
 
-def motion_shapes(motion: WheelMotion, m: int, turned: Turned | None = None) -> Panels:
-    """Return the panels of the motions of m designs, or of functions ``turned`` of their angles."""
-
+def motion_shapes(motion: WheelMotion, m: int, function: AngleFunction | None = None) -> Panels:
+    """Return the panels of the motions of m designs, or of a ``function`` of their angles."""
     of_designs = selection(motion)
 
     def derivatives(u: Array, which: Whole, order: int) -> Array:
         some: WheelMotion = of_designs(which)
         whole, step = some.exit_deg - some.entry_deg, 2.0 * some.half_step
         angle = some(some.entry_deg + u * whole, order)
-        c = (turned(angle, which) if turned else angle).c
+        c = (function(angle, which) if function else angle).c
         return _by_order([v / step for v in c], whole * DEGREE, u)
 
     ends = [np.broadcast_to(np.asarray(x, dtype=float), (m, 1)) for x in motion.breaks_deg]

@@ -29,7 +29,12 @@ import numpy as np
 from geneva_cli.analysis.carried import inertia_kgm2
 from geneva_cli.analysis.peak_search import motion_peaks
 from geneva_cli.analysis.timing import timings
-from geneva_cli.analysis.vibration.centrifugal import MOST, pull, stiffness_share, vibrating
+from geneva_cli.analysis.vibration.centrifugal import (
+    STIFFEST,
+    pull,
+    stiffness_ratio,
+    with_each_motion,
+)
 from geneva_cli.analysis.vibration.load_acceleration import greatest_accelerations
 from geneva_cli.analysis.vibration.lobes import Lobes, highest_ratio, lobes
 from geneva_cli.analysis.vibration.oscillator import PERIOD_RATIO, Oscillator, period_ratio_of
@@ -126,14 +131,16 @@ class Index:
         """
         if self.pull is None:
             return highest_ratio(self.panels, AVOIDED_SHARE, damping)
-        # each of the two parts of the residual is at most half of it
+        # of the shaft's stiffness is left: at twice the speed U/k is four times as much
+        left = 1.0 - 4.0 * STIFFEST
+        # where each of the residual's two parts is below half of the share, their sum is below it
         omega = 2.0 * math.pi * low
-        shares = 0.5 * AVOIDED_SHARE, 0.5 * AVOIDED_SHARE * omega * omega * (1.0 - 4.0 * MOST)
+        shares = 0.5 * AVOIDED_SHARE, 0.5 * AVOIDED_SHARE * omega * omega * left
         high = max(
             highest_ratio(panels, share, damping)
             for panels, share in zip((self.panels, self.pull.shape), shares, strict=True)
         )
-        return high / math.sqrt(1.0 - 4.0 * MOST)  # at twice the speed U/k is four times as much
+        return high / math.sqrt(left)
 
 
 class Oscillators:
@@ -144,7 +151,7 @@ class Oscillators:
     """
 
     def __init__(self, mechanism: Mechanism, swing: Swing) -> None:
-        self.mechanism, self.swing = vibrating(mechanism), swing
+        self.mechanism, self.swing = with_each_motion(mechanism), swing
         self.every = np.arange(len(swing.ratio))
         self.indices = [Index(self.mechanism, e) for e in self.mechanism.engagements]
 
@@ -306,7 +313,7 @@ def design_vibrations(
         periods = period_ratio_of(mechanism, stiffness, inertia)
     damping = mechanism.spec.shaft.damping_ratio
     ratio, zeta = (np.broadcast_to(np.ravel(x), mechanism.designs) for x in (periods, damping))
-    soft = stiffness_share(mechanism, ratio) <= MOST
+    soft = stiffness_ratio(mechanism, ratio) <= STIFFEST
     known = np.flatnonzero(np.isfinite(ratio) & PERIOD_RATIO.holds(ratio) & soft)
     out = np.full((len(Vibrations._fields), len(ratio)), np.nan)
     size = 32  # designs at a time: the panels of each are some 20 kB, and stay in the cache

@@ -1,4 +1,4 @@
-"""What a kind of parts answers: how a wheel's parts are built, drawn, turned and measured."""
+"""The base of the kinds of parts: how a wheel's parts are built, drawn, turned and measured."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class SharedParts(Protocol):
-    """What is computed once for all who need it."""
+    """What a ``PartsModel`` computes once for all; a protocol, as the model imports the kinds."""
 
     @property
     def mechanism(self) -> Mechanism:
@@ -49,7 +49,7 @@ class SharedParts(Protocol):
 
 
 class PartsKind(ABC):
-    """The parts of wheels of one kind, each function as ``module:function``."""
+    """The parts of wheels of one kind; functions in tables are written ``module:function``."""
 
     # functions that draw parts, or make their sheets, by the names of the parts
     DRAWN: ClassVar[Mapping[str, str]] = {}

@@ -65,7 +65,6 @@ def gear_tables(mechanism: Mechanism, tolerance: float) -> list[Block]:
     pair, L = mechanism.spec.gears, mechanism.center_distance_mm
     if pair is None:
         return []
-
     close, blocks = max(tolerance, COARSE * L), []
     for name, of in (("driven gear", driven_curve), ("driver gear", driver_curve)):
         both = of(pair, mechanism.gear_shaft.sense)

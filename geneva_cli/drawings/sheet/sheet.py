@@ -32,7 +32,31 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
 
 
-def views(shown: SheetContent, parts: FlatParts, scale: float) -> Iterator[View]:
+def sheet(parts: FlatParts) -> Sheet:
+    """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
+    mechanism, L = parts.mechanism, parts.mechanism.center_distance_mm
+    shown = shown_on_sheet(mechanism.spec, parts.members, machine(parts).shapes)
+    tolerance = parts.tolerance or 0.0
+    fixed = [
+        *points.tables(parts.outlines, tolerance),
+        *points.gear_tables(mechanism, tolerance),
+        *links.round_parts(parts.links.joined, mechanism),
+        *layout(mechanism),
+    ]
+
+    def blocks(scale: float) -> Iterator[list[Block]]:
+        apart = [view.block() for view in _views(shown, parts, scale)]
+        yield from at_scales(
+            [*apart, *fixed],
+            scale,
+            lambda s: _together(shown, parts, s),
+            lambda s: section(shown, (0.0, L), s),
+        )
+
+    return on_paper(mechanism.spec, shown.rows, shown.largest, blocks, shown.area)
+
+
+def _views(shown: SheetContent, parts: FlatParts, scale: float) -> Iterator[View]:
     """Yield a view of each part."""
     begin = titled(shown.rows, scale, parts.mechanism.spec.size.process)
     yield from _wheels(parts, begin)
@@ -76,36 +100,12 @@ def _standing(parts: FlatParts, begin: Begin) -> Iterator[View]:
     yield view
 
 
-def together(shown: SheetContent, parts: FlatParts, scale: float) -> View:
+def _together(shown: SheetContent, parts: FlatParts, scale: float) -> View:
     """Return the view of the assembled machine, with balloons of what the section does not cut."""
     view = View(f"assembly ({scale_name(scale)})", scale)
     draw_assembly(view, parts.outlines, shown.together)
     mark_items(view, shown)
     return view
-
-
-def sheet(parts: FlatParts) -> Sheet:
-    """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
-    mechanism, L = parts.mechanism, parts.mechanism.center_distance_mm
-    shown = shown_on_sheet(mechanism.spec, parts.members, machine(parts).shapes)
-    tolerance = parts.tolerance or 0.0
-    fixed = [
-        *points.tables(parts.outlines, tolerance),
-        *points.gear_tables(mechanism, tolerance),
-        *links.round_parts(parts.links.joined, mechanism),
-        *layout(mechanism),
-    ]
-
-    def blocks(scale: float) -> Iterator[list[Block]]:
-        apart = [view.block() for view in views(shown, parts, scale)]
-        yield from at_scales(
-            [*apart, *fixed],
-            scale,
-            lambda s: together(shown, parts, s),
-            lambda s: section(shown, (0.0, L), s),
-        )
-
-    return on_paper(mechanism.spec, shown.rows, shown.largest, blocks, shown.area)
 
 
 def layout(mechanism: Mechanism) -> list[Block]:

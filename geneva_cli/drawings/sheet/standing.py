@@ -6,15 +6,7 @@ import math
 
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Plate, Stack
-from geneva_cli.curves.shapes import (
-    ORIGIN,
-    Arc,
-    Circle,
-    Contour,
-    Point,
-    Shape,
-    polygon,
-)
+from geneva_cli.curves.shapes import ORIGIN, Arc, Circle, Contour, Point, Shape, polygon
 from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, circle_of

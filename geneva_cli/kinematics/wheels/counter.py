@@ -49,6 +49,8 @@ class Counter(Gearing):
         "a counter's carry: two teeth turn a pinion, and a rim locks it",
         {"wheel": {"z": 4, "driver_teeth": 20}},
     )
+    USUAL_LOAD: ClassVar[dict[str, float]] = {"inertia_kgm2": 1e-6}
+    USUAL_LIMITS: ClassVar[dict[str, float]] = {}  # none of what has no bound
     FLAT: ClassVar[bool] = False
     PARTS: ClassVar[str] = "counter"
     JUMPS: ClassVar[bool] = True

@@ -93,8 +93,9 @@ class Gearing(SpecTable):
     NAME: ClassVar[str]
     # example spec, without its gearing
     EXAMPLE: ClassVar[Example]
-    # usual keys of [load] in a new spec
+    # usual keys of [load] and of [limits] in a new spec
     USUAL_LOAD: ClassVar[dict[str, float]] = {"inertia_kgm2": 0.05, "torque_Nm": 2}
+    USUAL_LIMITS: ClassVar[dict[str, float]] = {"acceleration_max": 1.5, "pin_force_max_N": 600}
     # +1 if the crank's axis is outside the wheel, -1 if inside
     SIGN: ClassVar[float] = 1.0
     # True if wheel and crank are flat parts on parallel shafts

@@ -1,12 +1,11 @@
 """The horn, the wall between a slot and the recess of the lock, as a tapered cantilever.
 
 Its sections are perpendicular to the slot's wall, from there to the recess. h is the thickness at
-the mouth, and R the recess's radius. A rack's horns are equal to those of a wheel of very many
-slots. At a distance s inwards from the mouth, a straight slot's
-section is t(s) = h + R - sqrt(R² - s²) thick. The roller presses on the wall with N at s0. The
-section at s then carries, over the face width b, the bending stress 6 N (s - s0)/(b t²), a tension
-at the slot's wall. On a curved wall N also has a part along the section's beam, which pushes or
-pulls evenly.
+the mouth, and R the recess's radius. A rack's horns are those of a wheel of very many slots. At a
+distance s inwards from the mouth, a straight slot's section is t(s) = h + R - sqrt(R² - s²) thick.
+The roller presses on the wall with N at s0. The section at s then carries, over the face width b,
+the bending stress 6 N (s - s0)/(b t²), a tension at the slot's wall. On a curved wall N also has a
+part along the section's beam, which pushes or pulls evenly.
 
 The result is the greatest stress at the wall, over all places of the roller and all sections.
 Sections end half-way along the recess, where another horn begins. In the middle of a section shear

@@ -16,7 +16,6 @@ from geneva_cli.curves.sphere import Region, dot, place
 from geneva_cli.curves.sphere_hull import Cap, convex_hull
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import (
-    eye_about,
     hub_and_eye,
     lock_bolt_directions,
     pin_hole,
@@ -25,6 +24,7 @@ from geneva_cli.layout.arm_sizes import (
 from geneva_cli.layout.axles import refuse_wide
 from geneva_cli.layout.bolt_holes import bolt_radius
 from geneva_cli.layout.bores import Bore, bore_of
+from geneva_cli.machine.least_wall import eye_about
 from geneva_cli.outlines.sphere_wheel import POLE
 from geneva_cli.parts.sphere.crank import locked
 

@@ -22,7 +22,8 @@ def of_vibration(design: Design, record: Table) -> Answer:
 
 def _lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
     if values["period_ratio"] is None:
-        yield SummaryLine("vibration", "not known: no inertia on the shaft")
+        for text in values["warnings"]:
+            yield SummaryLine("vibration", text.replace("no value is computed", "not known"))
         return
     ratio = measured(values["period_ratio"])
     damping = measured(values["damping_ratio"])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.machine.mechanism import Mechanism
@@ -113,7 +112,7 @@ def strength_limit(name: str, mechanism: Mechanism) -> Check | None:
         return check if check.passes else check._replace(why=_needed(bound, of, check))
     reason = of.reason(name)
     # without a limit in the spec, a value that needs another key is not asked for
-    if reason is None or (own is None and math.isfinite(of.load.force_N[0])):
+    if reason is None or (own is None and reason != of.has_bound[1]):
         return None
     return Check(name, None, bound.must_be, limit, None, f"not known: it needs {reason}")
 

@@ -32,10 +32,10 @@ def greatest_loads(model: PartsModel) -> Values:
 def cycle(model: PartsModel) -> Values:
     """Greatest and least over the motions, mean and rms over the period; None without a load."""
     of = cycle_of(model.mechanism)
-    loads = summaries(of)
+    rows = summaries(of)
     values: Values = {}
     for name in ("input_torque_Nm", "power_W", "crank_bearing_N"):
-        numbers = loads[name]._asdict()
+        numbers = rows[name]._asdict()
         values |= {f"cycle.{name}.{key}": numbers[key] for key in ("max", "min", "mean", "rms")}
     values["cycle.reversals_deg"] = tuple(reversals_deg(of)) if of.is_loaded else None
     return values

@@ -1,4 +1,4 @@
-"""The sizes of racks that their strength depends on, for one machine or a batch."""
+"""The sizes of the horns of racks, for one machine or a batch."""
 
 from __future__ import annotations
 

@@ -1,0 +1,164 @@
+"""Default sizes by hand: what the reference page of ``[size]`` says of keys that are left out.
+
+Bores are those of standard bearings and other sizes are rounded numbers, so a fraction is tested
+where it just reaches one, and a little below.
+"""
+
+import math
+
+import pytest
+from words import Spec, Wheel
+
+from geneva_cli import Counter, Design
+from geneva_cli.layout.sizes import machine_sizes
+from geneva_cli.outlines.counter import counter_sizes
+from geneva_cli.outlines.wheel import dial_bolts
+from geneva_cli.parts.arm import crank_arm
+from geneva_cli.parts.counter_frame import bore as counter_bore
+from geneva_cli.spec.tables import Size
+
+L = 100.0
+
+
+def of(**size):
+    return Design.of(Spec(Wheel(6), size=Size(center_distance_mm=L, roller_radius_mm=6.0, **size)))
+
+
+def sizes_of(spec):
+    """The sizes of a machine's parts, without the parts."""
+    return machine_sizes(Design.of(spec).mechanism)[1]
+
+
+def test_default_sizes_are_those_of_the_reference_page():
+    """L = 150 mm, six slots: r = L/20 and R = L/2, whose keys are left out.
+
+    The bore of the wheel is up to L/6, which is 25 mm, the bore of a standard bearing. The next
+    smaller one has 20 mm. The hub is 1.6 bores wide, which is a rounded number too.
+    """
+    sizes = sizes_of(Spec(Wheel(6), size=Size(150.0)))
+    assert sizes.roller == 7.5
+    assert sizes.rim == pytest.approx(math.hypot(75.0 * math.sqrt(3.0), 7.5))
+    assert sizes.slot_bottom == pytest.approx(7.5 / 20.0)
+    assert sizes.slot_end == pytest.approx(150.0 - 75.0 - 7.5 - 7.5 / 20.0)
+    assert sizes.lock == pytest.approx(75.0 - 7.5 - 7.5)  # the horn is as thick as r
+    assert sizes.relief == sizes.wall_min == pytest.approx(150.0 / 200.0)
+    assert (sizes.wheel_bore, sizes.wheel_hub, sizes.pin) == (12.5, 20.0, 3.5)
+    assert sizes_of(Spec(Wheel(6), size=Size(149.9))).wheel_bore == 10.0
+
+
+def test_default_sizes_of_an_internal_wheel():
+    """Its slots end at L + R + r and their clearance; a roller's width is left, at least L/20."""
+    for r, left in ((4.0, 5.0), (8.0, 8.0)):
+        sizes = sizes_of(Spec(Wheel(6, "internal"), size=Size(L, r)))
+        assert sizes.slot_end == pytest.approx(L + 50.0 + r + r / 20.0)
+        assert sizes.outer == pytest.approx(sizes.slot_end + left)
+
+
+def test_default_sizes_of_the_arm():
+    """An eye is twice as wide as its hole, up to what passes the wheel's hub; a hub is 1.6 bores.
+
+    The bolts' holes are at most L/40 wide, and at most half as wide as the ring that they are in.
+    """
+    parts = of(arm_bore_mm=25.0, crank_bore_mm=0.0).parts
+    arm = crank_arm(parts)
+    assert (arm.hub, arm.eye) == (20.0, 6.0)
+    assert [bolt.radius for bolt in arm.bolts] == [L / 80.0, L / 80.0]
+    wide = crank_arm(of(wheel_hub_mm=90.0, pin_mm=6.0).parts)
+    # from the pin, at R = L/2, to the hub are 5 mm
+    assert (wide.eye, wide.hub_gap) == (pytest.approx(5.0), pytest.approx(0.0, abs=1e-12))
+    ring = crank_arm(of(lock_bolts=1, lock_bolt_circle_mm=74.0, crank_bore_mm=8.0).parts)
+    (bolt,) = ring.bolts
+    # the disc's radius is R - 2 r, so that 1 mm is left outside of the bolts' circle
+    assert (*bolt.centre, bolt.radius) == pytest.approx((-37.0, 0.0, 0.5))
+
+
+def test_bores_and_hubs_of_a_narrow_wheel():
+    """Three slots: they end at L - R - r, less what is left below the deepest roller.
+
+    The bore is up to 0.8 of the slots' ends wide, and the hub up to 1.5. Bearings have bores of 6
+    and 5 mm, and 12 and 11 mm are rounded numbers.
+    """
+    whole = L - L * math.sin(math.pi / 3.0) - 5.0
+    for end, bore in ((7.5, 3.0), (7.49, 2.5)):
+        size = Size(L, 5.0, slot_bottom_clearance_mm=whole - end)
+        assert sizes_of(Spec(Wheel(3), size=size)).wheel_bore == bore
+    for end, hub in ((8.0, 6.0), (7.99, 5.5)):
+        size = Size(L, 5.0, slot_bottom_clearance_mm=whole - end, wheel_bore_mm=10.0)
+        assert sizes_of(Spec(Wheel(3), size=size)).wheel_hub == hub
+
+
+def test_a_large_roller_leaves_a_thinner_horn():
+    """It is at most a fifth of the space R - r, of which the disc has the rest."""
+    sizes = sizes_of(Spec(Wheel(6), size=Size(L, 12.0)))
+    assert sizes.lock == pytest.approx(0.8 * (50.0 - 12.0))
+
+
+def test_the_shaft_goes_through_the_disc_where_it_leaves_a_hub():
+    """Its radius is at most 0.6 of the space inside the relief, which is scaled from the wheel's.
+
+    Of R = 50 the wheel leaves L (1 - cos 30°), so a disc of 40 leaves 0.8 of that: 10.7 mm.
+    """
+    space = 0.8 * L * (1.0 - math.cos(math.pi / 6.0))
+    for share, bore in ((0.599, 0.599 * space), (0.601, 0.0)):
+        size = Size(L, 5.0, arm_bore_mm=2.0 * share * space)
+        assert sizes_of(Spec(Wheel(6), size=size)).crank_bore == pytest.approx(bore)
+
+
+def test_hubs_of_the_crank():
+    """A hub is 1.5 bores wide, to a rounded number: 12 or 11 mm; the disc has it above the arm."""
+    for bore, hub in ((8.0, 6.0), (7.99, 5.5)):
+        size = Size(L, 5.0, crank_bore_mm=bore, arm_bore_mm=bore)
+        assert sizes_of(Spec(Wheel(6), size=size)).crank_hub == hub
+
+
+def test_bores_of_the_arm():
+    """Up to L/10, or 0.7 of the space up to the pin's hole, R - r/2.
+
+    Bearings have bores of 10 and 9, 7 and 6 mm.
+    """
+    for distance, bore in ((100.0, 5.0), (99.9, 4.5)):
+        size = Size(distance, 5.0, crank_bore_mm=0.0)
+        assert sizes_of(Spec(Wheel(6), size=size)).arm_bore == bore
+    arm = L * math.sin(math.pi / 24.0)
+    for space, bore in ((10.0, 3.5), (9.99, 3.0)):
+        size = Size(L, 4.0, pin_mm=2.0 * (arm - space), crank_bore_mm=0.0)
+        assert sizes_of(Spec(Wheel(24), size=size)).arm_bore == bore
+
+
+def test_a_keyway_leaves_the_least_wall_of_the_arms_hub():
+    """A bore of 20 mm has a keyway 2.8 mm deep: with a wall of 5 mm that is more than 1.6 bores."""
+    size = {"crank_keyway": "DIN 6885-1", "arm_bore_mm": 20.0, "crank_bore_mm": 0.0}
+    arm = crank_arm(of(**size, wall_min_mm=5.0, lock_bolts=0).parts)
+    assert arm.hub == pytest.approx(10.0 + 2.8 + 5.0)
+
+
+def test_bolts_of_a_dial():
+    """Amid the bore and the slots' ends, or those and the edge of an internal wheel.
+
+    They are L/40 wide, and the first is between two slots, 30° from each.
+    """
+    for gearing, far in (
+        ("external", 0.5 * (10.0 + L - 50.0 - 6.0 - 0.3)),
+        ("internal", L + 50.0 + 6.0 + 0.3 + 3.0),
+    ):
+        own = {"wheel_bore_mm": 20.0} if gearing == "external" else {}
+        size = Size(L, 6.0, dial_bolts=3, **own)
+        parts = Design.of(Spec(Wheel(6, gearing), size=size)).parts
+        bolts = dial_bolts(parts.assembly, parts.sizes)
+        assert {(round(math.hypot(*one.centre), 9), one.radius) for one in bolts} == {(far, 1.25)}
+        first = math.degrees(math.atan2(*reversed(bolts[0].centre)))
+        assert first % 60.0 == pytest.approx(30.0)
+
+
+def test_bores_of_a_counter():
+    """Up to L/6, or half the root circle's diameter; bearings have 15 and 12 mm, 9 and 8 mm."""
+
+    def pinion(teeth, distance):
+        size = Size(center_distance_mm=distance)
+        mechanism = Design(Counter(4, driver_teeth=teeth), size=size).mechanism
+        sizes = counter_sizes(mechanism)
+        return sizes.pinion.root, 2.0 * counter_bore(mechanism, sizes, "wheel").radius
+
+    assert [pinion(20, distance)[1] for distance in (90.0, 89.9)] == [15.0, 12.0]
+    root, _ = pinion(60, L)
+    assert [pinion(60, L * wide / root)[1] for wide in (9.001, 8.999)] == [9.0, 8.0]
