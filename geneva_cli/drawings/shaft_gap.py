@@ -112,18 +112,21 @@ def rack_gear_gap(parts: RackParts) -> ShaftGap | None:
 
     Raises GenevaError for sizes that leave no parts.
     """
-    mechanism = parts.mechanism
-    rings, near = list(_noncircular(mechanism, None)), SAME_LENGTH * mechanism.center_distance_mm
-    gaps = [
-        ShaftGap(float(Polyarc([contour]).signed(np.array([ring.axis]))[0] - ring.outer), *names)
-        for one in parts.guide
-        for plate in plates(one.part)
-        for ring in rings
-        if min(ring.high, plate.high) - max(ring.low, plate.low) > near
-        for contour, names in [(as_contour(plate.outline), (plate.name, ring.name))]
-    ]
-    least = _least(parts, [], rings)
-    return min([*gaps, *([least] if least else [])], default=None)
+    rings = list(_noncircular(parts.mechanism, None))
+    to_shafts = _least(parts, [], rings)
+    gaps = [*_guide_gaps(parts, rings), *([to_shafts] if to_shafts else [])]
+    return min(gaps, default=None)
+
+
+def _guide_gaps(parts: RackParts, rings: list[Ring]) -> Iterator[ShaftGap]:
+    """Yield the gaps of rings to the plates of a rack's guide at their heights."""
+    near = SAME_LENGTH * parts.mechanism.center_distance_mm
+    for plate in (plate for one in parts.guide for plate in plates(one.part)):
+        outline = Polyarc([as_contour(plate.outline)])
+        for ring in rings:
+            if min(ring.high, plate.high) - max(ring.low, plate.low) > near:
+                away = float(outline.signed(np.array([ring.axis]))[0])
+                yield ShaftGap(away - ring.outer, plate.name, ring.name)
 
 
 def _noncircular(mechanism: Mechanism, drawn: Outlines | None) -> Iterator[Ring]:

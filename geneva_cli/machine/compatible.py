@@ -10,7 +10,7 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Drive, Needs
 from geneva_cli.spec.rules import is_array
 from geneva_cli.spec.schema import fields
-from geneva_cli.spec.tables import Shaft
+from geneva_cli.spec.tables import Shaft, Tolerance
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
@@ -116,6 +116,12 @@ CONFLICTS = (
         lambda s: s.wheel.toothed and s.drive.roller_angles_deg is not None,
         ("drive", "roller_angles_deg"),
         'the driver of gearing = "{gearing}" has one pair of teeth: remove roller_angles_deg',
+    ),
+    Conflict(
+        lambda s: s.wheel.toothed and s.tolerance != Tolerance(),
+        ("tolerance",),
+        '[tolerance] is for rollers in slots, and not available for gearing = "{gearing}": '
+        "remove it",
     ),
     Conflict(
         lambda s: s.drive.LAW is Needs.LAW and s.motion is None,

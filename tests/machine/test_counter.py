@@ -166,6 +166,10 @@ def test_what_a_counter_refuses():
         build(Spec(Counter(4), Crank(rollers=2)))  # the driver is drawn with one
     with pytest.raises(GenevaError, match="remove roller_angles_deg"):
         build(Spec(Counter(4), Crank(roller_angles_deg=(0.0, 100.0))))
+    with pytest.raises(GenevaError, match="is for rollers in slots"):
+        build(ODOMETER.spec.with_("tolerance.center_distance_mm", 0.1))
+    with pytest.raises(GenevaError, match="computed for rollers in slots, not for the teeth"):
+        ODOMETER.tolerance()
     with pytest.raises(GenevaError, match="at least 6"):
         Counter(4, driver_teeth=5)
 
