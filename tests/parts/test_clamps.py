@@ -70,6 +70,15 @@ def test_its_holes_by_hand():
     assert taken == pytest.approx(math.pi * 2.75**2 * 5.0 + threaded, rel=1e-12)
 
 
+@pytest.mark.parametrize(("thread", "head"), [(3.0, 5.5), (5.0, 8.5), (8.0, 13.0)])
+def test_the_heads_corner_is_on_the_hubs_circle(thread, head):
+    """A head by ISO 4762 is as high as its thread; it stands in a notch of its own width."""
+    clamp = Clamp(screw("", thread), 15.0, 50.0)
+    corner = math.hypot(clamp.axis + 0.5 * head, clamp.face + thread)
+    assert corner == pytest.approx(50.0, rel=1e-12)
+    assert clamp.axis - clamp.shoulder == pytest.approx(0.5 * head)
+
+
 @pytest.mark.parametrize("thread", [3.0, 5.0, 8.0])
 def test_torque_by_a_balance(thread):
     """Forces and moments on one half: the screw pulls it, hinge and shaft hold it."""

@@ -10,12 +10,14 @@ import pytest
 from words import Spec, Wheel
 
 from geneva_cli import Counter, Design
+from geneva_cli.drawings.model import PartsModel
+from geneva_cli.layout.ball import inner_edge
 from geneva_cli.layout.sizes import machine_sizes
 from geneva_cli.outlines.counter import counter_sizes
 from geneva_cli.outlines.wheel import dial_bolts
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.counter_frame import bore as counter_bore
-from geneva_cli.spec.tables import Size
+from geneva_cli.spec.tables import Load, Size
 
 L = 100.0
 
@@ -87,6 +89,13 @@ def test_bores_and_hubs_of_a_narrow_wheel():
         assert sizes_of(Spec(Wheel(3), size=size)).wheel_hub == hub
 
 
+def test_a_load_leaves_a_third_of_the_wheel():
+    """Of six slots that end at 45 mm; no bore of a bearing up to 60 mm holds a load so large."""
+    for bottom, bore in ((0.0, 30.0), (0.01, 27.5)):
+        size = Size(L, 5.0, slot_bottom_clearance_mm=bottom)
+        assert sizes_of(Spec(Wheel(6), size=size, load=Load(torque_Nm=1e5))).wheel_bore == bore
+
+
 def test_a_large_roller_leaves_a_thinner_horn():
     """It is at most a fifth of the space R - r, of which the disc has the rest."""
     sizes = sizes_of(Spec(Wheel(6), size=Size(L, 12.0)))
@@ -130,6 +139,18 @@ def test_a_keyway_leaves_the_least_wall_of_the_arms_hub():
     size = {"crank_keyway": "DIN 6885-1", "arm_bore_mm": 20.0, "crank_bore_mm": 0.0}
     arm = crank_arm(of(**size, wall_min_mm=5.0, lock_bolts=0).parts)
     assert arm.hub == pytest.approx(10.0 + 2.8 + 5.0)
+
+
+def test_bores_of_a_sphere():
+    """Up to L/6, whose bearings have 15 or 12 mm; the slotted ring ends a roller inside its slots.
+
+    Where a hole is nearer than that, it ends midway between both.
+    """
+    for distance, bore in ((90.0, 7.5), (89.9, 6.0)):
+        mechanism = Design.of(Spec(Wheel(6, "spherical"), size=Size(distance))).mechanism
+        assert PartsModel(mechanism).shells.ball.bore_mm == bore
+    assert inner_edge(1.0, 0.1, 0.5) == pytest.approx(0.9)
+    assert inner_edge(1.0, 0.1, 0.95) == pytest.approx(0.975)
 
 
 def test_bolts_of_a_dial():

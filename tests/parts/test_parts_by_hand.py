@@ -10,23 +10,34 @@ import repo
 from drawing_witness import vertices
 from words import Drive, Keys, Motion, Spec, Wheel
 
-from geneva_cli import Counter, Design, External, Linear, load
+from geneva_cli import Counter, Design, EllipticalGears, External, Linear, load
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.moments import moments
 from geneva_cli.curves.plates import plates, solids
-from geneva_cli.curves.shapes import Arc
+from geneva_cli.curves.shapes import Arc, Circle
 from geneva_cli.curves.sheet import CENTRE, OUTLINE
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.drawings.sheet.crank import draw_arm, draw_disc, draw_roller
 from geneva_cli.drawings.sheet.links import draw_link
 from geneva_cli.drawings.sheet.standing import draw_frame
 from geneva_cli.drawings.sheet.view import View
-from geneva_cli.layout.bores import bore_of
+from geneva_cli.drawings.sheet.wheel import draw_wheel
+from geneva_cli.layout.bores import RoundBore, bore_of
+from geneva_cli.layout.reliefs import arc_floor
+from geneva_cli.layout.sizes import machine_sizes
+from geneva_cli.layout.stressed import stressed
+from geneva_cli.parts.all_shafts import passing_arm
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.counter_parts import CounterParts
+from geneva_cli.parts.first_pair import first_pair
+from geneva_cli.parts.gear_pair import gear_shafts
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.planes import planes
 from geneva_cli.parts.rack_arm import crank_arm as rack_arm
 from geneva_cli.parts.rack_frame import guide
+from geneva_cli.parts.shaft import Ends, Shaft
+from geneva_cli.parts.shafts import crank_hub
+from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.spec.tables import Size
 
 L = 100.0
@@ -283,16 +294,69 @@ def test_the_relief_of_the_disc():
     Its angle at the crank is 60°, so its legs are rho/cos 60° and rho tan 60°. A sector ends half a
     millimetre, L/200, below the rim.
     """
-    lock, rim = 50.0 - 6.0 - 6.0, math.hypot(50.0 * math.sqrt(3.0), 6.0)
-    shown = {"120°", "Ø 76 g6 (-0.01/-0.029)", "Ø 8 H7 (+0.015/0)"}
+    lock, rim = 50.0 - 6.0 - 0.1 - 6.0, math.hypot(50.0 * math.sqrt(3.0), 6.0)
+    shown = {"120°", "Ø 75.8 h6 (0/-0.019)", "Ø 8 H7 (+0.015/0)"}
     radius, away = lock * math.sqrt(3.0), 2.0 * lock
     reliefs = {
         "arc": {f"R {radius:.3f}", f"{away - radius:.3f}"},
         "sector": {f"R {L - rim - 0.5:.3f}".rstrip("0")},
     }
     for relief, own in reliefs.items():
-        parts = of(relief=relief, crank_bore_mm=8.0, lock_bolts=0).parts_model.flat
+        keys = {"relief": relief, "crank_bore_mm": 8.0, "lock_bolts": 0}
+        parts = of(**keys, lock_clearance_mm=0.1).parts_model.flat
         assert dimensions(draw_disc, parts) == shown | own
+    assert arc_floor(parts.outlines.assembly, lock) == pytest.approx(away - radius)
+
+
+def test_the_dimensions_of_a_wheel():
+    """Six slots, 0.1 mm wider than the roller on either side, and recesses as much wider than rho.
+
+    The disc leaves a horn of 6 mm beside half a slot of 6.1 mm. A slot begins where the rim,
+    sqrt(L² cos² 30° + r²), meets its wall, half a slot off its axis.
+    """
+    clearances = {"slot_clearance_mm": 0.1, "lock_clearance_mm": 0.1}
+    parts = of(**clearances, wheel_bore_mm=16.0).parts_model.flat
+    rim, end = math.hypot(50.0 * math.sqrt(3.0), 6.0), L - 50.0 - 0.3 - 6.1
+    long = math.sqrt(rim**2 - 6.1**2) - end
+    shown = {f"Ø {2.0 * rim:.2f}", f"{end:g}", f"6× {long:.3f}", "100", "6× 30°", "6× 60°"}
+    shown |= {"6× 12.2 H7 (+0.018/0)", "6× R 6.1", "6× Ø 75.8 H7 (+0.03/0)", "Ø 16 H7 (+0.018/0)"}
+    assert dimensions(draw_wheel, parts) == shown
+
+
+def test_a_coupon_has_its_slots_side_by_side():
+    """r = 6: walls of 0.6 r and numbers 0.6 r high; the widest of eight slots has 0.3 mm a side.
+
+    The roller has its own diameter to travel in each. Holes are thinner than the pin by the press.
+    """
+    drawing = of(pin_mm=6.0).drawing("coupon")
+    plate, roller = plates(drawing.solid)
+    box = bounds(plate.outline)
+    wall, widest = 3.6, 6.3
+    # below the slots: the pin's holes, and a number below either row
+    high = 2.0 * 3.6 + wall + 2.0 * (wall + 3.0) + 2.0 * (wall + widest + 6.0)
+    assert (box.x1, box.y1) == pytest.approx((wall + 8.0 * (2.0 * widest + wall), high))
+    holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
+    presses = (0.0, 0.01, 0.02, 0.03, 0.05, 0.08, 0.1, 0.15)
+    assert [6.0 - 2.0 * hole.radius for hole in holes] == pytest.approx(presses, abs=1e-12)
+    boxes = [bounds(hole) for hole in plate.holes[len(holes) :]]
+    clearances = (0.0, 0.02, 0.04, 0.06, 0.1, 0.15, 0.2, 0.3)
+    assert [one.x1 - one.x0 for one in boxes] == pytest.approx([12.0 + 2.0 * c for c in clearances])
+    assert [one.y1 - one.y0 for one in boxes] == pytest.approx([24.0 + 2.0 * c for c in clearances])
+    assert (roller.outline.radius, roller.holes[0].radius) == (6.0, 3.0)
+
+
+def test_set_screws_are_amid_their_hubs():
+    """A quarter of a turn after the keyway, which points away from the crank's roller."""
+    keys = {"crank_bore_mm": 10.0, "crank_hub_mm": 20.0, "crank_hub_length_mm": 22.0}
+    parts = of(**keys, crank_keyway="DIN 6885-1", crank_screw_mm=3.0, lock_bolts=0).parts
+    hub = crank_hub(parts)
+    (hole,) = hub.cross
+    # amid the hub's wall, from the keyway's corner at 5 + 1.4 mm and 1.5 mm aside, to 10 mm
+    assert hole.at == pytest.approx((0.0, -0.5 * (10.0 + math.hypot(6.4, 1.5))), abs=1e-9)
+    assert (hole.height, hole.radius) == (pytest.approx(16.0), 1.25)
+    keys |= {"crank_hub_mm": 30.0}
+    holes = crank_hub(of(**keys, crank_clamp_mm=3.0, lock_bolts=0).parts).cross
+    assert [one.height for one in holes] == pytest.approx([16.0, 16.0])
 
 
 def test_a_frame_leaves_three_corners_about_its_holes():
@@ -304,6 +368,139 @@ def test_a_frame_leaves_three_corners_about_its_holes():
     shown = {f"{L + 12.0 + 40.0:g}", "56", "28", "100", "23", "119", "4× R 5"}
     shown |= {"Ø 16 H7 (+0.018/0)", "Ø 8 H7 (+0.015/0)", "4× Ø 4 H7 (+0.012/0)"}
     assert dimensions(draw_frame, parts.frame.part) == shown
+
+
+def test_holes_of_a_frame_are_bores_for_its_shafts():
+    """They are ``shaft_fit_mm`` wider than a shaft, and L/10 for a wheel of one piece with its own.
+
+    Corners are at least three walls wide. A rounded number is below 0.8 of 6 mm: 4.5 mm.
+    """
+    fit = {"shaft_fit_mm": 0.2, "wall_min_mm": 2.0}
+    for bore, hole in ((16.0, 8.0), (0.0, 5.0)):
+        parts = of(wheel_bore_mm=bore, crank_bore_mm=8.0, **fit).parts_model.flat
+        wheel, crank, *mounts = parts.frame.part.holes
+        assert (wheel.radius, crank.radius) == (pytest.approx(hole), pytest.approx(4.0))
+        assert {one.radius for one in mounts} == {2.25}
+        assert {radius for *_, radius in rounds(parts.frame.part.outline)} == {6.0}
+        shafts = {one.part.name: one.part.outline.radius for one in parts.shafts}
+        assert shafts["crank's shaft"] == pytest.approx(3.9)
+
+
+def test_a_ring_gear_is_as_wide_as_two_eyes():
+    """A link's pin is L/20 wide, and an eye twice that; screws of L/40 are amid the rim, at 45°."""
+    keys = Keys("epicyclic", "shockless", fixed="ring")
+    design = Design.of(Spec(Wheel(4), Drive("epicyclic"), keys, size=Size(L)))
+    (ring,) = (one for one in design.parts_model.flat.links.gears if one.teeth.inside)
+    assert ring.plate.outline.radius == pytest.approx(ring.radius + 10.0)
+    at = (ring.radius + 5.0) * math.sqrt(0.5)
+    assert [one.centre for one in ring.bolts] == [
+        pytest.approx(corner) for corner in ((at, at), (-at, at), (-at, -at), (at, -at))
+    ]
+    assert {one.radius for one in ring.bolts} == {L / 80.0}
+
+
+def test_the_crank_of_a_sphere():
+    """Its arm is outside of the wheel, and locks over 180°: two bolts are at 135° and 225°.
+
+    Their circle's diameter is across the sphere of the machine, whose radius is L. Half of the
+    wheel's thickness is inside of that sphere.
+    """
+    bolts = {"lock_bolts": 2, "lock_bolt_circle_mm": 60.0, "lock_bolt_mm": 2.0}
+    size = Size(
+        L,
+        6.0,
+        shaft_fit_mm=0.2,
+        pin_mm=6.0,
+        press_fit_mm=0.1,
+        pin_gap_mm=0.5,
+        washer_mm=0.25,
+        **bolts,
+    )
+    mechanism = Design.of(Spec(Wheel(6, "spherical"), size=size)).mechanism
+    parts = SphereParts(PartsModel(mechanism).shells)
+    far, height = 30.0 * math.sqrt(0.5), math.sqrt(L**2 - 30.0**2)
+    places = [(hole.axis[0] * L, hole.axis[1] * L, hole.axis[2] * L) for hole in parts.arm.bolts]
+    assert places == [pytest.approx((-far, side * far, height)) for side in (1.0, -1.0)]
+    assert {hole.radius for hole in parts.arm.bolts} == {1.0}
+    # slots end R/L = 30° off the crank's axis, which is 90° off, less a roller and r/20
+    assert parts.ball.slot_end == pytest.approx(math.pi / 3.0 - 0.06 - 0.003)
+    every = {one.name: one for one in solids(parts.crank.part)}
+    assert (every["pin"].outline.radius, parts.arm.pins[0].radius) == (3.0, pytest.approx(2.95))
+    assert [hole.radius for hole in every["roller"].holes] == [pytest.approx(3.1)]
+    spans = {name: (one.inner, one.outer) for name, one in every.items() if hasattr(one, "inner")}
+    assert spans["roller"] == (95.0, 105.0)
+    assert spans["arm"] == (105.5, 115.5)
+    assert parts.ball.shafts_end_mm(size) == 115.75
+    # a cap about a hub leaves a wall as thick as the hub's, or the least one
+    for bored, edge in ((50.0, 70.0), (59.0, 62.0)):
+        assert parts.ball.cap(60.0, bored, 2.0) == pytest.approx(math.asin(edge / 105.5))
+
+
+def test_a_first_crank_is_as_wide_as_its_link():
+    """The first of two wheels has a machine of its own, whose arm is the drawn link."""
+    design = load(str(repo.DESIGNS / "geneva-pair.toml"))
+    (link,) = drawn_links(design.mechanism, design.parts).plates
+    (_, _, eye), (_, _, hub) = sorted(rounds(link.outline), key=lambda one: one[2])
+    size = first_pair(design.mechanism).spec.size
+    assert (size.arm_eye_mm, size.arm_hub_mm) == pytest.approx((2.0 * eye, 2.0 * hub))
+
+
+def test_a_driver_gear_has_the_usual_bore():
+    """Up to L/10: of a standard bearing, so 10 or 9 mm."""
+    gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=60.0)
+    for distance, bore in ((100.0, 5.0), (99.9, 4.5)):
+        mechanism = Design(External(6), gears, size=Size(center_distance_mm=distance)).mechanism
+        ends = Ends(-20.0, 10.0, crank_has_one=True)
+        (driver,) = gear_shafts(mechanism, None, ends, 5.0)
+        assert (driver.name, driver.bore.radius) == ("driver gear's shaft", bore)
+
+
+def test_an_eye_about_a_rollers_pin_passes_the_wheels_hub():
+    """The hub is three quarters of the way from the axis to a slot of 1.05 rollers.
+
+    The roller comes as near to that as L less carrier and planet's arm, in line.
+    """
+    keys = Keys("epicyclic", "shockless")
+    size = Size(L, 8.0, pin_mm=15.0)
+    design = Design.of(Spec(Wheel(4), Drive("epicyclic"), keys, size=size))
+    links = design.parts_model.flat.links
+    arms = (max(abs(hole.centre[0]) for hole in plate.holes) for plate in links.plates)
+    near = L - sum(arms)
+    eye = near - 0.75 * (near - 1.05 * 8.0)
+    assert links.sizes.roller_eye == pytest.approx(eye)
+
+
+def test_the_end_of_an_arm_passes_a_shoulder():
+    """Its end is R + eye from the crank's axis; a shoulder is 1.25 bores wide."""
+    shaft = Shaft("wheel's shaft", "wheel", RoundBore(8.0), (), -20.0, 10.0, (0.0, 0.0))
+    for eye, near in ((40.1, [("arm", -10.0, 0.0)]), (39.9, [])):
+        parts = of(arm_eye_mm=2.0 * eye).parts
+        assert list(passing_arm(parts, [shaft])) == near
+
+
+def test_levers_of_the_pin_and_of_the_shafts():
+    """The force is amid the wheel's 8 mm; levers are from there to the middle of arm or frame.
+
+    Between wheel and frame are a gap of 0.5 mm, the arm's 5 mm and a washer; the frame is as thick
+    as the arm, and bears a shaft in its middle.
+    """
+    thick = {"wheel_thickness_mm": 8.0, "arm_thickness_mm": 5.0, "pin_gap_mm": 0.5}
+    design = of(**thick, washer_mm=0.25, crank_bore_mm=8.0)
+    parts = stressed(*machine_sizes(design.mechanism))
+    assert parts.arm.offset == pytest.approx(4.0 + 0.5 + 2.5)
+    assert parts.arm.length == pytest.approx(50.0)
+    for shaft in (parts.crank_shaft, parts.wheel_shaft):
+        assert shaft.overhang == pytest.approx(4.0 + 0.5 + 5.0 + 0.25 + 2.5)
+
+
+def test_teeth_leave_the_backlash_between_them():
+    """Along the pitch circles at work both teeth and the backlash fill the pitch."""
+    keys = ["size.gear_module_mm=2", "size.gear_backlash_mm=0.2"]
+    design = load(str(repo.DESIGNS / "gear-sector.toml"), keys)
+    gears = design.parts_model.flat.links.gears
+    thick = sum(one.cut.teeth.thickness(one.radius) for one in gears)
+    for one in gears:
+        assert thick == pytest.approx(one.radius * one.cut.teeth.step - 0.2, rel=1e-9)
 
 
 def test_a_low_mouth_is_raised_by_a_fifth():
