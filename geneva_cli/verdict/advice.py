@@ -160,8 +160,9 @@ class _Search:
 
     def __init__(self, adviser: Adviser, wanted: list[Check]) -> None:
         self.adviser = adviser
-        # of several searches each may use one half of the work that is left
-        self.reserve = adviser.work // 2 if len(adviser.failing) > 1 else 0
+        # of several searches the first may use a half of the work, others a quarter of what is left
+        kept = 0.0 if len(adviser.failing) == 1 else 0.5 if len(wanted) > 1 else 0.75
+        self.reserve = kept * adviser.work
         self.mechanism, self.parts = adviser.mechanism, adviser.parts
         self.wanted = sorted(wanted, key=_needs_parts)  # the quick ones first
         self.turned = any(c.name in TURNED for c in wanted)
@@ -287,8 +288,9 @@ class _Search:
     def _holds_one_way(self, machine: Mechanism, turn: bool) -> bool:
         from geneva_cli.drawings.model import PartsModel
 
-        is_turned = self.parts and machine.spec.is_turned
-        model = PartsModel(machine, advice=False) if is_turned else None
+        # parts that cannot be built, and need not be, hide no check of the motion
+        built = self.parts and machine.spec.is_turned and "parts" not in self.may_fail
+        model = PartsModel(machine, advice=False) if built else None
         self._spend(PARTS if model else 0)
         if not self._pass(checks_at_rest(machine, model)):
             return False

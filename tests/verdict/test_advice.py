@@ -181,6 +181,14 @@ def test_fewer_bolts_are_advised(tmp_path: Path) -> None:
     assert int(most) == max(passing)
 
 
+def test_a_limit_has_its_advice_although_the_parts_cannot_be_built(tmp_path: Path) -> None:
+    text = LOADED.replace("[size]\n", "[size]\nedge_chamfer_mm = 0.5\nedge_fillet_mm = 0.5\n")
+    failing = {c.name: c for c in judged(read(tmp_path, f"{text}pin_force_max_N = 250\n")) if c.why}
+    assert not failing["parts"].passes
+    # as in the same machine with edges that can be made
+    assert "n_rpm = 46.5 passes this one" in failing["pin_force_max_N"].why
+
+
 def test_no_requirement_is_relaxed(tmp_path: Path) -> None:
     """Walls of 40 mm leave no room in this machine; thinner ones are not what was wanted."""
     mechanism = read(tmp_path, "[wheel]\nz = 6\n[size]\nwall_min_mm = 40\n")
