@@ -20,7 +20,7 @@ from geneva_cli.study.target import Target
 from geneva_cli.synthesis.families import closed
 from geneva_cli.synthesis.families import limit as limits
 from geneva_cli.synthesis.families.curved import cam, curved, more_rollers, standard
-from geneva_cli.synthesis.families.family import Family, natural_deg, only, rollers
+from geneva_cli.synthesis.families.family import OPEN_END, Family, natural_deg, only, rollers
 from geneva_cli.synthesis.families.straight import (
     driven,
     gears,
@@ -100,20 +100,26 @@ def _lines(
 ) -> Iterator[tuple[float, Callable[[int], Spec]]]:
     """Makers of a curved slot and a cam by their number of rollers.
 
-    Their motion is the plain crank's, or one so much longer that the law's peak is the limit.
+    Their motion is the plain crank's, or the nearest to it that its rollers and the limit allow.
     Inside, that may be too quick for curved slots of any R/L: they get a longer one.
     """
     assert target.acceleration_max is not None
     limit = target.acceleration_max * (1.0 - MARGIN)
     natural, step = natural_deg(wheel), 2.0 * math.pi / wheel.z
     cost = characteristic(standard(law))
-    motion = max(natural, closed.law_motion_deg(step, cost.acceleration, limit))
+    least = closed.law_motion_deg(step, cost.acceleration, limit)
     inside, fast = wheel.SIGN < 0.0, cost.velocity * step
     for m in rollers(target, natural):
         whole = 2.0 * math.pi / m
         if not inside or fast < PARALLEL * whole:
             reached.append(cost.acceleration * step / whole**2)
-    parallel = inside and fast >= PARALLEL * math.radians(motion)
-    slower = math.degrees(fast / 0.45) if parallel else motion  # R/L is 9/11
-    yield natural, lambda m: curved(target, wheel, law, m, slower)
-    yield natural, lambda m: cam(target, wheel, law, m, motion)
+
+    def motion(m: int) -> float:
+        return max(least, min(natural, 360.0 / m * (1.0 - OPEN_END)))
+
+    def slower(m: int) -> float:
+        parallel = inside and fast >= PARALLEL * math.radians(motion(m))
+        return math.degrees(fast / 0.45) if parallel else motion(m)  # R/L is 9/11
+
+    yield natural, lambda m: curved(target, wheel, law, m, slower(m))
+    yield natural, lambda m: cam(target, wheel, law, m, motion(m))
