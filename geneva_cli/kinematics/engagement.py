@@ -341,6 +341,10 @@ class Engagement(Batchable):
         """Input angle at which the motion ends, degrees from mid-motion."""
         return self.motion.exit_deg
 
+    def end_deg(self, end: float) -> float:
+        """Input angle at entry, where ``end`` is -1, or at exit, where it is 1."""
+        return self.entry_deg if end < 0.0 else self.exit_deg
+
     @property
     def half_step(self) -> float:
         """Half the wheel's step, radians."""

@@ -52,7 +52,7 @@ def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
 
 def corner(assembly: Assembly, engagement: Engagement, end: float, r: float) -> tuple[float, float]:
     """Return the mouth's corner on the crank axis' side at entry (-1) or exit (1), mm."""
-    x, y = engagement.slot(engagement.entry_deg if end < 0.0 else engagement.exit_deg, 0)
+    x, y = engagement.slot(engagement.end_deg(end), 0)
     px, py = assembly.L * scalar(x.c[0]), assembly.L * scalar(y.c[0])
     cx, cy = rest(assembly, engagement, end)
     ratio = r / math.dist((px, py), (cx, cy))

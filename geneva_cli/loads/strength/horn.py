@@ -67,8 +67,7 @@ class Horn(NamedTuple):
     @property
     def mouth_deg(self) -> float:
         """Input angle at which the roller is at this horn's mouth."""
-        engagement = self.engagement
-        return engagement.entry_deg if self.end < 0.0 else engagement.exit_deg
+        return self.engagement.end_deg(self.end)
 
     def wall(self, input_deg: Number) -> tuple[Array, Array]:
         """Points of the slot's wall, and its normals towards the recess, in the horn's frame.
@@ -170,13 +169,12 @@ def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[
     moving = mechanism.spec.wheel.plane_motion(parameter(np.ravel(L)))
     for whole in mechanism.under_load.engagements:
         for end, (engagement, ahead) in ((-1.0, whole.passages[0]), (1.0, whole.passages[-1])):
-            mouth = engagement.entry_deg if end < 0.0 else engagement.exit_deg
             turn = np.ravel(end * engagement.half_step)  # of the wheel at rest
             axes = np.column_stack(np.broadcast_arrays(np.ravel(L), 0.0, turn))
             centre = moving.into(axes[:, :2], axes[:, 2])
             outwards = moving.outwards(centre).T[:, :, None]
             centre = centre.T[:, :, None]
-            at = pitch(engagement, mouth)
+            at = pitch(engagement, engagement.end_deg(end))
             inwards = -end * vector(at.tangent_x, at.tangent_y)
             across = vector(-inwards[1], inwards[0])
             towards = L * vector(at.x, at.y) - centre

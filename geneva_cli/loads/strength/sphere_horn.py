@@ -59,8 +59,7 @@ class SphereHorn(NamedTuple):
     @property
     def mouth_deg(self) -> float:
         """Input angle at which the roller is at this horn's mouth."""
-        engagement = self.engagement
-        return engagement.entry_deg if self.end < 0.0 else engagement.exit_deg
+        return self.engagement.end_deg(self.end)
 
     @property
     def runs_from_deg(self) -> Sequence[float]:

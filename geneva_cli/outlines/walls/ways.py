@@ -112,8 +112,7 @@ def _circle(
     The points lead outwards from the slot until the roller has left the wheel.
     """
     centre = rest(assembly, engagement, end)
-    t = engagement.entry_deg if end < 0.0 else engagement.exit_deg
-    x, y = _pitch(assembly, engagement, np.array([t]))[0]
+    x, y = _pitch(assembly, engagement, np.array([engagement.end_deg(end)]))[0]
     radius, start = math.dist((x, y), centre), math.atan2(y - centre[1], x - centre[0])
     # As far as the middle of the dwell, where the path of the next slot begins.
     ahead = math.atan2(-assembly.sign * centre[1], -assembly.sign * centre[0])
