@@ -1,7 +1,7 @@
 """Families for a limit of peak acceleration alone: the plain crank, or the least change from it.
 
-A drive's parameter is the one nearest to the plain crank that keeps the limit. Curved slots and
-cams get the motion with which their law's peak is the limit.
+A drive's parameter is the one nearest to the plain crank that keeps the limit. So is the motion of
+curved slots and cams.
 """
 
 from __future__ import annotations
