@@ -54,7 +54,7 @@ SHARED = {
     "commands": {"options", "completion"},
     "bench.subjects": set(),
     "verdict.checks": {"check", "registry"},
-    "verdict.report": {"values"},
+    "verdict.report": set(),
 }
 STREAMS = {"app", "streams", "__main__", "specfile", "output", "manual", "commands"}
 TYPER = {"app", "streams", "__main__", "commands"}

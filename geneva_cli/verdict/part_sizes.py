@@ -1,4 +1,4 @@
-"""The dimensions of stressed parts and of the lock, for one machine or a batch.
+"""The dimensions of stressed parts, of the lock and of racks' horns, for one machine or a batch.
 
 Parts are sized one design after the other, as their defaults depend on rollers' whole paths.
 """
@@ -22,6 +22,7 @@ from geneva_cli.machine.many import alone, designs_in
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import parameter
+from geneva_cli.outlines.rack import rack_sizes
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -102,3 +103,22 @@ def stressed_parts(machine: Mechanism, layout: Layout | None) -> Stressed | None
 def _numbers(of: Stressed) -> list[float]:
     shafts, keys = (*of.wheel_shaft, *of.crank_shaft), (*of.wheel_key, *of.crank_key)
     return [of.contact, of.pin, *shafts, *map(float, of.arm), *map(float, keys)]
+
+
+def rack_horns(machines: Sequence[Mechanism]) -> tuple[float, float] | None:
+    """Half the slot's width and the recess's radius of racks, (m, 1); None if none has a lock.
+
+    They are NaN for a rack without a lock, and for one that cannot be cut.
+    """
+    rows = np.full((2, len(machines), 1), np.nan)
+    for i, machine in enumerate(machines):
+        try:
+            sizes = rack_sizes(machine)
+        except GenevaError:  # the check of the parts reports the error
+            continue
+        if sizes.lock:
+            rows[:, i, 0] = sizes.half_width, sizes.recess
+    if np.isnan(rows).all():
+        return None
+    half_width, recess = (parameter(row) if len(machines) > 1 else row.item() for row in rows)
+    return half_width, recess

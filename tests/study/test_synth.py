@@ -31,7 +31,7 @@ from geneva_cli.synthesis.shown import for_people, for_terminal
 from geneva_cli.synthesis.table import NAMES, synthesis_table, turned
 from geneva_cli.synthesis.written import chosen, commented
 from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.checks.groove import GROOVE_MAX_DEG, groove_pressure
+from geneva_cli.verdict.checks.motion import GROOVE_MAX_DEG, groove_pressure
 
 pytestmark = pytest.mark.usefixtures("few_four_bars")
 GEARINGS = ("external", "internal")

@@ -1,4 +1,4 @@
-"""The forces of shocks with the worst of the tolerances."""
+"""The forces of shocks with the worst of the tolerances, and the torque that stops the wheel."""
 
 from __future__ import annotations
 
@@ -110,3 +110,18 @@ def _tolerable(mechanism: Mechanism, check: Check) -> str:
         if value
     ]
     return " and ".join(names) + " in [tolerance]"
+
+
+def stopping_torque(name: str, mechanism: Mechanism) -> Check | None:
+    """The resisting torque, limited by the wheel's inertia; None for slots with two walls."""
+    if not mechanism.engagements[0].paired:
+        return None
+    from geneva_cli.analysis.arrival import arrival
+
+    stop = arrival(mechanism)
+    if stop is None:
+        return None
+    check = compared(name, stop.torque_Nm, "at most", stop.most_Nm)
+    if check.passes or stop.most_Nm > 0.0:
+        return check
+    return check._replace(why="no inertia carries the wheel on: set inertia_kgm2 in [load]")

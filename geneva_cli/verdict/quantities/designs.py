@@ -17,10 +17,14 @@ if TYPE_CHECKING:
     from geneva_cli.analysis.forces import LoadCase
     from geneva_cli.numerics.arrays import Number
     from geneva_cli.numerics.jet import Array
+    from geneva_cli.table import Table
 
 T = TypeVar("T")
 # Values by the names of quantities, (m,) each, or one number for all designs.
 Columns: TypeAlias = "Mapping[str, Number | None]"
+Numbers: TypeAlias = dict[str, float | None]
+# Values of a single design; None is one that does not apply. All machines have the same names.
+Values: TypeAlias = "dict[str, float | str | tuple[str | float, ...] | Table | None]"
 
 
 class Designs:

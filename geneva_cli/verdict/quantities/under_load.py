@@ -81,7 +81,7 @@ class UnderLoad:
         if self.machine.spec.output.turns:
             sizes = self.lock_sizes
             return sizes and (sizes.half_width, sizes.lock.recess)
-        from geneva_cli.verdict.rack_horns import rack_horns  # wheels do not need it
+        from geneva_cli.verdict.part_sizes import rack_horns  # wheels do not need it
 
         return rack_horns(self.designs.each)
 

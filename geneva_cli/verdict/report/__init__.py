@@ -17,7 +17,7 @@ from geneva_cli.verdict.quantities.groups import values as values_of
 from geneva_cli.verdict.report.words import words
 
 if TYPE_CHECKING:
-    from geneva_cli.verdict.report.values import Values
+    from geneva_cli.verdict.quantities.designs import Values
 
 
 class Report(NamedTuple):

@@ -11,7 +11,7 @@ from geneva_cli.table import rows_table
 from geneva_cli.verdict.quantities.groups import REPORT, values
 
 if TYPE_CHECKING:
-    from geneva_cli.verdict.report.values import Values
+    from geneva_cli.verdict.quantities.designs import Values
 
 
 def both_ways(model: PartsModel) -> Values:
