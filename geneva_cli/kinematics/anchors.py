@@ -9,8 +9,15 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.kinematics.engagement import Anchor
-from geneva_cli.numerics.arrays import SINGLE, are_alike, are_designs, array, chosen, picked
-from geneva_cli.numerics.batchable import Batchable
+from geneva_cli.numerics.arrays import (
+    SINGLE,
+    Batchable,
+    are_alike,
+    are_designs,
+    array,
+    chosen,
+    picked,
+)
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.numerics.stacks import Stack, can_stack
 

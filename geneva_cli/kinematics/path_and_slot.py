@@ -19,8 +19,7 @@ from geneva_cli.kinematics.engagement import (
 )
 from geneva_cli.kinematics.wheels import classic
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import library, parameter
-from geneva_cli.numerics.batchable import Batchable
+from geneva_cli.numerics.arrays import Batchable, library, parameter
 from geneva_cli.numerics.jet import Jet, Number, atan2, sin_cos, sqrt, turning
 from geneva_cli.numerics.latest import Latest
 

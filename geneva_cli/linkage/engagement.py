@@ -9,9 +9,15 @@ import numpy as np
 
 from geneva_cli.kinematics import path_and_slot
 from geneva_cli.kinematics.engagement import Anchor, Carrier, Engagement
-from geneva_cli.kinematics.link import LinkRate, LinkReactions
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, StraightSlotMotion
-from geneva_cli.kinematics.roller_path import PointDisplacement, RollerPath, exactly, rounded
+from geneva_cli.kinematics.roller_path import (
+    LinkRate,
+    LinkReactions,
+    PointDisplacement,
+    RollerPath,
+    exactly,
+    rounded,
+)
 from geneva_cli.kinematics.wheels.poses import HalfStep
 from geneva_cli.linkage.exact_path import ExactPoint, angle, length, unit
 from geneva_cli.linkage.wheel_for_path import Fit

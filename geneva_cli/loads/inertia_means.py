@@ -18,9 +18,9 @@ from geneva_cli.analysis.quantities import square_of
 from geneva_cli.analysis.stretches import spans_of
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import all_true, array
+from geneva_cli.numerics.pieces import gathered, spread
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
 from geneva_cli.numerics.search import search
-from geneva_cli.numerics.spread import gathered, spread
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole

@@ -34,9 +34,9 @@ from geneva_cli.loads.summaries import load_peaks, search_loads
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import array, parameter
+from geneva_cli.numerics.greatest import first_greatest
 from geneva_cli.numerics.jet import Jet, Number
-from geneva_cli.numerics.known import Known
-from geneva_cli.numerics.ties import first_greatest
+from geneva_cli.numerics.latest import Known
 from geneva_cli.spec.load_limits import load_limits
 
 if TYPE_CHECKING:

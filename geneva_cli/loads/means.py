@@ -24,9 +24,9 @@ from geneva_cli.loads.groups import of_groups
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import array
+from geneva_cli.numerics.pieces import gathered, spread
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
 from geneva_cli.numerics.search import search
-from geneva_cli.numerics.spread import gathered, spread
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole

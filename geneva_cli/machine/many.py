@@ -33,10 +33,8 @@ from geneva_cli.errors import GenevaError, marking
 from geneva_cli.kinematics.motion import Motion
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import BEFORE, Spec, attribute
-from geneva_cli.numerics.arrays import record_of
-from geneva_cli.numerics.batchable import Batchable
+from geneva_cli.numerics.arrays import Batchable, keep_freed_memory, record_of
 from geneva_cli.numerics.latest import Latest
-from geneva_cli.numerics.memory import keep_freed_memory
 from geneva_cli.spec.schema import Field, Points, SpecTable, fields, unknown
 
 if TYPE_CHECKING:

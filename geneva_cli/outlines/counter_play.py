@@ -16,7 +16,7 @@ import numpy as np
 
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.known import Known
+from geneva_cli.numerics.latest import Known
 from geneva_cli.outlines.counter import CounterSizes, counter_sizes, half_angles
 
 if TYPE_CHECKING:

@@ -12,8 +12,8 @@ from geneva_cli.kinematics.engagement import WheelMotion
 from geneva_cli.layout.fits import loosest_mm
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
+from geneva_cli.numerics.latest import counted
 from geneva_cli.numerics.tolerances import keeps
-from geneva_cli.numerics.work import counted
 from geneva_cli.spec.tables import Z_USUAL
 
 if TYPE_CHECKING:

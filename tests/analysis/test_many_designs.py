@@ -15,7 +15,7 @@ from geneva_cli.analysis import positive_drive as positive
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.tolerance.dimensions import corners
 from geneva_cli.analysis.tolerance.motion_error import motion_errors
-from geneva_cli.analysis.tolerance.spread import spread
+from geneva_cli.analysis.tolerance.random_machines import spread
 from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst, motion_plays, used
 from geneva_cli.analysis.vibration.answers import values
 from geneva_cli.analysis.vibration.oscillator import required_oscillator

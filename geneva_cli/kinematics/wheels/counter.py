@@ -27,8 +27,8 @@ from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose, middle
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number
-from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import Z_MAX, Range
+from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.engagement import Displacement

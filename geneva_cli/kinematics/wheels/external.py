@@ -13,8 +13,8 @@ from geneva_cli.kinematics.wheels import classic, poses
 from geneva_cli.kinematics.wheels.gearing import FollowedRate, Gearing, RollerPlace
 from geneva_cli.kinematics.wheels.poses import HalfStep
 from geneva_cli.numerics.arrays import choose
-from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import LENGTH, Range
+from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.engagement import Displacement, Slot, WheelMotion

@@ -18,7 +18,7 @@ from geneva_cli.kinematics.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.kinematics.wheels.gearing import FollowedRate, Gearing, Output, RollerPlace
 from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose, middle
 from geneva_cli.numerics.jet import Jet, Number
-from geneva_cli.spec.example import Example
+from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.engagement import Anchor, Displacement

@@ -13,8 +13,8 @@ from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose
 from geneva_cli.numerics.angles import radians, sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.numerics.jet import Jet, Number, turning
-from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import Range
+from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.engagement import Displacement, Slot

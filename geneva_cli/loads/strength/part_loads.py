@@ -12,7 +12,7 @@ from geneva_cli.loads.strength.shafts import Torque, crank_forces, wheel_forces
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.numerics.arrays import larger, parameter
-from geneva_cli.numerics.known import Known
+from geneva_cli.numerics.latest import Known
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism

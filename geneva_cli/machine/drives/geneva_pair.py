@@ -20,8 +20,8 @@ from geneva_cli.machine.drives.transmission import LocalTransmission, Transmissi
 from geneva_cli.numerics.angles import of_each, radians, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, choose_record, library
 from geneva_cli.numerics.jet import Jet, Number, atan2, sin_cos, sine_versine, sine_versine_of
-from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
+from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

@@ -20,8 +20,7 @@ from geneva_cli import linkage
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Plan
 from geneva_cli.kinematics.layout import Dimension, Joint, Layout, Link, Pivot
-from geneva_cli.kinematics.link import LinkReactions
-from geneva_cli.kinematics.roller_path import RollerPath, rounded
+from geneva_cli.kinematics.roller_path import LinkReactions, RollerPath, rounded
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import DEGREE, radians

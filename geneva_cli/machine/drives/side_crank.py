@@ -23,8 +23,8 @@ from geneva_cli.machine.drives.pushed import PushedCrank
 from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library
-from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import POSITIVE, Range
+from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

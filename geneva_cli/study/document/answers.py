@@ -9,8 +9,7 @@ from geneva_cli.design import Design
 from geneva_cli.document import Block, Facts, Grid, Heading, Row, TextList
 from geneva_cli.loads.figures import AXIS_BY_NAME
 from geneva_cli.loads.summary import QuantitySummary
-from geneva_cli.study.document.facts import capital, fact, facts
-from geneva_cli.study.document.rest import RemainingValues, grid
+from geneva_cli.study.document.facts import RemainingValues, capital, fact, facts, grid
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from geneva_cli.study.fields import Cell
-from geneva_cli.study.goals import Objective
-from geneva_cli.study.sweep.constraints import Constraint, is_number
+from geneva_cli.study.sweep.constraints import Constraint, Objective, is_number
 from geneva_cli.study.sweep.run import Sweep
 from geneva_cli.study.sweep.values import Value
 

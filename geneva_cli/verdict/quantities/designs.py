@@ -11,7 +11,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.many import alone
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.numerics.known import Known
+from geneva_cli.numerics.latest import Known
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.forces import LoadCase

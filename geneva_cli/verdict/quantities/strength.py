@@ -12,8 +12,7 @@ from geneva_cli.analysis import pin as pins
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.strength import arm as arms
 from geneva_cli.loads.strength import roller, shafts
-from geneva_cli.loads.strength.allowed import shear_allowed_MPa
-from geneva_cli.loads.strength.keys import KeyDimensions, key_stress
+from geneva_cli.loads.strength.keys import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.numerics.arrays import array, parameter
 from geneva_cli.verdict.quantities.under_load import under_load

@@ -21,6 +21,7 @@ from geneva_cli.verdict.part_sizes import (
     PartSizes,
     design_lock_sizes,
     layouts_lock_sizes,
+    rack_horns,
     part_sizes,
     stressed_parts,
 )
@@ -81,8 +82,6 @@ class UnderLoad:
         if self.machine.spec.output.turns:
             sizes = self.lock_sizes
             return sizes and (sizes.half_width, sizes.lock.recess)
-        from geneva_cli.verdict.part_sizes import rack_horns  # wheels do not need it
-
         return rack_horns(self.designs.each)
 
     @property

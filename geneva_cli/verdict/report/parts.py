@@ -92,7 +92,7 @@ def stop(model: PartsModel) -> Values:
         return values
     stops = wheel_stop(outlines)
     assert stops is not None  # the wheel has a convex face
-    from geneva_cli.loads.strength.stop import stop_contact
+    from geneva_cli.loads.strength.lock import stop_contact
 
     contact = stop_contact(model.mechanism, stops.lever_mm, outlines.sizes.rim)
     named = {
