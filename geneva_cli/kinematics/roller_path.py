@@ -1,4 +1,4 @@
-"""The closed path of a linkage's roller; velocity and joint reactions of the link that carries it."""
+"""The closed path of a linkage's roller, and velocity and joint reactions of its link."""
 
 from __future__ import annotations
 

@@ -21,8 +21,8 @@ from geneva_cli.verdict.part_sizes import (
     PartSizes,
     design_lock_sizes,
     layouts_lock_sizes,
-    rack_horns,
     part_sizes,
+    rack_horns,
     stressed_parts,
 )
 
