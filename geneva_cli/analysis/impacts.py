@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,9 +16,7 @@ from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import all_true, library, only_of, parameter
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.jet import Array
 
 
 class Impact(NamedTuple):

@@ -6,16 +6,13 @@ import copy
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from decimal import Decimal
-from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeGuard, cast
+from typing import NamedTuple, Protocol, TypeGuard, cast
 
 from geneva_cli.kinematics.engagement import Vector, cross
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Batchable, array, parameter
+from geneva_cli.numerics.arrays import Array, Batchable, Long, Which, array, parameter
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 from geneva_cli.spec.rules import is_array
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Long, Which
 
 
 class PointDisplacement(Protocol):

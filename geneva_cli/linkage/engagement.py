@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from decimal import localcontext
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import NamedTuple, cast
 
 import numpy as np
 
@@ -24,11 +24,8 @@ from geneva_cli.linkage.wheel_for_path import Fit
 from geneva_cli.linkage.wheels_for_paths import LONG_PI, Fits, long_point, polished
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import library, parameter
+from geneva_cli.numerics.arrays import Array, library, parameter
 from geneva_cli.numerics.jet import Jet, Number, sine_versine, turning
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array
 
 ANCHORS = 4  # anchors on either side of the middle: near the wheel the path is strongly curved
 

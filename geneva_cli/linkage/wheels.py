@@ -7,7 +7,7 @@ point, leaves at the other and stays outside the slot otherwise.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,9 +15,7 @@ from geneva_cli.kinematics.paths.course import PinCourse, PlacedWheel, leaves_sl
 from geneva_cli.kinematics.paths.pairs import DOUBLE_ROOT_SLOPE, EndPairs, newton, pairs, residual
 from geneva_cli.kinematics.paths.samples import PathSamples, blocks, joined, points, sampled
 from geneva_cli.kinematics.roller_path import RollerPath
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
 
 SAME_ENTRY = 1e-6  # radians: entries nearer to each other are one
 

@@ -11,13 +11,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import lru_cache
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import Generic, TypeVar
 
 from geneva_cli.numerics.arrays import SINGLE, read_only
-from geneva_cli.numerics.jet import Jet, Number
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.jet import Array, Jet, Number
 
 
 class Latest:

@@ -15,12 +15,10 @@ import numpy as np
 
 from geneva_cli.numerics import chebyshev
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import columns_taken, joined, rows_taken
+from geneva_cli.numerics.arrays import Array, Mask, Whole, columns_taken, joined, rows_taken
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Mask, Whole
-
     Which: TypeAlias = slice | Whole
     Some: TypeAlias = slice | Whole | Mask
 

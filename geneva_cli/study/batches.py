@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -11,12 +11,10 @@ from geneva_cli.machine.many import many, may_vary
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import BEFORE, Spec
 from geneva_cli.machine.spec import attribute as attribute_of
+from geneva_cli.numerics.arrays import Array, Number
 from geneva_cli.spec.schema import SpecTable, fields
 from geneva_cli.verdict.quantities.designs import Designs
 from geneva_cli.verdict.quantities.names import group_of, in_batch
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Number
 
 
 def numbers(specs: Sequence[Spec], names: Sequence[str]) -> list[list[float] | None]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,10 +22,8 @@ from geneva_cli.machine.many import alone, designs_in
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import parameter
+from geneva_cli.numerics.jet import Array
 from geneva_cli.outlines.rack import rack_sizes
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 class LockSizes(NamedTuple):

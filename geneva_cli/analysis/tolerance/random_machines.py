@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,12 +13,8 @@ from geneva_cli.analysis.sphere_locking import SphereLock
 from geneva_cli.analysis.tolerance.dimensions import Deviations, Draws, deviations, slope_of
 from geneva_cli.analysis.tolerance.entry_jump import EntryJumpFunction
 from geneva_cli.analysis.tolerance.motion_error import MotionError
-from geneva_cli.numerics.jet import Jet, Number
+from geneva_cli.numerics.jet import Array, Jet, Number
 from geneva_cli.progress import tracked
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
-
 
 BLOCK = 32768  # machines at once: they stay in the processor's cache
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -14,15 +14,12 @@ from geneva_cli.bench.kinds import KINDS, VariedMachine, values_of
 from geneva_cli.bench.method import Method, Subject, Task, missing
 from geneva_cli.bench.scalar_loop import by_numba, motion_loop
 from geneva_cli.bench.truth import digits, motion
+from geneva_cli.kinematics.engagement import WheelMotion
 from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import DEGREE
-
-if TYPE_CHECKING:
-    from geneva_cli.kinematics.engagement import WheelMotion
-    from geneva_cli.numerics.jet import Array
-
+from geneva_cli.numerics.jet import Array
 
 Z = 3  # the wheel that is hardest for a formula
 

@@ -17,10 +17,17 @@ line of centres at mid-motion, l = N/(N + 2 z) from the driver's axis.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.kinematics.engagement import Peak, Slot, SlotAxis, WheelMotion, in_wheel
+from geneva_cli.kinematics.engagement import (
+    Displacement,
+    Peak,
+    Slot,
+    SlotAxis,
+    WheelMotion,
+    in_wheel,
+)
 from geneva_cli.kinematics.path_and_slot import AnchoredPath
 from geneva_cli.kinematics.wheels.gearing import Gearing, Output, RollerPlace
 from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose, middle
@@ -29,9 +36,6 @@ from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.spec.rules import Z_MAX, Range
 from geneva_cli.spec.schema import Example
-
-if TYPE_CHECKING:
-    from geneva_cli.kinematics.engagement import Displacement
 
 
 class Counter(Gearing):

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Annotated, ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
 from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.kinematics.engagement import Displacement, Slot, WheelMotion
 from geneva_cli.kinematics.layout import Dimension, Layout
 from geneva_cli.kinematics.path_and_slot import AnchoredPath
 from geneva_cli.kinematics.wheels import classic, poses
@@ -15,9 +16,6 @@ from geneva_cli.kinematics.wheels.poses import HalfStep
 from geneva_cli.numerics.arrays import choose
 from geneva_cli.spec.rules import LENGTH, Range
 from geneva_cli.spec.schema import Example
-
-if TYPE_CHECKING:
-    from geneva_cli.kinematics.engagement import Displacement, Slot, WheelMotion
 
 
 class External(Gearing):

@@ -9,16 +9,13 @@ fit between hub and shaft are neglected.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import choose
+from geneva_cli.numerics.arrays import Number, choose
 from geneva_cli.numerics.jet import Array
 from geneva_cli.spec.tables import Shaft
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Number
 
 
 class KeyDimensions(NamedTuple):

@@ -27,7 +27,7 @@ from __future__ import annotations
 
 import math
 from functools import reduce
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import NamedTuple, cast
 
 import numpy as np
 
@@ -35,11 +35,9 @@ from geneva_cli.analysis.forces import contact_modulus_GPa, hertz_MPa
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.materials import wheel_material
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import all_true, blocks, choose_record, only_of, parameter
-
-if TYPE_CHECKING:
-    from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.numerics.jet import Array, Number
+from geneva_cli.numerics.jet import Array, Number
 
 
 class LockUnderTorque(NamedTuple):

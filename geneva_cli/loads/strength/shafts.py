@@ -29,27 +29,23 @@ The roller is taken to be thin: its cone presses on the wall beside u.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.analysis.contact import Contact
 from geneva_cli.analysis.forces import QuantityValue
 from geneva_cli.analysis.instant import Instant
+from geneva_cli.analysis.load_functions import LoadQuantity
 from geneva_cli.loads.summaries import load_peaks
-from geneva_cli.numerics.arrays import only_of, parameter
-from geneva_cli.numerics.jet import sqrt
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.arrays import N, only_of, parameter
+from geneva_cli.numerics.jet import Array, Jet, Number, sqrt
+from geneva_cli.spec.tables import Shaft
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from geneva_cli.analysis.contact import Contact
-    from geneva_cli.analysis.load_functions import LoadQuantity
-    from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.machine.spec import Spec
-    from geneva_cli.numerics.arrays import N
-    from geneva_cli.numerics.jet import Array, Jet, Number
-    from geneva_cli.spec.tables import Shaft
-
     ShaftForces = Callable[[Instant[Jet], Contact[Jet], Number], tuple[Jet, Jet]]
 
 

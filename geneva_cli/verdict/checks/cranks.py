@@ -9,20 +9,17 @@ from __future__ import annotations
 
 import math
 from itertools import combinations
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.analysis.carried import farthest_mm
 from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.plates import Member
 from geneva_cli.layout.roller_paths import roller_centres
+from geneva_cli.numerics.jet import Array
+from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.verdict.checks.check import Check, compared
-
-if TYPE_CHECKING:
-    from geneva_cli.curves.plates import Member
-    from geneva_cli.numerics.jet import Array
-    from geneva_cli.outlines.outlines import Outlines
 
 
 def cranks_apart(name: str, parts: FlatParts) -> Check | None:

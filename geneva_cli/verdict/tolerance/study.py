@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -26,12 +26,10 @@ from geneva_cli.curves.shapes import Arc, Contour
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.jet import Array
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.sphere.shells import Shells
 from geneva_cli.verdict.tolerance.needed import RequiredClearances, required_clearances
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 class EntryJumps(NamedTuple):
