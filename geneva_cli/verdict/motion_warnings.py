@@ -129,9 +129,9 @@ def _starts_at_speed(mechanism: Mechanism) -> list[Notice]:
     spec = mechanism.spec
     if not spec.wheel.JUMPS:
         return []
-    from geneva_cli.analysis.impacts import start_impact
+    from geneva_cli.analysis.impacts import start_impacts
 
-    impact = start_impact(mechanism)
+    impact = start_impacts(mechanism).only
     assert impact is not None  # the wheel's speed jumps
     w = impact.jump * omega(spec.drive.n_rpm)
     if impact.moment_Nms is None:

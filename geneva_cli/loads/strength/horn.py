@@ -21,7 +21,6 @@ higher if h < R/6, and 5 % lower to 7 % higher at R/2.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -185,20 +184,6 @@ def stoutness(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> A
     every = [side.stoutness for side in horns(mechanism, half_width_mm, recess_mm)]
     most: Array = np.max(np.broadcast_arrays(*every), axis=0)
     return most
-
-
-@lru_cache(maxsize=16)
-def horn(
-    mechanism: Mechanism, half_width_mm: float, recess_mm: float, width_mm: float
-) -> HornStress | None:
-    """Greatest bending stress in a machine's horns; None without a lock, or without a load.
-
-    ``half_width_mm`` is half the slot's width, ``recess_mm`` the radius of the wheel's recesses,
-    and ``width_mm`` the wheel's thickness.
-    """
-    if not recess_mm:
-        return None
-    return horn_stresses(mechanism, half_width_mm, recess_mm, width_mm).single
 
 
 def horn_stresses(

@@ -35,7 +35,7 @@ from geneva_cli.loads.groups import of_groups
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Whole, all_true, array, only_of, parameter
+from geneva_cli.numerics.arrays import Whole, all_true, array, parameter
 from geneva_cli.numerics.jet import Array, Jet, Number
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
 from geneva_cli.numerics.search import search
@@ -169,18 +169,6 @@ def rollers(mechanism: Mechanism) -> int:
     spec = mechanism.spec
     count = len(spec.wheel.steps or spec.drive.roller_angles_deg or ()) or spec.drive.rollers
     return count * len(mechanism.engagements[0].ahead_deg)
-
-
-def life(mechanism: Mechanism) -> Life | None:
-    """Life of the roller that wears out first; None if no load is known.
-
-    The rollers move the wheel in turn, so each makes a fraction of the motions.
-    """
-    if not mechanism.spec.is_loaded:
-        return None
-    force, turns, *lasts = only_of(lives(mechanism, by_roller(mechanism)))
-    assert force is not None and turns is not None
-    return Life(force, turns, *lasts)
 
 
 def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:
