@@ -566,16 +566,6 @@ def test_the_installed_command(arguments, place):
     assert "Traceback" not in found.stderr
 
 
-def test_a_traceback_would_be_noticed():
-    """The checks above can fail: an unexpected exception is not taken for an error message."""
-
-    class Broken:
-        exception, exit_code, stdout, stderr, output = ValueError("x"), 1, "", "", ""
-
-    with pytest.raises(ValueError, match="x"):
-        refused(Broken())
-
-
 @pytest.mark.parametrize("more", [(), ("--reverse",)])
 def test_an_error_of_a_machine_turning_backwards_has_its_place(more):
     """A side-crank of A nearly 1 turns the sector so unevenly that its loads are rounding."""
