@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from geneva_cli.kinematics.laws.law import Law
     from geneva_cli.kinematics.motion import Motion
     from geneva_cli.kinematics.wheels.gearing import Gearing
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array
     from geneva_cli.numerics.spline import Doubt
 
 

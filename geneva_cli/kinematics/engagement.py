@@ -27,7 +27,7 @@ from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.laws.law import Law
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array
 
 K = TypeVar("K", float, "Array")
 

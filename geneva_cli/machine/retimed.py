@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from geneva_cli.kinematics.drive import Drive
     from geneva_cli.machine.drives.transmission import Transmission
     from geneva_cli.machine.spec import Spec
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array
 
 
 def retimed(plan: Plan, spec: Spec, in_front: Drive) -> Plan:

@@ -23,7 +23,7 @@ from geneva_cli.spec.schema import Example
 if TYPE_CHECKING:
     from geneva_cli.kinematics.engagement import Anchor, Displacement
     from geneva_cli.kinematics.plane_motion import PlaneMotion
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array
 
 
 class Linear(Gearing):

@@ -29,7 +29,7 @@ from geneva_cli.spec.schema import Example
 if TYPE_CHECKING:
     from geneva_cli.kinematics.motion import Motion
     from geneva_cli.kinematics.wheels.gearing import Gearing
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array
 
 
 class Epicyclic(PinPath, kw_only=True):

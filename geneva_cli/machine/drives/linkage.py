@@ -32,8 +32,7 @@ from geneva_cli.spec.tables import DISTANCE_MM
 if TYPE_CHECKING:
     from geneva_cli.kinematics.motion import Motion
     from geneva_cli.kinematics.wheels.gearing import Gearing
-    from geneva_cli.numerics.arrays import Long
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array, Long
 
 Place = TypeVar("Place", float, "Array")
 Moving: TypeAlias = "tuple[Array, Array]"  # x and y at input angles

@@ -15,8 +15,7 @@ from geneva_cli.numerics.latest import Known
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.forces import LoadCase
-    from geneva_cli.numerics.arrays import Number
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array, Number
     from geneva_cli.table import Table
 
 T = TypeVar("T")

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
+from collections.abc import Sequence
+from typing import cast
 
 import numpy as np
 
@@ -11,17 +12,13 @@ from geneva_cli.analysis.impacts import start_impacts
 from geneva_cli.analysis.peak_search import QUANTITIES, worst_peaks
 from geneva_cli.analysis.product import ProductMotion, product_motion
 from geneva_cli.analysis.timing import timings
+from geneva_cli.kinematics.engagement import WheelMotion
+from geneva_cli.kinematics.wheels.gearing import Output
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
+from geneva_cli.numerics.arrays import Array, N, Number
+from geneva_cli.verdict.quantities.designs import Columns, Designs
 from geneva_cli.verdict.quantities.groups import RATES
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from geneva_cli.kinematics.engagement import WheelMotion
-    from geneva_cli.kinematics.wheels.gearing import Output
-    from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.numerics.arrays import Array, N, Number
-    from geneva_cli.verdict.quantities.designs import Columns, Designs
 
 
 def timing(of: Designs) -> Columns:

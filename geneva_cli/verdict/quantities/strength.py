@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,17 +13,13 @@ from geneva_cli.loads.strength import arm as arms
 from geneva_cli.loads.strength import roller, shafts
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.machine.materials import roller_material, wheel_material
-from geneva_cli.numerics.arrays import array, parameter
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.arrays import Array, Number, array, parameter
+from geneva_cli.spec.tables import Material
+from geneva_cli.spec.workshops import Stock
+from geneva_cli.verdict.quantities.designs import Columns, Designs
 from geneva_cli.verdict.quantities.under_load import under_load
-
-if TYPE_CHECKING:
-    from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.machine.spec import Spec
-    from geneva_cli.numerics.arrays import Number
-    from geneva_cli.numerics.jet import Array
-    from geneva_cli.spec.tables import Material
-    from geneva_cli.spec.workshops import Stock
-    from geneva_cli.verdict.quantities.designs import Columns, Designs
 
 
 def margin(stress: Number, allowed: Number | None) -> Array | None:

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from geneva_cli.loads.strength.lock import LockUnderTorque
     from geneva_cli.loads.strength.part_loads import PartLoads
     from geneva_cli.loads.strength.roller import SlotPassage
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array
     from geneva_cli.verdict.quantities.designs import Designs
 
 

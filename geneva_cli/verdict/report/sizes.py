@@ -4,18 +4,14 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from typing import TYPE_CHECKING
 
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads import loads
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import scalar
+from geneva_cli.verdict.quantities.designs import Values
 from geneva_cli.verdict.quantities.groups import ECHOED, INPUTS
-
-if TYPE_CHECKING:
-    from geneva_cli.verdict.quantities.designs import Values
-
 
 _SPHERE = [
     f"sizes.{name}"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from geneva_cli.analysis.peaks import Peaks, placed_peaks, worst
 from geneva_cli.analysis.timing import timings
@@ -13,10 +12,8 @@ from geneva_cli.loads import loads
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
 from geneva_cli.table import rows_table
+from geneva_cli.verdict.quantities.designs import Numbers, Values
 from geneva_cli.verdict.quantities.motion import peak_values
-
-if TYPE_CHECKING:
-    from geneva_cli.verdict.quantities.designs import Numbers, Values
 
 
 def timing(model: PartsModel) -> Values:
