@@ -98,5 +98,4 @@ def kind_of(mechanism: Mechanism) -> PartsKind:
         "counter": "counter:Counter",
     }
     name = kinds.get(mechanism.spec.wheel.PARTS, "unbuilt:Unbuilt")
-    kind: PartsKind = load_named(f"drawings.kinds.{name}")()
-    return kind
+    return load_named(f"drawings.kinds.{name}")()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from heapq import merge
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,9 +15,7 @@ from geneva_cli.curves.measure import legs, mapped
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Shape
 from geneva_cli.curves.sheet import CENTRE, LARGE, SMALL, Label, Measure, line, polar
 from geneva_cli.layout.fits import Fits
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array
 
 FIRST, NEXT = 8.0, 7.0  # mm: from the outline to the first dimension line, and between lines
 RANKS = 14  # rows of dimension lines that are tried

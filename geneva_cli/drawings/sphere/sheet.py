@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -43,13 +42,11 @@ from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.fits import Fits
 from geneva_cli.layout.held_hubs import hub_note
 from geneva_cli.layout.written import length, quantity
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_ON_SHEET
 from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.sphere.arm import CapArm
 from geneva_cli.parts.sphere.sphere_parts import ROLLER, SphereParts
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 def sheet(parts: SphereParts) -> Sheet:
