@@ -52,9 +52,8 @@ def _views(shown: SheetContent, parts: CounterParts, scale: float) -> Iterator[V
     if len(parts.number_wheels) > 1:
         view = begin("number wheel's two teeth", "number wheel's rim")
         *_, two, rim = plates(parts.number_wheels[-1].part)
-        for plate in (two, rim):
-            for shape in (plate.outline, *plate.holes):
-                view.draw(shape, OUTLINE)
+        view.draw_plate(two)
+        view.draw_plate(rim)
         view.remark("teeth and rim as the driver's, with the number wheel's bore")
         yield view
     yield from shafted(begin, parts.shafts)
@@ -70,8 +69,7 @@ def _draw(view: View, parts: CounterParts, gear: str, member: Member, fixed: str
     ``fixed`` is the part of the spec that is fixed to its shaft; others turn on it.
     """
     own = plates(member.part)
-    for shape in dict.fromkeys(one for plate in own for one in (plate.outline, *plate.holes)):
-        view.draw(shape, OUTLINE)
+    view.draw_all(dict.fromkeys(one for plate in own for one in (plate.outline, *plate.holes)))
     toothed = parts.mesh.gears[gear]
     view.cross((0.0, 0.0), toothed.teeth.tip)
     draw_teeth(view, toothed)

@@ -82,8 +82,7 @@ def _draw_rack(view: View, parts: RackParts) -> None:
     """Draw the rack: its slots and recesses, their distances, and the bolts of its bar."""
     sizes, mechanism = parts.sizes, parts.mechanism
     (rack,) = plates(parts.wheel.part)
-    for shape in (rack.outline, *rack.holes):
-        view.draw(shape, OUTLINE)
+    view.draw_plate(rack)
     places, box = slot_places(sizes, mechanism.spec.wheel.z), bounds(rack.outline)
     end = -(sizes.slot_bottom + sizes.half_width)
     for y in places:
@@ -130,8 +129,7 @@ def _draw_sector(view: View, parts: RackParts) -> None:
     sizes, mechanism = parts.sizes, parts.mechanism
     sector = next(one for one in plates(parts.crank.part) if one.layer == "CRANK")
     assert isinstance(sector.outline, Contour)
-    for shape in (sector.outline, *sector.holes):
-        view.draw(shape, OUTLINE)
+    view.draw_plate(sector)
     screwed = holes_of([sector]).bolts
     circle_of(view, screwed)
     view.cross((0.0, 0.0), sizes.floor)
