@@ -383,5 +383,10 @@ class Unbuilt(PartsKind):
 
 def kind_of(mechanism: Mechanism) -> PartsKind:
     """Return the kind of a machine's parts."""
-    kinds = {"flat": Flat, "ball": Ball, "rack": Rack, "counter": Counter}
+    kinds: dict[str, type[PartsKind]] = {
+        "flat": Flat,
+        "ball": Ball,
+        "rack": Rack,
+        "counter": Counter,
+    }
     return kinds.get(mechanism.spec.wheel.PARTS, Unbuilt)()
