@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.locking import Lock
-from geneva_cli.drawings.kinds.kind import kind_of
+from geneva_cli.drawings.model import kind_of
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.sizes import Layout, sized
 from geneva_cli.layout.stressed import Stressed, lock_of, stressed

@@ -12,7 +12,7 @@ from geneva_cli.curves.shapes import Circle, Contour, Line, Shape, polygon
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.gear_curves import gears_table
-from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.scene import Body, Track
 from geneva_cli.study.animation.rack import rack
 from geneva_cli.study.animation.teeth import DrawnTeeth, round_gears
