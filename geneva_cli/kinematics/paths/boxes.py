@@ -10,7 +10,6 @@ import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 
 from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, joined, points
 from geneva_cli.kinematics.roller_path import RollerPath
@@ -77,50 +76,66 @@ def _against(width: Array, turn: Array, first: Array, last: Array, sense: Number
 def boxes_of(samples: PathSamples, wanted: Array) -> Boxes:
     """Boxes between adjacent samples that may contain a pair."""
     at, angle = samples.at, samples.angle
-    count, numbers = angle.shape[1] - 1, _numbers(at)
+    count = angle.shape[1] - 1
     first, last = slice(None, -1), slice(1, None)
     turn = angle[:, last] - angle[:, first]
+    numbers = np.vstack((_numbers(at), np.pad(turn, ((0, 0), (0, 1))).ravel()))
     width = at.phi[:, last] - at.phi[:, first]
     rates = at.turn[:, first], at.turn[:, last]
     low, high = (x + angle[:, first] for x in _span(width, turn, *rates))
     whole = angle[:, -1:]  # a turn later; NaN if the linkage does not close for a full turn
     possible = (width > 0.0) & (whole == whole)
-    per_sense = []
+    parts = []
     for sense in (1.0, -1.0):
         use = possible & _against(width, turn, *rates, sense)
-        some = np.flatnonzero(use.any(axis=1))  # most paths turn one way only
-        use = use[some]
-        least, most = np.where(use, low[some], np.inf), np.where(use, high[some], -np.inf)
-        target = -sense * wanted[some, None]
-        # exits from the entry's own interval onwards, over a full turn
-        first_exit, last_exit = (
-            sliding_window_view(np.hstack((x, x + whole[some])), count, axis=1)[:, :count]
-            for x in (least, most)
-        )
-        near = first_exit <= (most + target)[:, :, None]
-        near &= last_exit >= (least + target)[:, :, None]
-        near[:, :, 0] = False
-        cell, ahead = np.divmod(np.flatnonzero(near), count)
-        row, entry = np.divmod(cell, count)
-        row = some[row]
-        exit_ = (entry + ahead) % count
-        corners = (
-            _interval(numbers, row * (count + 1) + of, turn[row, of]) for of in (entry, exit_)
-        )
-        may = _may_meet(*corners)
-        per_sense.append((row[may], entry[may], exit_[may], np.full(int(may.sum()), sense)))
-    row, entry, exit_, senses = joined(per_sense)
-    round_ = np.where(exit_ < entry, 1.0, 0.0)
-    start = angle[row, exit_] + whole[row, 0] * round_ - angle[row, entry]
-    one, two = (_interval(numbers, row * (count + 1) + of, turn[row, of]) for of in (entry, exit_))
-    for end in (two.first, two.last):
-        end[0] += math.tau * round_
-    return Boxes(samples.which[row], senses, one, two, start)
+        # spans of the tangent's turn against the wheel, over two turns of the crank
+        spans = [np.hstack((x, x + whole)) * -sense for x in (low, high)]
+        entry, exit_ = _turned_between(np.hstack((use, use)), *spans[:: int(-sense)], wanted)
+        row, entry = np.divmod(entry, 2 * count)
+        exit_ %= 2 * count
+        round_ = exit_ // count
+        exit_ %= count
+        start = angle[row, exit_] + whole[row, 0] * round_ - angle[row, entry]
+        one, two = (_interval(numbers, row * (count + 1) + of) for of in (entry, exit_))
+        for end in (two.first, two.last):
+            end[0] += math.tau * round_
+        every = Boxes(samples.which[row], np.full(len(row), sense), one, two, start)
+        parts.append(every.taken(np.flatnonzero(_may_meet(one, two))))
+    boxes: Boxes = joined(parts, -1)
+    return boxes
 
 
-def _interval(numbers: Array, first: Whole, turn: Array) -> CrankInterval:
+def _turned_between(use: Mask, low: Array, high: Array, wanted: Array) -> tuple[Whole, Whole]:
+    """Places of entries in the first half of the rows, and of exits in a turn after each.
+
+    Between the two a row's angle, whose spans are ``low`` to ``high``, may grow by ``wanted``.
+    """
+    place = np.flatnonzero(use)
+    row, column = np.divmod(place, use.shape[1])
+    low, high = low.ravel().take(place), high.ravel().take(place)
+    entry = np.flatnonzero(column < use.shape[1] // 2)
+    mine = row[entry]
+    least, most = low[entry] + wanted[mine], high[entry] + wanted[mine]
+    # The greatest end so far and the least start from here on rise in each row, and from row to row
+    # if each is set apart from the one before it. So a search in them bounds the exits of an entry.
+    apart = 1.0 + 2.0 * max(np.abs(low).max(initial=0.0), np.abs(high).max(initial=0.0))
+    ends = np.maximum.accumulate(high + apart * row)
+    starts = np.minimum.accumulate((low + apart * row)[::-1])[::-1]
+    error = 1e-9  # radians: more than rounding of a thousand rows
+    begin = np.searchsorted(ends, least + (apart * mine - error))
+    end = np.searchsorted(starts, most + (apart * mine + error), side="right")
+    begin = np.maximum(begin, entry + 1)
+    counts = np.maximum(np.minimum(end, entry + np.bincount(mine)[mine]) - begin, 0)
+    of = np.repeat(np.arange(len(entry)), counts)
+    exit_ = np.arange(len(of)) + np.repeat(begin - (np.cumsum(counts) - counts), counts)
+    near = np.flatnonzero((low[exit_] <= most[of]) & (high[exit_] >= least[of]))
+    return place[entry[of[near]]], place[exit_[near]]
+
+
+def _interval(numbers: Array, first: Whole) -> CrankInterval:
     """Intervals that begin at some of the points, and end at the next."""
-    return CrankInterval(numbers.take(first, axis=1), numbers.take(first + 1, axis=1), turn)
+    at = numbers.take(first, axis=1)
+    return CrankInterval(at[:-1], numbers[:-1].take(first + 1, axis=1), at[-1])
 
 
 def _numbers(at: PathPoints) -> Array:
