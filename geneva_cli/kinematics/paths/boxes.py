@@ -28,8 +28,7 @@ class CrankInterval(NamedTuple):
     Rows of a point are crank angle, position (x, y), unit tangent (x, y), speed and turn rate.
     """
 
-    first: Array  # (7, n)
-    last: Array
+    ends: Array  # (7, 2, n)
     turn: Array  # (n,)
 
     def taken(self, where: Whole) -> CrankInterval:
@@ -37,10 +36,21 @@ class CrankInterval(NamedTuple):
         return CrankInterval._make(part.take(where, axis=-1) for part in self)
 
     @property
+    def phi(self) -> Array:
+        """Crank angles of both ends, (2, n)."""
+        return self.ends[0]
+
+    @property
     def width(self) -> Array:
         """Crank angle from the first point to the last."""
-        width: Array = self.last[0] - self.first[0]
+        first, last = self.phi
+        width: Array = last - first
         return width
+
+    @property
+    def rates(self) -> Array:
+        """Rates at which the tangent turns at both ends, (2, n)."""
+        return self.ends[6]
 
 
 class Boxes(NamedTuple):
@@ -79,12 +89,12 @@ def boxes_of(samples: PathSamples, wanted: Array) -> Boxes:
     count = angle.shape[1] - 1
     first, last = slice(None, -1), slice(1, None)
     turn = angle[:, last] - angle[:, first]
-    numbers = np.vstack((_numbers(at), np.pad(turn, ((0, 0), (0, 1))).ravel()))
+    numbers, to_next = _numbers(at), np.pad(turn, ((0, 0), (0, 1)))
     width = at.phi[:, last] - at.phi[:, first]
     rates = at.turn[:, first], at.turn[:, last]
     low, high = (x + angle[:, first] for x in _span(width, turn, *rates))
     whole = angle[:, -1:]  # a turn later; NaN if the linkage does not close for a full turn
-    possible = (width > 0.0) & (whole == whole)
+    possible = (width > 0.0) & np.isfinite(low + high + whole)
     parts = []
     for sense in (1.0, -1.0):
         use = possible & _against(width, turn, *rates, sense)
@@ -96,11 +106,10 @@ def boxes_of(samples: PathSamples, wanted: Array) -> Boxes:
         round_ = exit_ // count
         exit_ %= count
         start = angle[row, exit_] + whole[row, 0] * round_ - angle[row, entry]
-        one, two = (_interval(numbers, row * (count + 1) + of) for of in (entry, exit_))
-        for end in (two.first, two.last):
-            end[0] += math.tau * round_
+        one, two = (_interval(numbers, to_next, row * (count + 1) + of) for of in (entry, exit_))
+        two.phi[:] += math.tau * round_
         every = Boxes(samples.which[row], np.full(len(row), sense), one, two, start)
-        parts.append(every.taken(np.flatnonzero(_may_meet(one, two))))
+        parts.append(every.taken(np.flatnonzero(_corners(one, two).may_vanish())))
     boxes: Boxes = joined(parts, -1)
     return boxes
 
@@ -132,10 +141,9 @@ def _turned_between(use: Mask, low: Array, high: Array, wanted: Array) -> tuple[
     return place[entry[of[near]]], place[exit_[near]]
 
 
-def _interval(numbers: Array, first: Whole) -> CrankInterval:
+def _interval(numbers: Array, turn: Array, first: Whole) -> CrankInterval:
     """Intervals that begin at some of the points, and end at the next."""
-    at = numbers.take(first, axis=1)
-    return CrankInterval(at[:-1], numbers[:-1].take(first + 1, axis=1), at[-1])
+    return CrankInterval(numbers.take((first, first + 1), axis=1), turn.take(first))
 
 
 def _numbers(at: PathPoints) -> Array:
@@ -149,7 +157,7 @@ def _may_turn(boxes: Boxes, wanted: Array) -> Mask:
     spans = []
     good = np.ones(len(boxes.which), dtype=bool)
     for side in (boxes.entry, boxes.exit):
-        shape = side.width, side.turn, side.first[6], side.last[6]
+        shape = side.width, side.turn, *side.rates
         good &= _against(*shape, boxes.sense)
         spans.append(_span(*shape))
     (e_low, e_high), (x_low, x_high) = spans
@@ -157,30 +165,38 @@ def _may_turn(boxes: Boxes, wanted: Array) -> Mask:
     return good & (x_low - e_high <= target) & (x_high - e_low >= target)
 
 
-def _across(one: Array, two: Array) -> tuple[Array, Array, Array]:
-    """Component of the chord across the sum of tangents, and its slopes by entry and by exit."""
-    _, px, py, tx, ty, v, w = one
-    _, qx, qy, ux, uy, v_out, w_out = two
+def _corners(entry: CrankInterval, exit_: CrankInterval) -> Corners:
+    """Component of the chord across the sum of tangents, at the corners of boxes."""
+    _, px, py, tx, ty, v, w = entry.ends[:, :, None]
+    _, qx, qy, ux, uy, v_out, w_out = exit_.ends[:, None]
     cx, cy, q = qx - px, qy - py, ux * ty - uy * tx
     by_entry = v * q + w * (cx * tx + cy * ty)
     by_exit = v_out * q + w_out * (cx * ux + cy * uy)
-    return cx * (ty + uy) - cy * (tx + ux), by_entry, by_exit
+    away = cx * (ty + uy) - cy * (tx + ux)
+    return Corners(away, by_entry * entry.width, by_exit * exit_.width)
 
 
-def _may_meet(entry: CrankInterval, exit_: CrankInterval) -> Mask:
-    """True if the chord may be parallel to the sum of the tangents in boxes of two intervals."""
-    wide, high = entry.width, exit_.width
-    least, most = np.full(wide.shape, np.inf), np.full(wide.shape, -np.inf)
-    for i, one in enumerate((entry.first, entry.last)):
-        for j, two in enumerate((exit_.first, exit_.last)):
-            away, by_entry, by_exit = _across(one, two)
-            e = by_entry * wide * (-THIRD if i else THIRD)
-            x = by_exit * high * (-THIRD if j else THIRD)
-            least = np.minimum(least, away + np.minimum(e, 0.0) + np.minimum(x, 0.0))
-            most = np.maximum(most, away + np.maximum(e, 0.0) + np.maximum(x, 0.0))
-    margin = CUBIC_ERROR * (most - least)
-    may: Mask = (least <= margin) & (most >= -margin)
-    return may
+class Corners(NamedTuple):
+    """A quantity at the corners of boxes (2, 2, n), and its slopes per width of the box.
+
+    The first index is 0 or 1 for the start or end of the entry's interval, the second for the exit.
+    """
+
+    value: Array
+    by_entry: Array
+    by_exit: Array
+
+    def may_vanish(self) -> Mask:
+        """True if the cubics through values and slopes have both signs."""
+        outward = np.array([THIRD, -THIRD])[:, None]
+        e, x = self.by_entry * outward[:, None], self.by_exit * outward
+        least, most = (
+            f(f(self.value + g(e, 0.0) + g(x, 0.0), axis=0), axis=0)
+            for f, g in ((np.min, np.minimum), (np.max, np.maximum))
+        )
+        margin = CUBIC_ERROR * (most - least)
+        may: Mask = (least <= margin) & (most >= -margin)
+        return may
 
 
 class NewtonSteps(NamedTuple):
@@ -194,34 +210,36 @@ class NewtonSteps(NamedTuple):
 def newton_steps(boxes: Boxes, wanted: Array) -> NewtonSteps:
     """Newton step from each corner of a box; if all lead to one place, the box has one pair."""
     entry, exit_ = boxes.entry, boxes.exit
-    wide, high = entry.width, exit_.width
-    over = boxes.turn + boxes.sense * wanted[boxes.which]
-    steps = []
-    for i, one in enumerate((entry.first, entry.last)):
-        for j, two in enumerate((exit_.first, exit_.last)):
-            away, by_entry, by_exit = _across(one, two)
-            rest = over + j * exit_.turn - i * entry.turn
-            turn, turn_out = one[-1], two[-1]
-            det = by_entry * turn_out + by_exit * turn
-            e = (rest * by_exit - away * turn_out) / det
-            x = -(rest * by_entry + away * turn) / det
-            steps.append((i + e / wide, j + x / high))
-    places = np.array(steps)  # indices: corner, side, box; in widths of the box
-    middle = places.mean(axis=0)
-    apart = np.abs(places - middle).max(axis=(0, 1))
+    across, ahead = _corners(entry, exit_), np.array([0.0, 1.0])[:, None]
+    rest = boxes.turn + boxes.sense * wanted[boxes.which]
+    rest = rest + ahead * exit_.turn - ahead[:, None] * entry.turn
+    turn, turn_out = entry.rates[:, None] * -entry.width, exit_.rates * exit_.width
+    det = across.by_entry * turn_out - across.by_exit * turn
+    e = (rest * across.by_exit - across.value * turn_out) / det + ahead[:, None]
+    x = (across.value * turn - rest * across.by_entry) / det + ahead
+    # Each of two sums of the quantities hardly varies with one of both angles.
+    may = np.ones(len(det[0, 0]), dtype=bool)
+    for own, other in ((turn_out, across.by_exit), (turn, across.by_entry)):
+        c, d = own.sum(axis=(0, 1)), other.sum(axis=(0, 1))
+        pairs = zip(across, (rest, turn, turn_out), strict=True)
+        may &= Corners._make(c * f - d * g for f, g in pairs).may_vanish()
+    places = np.stack((e, x))  # side, corner, box; in widths of the box
+    middle = places.mean(axis=(1, 2))
+    apart = np.abs(places - middle[:, None, None]).max(axis=(0, 1, 2))
     outside = np.abs(middle - 0.5).max(axis=0) - 0.5
-    phi = np.stack((entry.first[0] + middle[0] * wide, exit_.first[0] + middle[1] * high), axis=1)
+    phi = [x.phi[0] + of * x.width for x, of in zip((entry, exit_), middle, strict=True)]
     # the corners agree if they lead to places within a tenth of the box's width
-    return NewtonSteps(apart <= 0.1, outside <= OVERLAP, phi)
+    return NewtonSteps((apart <= 0.1) | ~may, (outside <= OVERLAP) & may, np.stack(phi, axis=1))
 
 
 def halved(path: RollerPath, boxes: Boxes, wanted: Array) -> Boxes:
     """Cut each box into four and keep those that may contain a pair."""
     halves = []
     for side in (boxes.entry, boxes.exit):
-        phi = 0.5 * (side.first[0] + side.last[0])
+        phi = 0.5 * (side.phi[0] + side.phi[1])
         middle = _numbers(points(path.roughly(boxes.which), phi[:, None]))
-        halves.append((_side(side.first, middle), _side(middle, side.last)))
+        first, last = side.ends.swapaxes(0, 1)
+        halves.append((_side(first, middle), _side(middle, last)))
     parts = []
     for i, entry in enumerate(halves[0]):
         for j, exit_ in enumerate(halves[1]):
@@ -232,11 +250,12 @@ def halved(path: RollerPath, boxes: Boxes, wanted: Array) -> Boxes:
                 turn = turn + halves[1][0].turn
             part = Boxes(boxes.which, boxes.sense, entry, exit_, turn)
             part = part.taken(np.flatnonzero(_may_turn(part, wanted)))
-            parts.append(part.taken(np.flatnonzero(_may_meet(part.entry, part.exit))))
+            parts.append(part.taken(np.flatnonzero(_corners(part.entry, part.exit).may_vanish())))
     halved: Boxes = joined(parts, -1)
     return halved
 
 
 def _side(first: Array, last: Array) -> CrankInterval:
     (a, b), (c, d) = first[3:5], last[3:5]
-    return CrankInterval(first, last, np.arctan2(a * d - b * c, a * c + b * d))
+    turn = np.arctan2(a * d - b * c, a * c + b * d)
+    return CrankInterval(np.stack((first, last), axis=1), turn)
