@@ -152,19 +152,6 @@ def _numbers(at: PathPoints) -> Array:
     return np.stack([x.ravel() for x in rows])
 
 
-def _may_turn(boxes: Boxes, wanted: Array) -> Mask:
-    """True if both ends may turn against the wheel, and the tangent by the wanted angle."""
-    spans = []
-    good = np.ones(len(boxes.which), dtype=bool)
-    for side in (boxes.entry, boxes.exit):
-        shape = side.width, side.turn, *side.rates
-        good &= _against(*shape, boxes.sense)
-        spans.append(_span(*shape))
-    (e_low, e_high), (x_low, x_high) = spans
-    target = -boxes.sense * wanted[boxes.which] - boxes.turn
-    return good & (x_low - e_high <= target) & (x_high - e_low >= target)
-
-
 def _corners(entry: CrankInterval, exit_: CrankInterval) -> Corners:
     """Component of the chord across the sum of tangents, at the corners of boxes."""
     _, px, py, tx, ty, v, w = entry.ends[:, :, None]
@@ -234,28 +221,32 @@ def newton_steps(boxes: Boxes, wanted: Array) -> NewtonSteps:
 
 def halved(path: RollerPath, boxes: Boxes, wanted: Array) -> Boxes:
     """Cut each box into four and keep those that may contain a pair."""
-    halves = []
-    for side in (boxes.entry, boxes.exit):
-        phi = 0.5 * (side.phi[0] + side.phi[1])
-        middle = _numbers(points(path.roughly(boxes.which), phi[:, None]))
-        first, last = side.ends.swapaxes(0, 1)
-        halves.append((_side(first, middle), _side(middle, last)))
-    parts = []
-    for i, entry in enumerate(halves[0]):
-        for j, exit_ in enumerate(halves[1]):
-            turn = boxes.turn
-            if i:
-                turn = turn - halves[0][0].turn
-            if j:
-                turn = turn + halves[1][0].turn
-            part = Boxes(boxes.which, boxes.sense, entry, exit_, turn)
-            part = part.taken(np.flatnonzero(_may_turn(part, wanted)))
-            parts.append(part.taken(np.flatnonzero(_corners(part.entry, part.exit).may_vanish())))
-    halved: Boxes = joined(parts, -1)
-    return halved
+    count = len(boxes.which)
+    both: CrankInterval = joined([boxes.entry, boxes.exit], -1)
+    halves = _halves(path, np.tile(boxes.which, 2), both)  # first and last, of entry and exit
+    shape = halves.width, halves.turn, *halves.rates
+    low, high = _span(*shape)
+    against = _against(*shape, np.tile(boxes.sense, 4))
+    box = np.tile(np.arange(count), 4)
+    entry, exit_ = (box + 2 * count * np.repeat(of, count) for of in ((0, 0, 1, 1), (0, 1, 0, 1)))
+    exit_ += count
+    # from the first entry of a quarter to its first exit
+    turned = np.concatenate((0.0 * both.turn, halves.turn[: 2 * count]))
+    turn = boxes.turn[box] + turned[exit_] - turned[entry]
+    target = -boxes.sense[box] * wanted[boxes.which[box]] - turn
+    near = (low[exit_] - high[entry] <= target) & (high[exit_] - low[entry] >= target)
+    may = np.flatnonzero(near & against[entry] & against[exit_])
+    sides = halves.taken(entry[may]), halves.taken(exit_[may])
+    box = box[may]
+    quarters = Boxes(boxes.which[box], boxes.sense[box], *sides, turn[may])
+    return quarters.taken(np.flatnonzero(_corners(*sides).may_vanish()))
 
 
-def _side(first: Array, last: Array) -> CrankInterval:
-    (a, b), (c, d) = first[3:5], last[3:5]
-    turn = np.arctan2(a * d - b * c, a * c + b * d)
-    return CrankInterval(np.stack((first, last), axis=1), turn)
+def _halves(path: RollerPath, which: Whole, whole: CrankInterval) -> CrankInterval:
+    """First halves of intervals, and after them the last halves."""
+    phi = 0.5 * (whole.phi[0] + whole.phi[1])
+    middle = _numbers(points(path.roughly(which), phi[:, None]))
+    first, last = whole.ends.swapaxes(0, 1)
+    ends = np.concatenate(((first, middle), (middle, last)), axis=-1).swapaxes(0, 1)
+    (a, c), (b, d) = ends[3:5]
+    return CrankInterval(ends, np.arctan2(a * d - b * c, a * c + b * d))
