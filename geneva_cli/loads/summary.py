@@ -162,7 +162,8 @@ def missing(cycle: Cycle) -> list[Notice]:
     for name, (_, factor, needs) in multiples(cycle.mechanism).items():
         if factor is None:
             unknown.setdefault(needs, []).append(name)
-    out += [f"{', '.join(names)}: needs {needs}" for needs, names in unknown.items()]
+    for needs, names in unknown.items():
+        out.append(f"{', '.join(names)}: need{'s' * (len(names) == 1)} {needs}")
     return [Notice("not-known", text) for text in out]
 
 
