@@ -228,10 +228,9 @@ def _unknown(key: str, table: str, known: Collection[str]) -> GenevaError:
 
 def _tables_with(key: str) -> str:
     """The tables that have a key, for a message; nothing where none or more than three have it."""
-    from geneva_cli.specfile.keys import all_keys  # only for messages
+    from geneva_cli.specfile.keys import tables_with  # only for messages
 
-    bare = dict.fromkeys(one.table.strip("[]") for one in all_keys() if one.key == key)
-    tables = [f"[[{table}]]" if table in LISTS else f"[{table}]" for table in bare]
+    tables = [f"[[{name}]]" if name in LISTS else f"[{name}]" for name in tables_with(key)]
     return " or ".join(tables) if len(tables) <= 3 else ""
 
 
