@@ -97,6 +97,17 @@ def test_horns_of_machines_that_differ_in_size_alone(tmp_path, text):
     assert rows[1][1] / rows[0][1] == pytest.approx(1.1**-2, rel=1e-9)
 
 
+def test_a_machine_whose_parts_are_not_built_has_no_horns(tmp_path):
+    """The gears between two cranks and a side-crank are not built, nor are the other parts."""
+    text = "[wheel]\nz = 8\n[drive]\nrollers = 2\ncrank_steps = [0, 3]\n"
+    before = '[drive.before]\nkind = "side-crank"\nA = 0.2\n'
+    pick = "life.horn_stress_MPa"
+    [[_, stress], _] = swept(tmp_path, text + HORN, "drive.n_rpm=30,60", pick=pick)
+    assert stress > 0.0
+    rows = swept(tmp_path, text + before + HORN, "drive.n_rpm=30,60", pick=pick)
+    assert [row[1] for row in rows] == [None, None]
+
+
 def test_clearances_alone_reach_the_change_of_sides(tmp_path):
     """Beside where the torque vanishes a wheel's speed is behind by x²/2, and its angle by x³/6."""
     text = "[wheel]\nz = 6\n[load]\ninertia_kgm2 = 0.3\n"
