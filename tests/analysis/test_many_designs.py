@@ -78,7 +78,11 @@ def designs(name):
     )
     if spec.drive.ONE_ARM:
         spec = spec.with_("tolerance.crank_radius_mm", 0.02)
-    varied = drawn([*rules, *CARRIED], 24, 7)
+    carried = CARRIED
+    if spec.drive.cranks[1:]:  # [tolerance] has no key for the places of several
+        spec = spec.replace(tolerance=Tolerance())
+        carried = [rule for rule in CARRIED if not rule[0].startswith("tolerance.")]
+    varied = drawn([*rules, *carried], 24, 7)
     built = many(spec, varied).which[:4]
     varied = {key: values[built] for key, values in varied.items()}
     found = many(spec, varied)

@@ -167,6 +167,27 @@ def test_one_of_a_batch_is_left(tmp_path, text, vary, refused):
     assert refused in other[-1]
 
 
+@pytest.mark.parametrize(
+    ("text", "vary", "refused"),
+    [
+        ("z = 8\n[drive]\nrollers = 2\ncrank_steps = [0, 3]", "tolerance.slot_width_mm", "cranks"),
+        ('z = 4\ngearing = "counter"', "tolerance.slot_width_mm", "rollers in slots"),
+        ('z = 8\ngearing = "linear"', "tolerance.slot_width_mm", "for a wheel"),
+        ('z = 8\ngearing = "linear"', "support.radius_mm", "for a wheel"),
+    ],
+)
+def test_a_table_that_a_machine_refuses(tmp_path, text, vary, refused):
+    """A value of 0 sets nothing; the other is refused in its row."""
+    path = tmp_path / "spec.toml"
+    path.write_text(f"[wheel]\n{text}\n")
+    [[zero, other]] = request(str(path), [f"{vary}=0,0.01"], pick="velocity.max").blocks()
+    [[alone]] = request(str(path), ["drive.n_rpm=60"], pick="velocity.max").blocks()
+    assert zero[-1] is None
+    assert zero[1] == alone[1] > 0.0
+    assert other[1] is None
+    assert refused in other[-1]
+
+
 def test_a_batch_knows_how_many_it_has():
     """Whatever varies in it, in parts of it, and in one of it."""
     spec, _ = MACHINES["side-crank"]
