@@ -310,8 +310,8 @@ def main():
     bad = 0
     for path in given.designs or sorted(repo.DESIGNS.glob("*.toml")):
         try:
-            if load(str(path)).spec.wheel.PARTS == "ball":
-                raise GenevaError("its parts turn on a sphere, not in a plane")
+            if load(str(path)).spec.wheel.PARTS == "ball":  # which no engine of the plane has
+                raise GenevaError("its parts turn on a sphere")
             with tempfile.TemporaryDirectory() as folder:
                 faults, line = turned(path, Path(folder))
         except GenevaError as error:
