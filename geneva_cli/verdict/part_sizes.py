@@ -37,7 +37,7 @@ def design_lock_sizes(mechanism: Mechanism) -> LockSizes | None:
     """The sizes of m designs: numbers if they are equal in all, None if none has a lock."""
     whole = mechanism.spec
     # the parts' sizes depend on these tables; designs that differ in loads only are sized once
-    spec = Spec(whole.wheel, whole.drive, whole.motion, whole.size)
+    spec = Spec(whole.wheel, whole.drive, whole.motion, whole.size, drive_before=whole.drive_before)
     return layouts_lock_sizes([sized(build(alone(spec, i))) for i in range(designs_in(spec))])
 
 

@@ -130,7 +130,7 @@ class Counter(Gearing):
 def _pose(crank_deg: float, l: float) -> PinPose:
     """Pose of a point at a radius l on the driver, at a crank angle from the line of centres."""
     a = radians(crank_deg)
-    m = library(a)
+    m = library(a, l)
     s, c = m.sin(a), m.cos(a)
     x, y = 1.0 - l * c, l * s
     r = m.hypot(x, y)
