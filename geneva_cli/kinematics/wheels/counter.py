@@ -53,6 +53,7 @@ class Counter(Gearing):
     USUAL_LIMITS: ClassVar[dict[str, float]] = {}  # none of what has no bound
     FLAT: ClassVar[bool] = False
     PARTS: ClassVar[str] = "counter"
+    LOCK: ClassVar[str] = "locking rim"
     JUMPS: ClassVar[bool] = True
     # ISO 6336-1 and DIN 3990-1, method C: a pair of steel teeth has c' = 14 N/(mm µm), a mesh 20.
     # Method B gives 10.4 to 15.7 for counters: a force is at most 6 % too low, or 17 % too high.
