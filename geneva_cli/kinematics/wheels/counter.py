@@ -90,7 +90,8 @@ class Counter(Gearing):
         """The pinion's angle; no keys give it loads with a bound."""
         keys = "a gearing whose speed does not jump; here it does, and forces have no bound"
         lacks = "alpha_rad_s2", "sliding_m_s"
-        return super().output(center_distance_mm)._replace(load_keys=keys, lacks=lacks)
+        angle = super().output(center_distance_mm)
+        return angle._replace(noun="pinion", load_keys=keys, lacks=lacks)
 
     @property
     def title(self) -> str:
