@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from geneva_cli.errors import GenevaError
-from geneva_cli.numerics.arrays import parameter
 from geneva_cli.outlines.rack import rack_sizes
+from geneva_cli.verdict.part_sizes import number_columns
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,15 +19,13 @@ def rack_horns(machines: Sequence[Mechanism]) -> tuple[float, float] | None:
 
     They are NaN for a rack without a lock, and for one that cannot be cut.
     """
-    rows = np.full((2, len(machines), 1), np.nan)
-    for i, machine in enumerate(machines):
-        try:
-            sizes = rack_sizes(machine)
-        except GenevaError:  # the check of the parts reports the error
-            continue
-        if sizes.lock:
-            rows[:, i, 0] = sizes.half_width, sizes.recess
-    if np.isnan(rows).all():
+    columns = number_columns([_horn(machine) for machine in machines])
+    return (columns[0], columns[1]) if columns else None
+
+
+def _horn(machine: Mechanism) -> tuple[float, float] | None:
+    try:
+        sizes = rack_sizes(machine)
+    except GenevaError:  # the check of the parts reports the error
         return None
-    half_width, recess = (parameter(row) if len(machines) > 1 else row.item() for row in rows)
-    return half_width, recess
+    return (sizes.half_width, sizes.recess) if sizes.lock else None
