@@ -16,8 +16,8 @@ from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.outlines.counter import counter_sizes
 from geneva_cli.verdict.quantities.designs import Designs
-from geneva_cli.verdict.quantities.motion import counter, peaks, timing
 from geneva_cli.verdict.quantities.loads import sizing
+from geneva_cli.verdict.quantities.motion import counter, peaks, timing
 
 ODOMETER = Design(Counter(4, driver_teeth=20))
 SIZE = Size(face_width_mm=3.0)

@@ -105,9 +105,7 @@ def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
         yield PathSamples(which, at, angle)
 
 
-def _merged(
-    base: PathPoints, extra: tuple[Whole, PathPoints] | None
-) -> tuple[Whole, PathPoints]:
+def _merged(base: PathPoints, extra: tuple[Whole, PathPoints] | None) -> tuple[Whole, PathPoints]:
     """Designs' numbers, and all samples in the order of the designs and of their crank angles."""
     count, steps = base.phi.shape
     whose = np.repeat(np.arange(count), steps)

@@ -145,7 +145,9 @@ def _group(
 
 
 MACHINE = _group(
-    "", "wheel.z wheel.gearing drive.kind drive.rollers motion.law", "quantities.single:machine"
+    "",
+    "wheel.z wheel.gearing drive.kind drive.rollers drive.before.kind motion.law",
+    "quantities.single:machine",
 )
 # Quantities of a report, in the order shown.
 REPORT = (
