@@ -69,13 +69,14 @@ def run(
         return
     name = format or format_of(output)
     by_rows = name == "csv" or (samples is not None and name != "json")
+    # before any output: a cycle whose loads are refused has no rows either
+    warnings = design.loads_table.to_dict()["warnings"] if by_rows or output != "-" else ()
     if by_rows:
         table = design.load_cycle(ROWS if samples is None else samples)
         show(table, output, format, design.spec.files)
     else:
         show_answer(of_loads(design), output, format, design.spec.files)
-    if by_rows or output != "-":
-        _say(design.spec.path, design.loads_table.to_dict()["warnings"])
+    _say(design.spec.path, warnings)
 
 
 def _say(path: str, texts: Sequence[str]) -> None:

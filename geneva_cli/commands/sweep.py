@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Iterator
+from contextlib import closing
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 from geneva_cli.commands import completion
@@ -135,7 +136,8 @@ def _write_rows(plan: "SweepRequest", outcome: "Outcome", output: str, resume: b
 
     sweep = plan.sweep
     first = sweep.shard.number == 1
-    with GrowingTable(sweep.names, plan.key, first, output, resume, plan.inputs) as rows:
+    growing = GrowingTable(sweep.names, plan.key, first, output, resume, plan.inputs)
+    with closing(growing) as rows:
         if rows.message:
             print(rows.message, file=sys.stderr)
         if rows.is_whole:

@@ -138,7 +138,7 @@ def _no_lock(key: str, value: float) -> GenevaError:
 
 def _as_large(key: str, value: float, below: float, what: str) -> GenevaError:
     return GenevaError(
-        f"{key} = +-{value:g} is as large as the dimension itself: it must be below "
+        f"{key} = ±{value:g} is as large as the dimension itself: it must be below "
         f"{below:.6g}, {what}",
         ("tolerance", key),
     )

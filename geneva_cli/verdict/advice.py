@@ -292,6 +292,8 @@ class _Search:
         built = self.parts and machine.spec.is_turned and "parts" not in self.may_fail
         model = PartsModel(machine, advice=False) if built else None
         self._spend(PARTS if model else 0)
+        if model and any(check.name == "parts" for check in self.wanted):
+            _ = model.built  # most trials end here, before the checks of the motion
         if not self._pass(checks_at_rest(machine, model)):
             return False
         if model is None or not turn:

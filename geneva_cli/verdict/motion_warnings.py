@@ -30,7 +30,7 @@ def motion_warnings(mechanism: Mechanism) -> list[Notice]:
                 f"z = {z}: more than {Z_USUAL} slots leave little of the wheel between them",
             )
         )
-    if mechanism.spec.wheel.held_by is None and _no_lock(mechanism):
+    if mechanism.spec.dwell_holder is None:
         out.append(
             Notice(
                 "nothing-holds",
@@ -90,7 +90,7 @@ def _loose_fits(mechanism: Mechanism) -> Iterator[Notice]:
     pairs = [("slot_clearance_mm", "roller", "slot", mechanism.roller_radius_mm)]
     if mechanism.spec.wheel.toothed:
         pairs = []
-    if not _no_lock(mechanism):
+    if mechanism.spec.has_lock:
         radius = mechanism.ratio * mechanism.center_distance_mm if disc is None else disc
         pairs.append(("lock_clearance_mm", "locking disc", "recess", radius))
     for key, part, mate, radius in pairs:
@@ -149,10 +149,6 @@ def _starts_at_speed(mechanism: Mechanism) -> list[Notice]:
             f"input's. Acceleration and forces have no bound there: {hit}",
         )
     ]
-
-
-def _no_lock(mechanism: Mechanism) -> bool:
-    return mechanism.spec.size.lock_radius_mm == 0.0 or not mechanism.spec.drive.LOCKS
 
 
 def _rounded_points(mechanism: Mechanism) -> list[Notice]:

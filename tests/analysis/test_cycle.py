@@ -189,7 +189,7 @@ def test_each_bearing_of_a_shaft():
     # where shafts meet there is no such lever
     ball = Design(Spherical(6), load=Load(0.4, 15.0), shaft=shaft)
     assert ball.loads["wheel_near_bearing_N"].max is None
-    assert "crank_far_bearing_N: needs parallel shafts; on a sphere" in ball.load_warnings[-1]
+    assert "crank_far_bearing_N: need parallel shafts; on a sphere" in ball.load_warnings[-1]
 
 
 # The command

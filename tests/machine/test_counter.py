@@ -16,6 +16,7 @@ from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.outlines.counter import counter_sizes
 from geneva_cli.verdict.quantities.designs import Designs
+from geneva_cli.verdict.quantities.loads import sizing
 from geneva_cli.verdict.quantities.motion import counter, peaks, timing
 
 ODOMETER = Design(Counter(4, driver_teeth=20))
@@ -144,13 +145,16 @@ def test_all_pinions_at_once():
         assert values[name] == pytest.approx(other[name], rel=1e-12)
 
 
-def test_a_batch_is_one_by_one():
-    teeth = np.array([12, 20, 31])
+@pytest.mark.parametrize(
+    ("key", "numbers"), [("wheel.driver_teeth", [12, 20, 31]), ("wheel.z", [4, 5, 7])]
+)
+def test_a_batch_is_one_by_one(key, numbers):
+    """The angle of the driver is one number for all designs where only z varies."""
     spec = Spec(Counter(4), size=SIZE, load=Load(inertia_kgm2=1e-6))
-    batch = many(spec, {"wheel.driver_teeth": teeth})
-    for i, count in enumerate(teeth.tolist()):
-        one = Designs(build(spec.with_("wheel.driver_teeth", count)))
-        for group in (timing, peaks, counter):
+    batch = many(spec, {key: np.array(numbers)})
+    for i, count in enumerate(numbers):
+        one = Designs(build(spec.with_(key, count)))
+        for group in (timing, peaks, sizing, counter):
             own = group(one)
             for name, values in group(Designs(batch.machine)).items():
                 if values is not None:

@@ -154,6 +154,15 @@ def test_no_line_is_wider_than_the_window(name: str, width: int) -> None:
                 }
 
 
+@pytest.mark.parametrize("width", range(20, 44))
+def test_a_value_and_its_unit_stand_on_one_line(width: int) -> None:
+    text = "up to 1.099 N m on the input and 9.4e-07 kg m² of the load at -61.18 deg of 7 mm"
+    lines = shown(Summary("fine", (SummaryLine("pin", text),), PASSES), width).splitlines()[2:]
+    assert " ".join(line.strip() for line in lines) == f"pin  {text}"
+    for value in ("1.099 N m", "9.4e-07 kg m²", "-61.18 deg", "7 mm"):
+        assert any(value in line for line in lines)
+
+
 def test_an_ascii_terminal_gets_ascii() -> None:
     """Powers of ten as a program writes them, and a sign in letters."""
     summary = Summary(

@@ -20,6 +20,8 @@ from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.mechanism import build
+from geneva_cli.output.terminal import chunks
+from geneva_cli.output.window import Window
 from geneva_cli.synthesis.built import Built
 from geneva_cli.synthesis.families import closed
 from geneva_cli.synthesis.families import limit as limits
@@ -714,6 +716,17 @@ def test_where_a_cycle_is_asked_for_rows_are_ranked_by_time():
     assert [row["no"] for row in seen.to_rows()] == [1, 2, 3]
     assert seen.title.endswith(f" The first 3 rows. All {len(rows)} rows: -o FILE.csv")
     assert for_terminal(table, len(rows)).title == table.title
+
+
+def test_machines_of_one_name_show_their_rollers_at_60_columns():
+    """A crank of one roller and one of two: they differ in the column that is hidden before."""
+    table = for_terminal(synthesis_table(read_target(z="6", cycle="1.5"), 0), 20)
+    lines = "".join(chunks(table, Window(60))).split("\n\n")[2].splitlines()
+    assert lines[0].split() == ["no", "gearing", "rollers", "machine"]
+    rows = [line.split(maxsplit=1)[1] for line in lines[1:]]
+    assert len({*rows}) == len(rows) == len(table)
+    one = for_terminal(synthesis_table(read_target(z="6", motion_deg="100..180"), 0), 20)
+    assert "rollers" not in "".join(chunks(one, Window(60))).split("\n\n")[2].splitlines()[0]
 
 
 def test_the_lowest_of_a_range_is_the_lowest_in_time():

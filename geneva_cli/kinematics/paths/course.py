@@ -95,5 +95,5 @@ def _least(width: Array, value: Array, slope: Array, sign: Number) -> Array:
     third = 1.0 / 3.0
     a, c = value[:, :-1], value[:, 1:]
     b, d = a + third * width * slope[:, :-1], c - third * width * slope[:, 1:]
-    least: Array = np.minimum.reduce([sign * x for x in (a, b, c, d)])
+    least: Array = np.minimum(np.minimum(sign * a, sign * b), np.minimum(sign * c, sign * d))
     return least

@@ -124,8 +124,7 @@ def newton(ends: EndPairs, rest: Residual) -> Array:
 
 def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[EndPairs, Mask]:
     """Newton's method from places in boxes: its end points, and a mask of those in their box."""
-    low = np.stack((boxes.entry.first[0], boxes.exit.first[0]), axis=1)
-    high = np.stack((boxes.entry.last[0], boxes.exit.last[0]), axis=1)
+    low, high = np.stack((boxes.entry.phi, boxes.exit.phi), axis=2)
     width = high - low
     phi = np.clip(phi, low - OVERLAP * width, high + OVERLAP * width)
     close = np.zeros(len(phi), dtype=bool)

@@ -106,6 +106,8 @@ class Gearing(SpecTable):
     PARTS: ClassVar[str] = "flat"
     # meaning of center_distance_mm
     DISTANCE: ClassVar[str] = "centre distance"
+    # what locks it in the dwell, on a crank
+    LOCK: ClassVar[str] = "locking disc"
     # True if its speed jumps at entry and exit, so that forces have no bound
     JUMPS: ClassVar[bool] = False
     # stiffness of a pair of steel teeth that drive it, over their width; 0 for a roller

@@ -45,6 +45,7 @@ class Linear(Gearing):
     FLAT: ClassVar[bool] = False
     PARTS: ClassVar[str] = "rack"
     DISTANCE: ClassVar[str] = "crank radius"
+    LOCK: ClassVar[str] = "locking ring"
 
     def output(self, center_distance_mm: float) -> Output:
         """The travel, in millimetres."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from geneva_cli.kinematics.layout import AxisPlace
 from geneva_cli.loads.cycle import Cycle
-from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.scene import Push
 from geneva_cli.study.animation.turn import MachineTurn, RollerPassage
 
@@ -63,10 +63,7 @@ def _normals(one: RollerPassage, local: Array, turn: MachineTurn) -> Array:
         )
     else:
         direction = turn.pin(one, one.mid + local)
-    out: Array = (
-        np.column_stack((-direction[:, 1], direction[:, 0])) / np.hypot(*direction.T)[:, None]
-    )
-    return out
+    return np.column_stack((-direction[:, 1], direction[:, 0])) / np.hypot(*direction.T)[:, None]
 
 
 def moved_push(push: Push, place: AxisPlace, axis: float) -> Push:

@@ -17,7 +17,7 @@ from geneva_cli.kinematics.plane_motion import turned_points
 from geneva_cli.layout.groove import roller_in_groove
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.scene import Bar, CarriedShapes, Place, Track
@@ -109,8 +109,7 @@ class MachineTurn:
         def angle(x: Array) -> Array:
             at = (x - one.mid + 180.0) % 360.0 - 180.0
             ahead = (one.engagement.own_deg(at) - at + 180.0) % 360.0 - 180.0
-            out: Array = sense * np.radians(x - one.mid + ahead)
-            return out
+            return sense * np.radians(x - one.mid + ahead)
 
         return self._sampled(angle, ANGLE_ERROR, sense * math.tau * turns)
 

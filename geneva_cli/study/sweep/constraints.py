@@ -69,7 +69,7 @@ def constraint(text: str) -> Constraint:
     try:
         bound = float(match[3])
     except ValueError:
-        raise GenevaError(f"{option}: {cut(match[3])!r} is no number") from None
+        raise GenevaError(f'{option}: "{cut(match[3])}" is no number') from None
     if not math.isfinite(bound):
         raise GenevaError(f"{option}: the bound must be a finite number")
     return Constraint(match[1], match[2], bound)

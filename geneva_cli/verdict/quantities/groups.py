@@ -145,7 +145,9 @@ def _group(
 
 
 MACHINE = _group(
-    "", "wheel.z wheel.gearing drive.kind drive.rollers motion.law", "quantities.single:machine"
+    "",
+    "wheel.z wheel.gearing drive.kind drive.rollers drive.before.kind motion.law",
+    "quantities.single:machine",
 )
 # Quantities of a report, in the order shown.
 REPORT = (
@@ -332,9 +334,9 @@ STUDY = (
     QuantityGroup(
         "loads",
         _product(
-            "omega_rad_s alpha_rad_s2 wheel_torque_Nm rack_speed_m_s rack_acceleration_m_s2 "
-            "rack_force_N pin_force_N contact_stress_MPa sliding_m_s "
-            "input_torque_Nm power_W wheel_bearing_N crank_bearing_N pv_W_m2 guide_force_N "
+            "omega_rad_s alpha_rad_s2 wheel_torque_Nm pin_force_N contact_stress_MPa sliding_m_s "
+            "input_torque_Nm power_W wheel_bearing_N crank_bearing_N pv_W_m2 "
+            "rack_speed_m_s rack_acceleration_m_s2 rack_force_N guide_force_N "
             "wheel_near_bearing_N wheel_far_bearing_N crank_near_bearing_N crank_far_bearing_N",
             "min min_at_deg mean rms",
         ),

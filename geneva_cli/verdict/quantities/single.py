@@ -24,6 +24,7 @@ def machine(model: PartsModel) -> Values:
         "wheel.gearing": spec.wheel.NAME,
         "drive.kind": spec.drive.NAME,
         "drive.rollers": spec.drive.rollers,
+        "drive.before.kind": spec.drive_before.NAME if spec.drive_before else None,
         "motion.law": spec.motion.law.NAME if spec.motion else None,
     }
 
