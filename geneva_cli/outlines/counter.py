@@ -19,20 +19,17 @@ number wheels are in a plane without a rim, and have the whole teeth.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.curves.gear_teeth import Rack, RoundTeeth, circle, fillet, involute
+from geneva_cli.curves.gear_teeth import Rack, RoundTeeth, Writer, circle, fillet, involute
 from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import ORIGIN, Arc, Contour, Segment, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.roots import boundary
-
-if TYPE_CHECKING:
-    from geneva_cli.curves.gear_teeth import Writer
 
 WHEEL, CRANK = "WHEEL", "CRANK"
 

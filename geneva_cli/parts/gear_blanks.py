@@ -8,8 +8,9 @@ percent. A gear that stands still is screwed to the frame.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+from geneva_cli.curves.gear_teeth import Writer
 from geneva_cli.curves.hole_walls import least_wall
 from geneva_cli.curves.measure import turned
 from geneva_cli.curves.plates import Member, Plate
@@ -29,9 +30,6 @@ from geneva_cli.layout.bolt_holes import bolt_circle
 from geneva_cli.layout.gear_mesh import ToothedGear
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.link_sizes import LinkSizes
-
-if TYPE_CHECKING:
-    from geneva_cli.curves.gear_teeth import Writer
 
 PITCH, HOLES, RIM = "PITCH", "BORE", "LINK"
 

@@ -26,11 +26,11 @@ from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.link_axes import LinkAxis
+from geneva_cli.parts.link_sizes import SLOT_MARGIN, LinkSizes, link_sizes, places, refuse_hexagon
 
 if TYPE_CHECKING:
     from geneva_cli.layout.gear_mesh import GearMesh
     from geneva_cli.parts.gear_blanks import Gear
-    from geneva_cli.parts.link_sizes import LinkSizes
 
 LAYER, HOLES, SHAFT = "LINK", "BORE", Joint.SHAFT
 
@@ -98,7 +98,6 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
         return Links()
     from geneva_cli.parts.link_axes import axes as axes_of
     from geneva_cli.parts.link_pins import pins, rollers
-    from geneva_cli.parts.link_sizes import link_sizes
 
     sizes = link_sizes(mechanism, links, parts)
     L = mechanism.center_distance_mm
@@ -140,7 +139,6 @@ def _known(axis: LinkAxis, sizes: LinkSizes, parts: Outlines | None, L: float) -
 
     Raises GenevaError for a hexagonal one.
     """
-    from geneva_cli.parts.link_sizes import refuse_hexagon
 
     if same(axis.at, (L, 0.0), L):
         return sizes.crank_shaft or 0.0
@@ -225,7 +223,6 @@ def _gears(
 
 def _axis(link: Link) -> Point:
     """Return the axis of a gear at input angle 0."""
-    from geneva_cli.parts.link_sizes import places
 
     (path,) = places(link)
     z = complex(path[len(path) // 2])
@@ -234,7 +231,6 @@ def _axis(link: Link) -> Point:
 
 def _bar(link: Link, sizes: LinkSizes, L: float) -> _UnboredLink:
     """Return a link without bores for shafts, and the blocks that slide along it."""
-    from geneva_cli.parts.link_sizes import SLOT_MARGIN, places
 
     middle = len(link.joints[0][0]) // 2  # input angle 0
     joints = places(link)

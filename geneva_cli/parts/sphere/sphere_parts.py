@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from geneva_cli.curves.plates import Group, Member, Plate, Shell, inwards
 from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.curves.shapes import ORIGIN, Circle, Shape
-from geneva_cli.curves.sphere import axis_frame, place
+from geneva_cli.curves.sphere import Rotation, axis_frame, place
 from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.axles import crank_hub, refuse_wide
@@ -34,7 +34,6 @@ from geneva_cli.parts.turned_shafts import turned_shaft
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
-    from geneva_cli.curves.sphere import Rotation
     from geneva_cli.parts.sphere.shells import Shells
 
 ARM, CRANK, ROLLER = "ARM", "CRANK", "ROLLER"

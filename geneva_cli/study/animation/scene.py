@@ -15,6 +15,7 @@ from geneva_cli.curves.shapes import Circle, Shape
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.link_positions import links_at
+from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.rack import rack_sizes
 from geneva_cli.outlines.stop import wheel_stop
 from geneva_cli.scene import Bar, Body, Box, CarriedShapes, Phase, Place, Rotation, Scene, pose
@@ -30,7 +31,6 @@ from geneva_cli.verdict.report.words import words
 
 if TYPE_CHECKING:
     from geneva_cli.figure import Figure
-    from geneva_cli.outlines.outlines import Outlines
 
 
 def scene(design: Design) -> Scene:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,12 +18,10 @@ from geneva_cli.layout.groove import roller_in_groove
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
+from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.scene import Bar, CarriedShapes, Place, Track
 from geneva_cli.study.animation.tracks import Moving, cut, resting, sampled, track
-
-if TYPE_CHECKING:
-    from geneva_cli.outlines.outlines import Outlines
 
 ANGLE_ERROR = 1e-7  # rad, of wheel and crank: a tenth of the page's own error
 
