@@ -19,13 +19,13 @@ from geneva_cli.layout.gear_mesh import GearMesh
 from geneva_cli.layout.missing import NamedParts
 from geneva_cli.outlines.counter import (
     CounterSizes,
+    counter_mesh,
     counter_sizes,
     driver_rim,
     driver_teeth,
     number_teeth,
     pinion_teeth,
 )
-from geneva_cli.outlines.counter_mesh import counter_mesh
 from geneva_cli.parts.counter_frame import Heights, bore, heights, shafts_and_frame
 from geneva_cli.parts.edged_parts import EdgedParts, FrameAndShafts
 
