@@ -17,7 +17,7 @@ import numpy as np
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.numerics.known import Known
+from geneva_cli.numerics.latest import Known
 from geneva_cli.outlines.counter import CounterSizes, counter_sizes, half_angles
 
 # radii and directions about the driver's axis, for inputs, of points at fractions of a line

@@ -49,18 +49,20 @@ def opacity(layer: str) -> float:
 
 
 def rings(solid: Part, unit: float = 1.0) -> list[tuple[str, list[Contour]]]:
-    """The outline and holes of each plate, with its layer; the lowest plate first."""
+    """The outline and holes of each plate, with its layer; the lowest plate first.
+
+    Of plates with one outline above each other, such as a counter's wheels, only the highest is
+    there: their tints would add up.
+    """
     every = sorted(_placed(solid, lambda shape: shape), key=lambda p: (p[0].high, p[0].low))
-    return [
-        (
-            plate.layer,
-            [
-                as_contour(mapped(move(s), _divided(unit), lambda radius: radius / unit))
-                for s in (plate.outline, *plate.holes)
-            ],
-        )
-        for plate, move in every
-    ]
+    highest: dict[tuple[str, Contour], list[Contour]] = {}
+    for plate, move in every:
+        contours = [
+            as_contour(mapped(move(s), _divided(unit), lambda radius: radius / unit))
+            for s in (plate.outline, *plate.holes)
+        ]
+        highest[plate.layer, contours[0]] = contours
+    return [(layer, contours) for (layer, _), contours in highest.items()]
 
 
 def _placed(part: Part, move: Move) -> Iterator[tuple[Plate, Move]]:
