@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.curves.hole_walls import apart, least_wall
+from geneva_cli.curves.hole_walls import apart, plate_wall
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour, Point, Shape
@@ -316,15 +316,10 @@ def _slot(along: complex, ends: tuple[float, float], half: float) -> Contour:
 
 def _refuse(plate: Plate) -> None:
     """Raise GenevaError where holes leave no plate between or around them."""
-    wall = link_wall(plate)
+    wall = plate_wall(plate)
     if wall <= 0.0:
         raise GenevaError(
             f"--part links: no plate is left around the holes of the {plate.name}: it lacks "
             f"{-wall:.4g} mm; reduce link_pin_mm, link_bore_mm or pin_mm, or move joints apart",
             ("size", "link_pin_mm"),
         )
-
-
-def link_wall(plate: Plate) -> float:
-    """Return the least wall between the holes of a link, and around them."""
-    return least_wall(plate.holes, [plate.outline])

@@ -139,7 +139,7 @@ def _rows(members: Sequence[Member], mechanism: Mechanism) -> Iterator[tuple[str
         rolls = plate.layer == "ROLLER"
         outside = sized.plain(2.0 * outer, "Ø ")
         if not bores:
-            outside = sized.pin(fits, outer)
+            outside = sized.shaft(fits, outer)
         elif rolls:
             outside = sized.roller(fits, mechanism, outer)
         inside = "".join(sized.roller_bore(fits, bore.radius) for bore in bores)
