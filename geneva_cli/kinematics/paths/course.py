@@ -97,7 +97,5 @@ def _least(width: Array, value: Array, slope: Array, sign: Number) -> Array:
     third = 1.0 / 3.0
     a, c = value[:, :-1], value[:, 1:]
     b, d = a + third * width * slope[:, :-1], c - third * width * slope[:, 1:]
-    least: Array = np.minimum(
-        np.minimum(sign * a, sign * b), np.minimum(sign * c, sign * d)
-    )
+    least: Array = np.minimum(np.minimum(sign * a, sign * b), np.minimum(sign * c, sign * d))
     return least

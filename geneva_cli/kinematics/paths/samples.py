@@ -93,7 +93,7 @@ def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
     left, right = _neighbours(base)
     row, column = np.nonzero(_missed(left, right, _turned(left, right)))
     extra = _between(path, row, left.at_samples(row, column), right.at_samples(row, column))
-    whose, flat = np.repeat(every, steps + 1), base._make(part.ravel() for part in base)
+    whose, flat = np.repeat(every, steps + 1), PathPoints._make(x.ravel() for x in base)
     if extra:
         whose, flat = joined([(whose, flat), extra])
     # by designs and crank angles: a turn and the first step are less than 8 radians
