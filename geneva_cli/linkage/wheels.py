@@ -7,7 +7,7 @@ point, leaves at the other and stays outside the slot otherwise.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,9 +15,7 @@ from geneva_cli.kinematics.paths.course import PinCourse, PlacedWheel, leaves_sl
 from geneva_cli.kinematics.paths.pairs import DOUBLE_ROOT_SLOPE, EndPairs, newton, pairs, residual
 from geneva_cli.kinematics.paths.samples import PathSamples, blocks, joined, points, sampled
 from geneva_cli.kinematics.roller_path import RollerPath
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
 
 SAME_ENTRY = 1e-6  # radians: entries nearer to each other are one
 
@@ -128,7 +126,7 @@ def _apart(phi: Array, others: Array) -> Array:
 
 def _followed(path: RollerPath, samples: PathSamples, ends: EndPairs, sense: Array) -> PathWheels:
     """Wheels of the pairs between which the roller stays in its slot."""
-    parts = blocks(len(sense), 256)  # the samples of 256 wheels stay in the processor's cache
+    parts = blocks(len(sense), 512)  # the samples of 512 wheels stay in the processor's cache
     return joined([_block_followed(path, samples, ends.taken(i), sense[i]) for i in parts])
 
 

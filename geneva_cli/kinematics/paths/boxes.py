@@ -7,15 +7,13 @@ Cubics through values and slopes at the corners of a box show if it can contain 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, joined, points
 from geneva_cli.kinematics.roller_path import RollerPath
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Mask, Number, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Number, Whole
 
 THIRD = 1.0 / 3.0
 CUBIC_ERROR = 0.1  # possible error of a quantity's cubics, as a fraction of their range in a box

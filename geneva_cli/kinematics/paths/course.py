@@ -8,17 +8,15 @@ wrong sign. Otherwise the interval is sampled more closely.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.kinematics.paths.pairs import EndPairs
 from geneva_cli.kinematics.paths.samples import PathPoints, points
 from geneva_cli.kinematics.roller_path import RollerPath
+from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Which
 from geneva_cli.numerics.tolerances import ROUNDED
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Which
 
 
 class PinCourse(NamedTuple):

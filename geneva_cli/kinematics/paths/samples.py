@@ -9,15 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
+from typing import NamedTuple, TypeAlias, cast
 
 import numpy as np
 
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.numerics.arrays import Record
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Complex, Mask, Which, Whole
+from geneva_cli.numerics.arrays import Array, Complex, Mask, Record, Which, Whole
 
 Where: TypeAlias = "Which | tuple[slice | int | Whole, slice | int | Whole]"
 
@@ -101,7 +98,7 @@ def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
     counts = np.bincount(whose, minlength=count)
     starts = np.cumsum(counts) - counts
     order = np.argsort(counts, kind="stable")
-    for part in blocks(count, 96):  # their samples and boxes stay in the processor's cache
+    for part in blocks(count, 128):  # their samples and boxes stay in the processor's cache
         which = order[part]
         width = np.arange(counts[which].max(initial=1))
         # After its own last sample a row repeats it.
