@@ -100,11 +100,11 @@ def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: in
 
 def require_drawn(mechanism: Mechanism, part: str) -> None:
     """Raise GenevaError for a part that no machine with such a wheel has."""
-    noun, kind = mechanism.spec.output.noun, kind_of(mechanism)
+    kind = kind_of(mechanism)
     known = [name for name in PARTS if _is_of(kind, name)]
     if part not in known:
         raise GenevaError(
-            f"--part {part} is not available for a {noun}, which has {', '.join(known)}",
+            f"--part {part}: this machine has no such part; it has {', '.join(known)}",
             ("wheel", "gearing"),
         )
 

@@ -169,7 +169,7 @@ def test_parts_are_written(name, tmp_path):
 def test_other_parts_are_refused_with_those_that_there_are():
     with pytest.raises(GenevaError, match="has slot, wheel, crank, arm, frame, guide, parts"):
         design().drawing("links")
-    with pytest.raises(GenevaError, match="guide is not available for a wheel"):
+    with pytest.raises(GenevaError, match="guide: this machine has no such part; it has slot"):
         Design(External(6)).drawing("guide")
 
 
