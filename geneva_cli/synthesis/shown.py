@@ -9,14 +9,15 @@ from typing import Any, NamedTuple
 from geneva_cli.output.text import cell
 from geneva_cli.table import Reading, Table
 
-# Columns and their short names, the least important last; empty ones are left out.
+# Columns and their short names, the least important last; empty ones are left out. Rows are sorted
+# by the peak acceleration, and --write takes their number: a narrow window keeps both.
 HEADS = {
     "no": "no",
+    "machine": "machine",
+    "acceleration_max": "accel_max",
     "z": "z",
     "gearing": "wheel",
-    "machine": "machine",
     "parts": "parts",
-    "acceleration_max": "accel_max",
     "n_rpm": "rpm",
     "extra": "",
     "rollers": "rollers",
