@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -22,11 +22,9 @@ from geneva_cli.analysis.quantities import (
 from geneva_cli.errors import Notice
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.summaries import LoadSummary
+from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.jet import Array
 from geneva_cli.table import Reading, Table, computed_table, record_table, rows_table
-
-if TYPE_CHECKING:
-    from geneva_cli.machine.spec import Spec
-    from geneva_cli.numerics.jet import Array
 
 SHOWN_QUANTITIES = (
     "omega_rad_s",

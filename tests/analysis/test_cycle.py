@@ -17,8 +17,8 @@ from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.summary import reversals_deg, summaries
 from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.angles import omega
+from geneva_cli.verdict.carried_warnings import unlikely_warnings
 from geneva_cli.verdict.cycle_warnings import back_driven_deg
-from geneva_cli.verdict.unlikely_warnings import unlikely_warnings
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 TURRET = Spec(

@@ -166,7 +166,7 @@ def test_standard_input_is_read_once() -> None:
         (["check", PLAIN, "-v"], ["check", "value", "must be", "limit"]),
         (
             ["synth", "--motion-deg", "120", "--z", "6"],
-            ["no", "gearing", "machine", "acceleration"],
+            ["no", "rollers", "machine", "acceleration"],
         ),
     ],
 )

@@ -12,12 +12,12 @@ from typer.testing import CliRunner
 from geneva_cli.app import app
 from geneva_cli.design import Design, load
 from geneva_cli.document import FAILS, PASSES, WARNS, Summary, SummaryLine
+from geneva_cli.loads.makers_form import RATED_kW, RecommendedMotor
 from geneva_cli.output.summary import TextStyle, chunks
 from geneva_cli.study.summary.loads import of_loads
 from geneva_cli.study.summary.report import of_report
 from geneva_cli.study.summary.tolerance import of_tolerance
 from geneva_cli.study.summary.vibration import of_vibration
-from geneva_cli.verdict.motor import RATED_kW, RecommendedMotor
 
 pytestmark = pytest.mark.usefixtures("made_once")
 TURRET = str(repo.DESIGNS / "turret.toml")

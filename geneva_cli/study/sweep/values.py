@@ -9,7 +9,7 @@ from decimal import Decimal, InvalidOperation
 from typing import NamedTuple, TypeAlias, overload
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.spec.ranges import RangeText, range_text
+from geneva_cli.spec.rules import RangeText, range_text
 from geneva_cli.spec.units import in_unit_of, unit_key
 from geneva_cli.specfile.keys import is_whole
 from geneva_cli.specfile.settings import Setting, read_value
