@@ -4,9 +4,16 @@ import sys
 from collections.abc import Sequence
 from typing import Annotated
 
-import typer
-
-from geneva_cli.commands.options import Format, Output, Reverse, Settings, SpecPath, say
+from geneva_cli.commands.options import (
+    Format,
+    Output,
+    Reverse,
+    Settings,
+    SpecPath,
+    flag,
+    option,
+    say,
+)
 from geneva_cli.errors import clean, is_warning
 
 ROWS = 361
@@ -22,12 +29,9 @@ EXAMPLES = (
 def run(
     spec: SpecPath,
     samples: Annotated[
-        int | None,
-        typer.Option(metavar="N", help=f"The cycle in N rows instead (csv: {ROWS})."),
+        int | None, option("N", f"The cycle in N rows instead (csv: {ROWS}).")
     ] = None,
-    certify: Annotated[
-        bool, typer.Option("--certify", help="Prove the greatest loads instead.")
-    ] = False,
+    certify: Annotated[bool, flag("--certify", "Prove the greatest loads instead.")] = False,
     reverse: Reverse = False,
     settings: Settings = None,
     output: Output = "-",

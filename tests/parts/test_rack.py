@@ -20,7 +20,7 @@ from geneva_cli.outlines.rack import locking_sector, rack_contour, rack_sizes
 from geneva_cli.outlines.rack_outlines import turned_rack
 from geneva_cli.parts.rack_stressed import rack_stressed
 from geneva_cli.verdict.quantities.designs import Designs
-from geneva_cli.verdict.quantities.guide import guide
+from geneva_cli.verdict.quantities.strength import guide
 
 R, r = 50.0, 6.0
 

@@ -27,12 +27,12 @@ from geneva_cli.synthesis.families import closed
 from geneva_cli.synthesis.parts_data import parts_data
 from geneva_cli.synthesis.reading import read_target
 from geneva_cli.synthesis.rows import NEAR_DEG, _groove_failure
-from geneva_cli.synthesis.search import search, synthesis
+from geneva_cli.synthesis.search import search
 from geneva_cli.synthesis.shown import for_people, for_terminal
 from geneva_cli.synthesis.table import NAMES, synthesis_table, turned
 from geneva_cli.synthesis.written import chosen, commented
 from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.checks.groove import GROOVE_MAX_DEG, groove_pressure
+from geneva_cli.verdict.checks.motion import GROOVE_MAX_DEG, groove_pressure
 
 pytestmark = pytest.mark.usefixtures("few_four_bars")
 GEARINGS = ("external", "internal")
@@ -49,6 +49,10 @@ def searched(**options):
     """A target and what there is for it, searched for once."""
     said = {k: tuple(v) if isinstance(v, list) else v for k, v in options.items()}
     return _searched(tuple(sorted(said.items())))
+
+
+def listed(target):
+    return [(row.spec, row.candidate) for row in search(target).rows]
 
 
 def candidates(**options):
@@ -524,7 +528,7 @@ def test_what_cannot_be_written(words, wants):
 
 def test_a_limit_comes_along():
     target = read_target(subject_to=["acceleration.max <= 0.5"], z="6")
-    text = written(target, synthesis(target), 1)
+    text = written(target, listed(target), 1)
     assert "[limits]\nacceleration_max = 0.5" in text
 
 
@@ -586,7 +590,7 @@ def test_the_angle_of_the_shafts_in_50_digits():
 def test_the_shortest_extra_dwell(tmp_path):
     """-33, not -32.99999999999997; and it still makes the motion."""
     target = read_target(z="8", cycle="1.5", motion_s="0.7")
-    found = synthesis(target)
+    found = listed(target)
     number = next(i for i, (_, w) in enumerate(found, 1) if w.law and w.gearing == "external")
     text = written(target, found, number)
     assert "alpha0_deg = -33.0 " in text
@@ -613,7 +617,7 @@ def test_the_roller_that_fills_the_way_in_and_out():
     """z = 6, two rollers in 54 degrees each: the two ways are 10.97 mm apart, the slot as wide."""
     (spec, candidate) = next(
         (s, w)
-        for s, w in synthesis(read_target(tau="0.3", z="6"))
+        for s, w in listed(read_target(tau="0.3", z="6"))
         if w.law and w.rollers == 2 and w.drive == "crank"
     )
     assert spec.size.roller_radius_mm == 5.5

@@ -17,21 +17,25 @@ line of centres at mid-motion, l = N/(N + 2 z) from the driver's axis.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.kinematics.engagement import Peak, Slot, SlotAxis, WheelMotion, in_wheel
+from geneva_cli.kinematics.engagement import (
+    Displacement,
+    Peak,
+    Slot,
+    SlotAxis,
+    WheelMotion,
+    in_wheel,
+)
 from geneva_cli.kinematics.path_and_slot import AnchoredPath
 from geneva_cli.kinematics.wheels.gearing import Gearing, Output, RollerPlace
 from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose, middle
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number
-from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import Z_MAX, Range
-
-if TYPE_CHECKING:
-    from geneva_cli.kinematics.engagement import Displacement
+from geneva_cli.spec.schema import Example
 
 
 class Counter(Gearing):
@@ -128,7 +132,7 @@ class Counter(Gearing):
 def _pose(crank_deg: float, l: float) -> PinPose:
     """Pose of a point at a radius l on the driver, at a crank angle from the line of centres."""
     a = radians(crank_deg)
-    m = library(a)
+    m = library(a, l)
     s, c = m.sin(a), m.cos(a)
     x, y = 1.0 - l * c, l * s
     r = m.hypot(x, y)

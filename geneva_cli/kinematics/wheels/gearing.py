@@ -13,9 +13,8 @@ from geneva_cli.kinematics.path_and_slot import AnchoredPath, RadialSlot, Straig
 from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose
 from geneva_cli.numerics.arrays import larger
 from geneva_cli.numerics.jet import Jet, turning
-from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
-from geneva_cli.spec.schema import SpecTable
+from geneva_cli.spec.schema import Example, SpecTable
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.engagement import (

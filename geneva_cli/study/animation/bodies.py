@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from contextlib import suppress
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,15 +12,13 @@ from geneva_cli.curves.shapes import Circle, Contour, Line, Shape, polygon
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.gear_curves import gears_table
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.scene import Body
 from geneva_cli.study.animation.counter import stations
 from geneva_cli.study.animation.rack import rack
 from geneva_cli.study.animation.teeth import DrawnTeeth, round_gears
 from geneva_cli.study.animation.tracks import still
 from geneva_cli.study.animation.turn import MachineTurn
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 WHEEL = "WHEEL"  # layer
 

@@ -13,7 +13,7 @@ from geneva_cli.verdict.checks.registry import PROOFS, checks_before_turn, check
 
 if TYPE_CHECKING:
     from geneva_cli.drawings.model import PartsModel
-    from geneva_cli.verdict.report.values import Values
+    from geneva_cli.verdict.quantities.designs import Values
 
 
 def machine(model: PartsModel) -> Values:
