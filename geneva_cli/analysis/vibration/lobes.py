@@ -50,7 +50,7 @@ def lobes(share_at: Callable[[Whole, Array], Array], low: Array, high: Array) ->
     places = middle[:, None] + reach[:, None] * nodes
     square = share_at(np.repeat(which, len(nodes)), places.ravel()).reshape(places.shape) ** 2
     # at Chebyshev's nodes his coefficients are sums over them
-    vander = _chebyshev.chebvander(nodes, degree)
+    vander: Array = _chebyshev.chebvander(nodes, degree).astype(float)
     series = (matrix_product(square, vander) * (2.0 / (degree + 1))).T
     series[0] *= 0.5
     slope = _chebyshev.chebder(series)
