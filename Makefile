@@ -146,11 +146,10 @@ dist: .venv/dev
 	$(PIP) --editable .
 	@touch $@
 
-# With geneva in one run: pip resolves what both need once.
-.venv/dev: .venv/python pyproject.toml
-	@echo "--- installing geneva and what the tests need in .venv: a minute, the first time alone"
-	$(PIP) --editable . $$($(BIN)/python -c "import tomllib; print(*(r.replace(' ', '') for r in tomllib.load(open('pyproject.toml', 'rb'))['dependency-groups']['dev']))")
-	@touch .venv/demo $@
+.venv/dev: .venv/demo
+	@echo "--- installing what the tests need in .venv: some minutes, the first time alone"
+	$(PIP) $$($(BIN)/python -c "import tomli; print(*(r.replace(' ', '') for r in tomli.load(open('pyproject.toml', 'rb'))['dependency-groups']['dev']))")
+	@touch $@
 
 clean:
 	rm -rf .venv build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
