@@ -862,10 +862,10 @@ class Design:
         from geneva_cli.verdict.advice import judged
         from geneva_cli.verdict.checks import proofs
 
-        # a machine whose parts are not turned is judged without NumPy
-        if not self.spec.is_turned:
-            return judged(self.mechanism)
-        return [*judged(self.mechanism, self.parts_model), *proofs(self.parts_model, proof_mm)]
+        if self.spec.is_turned:
+            return [*judged(self.mechanism, self.parts_model), *proofs(self.parts_model, proof_mm)]
+        # a machine without parts is judged without NumPy
+        return judged(self.mechanism, self.parts_model if self.spec.has_parts else None)
 
     @property
     def passes(self) -> bool:

@@ -11,6 +11,7 @@ import pkgutil
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
+from _pytest.runner import runtestprotocol
 from hypothesis import settings
 from sampling import left_out, some
 from words import Drive, Keys, Motion, Spec, Wheel
@@ -37,14 +38,43 @@ def pytest_configure(config):
         "same", deadline=None, derandomize=True, database=None, max_examples=some(100, 25)
     )
     settings.load_profile("same")
+    if hasattr(config, "workerinput"):
+        config.pluginmanager.register(Worker(config.workerinput["workerid"]))
+
+
+class Worker:
+    """One process of several: shares the compiling of tests, and sends short reports."""
+
+    def __init__(self, name):
+        self.backwards = int(name.removeprefix("gw")) % 2
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_make_collect_report(self, collector):
+        """Every second worker begins at the last file: each compiles half of a new checkout."""
+        report = yield
+        if self.backwards and isinstance(collector, pytest.Directory):
+            report.result.reverse()
+        return report
+
+    @pytest.hookimpl(tryfirst=True)
+    def pytest_runtest_protocol(self, item, nextitem):
+        """Send the report of the call alone, where set-up and end pass: a third of the messages."""
+        for report in runtestprotocol(item, nextitem=nextitem, log=False):
+            if report.when == "call" or not report.passed:
+                item.ihook.pytest_runtest_logreport(report=report)
+        item.ihook.pytest_runtest_logfinish(nodeid=item.nodeid, location=item.location)
+        return True
 
 
 def pytest_collection_modifyitems(config, items):
-    """Leave out what is not sampled; tests that share designs come first, to the same worker."""
+    """Leave out what is not sampled; tests that share designs come first, to the same worker.
+
+    The order is the same in all workers, whichever file each of them collects first.
+    """
     if out := left_out(items):
         config.hook.pytest_deselected(items=list(out))
         items[:] = [item for item in items if item not in out]
-    items.sort(key=lambda item: not SHARING.intersection(item.fixturenames))
+    items.sort(key=lambda item: (not SHARING.intersection(item.fixturenames), str(item.path)))
 
 
 def pytest_collection_finish():

@@ -98,6 +98,7 @@ def test_a_rack_without_a_lock_has_no_horns():
     assert strength(plain.mechanism).reason("horn_stress_MPa") is None
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_a_weak_horn_fails():
     weak = RACK.with_("material.wheel.stress_max_MPa", 1.0)
     assert not {one.name: one for one in weak.checks}["horn_stress_MPa"].passes

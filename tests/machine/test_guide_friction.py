@@ -90,6 +90,7 @@ def test_loads_are_those_of_bodies_cut_free(case, at_deg):
     assert here.input_torque_Nm[0] == pytest.approx(float(torque), rel=2e-14, abs=1e-15)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("case", CASES)
 def test_greatest_force_on_the_guide_and_work(case):
     """The scan has steps of 0.018 degrees: within 1e-7 of a smooth peak, and both ends."""
@@ -116,6 +117,7 @@ def test_the_guide_is_as_rough_as_the_slot_by_default():
     assert one.loads_table.to_dict() == other.loads_table.to_dict()
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_a_guide_that_locks_leaves_no_bound():
     """At entry it takes all of the push from nu = h/(R - x0) on."""
     locks = HALF / (R - MIDDLE)

@@ -170,6 +170,7 @@ def test_chamfers_that_do_not_fit():
         "".join(chunks(drawing(thin), "mm"))
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_a_chamfer_wider_than_half_a_wall_fails():
     """Of a washer with a wall of 4 mm, and of an arm that is half an eye narrower than it."""
     washer = Plate(

@@ -1,5 +1,6 @@
 """Teeth of gears in the picture that moves: they mesh at every angle of the turn."""
 
+import functools
 import math
 
 import numpy as np
@@ -13,10 +14,11 @@ from geneva_cli.scene import body_pose, pose
 from geneva_cli.study.animation.scene import scene
 
 
-def points(outline, x, y, angle):
-    """Points of an outline at a position, 8 on each of its pieces."""
-    own = [complex(*at(piece, t)) for piece in outline.segments for t in np.linspace(0, 1, 9)[:-1]]
-    return np.array(own) * complex(math.cos(angle), math.sin(angle)) + complex(x, y)
+@functools.cache
+def points(outline):
+    """Points of an outline, 8 on each of its pieces."""
+    parts = np.linspace(0, 1, 9)[:-1].tolist()
+    return np.array([complex(*at(piece, t)) for piece in outline.segments for t in parts])
 
 
 def toothed(shown, t):
@@ -48,8 +50,9 @@ def test_teeth_mesh_through_the_turn(name, sets):
     least = math.inf
     for t in np.linspace(0.0, 360.0, 25):
         both = list(toothed(shown, float(t)))
-        (one, here), (other, (x, y, angle)) = both[::-1] if ring else both
-        own = (points(one[0], *here) - complex(x, y)) * complex(math.cos(angle), -math.sin(angle))
+        (one, here), (other, there) = both[::-1] if ring else both
+        seen = points(one[0]) * np.exp(1j * here[2]) + complex(*here[:2])
+        own = (seen - complex(*there[:2])) * np.exp(-1j * there[2])
         # a ring's teeth are on its opening, in which the planet is
         gaps = Polyarc([other[ring]]).signed(np.column_stack((own.real, own.imag)))
         least = min(least, float(-gaps.max() if ring else gaps.min()))
