@@ -26,9 +26,9 @@ def sheet(parts: CounterParts) -> Sheet:
     spec = parts.mechanism.spec
     shown = shown_on_sheet(spec, parts.members, assembly(parts).shapes)
 
-    def blocks(scale: float) -> Iterator[list[Block]]:
-        yield from at_scales(
-            [view.block() for view in _views(shown, parts, scale)],
+    def blocks(scale: float) -> tuple[list[Block], Iterator[list[Block]]]:
+        apart = [view.block() for view in _views(shown, parts, scale)]
+        return apart, at_scales(
             scale,
             lambda s: _together(shown, parts, s),
             lambda s: section(shown, (0.0, parts.sizes.distance), s),

@@ -34,10 +34,9 @@ def sheet(parts: RackParts) -> Sheet:
     framed = parts.frame  # behind links or gears the error says why there is none
     shown = shown_on_sheet(spec, parts.members, assembly(parts).shapes)
 
-    def blocks(scale: float) -> Iterator[list[Block]]:
+    def blocks(scale: float) -> tuple[list[Block], Iterator[list[Block]]]:
         apart = [view.block() for view in _views(shown, parts, flat_plates([framed]), scale)]
-        yield from at_scales(
-            apart,
+        return apart, at_scales(
             scale,
             lambda s: _together(shown, parts, s),
             lambda s: section(shown, (parts.sizes.arm,), s),

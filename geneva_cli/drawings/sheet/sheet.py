@@ -44,13 +44,10 @@ def sheet(parts: FlatParts) -> Sheet:
         *layout(mechanism),
     ]
 
-    def blocks(scale: float) -> Iterator[list[Block]]:
+    def blocks(scale: float) -> tuple[list[Block], Iterator[list[Block]]]:
         apart = [view.block() for view in _views(shown, parts, scale)]
-        yield from at_scales(
-            [*apart, *fixed],
-            scale,
-            lambda s: _together(shown, parts, s),
-            lambda s: section(shown, (0.0, L), s),
+        return [*apart, *fixed], at_scales(
+            scale, lambda s: _together(shown, parts, s), lambda s: section(shown, (0.0, L), s)
         )
 
     return on_paper(mechanism.spec, shown.rows, shown.largest, blocks, shown.area)
