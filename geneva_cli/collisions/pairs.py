@@ -10,6 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from geneva_cli.collisions.machine_parts import Pose
     from geneva_cli.numerics.jet import Array
 
 
@@ -25,13 +26,17 @@ class Window(NamedTuple):
 class Intervals(NamedTuple):
     """Intervals of the input angle, and how far crank and wheel are at most from their middles.
 
-    The angles are greatest at the ends, because neither crank nor wheel turns back.
+    The angles are greatest at the ends, because neither crank nor wheel turns back. The positions
+    of the parts at the ends and in the middles are known from that.
     """
 
     start: Array  # degrees of the input, (n,)
     end: Array
     crank: Array  # radians
     wheel: Array
+    at_start: Pose
+    at_middle: Pose
+    at_end: Pose
 
     @property
     def middle(self) -> Array:
@@ -41,7 +46,9 @@ class Intervals(NamedTuple):
 
     def at(self, which: NDArray[np.intp]) -> Intervals:
         """Return some of the intervals."""
-        return Intervals(*(each[which] for each in self))
+        start, end, crank, wheel = (each[which] for each in self[:4])
+        first, middle, last = (pose.at(which) for pose in self[4:])
+        return Intervals(start, end, crank, wheel, first, middle, last)
 
 
 class Bounds(NamedTuple):
