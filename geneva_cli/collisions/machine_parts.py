@@ -8,22 +8,9 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, Self
 import numpy as np
 
 if TYPE_CHECKING:
-    from geneva_cli.collisions.pairs import Pairs
+    from geneva_cli.collisions.pairs import Pairs, Pose
     from geneva_cli.layout.assembly import Assembly
-    from geneva_cli.numerics.arrays import Which
     from geneva_cli.numerics.jet import Array
-
-
-class Pose(NamedTuple):
-    """The positions of a machine's parts at n input angles."""
-
-    wheel: Array  # (n,) radians
-    crank: Array  # (n,) radians
-    pins: Array  # (n, m, 2) of the m rollers, mm, or (n, m, 3), directions from a sphere's centre
-
-    def at(self, which: Which) -> Pose:
-        """Return some of the positions."""
-        return Pose(*(each[which] for each in self))
 
 
 class Stop(NamedTuple):

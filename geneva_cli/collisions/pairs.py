@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geneva_cli.collisions.machine_parts import Pose
+    from geneva_cli.numerics.arrays import Which
     from geneva_cli.numerics.jet import Array
 
 
@@ -21,6 +21,18 @@ class Window(NamedTuple):
     end: float
     motion: int
     rests: bool
+
+
+class Pose(NamedTuple):
+    """The positions of a machine's parts at n input angles."""
+
+    wheel: Array  # (n,) radians
+    crank: Array  # (n,) radians
+    pins: Array  # (n, m, 2) of the m rollers, mm, or (n, m, 3), directions from a sphere's centre
+
+    def at(self, which: Which) -> Pose:
+        """Return some of the positions."""
+        return Pose(*(each[which] for each in self))
 
 
 class Intervals(NamedTuple):

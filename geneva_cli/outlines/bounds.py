@@ -25,8 +25,7 @@ from geneva_cli.outlines.travel import Travel, path_travel, slot_travel
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geneva_cli.collisions.machine_parts import Pose
-    from geneva_cli.collisions.pairs import Window
+    from geneva_cli.collisions.pairs import Pose, Window
     from geneva_cli.curves.distance import Polyarc
     from geneva_cli.curves.shapes import Contour
     from geneva_cli.kinematics.engagement import Engagement

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.collisions.machine_parts import Pose, Stop
+from geneva_cli.collisions.machine_parts import Stop
+from geneva_cli.collisions.pairs import Pose
 from geneva_cli.collisions.touch import first_stops
 from geneva_cli.curves.sphere import Region, opposite, place
 from geneva_cli.curves.sphere_arcs import SphereArcs
