@@ -31,8 +31,10 @@ SCRIPTS = {
 
 
 def subject(quick: bool) -> Subject:
-    """Bare Python and a row of the table; then a short run of each command."""
-    python = {code: WholeRun(code) for code in ("pass", "import numpy")}
+    """Bare Python, what runs cannot do without, and a row of the table; then each command."""
+    # as the program imports NumPy: with one thread of BLAS
+    least = "import os; os.environ['OPENBLAS_NUM_THREADS'] = '1'; import typer, numpy"
+    python = {code: WholeRun(code) for code in ("pass", "import numpy", least)}
     tasks = [task("python", [Method(f"python -c '{c}'", None, r.run) for c, r in python.items()])]
     tasks.append(_table())
     if not quick:

@@ -92,7 +92,8 @@ def _shown(value: float) -> str:
 
 
 def _text(text: str) -> str:
-    return escape(clean(text))
+    # an apostrophe may stay between quotes
+    return escape(clean(text), quote=False).replace('"', "&quot;")
 
 
 def _quoted(text: str) -> str:
