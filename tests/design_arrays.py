@@ -12,10 +12,12 @@ from geneva_cli.machine.mechanism import build
 
 
 def machine(wheel, kind="crank", motion=None, gearing="external", own=(), **keys):
-    kept = {k: v for k, v in keys.items() if k in ("rollers", "roller_angles_deg")}
-    rest = {k: v for k, v in keys.items() if k not in kept}
-    drive = registry.drive(kind)(**kept, **rest)
-    return Spec(Wheel(wheel, gearing, **dict(own)), drive, motion=motion)
+    return Spec(Wheel(wheel, gearing, **dict(own)), registry.drive(kind)(**keys), motion=motion)
+
+
+def behind(spec, kind, **keys):
+    """The machine with a drive before its own."""
+    return spec.replace(drive_before=registry.drive(kind)(**keys))
 
 
 POINTS = tuple((u / 11, (u / 11) ** 2 * (3.0 - 2.0 * u / 11)) for u in range(12))
@@ -84,6 +86,14 @@ MACHINES = {
         machine(4, "epicyclic", planet_ratio="shockless", fixed="ring"),
         [("wheel.z", 3, 6)],
     ),
+    "planet behind gears": (
+        behind(
+            machine(4, "epicyclic", planet_ratio="shockless"), "elliptical-gears", eccentricity=0.2
+        ),
+        [("drive.before.eccentricity", 0.0, 0.5), ("wheel.z", 3, 6)],
+    ),
+    "carousel": (machine(4, "carousel", wheels=3), [("wheel.z", 3, 8)]),
+    "two cranks": (machine(8, rollers=2, crank_steps=(0, 3)), [("wheel.z", 5, 12)]),
     "cam": (
         machine(6, "cam", Motion("cycloidal")),
         [("motion.alpha0_deg", -200.0, 130.0), SLOTS],

@@ -3,7 +3,7 @@
 import math
 
 import numpy as np
-from design_arrays import MACHINES, drawn, machine
+from design_arrays import MACHINES, behind, drawn, machine
 from words import law
 
 from geneva_cli.drawings.model import PartsModel
@@ -25,8 +25,8 @@ from geneva_cli.spec.tables import (
     Tolerance,
     WheelMaterial,
 )
+from geneva_cli.study.batches import known_columns
 from geneva_cli.study.fields import values
-from geneva_cli.study.sweep.columns import known_columns
 from geneva_cli.verdict.quantities.groups import GROUPS
 from geneva_cli.verdict.quantities.names import in_batch
 
@@ -53,6 +53,33 @@ GIVEN = {
 MORE = {
     "scca": machine(6, motion=Motion(law("scca", b=0.25, c=0.5, d=0.25))),
     "tuned": machine(6, motion=Motion(law("tuned", of="4-5-6-7", period_ratio=4.0))),
+    "two cranks, slowed": behind(
+        machine(8, rollers=2, crank_steps=(0, 3)), "side-crank", A=0.2
+    ),  # whose parts are not built
+    "rack": machine(8, gearing="linear"),
+    "counter": machine(4, gearing="counter", own={"driver_teeth": 20}),
+}
+SEVERAL = {"tolerance": Tolerance()}  # it has no keys for the places of cranks
+# What replaces a part of ``GIVEN`` that a machine refuses.
+OTHERS = {
+    "two cranks": SEVERAL,
+    "two cranks, slowed": SEVERAL,
+    "rack": {
+        **SEVERAL,
+        "load": Load(mass_kg=3.0, force_N=15.0, friction=0.1, guide_friction=0.1),
+        "support": Support(),
+        "shaft": Shaft(crank_diameter_mm=18.0, crank_overhang_mm=25.0, crank_span_mm=45.0),
+    },
+    "counter": {
+        **SEVERAL,
+        "load": Load(inertia_kgm2=1e-5),
+        "size": Size(face_width_mm=10.0),
+        "support": Support(),
+        "motor": Motor(),
+        "shaft": Shaft(),
+        "material_wheel": WheelMaterial(),
+        "material_roller": RollerMaterial(),
+    },
 }
 NAMES = (*MACHINES, *MORE)
 TRIED = (4.0, 8.0, 0.3, 20.0, 60.0, 120.0, 0.0)  # values of keys that a spec goes without
@@ -72,7 +99,7 @@ SHOWN = tuple(group for group in GROUPS if group.table not in SLOW)
 def base(name):
     """A design of a machine that can be built, loaded so that it has every quantity."""
     spec, rules = (MORE[name], []) if name in MORE else MACHINES[name]
-    spec = spec.replace(**GIVEN)
+    spec = spec.replace(**GIVEN | OTHERS.get(name, {}))
     varied = drawn(rules, 60, 7)
     every = ({key: rows[i].item() for key, rows in varied.items()} for i in range(60))
     return changed(spec, next(some for some in ({}, *every) if built(spec, some)))
@@ -181,7 +208,7 @@ def _size(name, single):
         # the root of a way: what rounding is to that, is as much more to its root as it is smaller
         return abs(single[name] / single[f"{group}.jump"]) if single[name] else 0.0
     if own == "drag_Nm":  # what a load takes beyond another
-        return single["loads.wheel_torque_Nm.max"] or 0.0
+        return single.get("loads.wheel_torque_Nm.max") or 0.0
     peak = single.get(f"{group}.max")
     return UNBOUNDED if peak is None and group.endswith("_N") else peak or 0.0
 

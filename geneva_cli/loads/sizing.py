@@ -36,8 +36,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from geneva_cli.loads.cycle import Cycle
-    from geneva_cli.numerics.arrays import N, Number
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array, N, Number
     from geneva_cli.spec.tables import Motor
 
 Peaks: TypeAlias = "tuple[float, ...]"  # of one engagement, in the order of ``FORM_PEAKS``
@@ -230,8 +229,10 @@ def greatest_form(mechanism: Mechanism, peaks: Sequence[Peaks]) -> tuple[MakersF
     for number, (engagement, peak) in enumerate(zip(mechanism.engagements, peaks, strict=True)):
         step, motion = mechanism.index_deg(number), engagement.motion_deg
         velocity, acceleration, power = peak
-        factors = cam_factors(velocity, acceleration, power, motion, step)
-        every.append((makers_form(factors, step, motion, spec.drive.n_rpm, load), factors))
+        with np.errstate(invalid="ignore"):  # of a motion without a greatest acceleration
+            factors = cam_factors(velocity, acceleration, power, motion, step)
+            form = makers_form(factors, step, motion, spec.drive.n_rpm, load)
+        every.append((form, factors))
     best, *others = every
     for other in others:
         (one, _), (two, _) = best, other

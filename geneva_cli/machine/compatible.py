@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
+from functools import partial, reduce
+from operator import or_
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Drive, Needs
 from geneva_cli.spec.rules import is_array
 from geneva_cli.spec.schema import fields
-from geneva_cli.spec.tables import Shaft, Tolerance
+from geneva_cli.spec.tables import Shaft
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
+    from geneva_cli.spec.schema import SpecTable
 
 
 class Conflict(NamedTuple):
@@ -45,10 +47,18 @@ def _off_steps(spec: Spec) -> object:
     return wrong | (max(places) >= spec.wheel.z)
 
 
-def _table_of_wheels(table: str, spec: Spec) -> bool:
+def _is_set(table: SpecTable) -> object:
+    """True if a key of a table differs from its default; for a batch an array."""
+    default = type(table)().as_dict()
+    return reduce(or_, (value != default[key] for key, value in table.as_dict().items()))
+
+
+def _table_of_wheels(table: str, spec: Spec) -> object:
     """True if a rack's spec sets a table that only wheels have."""
-    own = getattr(spec, table.strip("[]"))
-    return not spec.output.turns and bool(own != type(own)())
+    if spec.output.turns:
+        return False
+    name = table.strip("[]")
+    return bool(spec.mass) if name == "mass" else _is_set(getattr(spec, name))
 
 
 def _shaft_of_wheels(key: str, spec: Spec) -> object:
@@ -118,7 +128,7 @@ CONFLICTS = (
         'the driver of gearing = "{gearing}" has one pair of teeth: remove roller_angles_deg',
     ),
     Conflict(
-        lambda s: s.wheel.toothed and s.tolerance != Tolerance(),
+        lambda s: s.wheel.toothed and _is_set(s.tolerance),
         ("tolerance",),
         '[tolerance] is for rollers in slots, and not available for gearing = "{gearing}": '
         "remove it",
@@ -214,7 +224,7 @@ CONFLICTS = (
         "axis would give each motion other loads: set count to 2 or more, or radius_mm = 0",
     ),
     Conflict(
-        lambda s: _cranks(s) and s.tolerance != type(s.tolerance)(),
+        lambda s: _cranks(s) and _is_set(s.tolerance),
         ("tolerance",),
         "[tolerance] has no key for the places of the cranks of crank_steps about the wheel, which "
         "add to each step: remove one of them",

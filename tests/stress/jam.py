@@ -1,11 +1,12 @@
-"""DXF files of flat designs and of racks in a physics engine, Chipmunk: `tests/stress/jam.py`.
+"""DXF files of flat designs, racks and counters in a physics engine, Chipmunk: `make jam`.
 
 The engine is told nothing of where the wheel should be: its outline, read from the file, is a free
 body on a pivot, or a rack's in a groove, moved by contact alone. Crank and rollers, from the other
-file, are carried round as the design's own drive carries them, for two turns. The wheel must go
-where the program says, off by no more than the play that the program says, and nothing may be
-squeezed: that is a jam. A roller too large for its slot must be found to jam. `make jam` runs it,
-ten minutes, and installs the engine (pymunk).
+file, are carried round as the design's own drive carries them, for two turns; of several cranks
+each from its own place. A counter has two planes: wide teeth on the rim, all teeth on the driver's
+two. The wheel must go where the program says, off by no more than the play that the program says,
+and nothing may be squeezed: that is a jam. A roller too large for its slot, or a rim too large for
+its pinion, must be found to jam. `make jam` installs the engine (pymunk); ten minutes.
 """
 
 import argparse
@@ -13,6 +14,7 @@ import math
 import sys
 import tempfile
 from pathlib import Path
+from typing import NamedTuple
 
 import ezdxf
 import ezdxf.path
@@ -24,6 +26,7 @@ import shapely
 from geneva_cli.collisions.play import windows
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
+from geneva_cli.outlines.counter_play import counter_play
 from geneva_cli.output import draw
 
 TURNS = 2
@@ -44,13 +47,17 @@ LOST = 0.05  # degrees beyond the play
 
 def outlines(path, layer, flat):
     """The region inside of the closed curves on a layer, and its circles as (centre, radius)."""
-    region, circles = shapely.Polygon(), []
+    region = shapely.Polygon()
+    for inside in contours(path, layer, flat):
+        region = region.symmetric_difference(inside)
+    circles = ezdxf.readfile(path).modelspace().query(f'CIRCLE[layer=="{layer}"]')
+    return region, [((c.dxf.center.x, c.dxf.center.y), c.dxf.radius) for c in circles]
+
+
+def contours(path, layer, flat):
+    """The inside of each closed curve on a layer."""
     for entity in ezdxf.readfile(path).modelspace().query(f'*[layer=="{layer}"]'):
-        if entity.dxftype() == "CIRCLE":
-            circles.append(((entity.dxf.center.x, entity.dxf.center.y), entity.dxf.radius))
-        points = [(p.x, p.y) for p in ezdxf.path.make_path(entity).flattening(flat)]
-        region = region.symmetric_difference(shapely.Polygon(points))
-    return region, circles
+        yield shapely.Polygon([(p.x, p.y) for p in ezdxf.path.make_path(entity).flattening(flat)])
 
 
 def rods(body, region, rod):
@@ -101,59 +108,32 @@ class Sliding(pymunk.Body):
         self.position, self.velocity = (0.0, place * self.radius), (0.0, speed * self.radius)
 
 
-class Machine:
-    """A design's two files as bodies of the engine."""
+class Simulation:
+    """Bodies of the engine: a free wheel, and what is carried round."""
 
-    def __init__(self, design, folder, larger=0.0):
-        turns = design.spec.output.turns
-        proof = design.drawn(0.001) if turns else design.parts_model
-        self.play, self.found = proof.turn.play, proof.parts
-        found = self.found
-        self.assembly, self.L = found.assembly, found.assembly.L
-        for part in ("wheel", "crank"):
-            draw(design.drawing(part, of=proof), str(folder / f"{part}.dxf"))
-        rod, flat = ROD * self.L, SAGITTA * self.L
-        wheel, _ = outlines(folder / "wheel.dxf", "WHEEL", flat)
-        crank, _ = outlines(folder / "crank.dxf", "CRANK", flat)
-        _, circles = outlines(folder / "crank.dxf", "ROLLER", flat)
-        radii = {}
-        for centre, radius in circles:  # pins are on their layer too, within them
-            radii[centre] = max(radius, radii.get(centre, 0.0))
+    def __init__(self, L, wheel, at, true):
+        """``at`` are the input angles of a turn's steps, ``true`` the wheel's, radians."""
+        self.L, self.wheel, self.at, self.true = L, wheel, at, true
+        self.held = self.geared = np.zeros(STEPS, dtype=bool)
+        self.carried = []
         self.space = pymunk.Space()
         self.space.iterations = 20
-        self.space.collision_slop = SLOP * self.L
+        self.space.collision_slop = SLOP * L
         self.space.collision_bias = LEFT
-        self.wheel = Turning() if turns else Sliding(self.L)
-        self.space.add(self.wheel, *rods(self.wheel, wheel, rod), *self.wheel.joints(self.space))
-        self.at = self.assembly.start_deg + self.assembly.turn_deg * np.arange(STEPS + 1) / STEPS
-        self.true = self.assembly.wheel(self.at)
-        self.each = sum(2.0 * engagement.half_step for engagement, _ in self.assembly.motions)
-        rests = [w for w in windows(found) if w.rests and not found.crank]
-        self.held = np.zeros(STEPS, dtype=bool)
-        for dwell in rests:
-            self.held |= (self.at[:-1] > dwell.start) & (self.at[1:] < dwell.end)
-        meshed = self.assembly.geared(self.at)
-        self.geared = meshed[:-1] | meshed[1:]
-        self.wheel.put(float(self.true[0]), 0.0)
-        self.carried = [self._carried(self.assembly.crank(self.at))]
-        crank_body = self.carried[0][0]
-        self.space.add(*rods(crank_body, crank, rod))
-        assert len(radii) == len(self.assembly.rollers)
-        for number, (centre, radius) in enumerate(radii.items()):
-            way = self.assembly.pin(number, self.at) - (self.L, 0.0)
-            if np.ptp(np.hypot(*way.T)) < 1e-9 * self.L:
-                self.space.add(pymunk.Circle(crank_body, radius + larger, centre))
-            else:  # what carries it is no part of the crank's file
-                body, *_ = own = self._carried(np.zeros(len(way)), way)
-                self.space.add(pymunk.Circle(body, radius + larger))
-                self.carried.append(own)
+        self.space.add(wheel, *wheel.joints(self.space))
 
-    def _carried(self, angle, way=None):
-        """A body that is carried: itself, its angles and its places at all steps of a turn."""
+    def carry(self, angle, place):
+        """Add a body with its angles and its places, mm, at all steps of a turn, and return it."""
         body = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
         self.space.add(body)
-        places = np.zeros((len(angle), 2)) if way is None else way
-        return body, np.unwrap(angle), places + np.array([self.L, 0.0])
+        self.carried.append((body, np.unwrap(angle), np.zeros((len(angle), 2)) + place))
+        return body
+
+    def outline(self, body, region, plane=0):
+        """Add the outline of a part, which meets other outlines of its plane only."""
+        for shape in rods(body, region, ROD * self.L):
+            shape.filter = pymunk.ShapeFilter(categories=1 << plane, mask=1 << plane)
+            self.space.add(shape)
 
     def _set(self, step):
         """Put what is carried at a step of a turn, on its way to the next."""
@@ -168,6 +148,7 @@ class Machine:
         What holds the wheel at rest where no locking disc does is in no file: it is held in place.
         Nor are a gear's teeth: it is turned where they turn it, and let go with its speed.
         """
+        self.wheel.put(float(self.true[0]), 0.0)
         went, deepest = [], 0.0
 
         def deep(arbiter):
@@ -191,6 +172,85 @@ class Machine:
     def place(self, turn, step):
         """Where the program says that the wheel is, radians."""
         return self.true[step] + turn * self.each
+
+    @property
+    def each(self):
+        """What the wheel turns in each turn, radians."""
+        return self.true[-1] - self.true[0]
+
+
+def cranked(design, folder, larger=0.0):
+    """A simulation of the files of a wheel or rack and its cranks, with larger rollers.
+
+    Returns its play as well.
+    """
+    turns = design.spec.output.turns
+    proof = design.drawn(0.001) if turns else design.parts_model
+    assembly, L = proof.parts.assembly, proof.parts.assembly.L
+    for part in ("wheel", "crank"):
+        draw(design.drawing(part, of=proof), str(folder / f"{part}.dxf"))
+    wheel, _ = outlines(folder / "wheel.dxf", "WHEEL", SAGITTA * L)
+    crank, _ = outlines(folder / "crank.dxf", "CRANK", SAGITTA * L)
+    _, circles = outlines(folder / "crank.dxf", "ROLLER", SAGITTA * L)
+    radii = {}
+    for centre, radius in circles:  # pins are on their layer too, within them
+        radii[centre] = max(radius, radii.get(centre, 0.0))
+    at = assembly.start_deg + assembly.turn_deg * np.arange(STEPS + 1) / STEPS
+    out = Simulation(L, Turning() if turns else Sliding(L), at, assembly.wheel(at))
+    out.outline(out.wheel, wheel)
+    for window in windows(proof.parts):
+        if window.rests and not proof.parts.crank:
+            out.held |= (at[:-1] > window.start) & (at[1:] < window.end)
+    meshed = assembly.geared(at)
+    out.geared = meshed[:-1] | meshed[1:]
+    cranks = [
+        out.carry(place.turn + assembly.crank(at - place.behind_deg), place.at)
+        for place in design.mechanism.crank_places
+    ]
+    for body in cranks:
+        out.outline(body, crank)
+    assert len(radii) * len(cranks) == len(assembly.rollers)
+    for number, (centre, radius) in enumerate(radii.items()):
+        path = assembly.pin(number, at)
+        if np.ptp(np.hypot(*(path - (L, 0.0)).T)) < 1e-9 * L:
+            out.space.add(*(pymunk.Circle(body, radius + larger, centre) for body in cranks))
+        else:  # what carries it is no part of the crank's file
+            body = out.carry(np.zeros(len(path)), path)
+            out.space.add(pymunk.Circle(body, radius + larger))
+    return out, proof.turn.play
+
+
+def counted(design, folder, larger=0.0):
+    """A simulation of the files of a counter's driver and pinion, with a larger rim.
+
+    Returns its play as well, as ``cranked`` does.
+    """
+    L, (engagement, *_) = design.mechanism.center_distance_mm, design.mechanism.engagements
+    planes = []
+    for part, layer in (("wheel", "WHEEL"), ("crank", "CRANK")):
+        draw(design.drawing(part), str(folder / f"{part}.dxf"))
+        both = contours(folder / f"{part}.dxf", layer, SAGITTA * L)
+        planes.append(sorted(both, key=lambda region: region.area))
+    (wide, teeth), (two, rim) = planes  # narrow teeth are no part of the wide ones' plane
+    at = np.linspace(-180.0, 180.0, STEPS + 1)
+    ends = np.clip(at, engagement.entry_deg, engagement.exit_deg)
+    out = Simulation(L, Turning(), at, engagement.motion(ends, 0).c[0])
+    driver = out.carry(math.pi - np.radians(at), (L, 0.0))
+    for plane, (pinion, of_driver) in enumerate(((teeth, two), (wide, rim.buffer(larger)))):
+        out.outline(out.wheel, pinion, plane)
+        out.outline(driver, of_driver, plane)
+    play = counter_play(design.mechanism)  # up to mid-motion, with the rest its mirror image
+    first, ahead, behind = play.input_deg, play.ahead_deg, play.behind_deg
+    mirrored = (-first[-2::-1], behind[-2::-1], ahead[-2::-1])
+    return out, Free(*map(np.concatenate, zip((first, ahead, behind), mirrored, strict=True)))
+
+
+class Free(NamedTuple):
+    """How far a wheel can turn on and back at input angles, degrees."""
+
+    input_deg: np.ndarray
+    on: np.ndarray
+    back: np.ndarray
 
 
 def left_play(machine, play, went):
@@ -220,18 +280,22 @@ def widened(path):
 def turned(path, folder):
     """What is wrong with a design's files, as a list of texts, and a line that says how it went."""
     design = widened(path)
-    machine = Machine(design, folder)
+    if design.spec.wheel.PARTS == "counter":
+        simulated, spare = counted, design.spec.size.lock_clearance_mm
+    else:
+        simulated = cranked
+        spare = design.parts_model.parts.sizes.half_width - design.mechanism.roller_radius_mm
+    machine, play = simulated(design, folder)
     went, deepest = machine.run()
-    out, at = left_play(machine, machine.play, went)
+    out, at = left_play(machine, play, went)
     limit = SQUEEZED * machine.L
     faults = []
     if deepest > limit:
         faults.append(f"squeezed by {deepest:.3g} mm")
     if out > LOST:
         faults.append(f"left its play by {out:.3g} deg at {at:.2f}")
-    spare = machine.found.sizes.half_width - design.mechanism.roller_radius_mm
-    if Machine(design, folder, spare + 2.0 * SQUEEZED * machine.L).run(1)[1] <= limit:
-        faults.append("a roller that is too large for its slot was not found out")
+    if simulated(design, folder, spare + 2.0 * limit)[0].run(1)[1] <= limit:
+        faults.append("a roller or rim that is too large was not found out")
     line = (
         f"{path.stem:24} {STEPS * TURNS} steps, {len(machine.space.shapes)} rods, "
         f"overlap {deepest / machine.L:.1e} L, play left by {out:.4f} deg at {at:.1f}"
@@ -246,6 +310,8 @@ def main():
     bad = 0
     for path in given.designs or sorted(repo.DESIGNS.glob("*.toml")):
         try:
+            if load(str(path)).spec.wheel.PARTS == "ball":  # which no engine of the plane has
+                raise GenevaError("its parts turn on a sphere")
             with tempfile.TemporaryDirectory() as folder:
                 faults, line = turned(path, Path(folder))
         except GenevaError as error:

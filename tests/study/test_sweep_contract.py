@@ -97,6 +97,17 @@ def test_horns_of_machines_that_differ_in_size_alone(tmp_path, text):
     assert rows[1][1] / rows[0][1] == pytest.approx(1.1**-2, rel=1e-9)
 
 
+def test_a_machine_whose_parts_are_not_built_has_no_horns(tmp_path):
+    """The gears between two cranks and a side-crank are not built, nor are the other parts."""
+    text = "[wheel]\nz = 8\n[drive]\nrollers = 2\ncrank_steps = [0, 3]\n"
+    before = '[drive.before]\nkind = "side-crank"\nA = 0.2\n'
+    pick = "life.horn_stress_MPa"
+    [[_, stress], _] = swept(tmp_path, text + HORN, "drive.n_rpm=30,60", pick=pick)
+    assert stress > 0.0
+    rows = swept(tmp_path, text + before + HORN, "drive.n_rpm=30,60", pick=pick)
+    assert [row[1] for row in rows] == [None, None]
+
+
 def test_clearances_alone_reach_the_change_of_sides(tmp_path):
     """Beside where the torque vanishes a wheel's speed is behind by x²/2, and its angle by x³/6."""
     text = "[wheel]\nz = 6\n[load]\ninertia_kgm2 = 0.3\n"
@@ -153,6 +164,27 @@ def test_one_of_a_batch_is_left(tmp_path, text, vary, refused):
     assert left[-1] is None
     assert left[1:-1] == pytest.approx(single[1:-1], rel=1e-14)
     assert other[1:-1] == [None, None]
+    assert refused in other[-1]
+
+
+@pytest.mark.parametrize(
+    ("text", "vary", "refused"),
+    [
+        ("z = 8\n[drive]\nrollers = 2\ncrank_steps = [0, 3]", "tolerance.slot_width_mm", "cranks"),
+        ('z = 4\ngearing = "counter"', "tolerance.slot_width_mm", "rollers in slots"),
+        ('z = 8\ngearing = "linear"', "tolerance.slot_width_mm", "for a wheel"),
+        ('z = 8\ngearing = "linear"', "support.radius_mm", "for a wheel"),
+    ],
+)
+def test_a_table_that_a_machine_refuses(tmp_path, text, vary, refused):
+    """A value of 0 sets nothing; the other is refused in its row."""
+    path = tmp_path / "spec.toml"
+    path.write_text(f"[wheel]\n{text}\n")
+    [[zero, other]] = request(str(path), [f"{vary}=0,0.01"], pick="velocity.max").blocks()
+    [[alone]] = request(str(path), ["drive.n_rpm=60"], pick="velocity.max").blocks()
+    assert zero[-1] is None
+    assert zero[1] == alone[1] > 0.0
+    assert other[1] is None
     assert refused in other[-1]
 
 

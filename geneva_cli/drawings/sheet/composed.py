@@ -6,8 +6,7 @@ most. The sheet is the smallest that fits. Above 1:1 the largest part is no wide
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from functools import cache
+from collections.abc import Callable, Iterable
 from itertools import tee
 from typing import Any
 
@@ -22,12 +21,11 @@ from geneva_cli.drawings.sheet.paper import (
     PaperSize,
     frame,
     scale_name,
-    smaller,
     table,
     title_block,
 )
 from geneva_cli.drawings.sheet.sized import edge_note
-from geneva_cli.drawings.sheet.view import Block, View
+from geneva_cli.drawings.sheet.view import Block
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.written import is_metric, length, number
 from geneva_cli.machine.materials import roller_material, wheel_material
@@ -68,20 +66,6 @@ def on_paper(
         "--part sheet: the parts and their tables do not fit on one A1 sheet; a coarser "
         "--tolerance makes shorter tables"
     )
-
-
-def at_scales(
-    scale: float, whole: Callable[[float], View], cut: Callable[[float], View]
-) -> Iterator[list[Block]]:
-    """Yield the whole machine and its section, at the scale of the parts or at half of it."""
-    half = smaller(scale, 2.0)
-
-    @cache
-    def drawn(view: Callable[[float], View], at: float) -> Block:
-        return view(at).block()
-
-    for of_cut, of_whole in ((scale, scale), (scale, half), (half, half)):
-        yield [drawn(cut, of_cut), drawn(whole, of_whole)]
 
 
 def _inside(paper: PaperSize) -> Box:

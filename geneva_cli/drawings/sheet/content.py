@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import cache
 from typing import Any, NamedTuple
 
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Member, Plate, Stack, plates
 from geneva_cli.curves.shapes import Shape
+from geneva_cli.curves.sheet import Sheet
 from geneva_cli.drawings.parts_list import part_rows
+from geneva_cli.drawings.sheet.composed import on_paper
 from geneva_cli.drawings.sheet.cut import (
     Face,
     balloons,
@@ -17,8 +20,8 @@ from geneva_cli.drawings.sheet.cut import (
     faces,
     steps,
 )
-from geneva_cli.drawings.sheet.paper import scale_name
-from geneva_cli.drawings.sheet.view import View
+from geneva_cli.drawings.sheet.paper import scale_name, smaller
+from geneva_cli.drawings.sheet.view import Block, View
 from geneva_cli.layout.alike import alike
 from geneva_cli.machine.spec import Spec
 
@@ -52,6 +55,39 @@ def shown_on_sheet(
     # chords of 1.5 mm on a part of 500 mm: spans are within 0.1 mm on any paper
     cut = faces(members, 500.0 / max(sizes))
     return SheetContent(members, together, rows, max(sizes), area, items, cut)
+
+
+class Views(NamedTuple):
+    """The views of a flat machine's sheet at a scale: of its parts, and of all of them together."""
+
+    parts: Callable[[float], Iterator[View]]
+    together: Callable[[float], View]
+    axes: tuple[float, ...]  # the shafts' x, for the section
+
+
+def sheet_of(spec: Spec, shown: SheetContent, views: Views, fixed: Sequence[Block] = ()) -> Sheet:
+    """Return a sheet of views, at half their scale the machine and its section if need be.
+
+    ``fixed`` are tables, which have no scale. Raises GenevaError where no scale fits on one sheet.
+    """
+
+    @cache
+    def whole(scale: float) -> Block:
+        return views.together(scale).block()
+
+    @cache
+    def cut(scale: float) -> Block:
+        return section(shown, views.axes, scale).block()
+
+    def rest(scale: float) -> Iterator[list[Block]]:
+        half = smaller(scale, 2.0)
+        for of_cut, of_whole in ((scale, scale), (scale, half), (half, half)):
+            yield [cut(of_cut), whole(of_whole)]
+
+    def blocks(scale: float) -> tuple[list[Block], Iterator[list[Block]]]:
+        return [*(view.block() for view in views.parts(scale)), *fixed], rest(scale)
+
+    return on_paper(spec, shown.rows, shown.largest, blocks, shown.area)
 
 
 def section(shown: SheetContent, axes: Iterable[float], scale: float) -> View:
