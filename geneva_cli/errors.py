@@ -92,6 +92,8 @@ def marking() -> Iterator[list[Any]]:
 
 def clean(text: str) -> str:
     """Text without control characters, which could carry terminal escapes."""
+    if text.isprintable():
+        return text
     return "".join(c if c.isprintable() else " " for c in text)
 
 

@@ -70,7 +70,7 @@ def settled(gaps: Clearances, pair: Pair, ends: tuple[float, float], target: flo
 
 
 def intervals(gaps: Clearances, start: Array, end: Array) -> Intervals:
-    """Return intervals of the input angle, with the turn of crank and wheel on them.
+    """Return intervals of the input angle, with the turn of crank and wheel on them, and poses.
 
     Where the wheel turns back, the ends do not bound its turn. A whole turn does: no point moves
     farther than twice its radius.
@@ -80,7 +80,9 @@ def intervals(gaps: Clearances, start: Array, end: Array) -> Intervals:
     steps = np.diff(pose.wheel.reshape(3, -1), axis=0)
     # the wheel's angle is rounded by less than 1e-12 radians
     turn = np.where((steps < -1e-12).any(axis=0), math.tau, steps.max(axis=0))
-    return Intervals(start, end, np.abs(np.diff(crank, axis=0)).max(axis=0), turn)
+    count = len(start)
+    poses = [pose.at(slice(i * count, (i + 1) * count)) for i in range(3)]
+    return Intervals(start, end, np.abs(np.diff(crank, axis=0)).max(axis=0), turn, *poses)
 
 
 class Certificate(NamedTuple):

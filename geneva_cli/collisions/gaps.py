@@ -10,7 +10,8 @@ from typing import Protocol
 import numpy as np
 
 from geneva_cli.collisions.contacts import candidates, nearest_pieces
-from geneva_cli.collisions.machine_parts import Lengths, Pose, Stop
+from geneva_cli.collisions.machine_parts import Lengths, Stop
+from geneva_cli.collisions.pairs import Pose
 from geneva_cli.collisions.place_index import PlaceIndex
 from geneva_cli.collisions.stops import Stops
 from geneva_cli.curves.distance import Polyarc

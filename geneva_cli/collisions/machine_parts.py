@@ -10,16 +10,8 @@ import numpy as np
 from geneva_cli.numerics.arrays import Array
 
 if TYPE_CHECKING:
-    from geneva_cli.collisions.pairs import Pairs
+    from geneva_cli.collisions.pairs import Pairs, Pose
     from geneva_cli.layout.assembly import Assembly
-
-
-class Pose(NamedTuple):
-    """The positions of a machine's parts at n input angles."""
-
-    wheel: Array  # (n,) radians
-    crank: Array  # (n,) radians
-    pins: Array  # (n, m, 2) of the m rollers, mm, or (n, m, 3), directions from a sphere's centre
 
 
 class Stop(NamedTuple):

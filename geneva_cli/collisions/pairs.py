@@ -7,7 +7,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array, Mask, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
 
 
 class Window(NamedTuple):
@@ -19,16 +19,32 @@ class Window(NamedTuple):
     rests: bool
 
 
+class Pose(NamedTuple):
+    """The positions of a machine's parts at n input angles."""
+
+    wheel: Array  # (n,) radians
+    crank: Array  # (n,) radians
+    pins: Array  # (n, m, 2) of the m rollers, mm, or (n, m, 3), directions from a sphere's centre
+
+    def at(self, which: Which) -> Pose:
+        """Return some of the positions."""
+        return Pose(*(each[which] for each in self))
+
+
 class Intervals(NamedTuple):
     """Intervals of the input angle, and how far crank and wheel are at most from their middles.
 
-    The angles are greatest at the ends, because neither crank nor wheel turns back.
+    The angles are greatest at the ends, because neither crank nor wheel turns back. The positions
+    of the parts at the ends and in the middles are known from that.
     """
 
     start: Array  # degrees of the input, (n,)
     end: Array
     crank: Array  # radians
     wheel: Array
+    at_start: Pose
+    at_middle: Pose
+    at_end: Pose
 
     @property
     def middle(self) -> Array:
@@ -37,7 +53,9 @@ class Intervals(NamedTuple):
 
     def at(self, which: Whole) -> Intervals:
         """Return some of the intervals."""
-        return Intervals(*(each[which] for each in self))
+        start, end, crank, wheel = (each[which] for each in self[:4])
+        first, middle, last = (pose.at(which) for pose in self[4:])
+        return Intervals(start, end, crank, wheel, first, middle, last)
 
 
 class Bounds(NamedTuple):

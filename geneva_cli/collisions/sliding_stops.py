@@ -12,7 +12,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from geneva_cli.collisions.machine_parts import Pose, Stop
+from geneva_cli.collisions.machine_parts import Stop
+from geneva_cli.collisions.pairs import Pose
 from geneva_cli.collisions.pieces import Rounds, lines, rounds
 from geneva_cli.collisions.touch import WAYS, Touch, first_stops, within
 from geneva_cli.curves.distance import Polyarc

@@ -16,7 +16,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.collisions.machine_parts import Pose, Stop
+from geneva_cli.collisions.machine_parts import Stop
+from geneva_cli.collisions.pairs import Pose
 from geneva_cli.collisions.pieces import Lines, Rounds, lines, rounds, spans
 from geneva_cli.collisions.touch import WAYS, Touch, first_stops, triangles, within
 from geneva_cli.curves.distance import Polyarc

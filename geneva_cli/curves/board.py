@@ -70,7 +70,7 @@ class Board:
             if not left or not least:
                 break
             left -= best is not None
-            if self._meets(measure) or not self.is_free(measure.label, _lines(measure), gap):
+            if self._meets(measure) or not self._is_free(measure, gap):
                 continue
             count = self._crossings(measure)
             if count < least:
@@ -100,11 +100,11 @@ class Board:
         grazed = (_grazes(piece, self._part) for piece in measure.main_lines)
         return crossings + sum(grazed)
 
-    def is_free(self, label: Label, lines: Array, gap: float) -> bool:
-        """Return True if a text keeps ``gap`` mm clear, and its lines meet no text."""
-        if crosses(label, self._all, gap):
+    def _is_free(self, measure: Measure, gap: float) -> bool:
+        """Return True if a dimension's text keeps ``gap`` mm clear, and its lines meet no text."""
+        if crosses(measure.label, self._all, gap):
             return False
-        own = np.concatenate((lines, _edges(label)))
+        own = np.concatenate((_lines(measure), _edges(measure.label)))
         return not any(crosses(text, own, 0.6) for text in self._texts)
 
     def box(self) -> tuple[float, float, float, float]:

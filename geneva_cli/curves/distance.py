@@ -214,9 +214,10 @@ def _row(piece: Line | Arc) -> tuple[float, ...]:
     if isinstance(piece, Line):
         return (*piece.start, *piece.end, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
     half = 0.5 * abs(piece.sweep)
-    sense = math.copysign(1.0, piece.bulge)
-    ends = (*piece.start, *piece.end, *piece.centre)
-    return (*ends, piece.radius, sense, math.sin(half), math.cos(half))
+    sine, sense = math.sin(half), math.copysign(1.0, piece.bulge)
+    # as ``piece.radius``, without another arc tangent and sine
+    radius = 0.5 * math.dist(piece.start, piece.end) / abs(sine)
+    return (*piece.start, *piece.end, *piece.centre, radius, sense, sine, math.cos(half))
 
 
 def _corner(before: float, after: float) -> float:

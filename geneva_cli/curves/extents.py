@@ -68,11 +68,11 @@ def short_pieces(contours: Iterable[Contour], step: float) -> Polyarc:
 
 def _cut(segment: Segment, step: float) -> Iterator[Segment]:
     if isinstance(segment, Arc):
-        (cx, cy), sweep = segment.centre, segment.sweep
+        (cx, cy), radius, sweep = segment.centre, segment.radius, segment.sweep
         start = math.atan2(segment.start[1] - cy, segment.start[0] - cx)
         count = max(1, math.ceil(abs(sweep) / step))
         for i in range(count):
-            yield about((cx, cy), segment.radius, start + sweep * i / count, sweep / count)
+            yield about((cx, cy), radius, start + sweep * i / count, sweep / count)
         return
     (x0, y0), (x1, y1) = segment.start, segment.end
     count = math.ceil(0.5 * math.pi / step)

@@ -5,6 +5,7 @@ The formulas hold for jets of floats and of arrays. Lengths are in units of the 
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple, cast
 
 from geneva_cli.kinematics.engagement import Engagement
@@ -49,12 +50,13 @@ class Pitch(NamedTuple):
     pressure: Number  # radians, 0 to pi/2
 
 
+@lru_cache(maxsize=16)
 def retraces(engagement: Engagement) -> bool:
     """True if the pin stops in the wheel at mid-motion and leaves along the path it came by.
 
     This holds for straight slots and at the mid condition. Otherwise the pin passes mid-motion
     across the slot's radius, and the pressure angle is 90 degrees there. For a batch the result is
-    an array.
+    an array. It is cached for the many places at which a slot's walls are evaluated.
 
     M' is the difference between the pin's own motion p' and psi' |p|, the motion of the wheel below
     it. Both are small if gears are slow and the pin passes near the wheel's centre.
@@ -95,6 +97,7 @@ def pin_heading(engagement: Engagement, input_deg: Number) -> PinHeading:
     return PinHeading(x0, y0, x1 / speed, y1 / speed)
 
 
+@lru_cache(maxsize=16)
 def pitch_at_retrace(engagement: Engagement) -> Pitch:
     """Limit of the pitch curve at mid-motion for a pin that retraces, approached from the entry.
 

@@ -61,7 +61,8 @@ def _product(values: Array, matrix: Array) -> Array:
     BLAS sums in an order that depends on the number of rows and on the processor. Then a single
     design would differ from the same design in a batch.
     """
-    rows = np.ascontiguousarray(np.moveaxis(values, -1, 0))
+    # transposed by hand: np.moveaxis takes as long as a product of few rows
+    rows = np.ascontiguousarray(values.transpose(-1, *range(values.ndim - 1)))
     if rows[0].size <= 128:  # the products of so few fit in the processor's cache
         shape = *matrix.shape, *[1] * (rows.ndim - 1)
         # in this order of memory, NumPy adds the products one after the other
@@ -71,7 +72,7 @@ def _product(values: Array, matrix: Array) -> Array:
         term = np.empty(out.shape)  # one for all: allocation takes longer than the products
         for row, value in zip(matrix[1:], rows[1:], strict=True):
             out += np.multiply.outer(row, value, out=term)
-    return np.moveaxis(out, 0, -1)
+    return out.transpose(*range(1, out.ndim), 0)
 
 
 def _sum(terms: Array) -> Array:

@@ -11,12 +11,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.collisions.gaps import Gaps
-from geneva_cli.collisions.pairs import Bounds, Intervals, Pair, Window, raised
+from geneva_cli.collisions.pairs import Bounds, Intervals, Pair, Pose, Window, raised
+from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.extents import farthest, from_segments, near_segments, short_pieces
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.kinematics.engagement import Engagement
@@ -60,6 +62,16 @@ class FlatPairs:
         slot = CurvedSlot if engagement.slot.curved else StraightSlot
         return slot(self, roller, span)
 
+    @cached_property
+    def pieces(self) -> Polyarc:
+        """The crank in arcs of a degree, each of which is tested for being in the wheel."""
+        return short_pieces(self.crank, math.radians(1.0))
+
+    @cached_property
+    def disc(self) -> float:
+        """The greatest distance of the crank from its axis, mm."""
+        return float(farthest(self.pieces, AXIS).max())
+
     @property
     def apart(self) -> float:
         """The distance up to which parts matter, mm."""
@@ -98,11 +110,9 @@ class Roller:
         start = (on.start - self.behind + half) % turn - half
         return start, start + (on.end - on.start)
 
-    def centre(self, input_deg: Array) -> Array:
-        """Return the centre in the wheel's frame at input angles, (n, 2)."""
-        assembly = self.gaps.assembly
-        pin = assembly.pin(self.number, input_deg)
-        return self.reach.moves.into(pin, assembly.wheel(input_deg))
+    def centre(self, pose: Pose) -> Array:
+        """Return the centre in the wheel's frame, (n, 2)."""
+        return self.reach.moves.into(pose.pins[:, self.number], pose.wheel)
 
     def travel(self, on: Intervals, centre: Array) -> Array:
         """Return how far the centre is at most from its place in the middle, ``centre``."""
@@ -111,7 +121,7 @@ class Roller:
 
     def gap(self, on: Intervals) -> Array:
         """Return the gap to the wheel in the middle of intervals."""
-        return self.gaps.rollers(self.gaps.pose(on.middle))[:, self.number]
+        return self.gaps.rollers(on.at_middle)[:, self.number]
 
     def along(self, segments: Segments, centre: Array, gap: Array) -> Array:
         """Return the gap of a roller whose centre moves along segments.
@@ -144,7 +154,7 @@ class FreeRoller(Roller):
 
         While the wheel rests, the centre is also near the chord of its path.
         """
-        centre = self.centre(on.middle)
+        centre = self.centre(on.at_middle)
         far = self.reach.beyond(centre) - self.gaps.sizes.roller
         gap = np.maximum(self.gap(on), far)
         least = gap - self.travel(on, centre)
@@ -152,7 +162,7 @@ class FreeRoller(Roller):
         def near_chord(which: Whole) -> Array:
             some = on.at(which)
             aside = self.path.aside(*self.own(some))
-            segments = Segments(self.centre(some.start), self.centre(some.end), aside)
+            segments = Segments(self.centre(some.at_start), self.centre(some.at_end), aside)
             return self.along(segments, centre[which], gap[which])
 
         return Bounds(gap, raised(least, self.rests & (least < self.reach.target), near_chord))
@@ -164,12 +174,12 @@ class StraightSlot(Roller):
     def __init__(self, reach: FlatPairs, number: int, span: tuple[float, float]) -> None:
         super().__init__(reach, number)
         ends = np.array([span[0], 0.5 * (span[0] + span[1])])
-        self.first, other = self.centre(ends)
+        self.first, other = self.centre(self.gaps.pose(ends))
         self.axis = (self.first - other) / math.dist(self.first, other)
 
     def __call__(self, on: Intervals) -> Bounds:
         """Return the gap along the part of the axis that the centre may reach."""
-        centre, gap = self.centre(on.middle), self.gap(on)
+        centre, gap = self.centre(on.at_middle), self.gap(on)
         half = self.travel(on, centre)[:, None] * self.axis
         aside = np.abs((centre - self.first) @ (-self.axis[1], self.axis[0]))
         segments = Segments(centre - half, centre + half, aside)
@@ -186,10 +196,10 @@ class CurvedSlot(Roller):
 
     def __call__(self, on: Intervals) -> Bounds:
         """Return the gap along the chord, less the greatest distance of the curve from it."""
-        start, end = self.centre(on.start), self.centre(on.end)
+        start, end = self.centre(on.at_start), self.centre(on.at_end)
         aside = self.slot.aside(on.start - self.middle, on.end - self.middle)
         gap = self.gap(on)
-        chord = self.along(Segments(start, end, aside), self.centre(on.middle), gap)
+        chord = self.along(Segments(start, end, aside), self.centre(on.at_middle), gap)
         return Bounds(gap, chord)
 
 
@@ -202,28 +212,26 @@ class Lock:
 
     def __init__(self, reach: FlatPairs, window: Window) -> None:
         self.reach, self.window = reach, window
-        # arcs of a degree, each of which is tested for being in the wheel
-        self.pieces = short_pieces(reach.crank, math.radians(1.0))
-        self.disc = float(farthest(self.pieces, AXIS).max())
+        self.pieces, self.disc = reach.pieces, reach.disc
 
     def __call__(self, on: Intervals) -> Bounds:
         """Return the better of two bounds: from the gap, and from the recess's circle."""
         gaps, reach = self.reach.gaps, self.reach
-        pose = gaps.pose(on.middle)
-        gap = gaps.locking(pose)
+        gap = gaps.locking(on.at_middle)
         far = reach.rim if gaps.assembly.sign > 0.0 else reach.L + self.disc + reach.apart
         wheel = reach.moves.lever(far) * on.wheel
         least = gap - wheel - (self.disc + reach.apart) * on.crank
 
         def in_recess(which: Whole) -> Array:
-            return self._in_recess(on.at(which), pose.wheel[which], pose.crank[which])
+            return self._in_recess(on.at(which))
 
         least = raised(least, least < reach.target, in_recess)
         return Bounds(gap, np.minimum(least, reach.apart))
 
-    def _in_recess(self, on: Intervals, wheel: Array, crank: Array) -> Array:
+    def _in_recess(self, on: Intervals) -> Array:
         """Return how far the crank stays within the circle of the nearer recess, mm."""
         gaps, moves, L = self.reach.gaps, self.reach.moves, self.reach.L
+        wheel, crank, _ = on.at_middle
         start, end = self.window.start, self.window.end
         nearer = np.where(on.middle - start < end - on.middle, start, end)
         axis = np.repeat([[L, 0.0]], len(wheel), axis=0)

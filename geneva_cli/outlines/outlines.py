@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.collisions.gaps import Gaps
-from geneva_cli.collisions.machine_parts import Pose
+from geneva_cli.collisions.pairs import Pose
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.kinematics.engagement import Engagement

@@ -124,7 +124,7 @@ def curve_rates(curve: Curve, start: Array, end: Array) -> Array:
         except Undecided as error:
             answers = np.broadcast_to(error.answers, len(boxes.cell))
             is_open = np.isnan(answers)
-            left += [boxes.some(answers == one) for one in np.unique(answers[~is_open])]
+            left += [boxes.some(answers == one) for one in sorted(set(answers[~is_open].tolist()))]
             tried = boxes.some(is_open)
             left.append(tried.halves())
         else:

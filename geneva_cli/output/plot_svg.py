@@ -6,7 +6,7 @@ Texts remain texts; colours follow the reader's light or dark mode. Equal figure
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from xml.sax.saxutils import escape, quoteattr
+from html import escape
 
 from geneva_cli.errors import clean
 from geneva_cli.figure import Figure
@@ -22,12 +22,13 @@ def chunks(figure: Figure) -> Iterator[str]:
         block.draw(pen, tall)
         tall += block.high
     names = ", ".join(named(panel.y) for panel in figure.panels)
+    content = f"{names} by {named(figure.x).lower()}"
     yield (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{_n(PAGE)}" height="{_n(tall)}"'
         f' viewBox="0 0 {_n(PAGE)} {_n(tall)}" role="img" font-family="sans-serif"'
         f' font-size="{_n(TEXT)}">\n'
-        f"<title>{escape(clean(figure.title).strip())}</title>\n"
-        f"<desc>{escape(names)} by {escape(named(figure.x).lower())}</desc>\n"
+        f"<title>{escape(clean(figure.title).strip(), quote=False)}</title>\n"
+        f"<desc>{escape(content, quote=False)}</desc>\n"
         f"<style>\n{_style(LIGHT, known)}{_dashes(known)}"
         f"@media (prefers-color-scheme: dark) {{\n{_style(DARK, known)}}}\n</style>\n"
         f'<rect class="page" width="{_n(PAGE)}" height="{_n(tall)}"/>\n'
@@ -66,7 +67,7 @@ class _SvgPen(Pen):
 
     def begin(self, name: str, frame: Frame) -> None:
         self.out.append(
-            f'<g id={quoteattr(name)} data-x="{frame.window[0]!r} {frame.window[1]!r}"'
+            f'<g id="{escape(name)}" data-x="{frame.window[0]!r} {frame.window[1]!r}"'
             f' data-y="{frame.span[0]!r} {frame.span[1]!r}" data-frame="{_n(LEFT)} {_n(frame.top)}'
             f' {_n(frame.wide)} {_n(frame.high)}">\n'
         )
@@ -123,7 +124,7 @@ class _SvgPen(Pen):
         self.out.append(f'<path class="{kind}" d="{"".join(words)}"/>\n')
 
     def _text(self, x: float, y: float, text: str, more: str) -> None:
-        self.out.append(f'<text x="{_n(x)}" y="{_n(y)}"{more}>{escape(text)}</text>\n')
+        self.out.append(f'<text x="{_n(x)}" y="{_n(y)}"{more}>{escape(text, quote=False)}</text>\n')
 
 
 def _size(size: float) -> str:

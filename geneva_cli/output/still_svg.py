@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from xml.sax.saxutils import escape
+from html import escape
 
 from geneva_cli.errors import clean
 from geneva_cli.output.inks import INKS
@@ -28,7 +28,7 @@ def chunks(scene: Scene) -> Iterator[str]:
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width_px:g}" '
         f'height="{width_px * high / wide:.6g}" viewBox="{view}" fill="none" '
         f'stroke-width="{0.004 * size:.6g}" stroke-linejoin="round" stroke-linecap="round">\n'
-        f"<title>{escape(clean(scene.title))}</title>\n"
+        f"<title>{escape(clean(scene.title), quote=False)}</title>\n"
     )
     if scene.frame:
         (x, y), turned = scene.frame.centre, -math.degrees(value_at(scene.frame.angle, t))

@@ -7,7 +7,7 @@ plates, and notes; see ``svg_look``.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from xml.sax.saxutils import escape, quoteattr
+from html import escape
 
 from geneva_cli.curves.drawing import Drawing, extent
 from geneva_cli.curves.measure import Box
@@ -55,8 +55,7 @@ def chunks(drawing: Drawing, units: str, fill: str = "") -> Iterator[str]:
         if look and layer in (*CENTRE_LINES, "FRAME"):  # rollers' paths, and the lowest layer
             stroke *= 0.6
         yield (
-            f'<g id={quoteattr(layer)} stroke="{ink.rgb}" stroke-width="{number(stroke)}"{dashes}>'
-            "\n"
+            f'<g id="{escape(layer)}" stroke="{ink.rgb}" stroke-width="{number(stroke)}"{dashes}>\n'
         )
         for shape in drawing.shapes:
             if shape.layer == layer:
@@ -76,5 +75,5 @@ def _head(frame: Box, margin: float, title: str, suffix: str) -> str:
         f' width="{width}{suffix}" height="{height}{suffix}"'
         f' viewBox="{number(x)} {number(y)} {width} {height}"'
         ' fill="none" stroke-linecap="round" stroke-linejoin="round">\n'
-        f"<title>{escape(title)}</title>\n"
+        f"<title>{escape(title, quote=False)}</title>\n"
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from xml.sax.saxutils import escape
+from html import escape
 
 from geneva_cli.curves.drawing import Annotations, LevelDistance
 from geneva_cli.curves.measure import Box, at, bounds, mapped
@@ -92,7 +92,7 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tup
         *heads,
         f'</g>\n<g id="TEXT" fill="{LIGHT.text}" font-family="sans-serif"'
         f' font-size="{number(text)}">\n',
-        *(f"<text {place(p)}>{escape(t)}</text>\n" for p, t in texts),
+        *(f"<text {place(p)}>{escape(t, quote=False)}</text>\n" for p, t in texts),
         "</g>\n",
     ], Box(left, low, right, high)
 

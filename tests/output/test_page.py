@@ -21,7 +21,7 @@ from words import law
 from geneva_cli import Design, EllipticalGears, External, Linear, Load, Motion, Size, load
 from geneva_cli.app import app
 from geneva_cli.collisions.gaps import Gaps
-from geneva_cli.collisions.machine_parts import Pose
+from geneva_cli.collisions.pairs import Pose
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.kinematics.layout import Joint

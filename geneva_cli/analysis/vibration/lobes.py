@@ -37,7 +37,7 @@ def lobes(share_at: Callable[[Whole, Array], Array], low: Array, high: Array) ->
     apart = (high - low) / count
     first, last = low - apart, high + apart  # a maximum next to an end has a sample beyond it
     maxima = []
-    for number in np.unique(count).tolist():
+    for number in sorted(set(count.tolist())):
         some = np.flatnonzero(count == number)
         ratio = np.linspace(first[some], last[some], number + 3, axis=1)
         share = share_at(np.repeat(some, number + 3), ratio.ravel()).reshape(ratio.shape)

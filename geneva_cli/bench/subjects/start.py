@@ -31,9 +31,14 @@ SCRIPTS = {
 
 
 def subject(quick: bool) -> Subject:
-    """Bare Python and a row of the table; then a short run of each command."""
-    python = {code: WholeRun(code) for code in ("pass", "import numpy")}
-    tasks = [task("python", [Method(f"python -c '{c}'", None, r.run) for c, r in python.items()])]
+    """Bare Python, what runs cannot do without, and a row of the table; then each command."""
+    methods = [Method(f"python -c '{c}'", None, WholeRun(c).run) for c in ("pass", "import numpy")]
+    # the program searches rarely for garbage, and ends without Python's cleaning up
+    alone = "import gc, os; gc.set_threshold(250_000); os.environ['OPENBLAS_NUM_THREADS'] = '1'; "
+    for name, modules in (("Typer", "typer"), ("Typer and NumPy", "typer, numpy")):
+        run = WholeRun(f"{alone}import {modules}; os._exit(0)").run
+        methods.append(Method(f"the limit: {name}, as the program imports", None, run))
+    tasks = [task("python", methods)]
     tasks.append(_table())
     if not quick:
         tasks += [_command(words) for words in _without_a_spec()]

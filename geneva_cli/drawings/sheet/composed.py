@@ -7,10 +7,11 @@ most. The sheet is the smallest that fits. Above 1:1 the largest part is no wide
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from itertools import tee
 from typing import Any
 
 from geneva_cli.curves.sheet import Sheet
-from geneva_cli.drawings.sheet.pack import packed
+from geneva_cli.drawings.sheet.pack import Box, is_overfull, packed
 from geneva_cli.drawings.sheet.paper import (
     FORMATS,
     LEFT,
@@ -37,30 +38,39 @@ def on_paper(
     spec: Spec,
     rows: list[dict[str, Any]],
     largest: float,
-    blocks: Callable[[float], Iterable[list[Block]]],
+    blocks: Callable[[float], tuple[list[Block], Iterable[list[Block]]]],
     area: float = 0.0,
 ) -> Sheet:
     """Return the sheet with blocks at the largest scale at which all fit on it.
 
-    ``rows`` are its list of items. ``blocks`` yields alternatives of what is on it, the best first.
-    ``largest`` is the greatest length that is drawn, mm. ``area``, mm², is the least area that some
-    of it needs. Raises GenevaError where no scale fits.
+    ``rows`` are its list of items. ``blocks`` returns what is always on it, and alternatives of the
+    rest, the best first. An alternative is drawn when it is first tried. ``largest`` is the
+    greatest length that is drawn, mm. ``area``, mm², is the least area that some of it needs.
+    Raises GenevaError where no scale fits.
     """
     for scale in SCALES:
         width, height = FORMATS[-1].width, FORMATS[-1].height
         most = 170.0 if scale > 1.0 else width  # mm: an enlarged part is no wider than a hand
         if scale * largest > most or scale * scale * area > width * height:
             continue
-        drawn = list(blocks(scale))
+        parts, alternatives = blocks(scale)
         for paper in FORMATS:
-            for one in drawn:
-                sheet = _composed(spec, paper, scale, rows, one)
+            if is_overfull(parts, _inside(paper)):
+                continue
+            alternatives, own = tee(alternatives)
+            for one in own:
+                sheet = _composed(spec, paper, scale, rows, [*parts, *one])
                 if sheet is not None:
                     return sheet
     raise GenevaError(
         "--part sheet: the parts and their tables do not fit on one A1 sheet; a coarser "
         "--tolerance makes shorter tables"
     )
+
+
+def _inside(paper: PaperSize) -> Box:
+    """Return the area inside the frame of a sheet."""
+    return LEFT, MARGIN, paper.width - MARGIN, paper.height - MARGIN
 
 
 def _composed(
@@ -71,6 +81,9 @@ def _composed(
     blocks: list[Block],
 ) -> Sheet | None:
     """Return all blocks on one sheet; None where they do not fit."""
+    area = _inside(paper)
+    if is_overfull(blocks, area):
+        return None
     own, shop = spec.drawing, workshop(spec.size.process)
     materials = [
         _material(spec.material_wheel, wheel_material(spec), shop.stock),
@@ -99,11 +112,10 @@ def _composed(
         },
     )
     head = spec.title or spec.wheel.title
-    right, low = paper.width - MARGIN, MARGIN
+    _, low, right, _ = area
     corner = title_block(head, rows_of_fields).moved(right - TITLE_WIDTH, low)
     items = _items(rows, materials)
     items = items.moved(right - items.width, corner.y1)
-    area = LEFT, MARGIN, right, paper.height - MARGIN
     placed = packed(blocks, [corner, items], area)
     if placed is None:
         return None

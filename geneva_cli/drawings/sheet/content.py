@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import cache
 from typing import Any, NamedTuple
 
 from geneva_cli.curves.measure import bounds
@@ -70,13 +71,21 @@ def sheet_of(spec: Spec, shown: SheetContent, views: Views, fixed: Sequence[Bloc
     ``fixed`` are tables, which have no scale. Raises GenevaError where no scale fits on one sheet.
     """
 
-    def blocks(scale: float) -> Iterator[list[Block]]:
-        parts = [*(view.block() for view in views.parts(scale)), *fixed]
+    @cache
+    def whole(scale: float) -> Block:
+        return views.together(scale).block()
+
+    @cache
+    def cut(scale: float) -> Block:
+        return section(shown, views.axes, scale).block()
+
+    def rest(scale: float) -> Iterator[list[Block]]:
         half = smaller(scale, 2.0)
-        wholes = [views.together(s).block() for s in (scale, half)]
-        cuts = [section(shown, views.axes, s).block() for s in (scale, half)]
-        for i, k in ((0, 0), (1, 0), (1, 1)):
-            yield [*parts, cuts[k], wholes[i]]
+        for of_cut, of_whole in ((scale, scale), (scale, half), (half, half)):
+            yield [cut(of_cut), whole(of_whole)]
+
+    def blocks(scale: float) -> tuple[list[Block], Iterator[list[Block]]]:
+        return [*(view.block() for view in views.parts(scale)), *fixed], rest(scale)
 
     return on_paper(spec, shown.rows, shown.largest, blocks, shown.area)
 

@@ -76,22 +76,19 @@ class SphereFace:
         return middle, [(c, a), (b, c), (d, b), (a, d)]
 
     def _exchange(self, sides: list[tuple[int, int]]) -> list[tuple[int, int]]:
-        """Exchange sides that the hull has not; return all that are new or were tried."""
-        tried = []
+        """Exchange sides that the hull has not; return the new ones, of which some may be gone."""
+        new = []
         while sides:
-            a, b = side = sides.pop()
+            a, b = sides.pop()
             c, d = self.opposite.get((a, b)), self.opposite.get((b, a))
-            if c is None or d is None:
-                continue
-            if not self._is_below(a, b, c, d):
-                tried.append(side)
+            if c is None or d is None or not self._is_below(a, b, c, d):
                 continue
             del self.opposite[a, b], self.opposite[b, a]
             self._add(a, d, c)
             self._add(d, b, c)
-            tried.append((c, d))
+            new.append((c, d))
             sides += [(c, a), (a, d), (d, b), (b, c)]
-        return tried
+        return new
 
     def _is_below(self, a: int, b: int, c: int, d: int) -> bool:
         """Return True if the plane of a, b and c is below the corner d.

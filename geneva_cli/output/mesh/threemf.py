@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator
-from xml.sax.saxutils import quoteattr
+from html import escape
 from zipfile import ZIP_STORED, ZipFile, ZipInfo
 
 from geneva_cli.curves.drawing import Drawing
@@ -92,8 +92,9 @@ def _shown(value: float) -> str:
 
 
 def _text(text: str) -> str:
-    return _quoted(text)[1:-1]
+    # an apostrophe may stay between quotes
+    return escape(clean(text), quote=False).replace('"', "&quot;")
 
 
 def _quoted(text: str) -> str:
-    return quoteattr(clean(text))
+    return f'"{_text(text)}"'

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from xml.sax.saxutils import escape
+from html import escape
 
 from geneva_cli.curves.helvetica import CAPITALS
 from geneva_cli.curves.sheet import DASHED, WIDTHS, Arrow, Label, Sheet
@@ -32,7 +32,7 @@ def chunks(sheet: Sheet) -> Iterator[str]:
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{w}mm" height="{h}mm"'
         f' viewBox="0 {number(-sheet.height)} {w} {h}"'
         ' fill="none" stroke-linecap="round" stroke-linejoin="round">\n'
-        f"<title>{escape(clean(sheet.title))}</title>\n{STYLE}"
+        f"<title>{escape(clean(sheet.title), quote=False)}</title>\n{STYLE}"
         f'<rect class="paper" y="{number(-sheet.height)}" width="{w}" height="{h}"/>\n'
         f'<g class="ink" font-family="Helvetica, Arial, \'Liberation Sans\', sans-serif">\n'
     )
@@ -64,5 +64,5 @@ def _text(label: Label) -> str:
     return (
         f'<text {place(label.at)} font-size="{number(label.height / CAPITALS)}"'
         f' textLength="{number(label.width)}" lengthAdjust="spacingAndGlyphs"{turn}>'
-        f"{escape(clean(label.text))}</text>\n"
+        f"{escape(clean(label.text), quote=False)}</text>\n"
     )

@@ -65,7 +65,7 @@ class Roller:
 
     def gap(self, on: Intervals) -> Array:
         """Return the gap to the wheel in the middle of intervals, mm."""
-        return self.gaps.rollers(self.gaps.pose(on.middle))[:, self.number]
+        return self.gaps.rollers(on.at_middle)[:, self.number]
 
     def travel(self, on: Intervals) -> Array:
         """Return how far the centre moves on the fixed sphere from the middle, radians."""
@@ -150,13 +150,12 @@ class Lock:
     def __call__(self, on: Intervals) -> Bounds:
         """Return the better of two bounds: from the gap, and from the recess's cap."""
         pairs, R = self.pairs, self.ball.radius_mm
-        pose = self.gaps.pose(on.middle)
-        gap = self.gaps.locking(pose)
+        gap = self.gaps.locking(on.at_middle)
         # no point of a sphere moves farther than it turns
         least = gap - R * (on.wheel + self._travel(on))
 
         def in_recess(which: Whole) -> Array:
-            return self._in_recess(on.at(which), pose.wheel[which], pose.crank[which])
+            return self._in_recess(on.at(which))
 
         least = raised(least, least < pairs.target, in_recess)
         return Bounds(gap, np.minimum(least, R * pairs.apart))
@@ -165,9 +164,10 @@ class Lock:
         """Return how far points of the sectors move, and points as near to them, radians."""
         return math.sin(min(self.ball.lock + self.pairs.apart, QUARTER)) * on.crank
 
-    def _in_recess(self, on: Intervals, wheel: Array, crank: Array) -> Array:
+    def _in_recess(self, on: Intervals) -> Array:
         """Return how far the sectors stay within the cap of the nearer recess, mm."""
         ball, gaps = self.ball, self.gaps
+        wheel, crank, _ = on.at_middle
         start, end = self.window.start, self.window.end
         nearer = np.where(on.middle - start < end - on.middle, start, end)
         axis = np.tile(gaps.crank_frame[2], (len(wheel), 1))

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from geneva_cli.collisions.machine_parts import Pose, Stop
+from geneva_cli.collisions.machine_parts import Stop
+from geneva_cli.collisions.pairs import Pose
 from geneva_cli.collisions.touch import first_stops
 from geneva_cli.curves.sphere import Region, opposite, place
 from geneva_cli.curves.sphere_arcs import SphereArcs

@@ -8,8 +8,6 @@ from geneva_cli.analysis.carried import inertia_kgm2
 from geneva_cli.analysis.peaks import worst
 from geneva_cli.analysis.positive_drive import positive_drive
 from geneva_cli.analysis.quantities import REPORTED_PEAKS, sources
-from geneva_cli.analysis.vibration.answers import NUMBERS, values
-from geneva_cli.analysis.vibration.oscillator import required_oscillator
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads import loads
@@ -65,14 +63,19 @@ def vibration(model: PartsModel) -> Values:
     Bands, stations and warnings are those of ``geneva vibration``.
     """
     mechanism = model.mechanism
-    out: Values = {"vibration.none": None} | dict.fromkeys(f"vibration.{n}" for n in NUMBERS)
+    out: Values = dict.fromkeys((*own_names("vibration"), "vibration.speeds_to_avoid_rpm"))
     if mechanism.spec.shaft.stiffness_Nm_rad is None:
         return out
+    # only for elastic shafts: the modules of vibration take a twentieth of a short report
+    from geneva_cli.analysis.vibration.answers import values
+    from geneva_cli.analysis.vibration.oscillator import required_oscillator
+
     try:
         results = values(mechanism, required_oscillator(mechanism))
     except GenevaError as error:
         return out | {"vibration.none": str(error)}
-    return out | {f"vibration.{name}": results[name] for name in NUMBERS}
+    named = ((f"vibration.{name}", value) for name, value in results.items())
+    return out | {name: value for name, value in named if name in out}
 
 
 SAMPLES = 65536  # random machines
