@@ -176,6 +176,11 @@ class Design:
         design.spec, design._text = spec, text
         return design
 
+    def __getstate__(self) -> dict[str, object]:
+        """The inputs without the answers, which a pickled copy computes again."""
+        inputs = ("spec", "_text", "is_backwards")
+        return {name: value for name, value in vars(self).items() if name in inputs}
+
     def __repr__(self) -> str:
         """The design as a Python expression, without default values.
 

@@ -46,7 +46,9 @@ class Meter:
 
     def __init__(self, what: str, total: int) -> None:
         self.total = total
-        self.bar = _maker[0](what, total) if _maker and not _shown else None
+        # a bar of one item shows no progress, and would hide those of the work within
+        shows = _maker and not _shown and total > 1
+        self.bar = _maker[0](what, total) if shows else None
         if self.bar:
             _shown.append(self.bar)
 

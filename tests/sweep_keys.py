@@ -25,8 +25,8 @@ from geneva_cli.spec.tables import (
     Tolerance,
     WheelMaterial,
 )
+from geneva_cli.study.batches import known_columns
 from geneva_cli.study.fields import values
-from geneva_cli.study.sweep.columns import known_columns
 from geneva_cli.verdict.quantities.groups import GROUPS
 from geneva_cli.verdict.quantities.names import in_batch
 

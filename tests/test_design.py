@@ -2,9 +2,11 @@
 
 import inspect
 import math
+import pickle
 import subprocess
 import sys
 import types
+from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
 
 import numpy as np
@@ -404,6 +406,23 @@ def test_the_first_use_may_be_from_threads():
     found = subprocess.run(command, capture_output=True, text=True, timeout=60)
     assert found.returncode == 0, found.stderr
     assert [*map(float, found.stdout.split())] == [load(f).peaks.velocity.max for f in files]
+
+
+def test_one_design_serves_several_threads():
+    one, alone = (load(str(repo.DESIGNS / "turret.toml")) for _ in range(2))
+    with ThreadPoolExecutor(4) as pool:
+        answers = [*pool.map(lambda _: (repr(one.peaks), repr(one.loads)), range(4))]
+    assert answers == [(repr(alone.peaks), repr(alone.loads))] * 4
+
+
+def test_a_design_with_answers_can_be_pickled():
+    """The inputs alone are in the pickle, with the file's lines for messages."""
+    read = load(str(repo.DESIGNS / "offset-slots.toml"), ["size.center_distance_mm=8 in"])
+    for first in (Design(External(6), load=Load(0.4, 15.0)), read, read.backwards):
+        answers = first.peaks, first.checks, repr(first.loads)
+        again = pickle.loads(pickle.dumps(first))
+        assert (again.peaks, again.checks, repr(again.loads)) == answers
+        assert again.is_backwards == first.is_backwards and again.with_units == first.with_units
 
 
 # What a program may use

@@ -29,8 +29,8 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.numerics.jet import Jet, Number, sine_versine
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.output.formats import FORMATS
-from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import Range
+from geneva_cli.spec.schema import Example
 from geneva_cli.specfile import template
 from geneva_cli.table import Table, rows_table
 from geneva_cli.verdict.advice import judged

@@ -10,7 +10,7 @@ engagement's own mid-motion.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import NamedTuple, cast
 
 import numpy as np
 
@@ -20,14 +20,11 @@ from geneva_cli.kinematics.engagement import Engagement, WheelMotion
 from geneva_cli.machine.many import designs_in, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
-from geneva_cli.numerics.arrays import blocks, choose, joined, larger
+from geneva_cli.numerics.arrays import Whole, blocks, choose, joined, larger
+from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.newton import find_roots
 from geneva_cli.numerics.quadrature import rule
 from geneva_cli.numerics.tolerances import ROUNDED
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Whole
-    from geneva_cli.numerics.jet import Array
 
 
 class WallImpacts(NamedTuple):

@@ -8,15 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Generic, NamedTuple
+from typing import Generic, NamedTuple
 
 from geneva_cli.kinematics.engagement import Engagement, Vector
-from geneva_cli.numerics.arrays import all_true, choose, library
-from geneva_cli.numerics.jet import Jet, Number, V, piecewise, sin_cos, sqrt
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Whole
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Whole, all_true, choose, library
+from geneva_cli.numerics.jet import Array, Jet, Number, V, piecewise, sin_cos, sqrt
 
 NEAR_CUSP = 1e-4  # fraction of a half motion: nearer to a cusp, slopes are lost to rounding
 

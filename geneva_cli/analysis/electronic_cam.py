@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,10 +18,8 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import distinct
+from geneva_cli.numerics.jet import Array
 from geneva_cli.table import Table
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 INSIDE = (np.arange(32) + 0.5) / 32.0  # places in a piece where its error is evaluated
 LEAST_DEG = 1e-3  # shorter pieces are not halved: a servo's cycle is longer

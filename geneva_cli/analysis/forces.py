@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import TYPE_CHECKING, Generic, NamedTuple
+from typing import Generic, NamedTuple
 
 from geneva_cli.analysis.carried import MM, inertia_kgm2, resisting_torque_Nm, unbalance_kgm
 from geneva_cli.analysis.contact import Contact
@@ -25,13 +25,10 @@ from geneva_cli.analysis.pin import pin_diameter_mm
 from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.arrays import N, all_true, choose, designs_of, library
+from geneva_cli.numerics.arrays import N, Whole, all_true, choose, designs_of, library
 from geneva_cli.numerics.jet import Jet, Number, V
 from geneva_cli.spec.default_sizes import value_or
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Whole
-    from geneva_cli.spec.workshops import Stock
+from geneva_cli.spec.workshops import Stock
 
 NEGLIGIBLE = 1e-12  # fraction of a torque, of a motion, or of a lever over L that is rounding
 

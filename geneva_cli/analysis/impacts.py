@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,9 +16,7 @@ from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import all_true, library, only_of, parameter
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.jet import Array
 
 
 class Impact(NamedTuple):
@@ -48,17 +46,12 @@ class Impacts(NamedTuple):
         return None if at_deg is None or jump is None else Impact(at_deg, jump, *force)
 
 
-def entry_impact(mechanism: Mechanism, fraction: float = 1.0) -> Impact | None:
-    """Impact at entry with a ``fraction`` of the crank's greatest error; None without an error.
+def entry_impacts(mechanism: Mechanism, fraction: float = 1.0) -> Impacts:
+    """Impacts at entry of m designs with a ``fraction`` of the cranks' greatest errors.
 
     The roller meets the slot's axis. If the slot is too narrow for it to enter off the axis, it
     meets a corner of the mouth. The jump is negative if the wheel is struck backwards.
     """
-    return entry_impacts(mechanism, fraction).only
-
-
-def entry_impacts(mechanism: Mechanism, fraction: float = 1.0) -> Impacts:
-    """Impacts at entry of m designs with a ``fraction`` of the cranks' greatest errors."""
     best = np.full((2, 1), np.nan)
     for engagement in mechanism.engagements:
         every = [first_contacts(engagement, *e) for e in _errors(mechanism, engagement, fraction)]
@@ -66,11 +59,6 @@ def entry_impacts(mechanism: Mechanism, fraction: float = 1.0) -> Impacts:
             if contacts is not None:
                 best = _harder(best, _shown(mechanism, engagement, *contacts))
     return _with_force(mechanism, best)
-
-
-def start_impact(mechanism: Mechanism) -> Impact | None:
-    """Impact at entry of a wheel whose speed jumps by design; None for other wheels."""
-    return start_impacts(mechanism).only if mechanism.spec.wheel.JUMPS else None
 
 
 def start_impacts(mechanism: Mechanism) -> Impacts:
@@ -138,17 +126,12 @@ def clearance_mm(mechanism: Mechanism) -> float:
     return mechanism.spec.size.allowances.slot_clearance_mm + 0.5 * both
 
 
-def reversal_impact(mechanism: Mechanism) -> Impact | None:
-    """Hardest impact at a change of sides with the greatest play; None if there is no change.
+def reversal_impacts(mechanism: Mechanism) -> Impacts:
+    """Hardest impacts of m designs at a change of sides with the greatest play.
 
     The play is the clearance over the lever where the wheel begins to coast. Without an inertia no
     wheel coasts. With a drag above ``lasting_drag_Nm`` the roller never changes sides.
     """
-    return reversal_impacts(mechanism).only
-
-
-def reversal_impacts(mechanism: Mechanism) -> Impacts:
-    """Hardest impacts at a change of sides of m designs."""
     best = np.full((2, 1), np.nan)
     none = (drag_over(mechanism) == np.inf) | (clearance_mm(mechanism) == 0.0)
     # a body off a carried wheel's axis drives the wheel where it would coast

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Generic
+from typing import Generic
 
 import numpy as np
 
@@ -20,10 +20,7 @@ from geneva_cli.analysis.forces import (
     stress_margin,
     value,
 )
-from geneva_cli.numerics.jet import Jet, Number, V, sqrt
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.jet import Array, Jet, Number, V, sqrt
 
 # Names of an instant's quantities.
 INSTANT_QUANTITIES = (

@@ -34,8 +34,7 @@ from geneva_cli.numerics.jet import Jet
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.mid_motion import MidMotionValues
-    from geneva_cli.numerics.arrays import Mask, Whole
-    from geneva_cli.numerics.jet import Array, Number
+    from geneva_cli.numerics.arrays import Array, Mask, Number, Whole
     from geneva_cli.numerics.pieces import Which
     from geneva_cli.numerics.search import Stretches
 

@@ -7,7 +7,7 @@ it.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -25,13 +25,8 @@ from geneva_cli.analysis.instant import Instant, bounded, values
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import array
-from geneva_cli.numerics.jet import Jet, Number
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Mask
-    from geneva_cli.numerics.jet import Array
-
+from geneva_cli.numerics.arrays import Mask, array
+from geneva_cli.numerics.jet import Array, Jet, Number
 
 # contact, signs of torque, of sliding and of the input's torque -> the quantities
 Rows: TypeAlias = Callable[[Contact[Jet], Number, Number, Number], list[QuantityValue[Jet]]]

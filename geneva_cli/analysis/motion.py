@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,10 +16,8 @@ from geneva_cli.analysis.electronic_cam import knots_deg
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.jet import Array
 from geneva_cli.table import Table, computed_table
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 SAMPLES_MAX = 1_000_000  # some seconds of writing, some 80 MB
 

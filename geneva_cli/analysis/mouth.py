@@ -19,21 +19,17 @@ P' / (P - C) . (z x C), for any path of the roller. On a sphere P and C are dire
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.shock import OCTAVES, FirstContacts, RestingAxis
+from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE, radians
-from geneva_cli.numerics.arrays import library, parameter
-from geneva_cli.numerics.jet import Jet, sqrt
+from geneva_cli.numerics.arrays import Whole, library, parameter
+from geneva_cli.numerics.jet import Array, Jet, sqrt
 from geneva_cli.numerics.newton import find_roots
-
-if TYPE_CHECKING:
-    from geneva_cli.kinematics.engagement import Engagement
-    from geneva_cli.numerics.arrays import Whole
-    from geneva_cli.numerics.jet import Array
 
 
 class MouthCorner(NamedTuple):

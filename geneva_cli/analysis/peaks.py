@@ -60,11 +60,6 @@ def peak(motion: WheelMotion, quantity: str) -> Peak[float]:
     return peaks_of(motion, [quantity])[0]
 
 
-def velocity_peak(engagement: Engagement) -> Peak[float]:
-    """Peak velocity of one engagement."""
-    return peak(engagement.motion, "velocity")
-
-
 def ends(engagement: Engagement) -> EndSizes:
     """Sizes at both ends, from inside the motion; infinite where the velocity jumps."""
     first = engagement.motion(engagement.entry_deg).scalars()

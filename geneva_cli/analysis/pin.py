@@ -10,7 +10,7 @@ from geneva_cli.numerics.preferred import rounded_below
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.numerics.jet import Number
+    from geneva_cli.numerics.arrays import Number
     from geneva_cli.spec.tables import Size
 
 

@@ -8,15 +8,13 @@ only the play between the branches limits the wheel.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.forces import load_case
 from geneva_cli.machine.mechanism import Mechanism
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Mask
+from geneva_cli.numerics.arrays import Array, Mask
 
 HALF_SAMPLES = 720  # places in half a motion
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from geneva_cli.analysis.forces import QuantityValue, load_case
-from geneva_cli.numerics.ties import first_greatest
+from geneva_cli.numerics.greatest import first_greatest
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.instant import Instant

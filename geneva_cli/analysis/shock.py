@@ -13,19 +13,16 @@ results are (m,).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.kinematics.engagement import Anchor, Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import N, library, parameter
+from geneva_cli.numerics.arrays import N, Whole, library, parameter
+from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.newton import find_roots
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Whole
-    from geneva_cli.numerics.jet import Array
 
 # Ascending fractions of a span, half an octave apart, which bracket a crossing.
 OCTAVES = 0.5 ** (0.5 * np.arange(64, -1, -1))

@@ -15,7 +15,6 @@ roller.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -24,12 +23,9 @@ from geneva_cli.analysis.forces import contact_modulus_GPa
 from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.arrays import N, choose, size
+from geneva_cli.numerics.arrays import Array, N, Whole, choose, size
 from geneva_cli.numerics.newton import find_roots
 from geneva_cli.spec.workshops import Stock
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Whole
 
 POWER, WIDTH = 0.9, 0.8
 

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from geneva_cli.analysis.contact import contact
 from geneva_cli.analysis.forces import LoadCase
+from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import array
-
-if TYPE_CHECKING:
-    from geneva_cli.kinematics.engagement import Engagement
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.jet import Array
 
 
 def spread_deg(engagement: Engagement, case: LoadCase) -> Array:

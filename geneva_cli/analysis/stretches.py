@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,12 +19,10 @@ from geneva_cli.analysis.forces import NEGLIGIBLE, LoadCase, wheel_torque
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import Whole
+from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.roots import root
 from geneva_cli.numerics.search import Stretches
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Whole
-    from geneva_cli.numerics.jet import Array
 
 
 def spans_of(engagement: Engagement, n: int) -> list[tuple[Array, Array]]:

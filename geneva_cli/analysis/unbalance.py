@@ -8,17 +8,13 @@ nothing but the lock holds the wheel against it. The formulas for the motion are
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from geneva_cli.analysis.carried import carried_kg
 from geneva_cli.analysis.forces import unbalance_Nm
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.jet import Array
 
 
 def held_unbalance_Nm(mechanism: Mechanism) -> Array:

@@ -8,17 +8,14 @@ roller's radius. The flank then runs backwards, and the roller cuts away the wal
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import NamedTuple, cast
 
 import numpy as np
 
 from geneva_cli.kinematics.pitch_curve import Pitch, pitch, retraces
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import choose_record, only_of
+from geneva_cli.numerics.arrays import Array, Mask, Number, choose_record, only_of
 from geneva_cli.numerics.tolerances import TIE
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Mask, Number
 
 HALF_SAMPLES = 1024  # of a half motion; the depth's error is then far below a micrometre per metre
 

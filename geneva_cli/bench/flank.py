@@ -9,14 +9,12 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from geneva_cli.curves.measure import at
-from geneva_cli.curves.shapes import Arc, Cubic
+from geneva_cli.curves.shapes import Arc, Cubic, Line
 from geneva_cli.layout.slot_profile import slot
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.jet import Array
 
 if TYPE_CHECKING:
-    from geneva_cli.curves.shapes import Line
-    from geneva_cli.numerics.jet import Array
-
     Curve = Callable[[Array], tuple[Array, Array]]
     P = TypeVar("P", Arc, Cubic)
 

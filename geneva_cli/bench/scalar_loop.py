@@ -15,7 +15,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array
 
 
 def looped(compiled: Callable[[Any], Any]) -> Callable[[Array, Array, Array, Array], None]:

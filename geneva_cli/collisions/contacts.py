@@ -10,18 +10,14 @@ contact between two samples is missed.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
+from geneva_cli.numerics.arrays import Array, Whole
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from geneva_cli.numerics.jet import Array
-
-    Near: TypeAlias = tuple[NDArray[np.intp], NDArray[np.intp]]
+Near: TypeAlias = tuple[Whole, Whole]
 
 
 def nearest_pieces(
@@ -55,7 +51,7 @@ def nearest_pieces(
 
 def candidates(
     own: Polyarc, near: Near, other: Polyarc, origin: Array, angle: Array, reach: float
-) -> tuple[NDArray[np.intp], Array]:
+) -> tuple[Whole, Array]:
     """Return points of ``own`` that may touch ``other``, within ``reach`` of its origin.
 
     The arguments are those of ``nearest_pieces``. Returns the index of the position of each point,

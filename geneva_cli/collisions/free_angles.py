@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.collisions.machine_parts import MachineParts, Stop, rim_lever, smallest_clearance
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array
 
 EXACT = 1e-10  # radians: smaller angles are rounding
 

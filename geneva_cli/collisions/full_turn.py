@@ -9,7 +9,7 @@ into line and not jam.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -17,11 +17,7 @@ from geneva_cli.collisions.free_angles import EXACT, free_angles, search_deg
 from geneva_cli.collisions.machine_parts import MachineParts
 from geneva_cli.collisions.play import Play, play_of, push_deg, windows
 from geneva_cli.collisions.smallest import Earlier, Gap, smallest_gaps
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array, Mask
 
 SAME = 1e-7  # of a play: its relative accuracy
 
@@ -86,7 +82,7 @@ def full_turn(parts: MachineParts) -> FullTurn:
         dwell = _most(free, middles, earlier)
     play = play_of(parts, fits)
 
-    def most_of(values: Array, where: NDArray[np.bool_]) -> Most:
+    def most_of(values: Array, where: Mask) -> Most:
         return _shown(parts, _most(values[where], play.input_deg[where], earlier))
 
     driving, idle, lock = gaps

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import math
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 import numpy as np
 
@@ -18,12 +18,8 @@ from geneva_cli.curves.shapes import Contour, backwards
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.plane_motion import turned_points
 from geneva_cli.layout.assembly import Assembly
+from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from geneva_cli.numerics.jet import Array
 
 NEAR = 0.02  # of the centre distance: wider gaps are returned as this
 WORK = 1e8  # greatest number of distances between points and pieces in a full turn: about 5 s
@@ -131,8 +127,7 @@ class Gaps:
             self._roller(self.plane_motion.into(pose.pins[:, i], turn), near)
             for i in range(len(self.assembly.rollers))
         ]
-        out: Array = np.column_stack(columns)
-        return out
+        return np.column_stack(columns)
 
     def _roller(self, centres: Array, near: float) -> Array:
         """Return the gap of a roller centred at points in the wheel's frame."""
@@ -258,7 +253,7 @@ def _repeats(outline: Polyarc, count: int, near: float, sense: float = 1.0) -> b
     return bool(same and np.abs(np.roll(bends, each, axis=0) - bends).max() < SAME_LENGTH)
 
 
-def _least(count: int, owner: NDArray[np.intp], values: Array, most: float) -> Array:
+def _least(count: int, owner: Whole, values: Array, most: float) -> Array:
     out = np.full(count, most)
     np.minimum.at(out, owner, values)
     return out

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.collisions.free_angles import free_angles
 from geneva_cli.collisions.machine_parts import MachineParts
 from geneva_cli.collisions.play import windows
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 BESIDE = np.geomspace(0.01, 6.0, 14)  # degrees of the input on either side of a position
 

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, Self
 
 import numpy as np
 
+from geneva_cli.numerics.arrays import Array
+
 if TYPE_CHECKING:
     from geneva_cli.collisions.pairs import Pairs
     from geneva_cli.layout.assembly import Assembly
-    from geneva_cli.numerics.jet import Array
 
 
 class Pose(NamedTuple):
@@ -65,8 +66,7 @@ class Clearances(Protocol):
 def smallest_clearance(gaps: Clearances, pose: Pose, lead: Array, near: float) -> Array:
     """Return the smallest clearance of all parts in each pose, (n,)."""
     rolling = gaps.rollers(pose, lead, near).min(axis=1)
-    out: Array = np.minimum(gaps.locking(pose, lead, near), rolling)
-    return out
+    return np.minimum(gaps.locking(pose, lead, near), rolling)
 
 
 class Lengths(Protocol):

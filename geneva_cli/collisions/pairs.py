@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array, Mask, Whole
 
 
 class Window(NamedTuple):
@@ -36,10 +33,9 @@ class Intervals(NamedTuple):
     @property
     def middle(self) -> Array:
         """Input angles in the middle, degrees."""
-        out: Array = 0.5 * (self.start + self.end)
-        return out
+        return 0.5 * (self.start + self.end)
 
-    def at(self, which: NDArray[np.intp]) -> Intervals:
+    def at(self, which: Whole) -> Intervals:
         """Return some of the intervals."""
         return Intervals(*(each[which] for each in self))
 
@@ -71,9 +67,7 @@ class Pairs(Protocol):
         """Return a roller and the wheel, while it is in its slot between two input angles."""
 
 
-def raised(
-    least: Array, doubtful: NDArray[np.bool_], closer: Callable[[NDArray[np.intp]], Array]
-) -> Array:
+def raised(least: Array, doubtful: Mask, closer: Callable[[Whole], Array]) -> Array:
     """Return bounds (n,), where ``doubtful`` the better of them and of those of ``closer``.
 
     ``closer`` gets the indices of the doubtful intervals.

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.collisions.touch import SLACK
 from geneva_cli.curves.distance import Polyarc
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array, Mask, Whole
 
 
 class Rounds(NamedTuple):
@@ -29,8 +25,8 @@ class Rounds(NamedTuple):
     slack: Array  # radians by which an arc is longer at each end
 
     def face(
-        self, which: NDArray[np.intp], x: Array, y: Array, turn: Array, sense: Array | float = 1.0
-    ) -> NDArray[np.bool_]:
+        self, which: Whole, x: Array, y: Array, turn: Array, sense: Array | float = 1.0
+    ) -> Mask:
         """Return True where arcs contain directions (x, y), turned by ``turn``, times ``sense``."""
         c, s = np.cos(turn), np.sin(turn)
         x, y = x * c - y * s, x * s + y * c
@@ -38,8 +34,7 @@ class Rounds(NamedTuple):
         # the sine of the angle to the nearer end: cosines do not show angles of a millionth
         ahead, aside = sense * (mx * x + my * y), np.abs(mx * y - my * x)
         within = self.sin_half[which] * ahead - self.cos_half[which] * aside
-        out: NDArray[np.bool_] = within >= -self.slack[which]
-        return out
+        return within >= -self.slack[which]
 
 
 class Lines(NamedTuple):

@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array, Whole
 
 
 class PlaceIndex:
@@ -32,7 +28,7 @@ class PlaceIndex:
             self._order = np.tile(self._order, 3)  # three periods; lookups are in the middle one
             self._place = np.tile(self._place, 3) + turns
 
-    def within(self, ahead: Array, half: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    def within(self, ahead: Array, half: float) -> tuple[Whole, Whole]:
         """Return the entries within ``half`` radians on either side of each of m places.
 
         Returns the index of the place that each entry belongs to, ascending, and the entry's index.

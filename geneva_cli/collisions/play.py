@@ -12,20 +12,15 @@ from collections.abc import Iterator
 from functools import reduce
 from itertools import groupby
 from operator import or_
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.collisions.free_angles import search_deg, touching, wheel_stops
 from geneva_cli.collisions.machine_parts import MachineParts, rim_lever
 from geneva_cli.collisions.pairs import Window
-from geneva_cli.numerics.arrays import rising
+from geneva_cli.numerics.arrays import Array, Mask, Whole, rising
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from geneva_cli.numerics.jet import Array
 
 AROUND = 5  # parts into which an interval is divided about a peak
 SMALL = 1e-3  # degrees: the interval over which a roller's speed is computed
@@ -44,8 +39,8 @@ class Play(NamedTuple):
     input_deg: Array
     back: Array
     on: Array
-    resting: NDArray[np.bool_]
-    guided: NDArray[np.bool_]
+    resting: Mask
+    guided: Mask
     speed: Array
     back_push: Array
     on_push: Array
@@ -53,14 +48,12 @@ class Play(NamedTuple):
     @property
     def both(self) -> Array:
         """The smaller play of both directions: a slot that drives from one wall has none."""
-        out: Array = np.minimum(self.back, self.on)
-        return out
+        return np.minimum(self.back, self.on)
 
     @property
     def either(self) -> Array:
         """The larger play of both directions."""
-        out: Array = np.maximum(self.back, self.on)
-        return out
+        return np.maximum(self.back, self.on)
 
 
 def windows(parts: MachineParts) -> Iterator[Window]:
@@ -169,7 +162,7 @@ def _merged(a: Play, b: Play) -> Play:
     return Play(*[np.concatenate(both)[order] for both in zip(a, b, strict=True)])
 
 
-def _cut(play: Play, intervals: NDArray[np.intp]) -> Array:
+def _cut(play: Play, intervals: Whole) -> Array:
     """Return positions that divide intervals, numbered by their first ends, into equal parts."""
     last = len(play.input_deg) - 2
     i = rising(intervals[(intervals >= 0) & (intervals <= last)])
@@ -177,8 +170,7 @@ def _cut(play: Play, intervals: NDArray[np.intp]) -> Array:
     # intervals below 1e-6 degrees are not divided
     wide = (high - low > 1e-6)[:, None]
     fraction = np.arange(1, AROUND) / AROUND
-    cuts: Array = (low[:, None] + (high - low)[:, None] * fraction)[wide.ravel()].ravel()
-    return cuts
+    return (low[:, None] + (high - low)[:, None] * fraction)[wide.ravel()].ravel()
 
 
 def _peaks(parts: MachineParts, play: Play) -> Iterator[Array]:

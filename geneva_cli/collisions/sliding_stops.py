@@ -9,7 +9,6 @@ right angle. An arc and a line touch when the centre is one radius away from the
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,11 +16,7 @@ from geneva_cli.collisions.machine_parts import Pose, Stop
 from geneva_cli.collisions.pieces import Rounds, lines, rounds
 from geneva_cli.collisions.touch import WAYS, Touch, first_stops, within
 from geneva_cli.curves.distance import Polyarc
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array, Mask, Whole
 
 
 class SlidingStops:
@@ -136,8 +131,8 @@ class SlidingStops:
         return Touch((n + len(pose.wheel) * on)[good], lead[good], 0.0 * lead[good])
 
     def _within(
-        self, travel: Array, most: float, way: NDArray[np.bool_] | bool = True
-    ) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
+        self, travel: Array, most: float, way: Mask | bool = True
+    ) -> tuple[Whole, Whole, Array]:
         """Return contacts that the rack reaches by sliding less than ``most`` radians.
 
         ``way`` masks back and on, (2, n); see ``touch.within``.

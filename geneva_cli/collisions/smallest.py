@@ -5,19 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.collisions.gaps import WorkLimit
 from geneva_cli.collisions.machine_parts import MachineParts, rim_lever
-from geneva_cli.numerics.arrays import rising
+from geneva_cli.numerics.arrays import Array, Mask, rising
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from geneva_cli.numerics.jet import Array
 
 POSITIONS = 10_000  # at most: about 0.1 s of the parts alone; a turn that needs more is not proved
 DIP = 1e-9  # mm: gaps that differ by less count as equal
@@ -58,8 +53,7 @@ def smallest_gaps(parts: MachineParts, earlier: Earlier) -> SmallestGaps:
         drives = _drives(parts, x)
         meanwhile = drives.any(axis=1, keepdims=True) & ~drives
         clearance = each if x is at else gaps.rollers(gaps.pose(x))
-        out: Array = np.where(meanwhile == idle, clearance, np.inf).min(axis=1)
-        return out
+        return np.where(meanwhile == idle, clearance, np.inf).min(axis=1)
 
     def crank(x: Array) -> Array:
         return gaps.locking(pose if x is at else gaps.pose(x))
@@ -105,7 +99,7 @@ def positions(parts: MachineParts) -> Array:
     return rising(np.concatenate((grid_deg, near)))
 
 
-def _drives(parts: MachineParts, x: Array) -> NDArray[np.bool_]:
+def _drives(parts: MachineParts, x: Array) -> Mask:
     """Return a mask of the rollers that move the wheel at input angles, (n, m)."""
     assembly = parts.assembly
     half = 0.5 * assembly.turn_deg

@@ -12,7 +12,7 @@ in one of them.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,11 +20,7 @@ from geneva_cli.collisions.machine_parts import Pose, Stop
 from geneva_cli.collisions.pieces import Lines, Rounds, lines, rounds, spans
 from geneva_cli.collisions.touch import WAYS, Touch, first_stops, triangles, within
 from geneva_cli.curves.distance import Polyarc
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array, Whole
 
 BLOCK = 1 << 15  # pairs of pieces that are computed together, so that they fit into the cache
 
@@ -92,7 +88,7 @@ class Stops:
 
     def _at_rounds(
         self, others: NearbyArcs, pose: Pose, most: float, close: float
-    ) -> Iterator[tuple[Touch, NDArray[np.intp]]]:
+    ) -> Iterator[tuple[Touch, Whole]]:
         """Yield contacts of arcs with arcs, and the index of the other arc of each.
 
         Both are convex, or one of them lies in the other's hollow.
@@ -135,7 +131,7 @@ class Stops:
 
     def _at_lines(
         self, others: NearbyArcs, pose: Pose, most: float, close: float
-    ) -> Iterator[tuple[Touch, NDArray[np.intp]]]:
+    ) -> Iterator[tuple[Touch, Whole]]:
         """Yield contacts of the wheel's lines with convex arcs, and the index of each arc."""
         own, other = self.lines, others.rounds
         ps, qs = np.nonzero(np.broadcast_to(other.sense > 0.0, (len(own.off), len(other.sense))))

@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.collisions.machine_parts import Stop
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array, Mask, Whole
 
 WAYS = np.array(((-1.0,), (1.0,)))  # back and on: factors for rows of angles
 SLACK = 1e-9  # radians, and of a length: smoothly joined pieces leave no gap between them
@@ -24,18 +20,18 @@ class Touch(NamedTuple):
     Rows 0 to n - 1 are the n poses with the wheel turning back, the next n with it turning on.
     """
 
-    row: NDArray[np.intp]
+    row: Whole
     lead: Array
     cosine: Array
 
-    def at(self, which: NDArray[np.bool_]) -> Touch:
+    def at(self, which: Mask) -> Touch:
         """Return the contacts that a mask selects."""
         return Touch(self.row[which], self.lead[which], self.cosine[which])
 
 
 def triangles(
     excess: Array, one: Array, other: Array, measure: Callable[[Array], Array]
-) -> tuple[tuple[NDArray[np.intp], ...], Array, Array]:
+) -> tuple[tuple[Whole, ...], Array, Array]:
     """Return which triangles exist, and sine and cosine of half the angle between two sides.
 
     ``one`` and ``other`` are these sides, and ``excess`` is the third side minus ``one``: where
@@ -52,8 +48,8 @@ def triangles(
 
 
 def within(
-    turn: Array, pitch: float, most: float, on_line: NDArray[np.bool_] | bool = True
-) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
+    turn: Array, pitch: float, most: float, on_line: Mask | bool = True
+) -> tuple[Whole, Whole, Array]:
     """Return contacts that the wheel reaches by turning less than ``most`` back or on.
 
     ``turn`` is the angle of each contact, (n,) or (2, n); the wheel repeats after one pitch.

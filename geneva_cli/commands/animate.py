@@ -2,9 +2,7 @@
 
 from typing import Annotated
 
-import typer
-
-from geneva_cli.commands.options import Reverse, Settings, SpecPath, warn
+from geneva_cli.commands.options import Reverse, Settings, SpecPath, flag, output_option, warn
 from geneva_cli.errors import GenevaError
 
 EXAMPLES = (
@@ -18,17 +16,10 @@ def run(
     spec: SpecPath,
     reverse: Reverse = False,
     settings: Settings = None,
-    open_: Annotated[
-        bool, typer.Option("--open", help="Open the page in the desktop's browser.")
-    ] = False,
+    open_: Annotated[bool, flag("--open", "Open the page in the desktop's browser.")] = False,
     output: Annotated[
         str,
-        typer.Option(
-            "-o",
-            "--output",
-            metavar="FILE",
-            help="Write to this .html, .gif or .svg; - prints html.",
-        ),
+        output_option("FILE", "Write to this .html, .gif or .svg; - prints html.", default=True),
     ] = "-",
 ) -> None:
     """Animate the machine on a page that needs no network.

@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Output
+from geneva_cli.commands.options import Format, Output, flag, option
 
 EXAMPLES = ("geneva bench peaks --quick",)
 
@@ -18,10 +18,8 @@ def run(
             "synth, start, export, growth or all.",
         ),
     ] = "all",
-    plots: Annotated[
-        str, typer.Option(metavar="FOLDER", help="Draw each subject there, as SVG.")
-    ] = "",
-    quick: Annotated[bool, typer.Option("--quick", help="Small sizes, seconds in all.")] = False,
+    plots: Annotated[str, option("FOLDER", "Draw each subject there, as SVG.")] = "",
+    quick: Annotated[bool, flag("--quick", "Small sizes, seconds in all.")] = False,
     output: Output = "-",
     format: Format = "",
 ) -> None:

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Output, Settings, say
+from geneva_cli.commands.options import Format, Output, Settings, flag, option, say
 from geneva_cli.errors import clean
 
 EXAMPLES = (
@@ -16,17 +16,12 @@ EXAMPLES = (
 
 def run(
     specs: Annotated[list[str], typer.Argument(metavar="SPEC...", help="Specs, TOML files.")],
-    strict: Annotated[bool, typer.Option("--strict", help="Exit 1 on a warning too.")] = False,
+    strict: Annotated[bool, flag("--strict", "Exit 1 on a warning too.")] = False,
     verbose: Annotated[
         bool, typer.Option("-v", "--verbose", help="Every check, also on a terminal.")
     ] = False,
     proof: Annotated[
-        float | None,
-        typer.Option(
-            "--proof",
-            metavar="MM",
-            help="Prove that no parts overlap by more.",
-        ),
+        float | None, option("MM", "Prove that no parts overlap by more.", name="--proof")
     ] = None,
     settings: Settings = None,
     output: Output = "-",

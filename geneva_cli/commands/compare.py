@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import AlsoReverse, Format, Output, Settings
+from geneva_cli.commands.options import AlsoReverse, Format, Output, Settings, flag, option
 from geneva_cli.errors import GenevaError
 
 if TYPE_CHECKING:
@@ -21,32 +21,30 @@ def run(
     specs: Annotated[list[str], typer.Argument(metavar="SPEC...", help="Specs, TOML files.")],
     vary: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="KEY=VALUES",
-            help="One spec with several values: drive.A=0,0.3,0.6.",
-            autocompletion=completion.keys,
+        option(
+            "KEY=VALUES",
+            "One spec with several values: drive.A=0,0.3,0.6.",
+            complete=completion.keys,
         ),
     ] = None,
     pick: Annotated[
         str,
-        typer.Option(
-            metavar="FIELD,...",
-            help="Only these, as acceleration.max,dwell_s.",
-            autocompletion=completion.listed(completion.fields),
+        option(
+            "FIELD,...",
+            "Only these, as acceleration.max,dwell_s.",
+            complete=completion.listed(completion.fields),
         ),
     ] = "",
     against: Annotated[
         str,
-        typer.Option(
-            metavar="NAME,...",
-            help="One spec with cam, servo: the same step, time and load.",
-            autocompletion=completion.listed(lambda: ("cam", "servo")),
+        option(
+            "NAME,...",
+            "One spec with cam, servo: the same step, time and load.",
+            complete=completion.listed(lambda: ("cam", "servo")),
         ),
     ] = "",
-    ratio: Annotated[
-        bool, typer.Option("--ratio", help="Numbers over the first design's.")
-    ] = False,
-    differing: Annotated[bool, typer.Option("--differing", help="Only what differs.")] = False,
+    ratio: Annotated[bool, flag("--ratio", "Numbers over the first design's.")] = False,
+    differing: Annotated[bool, flag("--differing", "Only what differs.")] = False,
     reverse: AlsoReverse = False,
     settings: Settings = None,
     output: Output = "-",

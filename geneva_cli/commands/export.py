@@ -4,10 +4,16 @@ import os
 import sys
 from typing import Annotated
 
-import typer
-
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Settings, SpecPath, require_written, say
+from geneva_cli.commands.options import (
+    Settings,
+    SpecPath,
+    flag,
+    option,
+    output_option,
+    require_written,
+    say,
+)
 from geneva_cli.errors import GenevaError, clean
 
 EXAMPLES = (
@@ -21,24 +27,18 @@ def run(
     spec: SpecPath,
     output: Annotated[
         str,
-        typer.Option(
-            "-o",
-            "--output",
-            metavar="FOLDER",
-            help="Write into this folder (required).",
-            show_default=False,
-        ),
+        output_option("FOLDER", "Write into this folder (required)."),
     ] = "",
     trade: Annotated[
         str | None,
-        typer.Option(
-            "--for",
-            metavar="TRADE",
-            help="What laser, mill or print needs.  [default: all files]",
-            autocompletion=completion.words(lambda: ("laser", "mill", "print")),
+        option(
+            "TRADE",
+            "What laser, mill or print needs.  [default: all files]",
+            name="--for",
+            complete=completion.words(lambda: ("laser", "mill", "print")),
         ),
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Write even a machine that jams.")] = False,
+    force: Annotated[bool, flag("--force", "Write even a machine that jams.")] = False,
     settings: Settings = None,
 ) -> None:
     """Write every file that a shop needs into a folder, and list them.

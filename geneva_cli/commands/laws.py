@@ -2,9 +2,7 @@
 
 from typing import Annotated
 
-import typer
-
-from geneva_cli.commands.options import Format, Output
+from geneva_cli.commands.options import Format, Output, option
 
 EXAMPLES = (
     "geneva laws",
@@ -13,9 +11,7 @@ EXAMPLES = (
 
 
 def run(
-    shape: Annotated[
-        float, typer.Option("--lambda", metavar="X", help="Shape of the sine group.")
-    ] = 0.0,
+    shape: Annotated[float, option("X", "Shape of the sine group.", name="--lambda")] = 0.0,
     output: Output = "-",
     format: Format = "",
 ) -> None:

@@ -4,9 +4,16 @@ import sys
 from collections.abc import Sequence
 from typing import Annotated
 
-import typer
-
-from geneva_cli.commands.options import Format, Output, Reverse, Settings, SpecPath, say
+from geneva_cli.commands.options import (
+    Format,
+    Output,
+    Reverse,
+    Settings,
+    SpecPath,
+    flag,
+    option,
+    say,
+)
 from geneva_cli.errors import clean, is_warning
 
 ROWS = 361
@@ -22,12 +29,9 @@ EXAMPLES = (
 def run(
     spec: SpecPath,
     samples: Annotated[
-        int | None,
-        typer.Option(metavar="N", help=f"The cycle in N rows instead (csv: {ROWS})."),
+        int | None, option("N", f"The cycle in N rows instead (csv: {ROWS}).")
     ] = None,
-    certify: Annotated[
-        bool, typer.Option("--certify", help="Prove the greatest loads instead.")
-    ] = False,
+    certify: Annotated[bool, flag("--certify", "Prove the greatest loads instead.")] = False,
     reverse: Reverse = False,
     settings: Settings = None,
     output: Output = "-",
@@ -65,13 +69,14 @@ def run(
         return
     name = format or format_of(output)
     by_rows = name == "csv" or (samples is not None and name != "json")
+    # before any output: a cycle whose loads are refused has no rows either
+    warnings = design.loads_table.to_dict()["warnings"] if by_rows or output != "-" else ()
     if by_rows:
         table = design.load_cycle(ROWS if samples is None else samples)
         show(table, output, format, design.spec.files)
     else:
         show_answer(of_loads(design), output, format, design.spec.files)
-    if by_rows or output != "-":
-        _say(design.spec.path, design.loads_table.to_dict()["warnings"])
+    _say(design.spec.path, warnings)
 
 
 def _say(path: str, texts: Sequence[str]) -> None:

@@ -3,10 +3,8 @@
 import sys
 from typing import Annotated
 
-import typer
-
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Output, Reverse, Settings, SpecPath, one_of, warn
+from geneva_cli.commands.options import Output, Reverse, Settings, SpecPath, one_of, option, warn
 from geneva_cli.errors import GenevaError, clean
 from geneva_cli.output.formats import CAMS, CONTROLLERS, FORMATS
 
@@ -21,41 +19,32 @@ CAM = "An electronic cam"
 
 def run(
     spec: SpecPath,
-    samples: Annotated[
-        int | None,
-        typer.Option(metavar="N", help="Rows, both ends included.  [default: 361]"),
-    ] = None,
+    samples: Annotated[int | None, option("N", "Rows, both ends included.  [default: 361]")] = None,
     turns: Annotated[
-        int | None,
-        typer.Option(metavar="N", help="Turns of the input, with a row at each entry and jump."),
+        int | None, option("N", "Turns of the input, with a row at each entry and jump.")
     ] = None,
     controller: Annotated[
         str | None,
-        typer.Option(
-            "--for",
-            metavar="CONTROLLER",
-            help=f"{one_of(CONTROLLERS)}  [default: polynomial]",
-            autocompletion=completion.words(lambda: CONTROLLERS),
-            rich_help_panel=CAM,
+        option(
+            "CONTROLLER",
+            f"{one_of(CONTROLLERS)}  [default: polynomial]",
+            CAM,
+            name="--for",
+            complete=completion.words(lambda: CONTROLLERS),
         ),
     ] = None,
     tolerance: Annotated[
-        float | None,
-        typer.Option(
-            metavar="DEG",
-            help="Greatest error of the wheel's angle.  [default: 0.0001]",
-            rich_help_panel=CAM,
-        ),
+        float | None, option("DEG", "Greatest error of the wheel's angle.  [default: 0.0001]", CAM)
     ] = None,
     reverse: Reverse = False,
     settings: Settings = None,
     output: Output = "-",
     format: Annotated[
         str,
-        typer.Option(
-            metavar="FORMAT",
-            help=one_of((*FORMATS, *CAMS)),
-            autocompletion=completion.words(lambda: (*FORMATS, *CAMS)),
+        option(
+            "FORMAT",
+            one_of((*FORMATS, *CAMS)),
+            complete=completion.words(lambda: (*FORMATS, *CAMS)),
         ),
     ] = "",
 ) -> None:

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Output
+from geneva_cli.commands.options import Output, flag, option
 from geneva_cli.errors import GenevaError
 
 EXAMPLES = (
@@ -27,19 +27,17 @@ def run(
     ] = "",
     from_design: Annotated[
         str,
-        typer.Option(
-            metavar="NAME",
-            help="A copy of one of the designs, as it is.",
-            autocompletion=completion.words(completion.designs),
+        option(
+            "NAME",
+            "A copy of one of the designs, as it is.",
+            complete=completion.words(completion.designs),
         ),
     ] = "",
-    list_: Annotated[
-        bool, typer.Option("--list", help="All kinds and designs, and what they are.")
-    ] = False,
+    list_: Annotated[bool, flag("--list", "All kinds and designs, and what they are.")] = False,
     all_: Annotated[
-        bool, typer.Option("--all", help="Every key that the kind can have, with its default.")
+        bool, flag("--all", "Every key that the kind can have, with its default.")
     ] = False,
-    force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
+    force: Annotated[bool, flag("--force", "Replace files that exist.")] = False,
     output: Output = "-",
 ) -> None:
     """Write a short commented spec to start from; --all for every key.

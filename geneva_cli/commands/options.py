@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
-from typing import TYPE_CHECKING, Annotated, TypeAlias
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
 
@@ -22,42 +22,63 @@ def one_of(names: Iterable[str]) -> str:
     return f"{', '.join(others)} or {last}."
 
 
+def option(
+    metavar: str,
+    help: str,
+    heading: str | None = None,
+    *,
+    name: str = "",
+    complete: Callable[..., list[str]] | None = None,
+    default: str | bool = True,
+) -> Any:
+    """An option with a value, below a heading of the help.
+
+    ``name`` is its name where the parameter's is another, ``complete`` completes what is typed, and
+    ``default`` is shown as the default.
+    """
+    return typer.Option(
+        *([name] if name else []),
+        metavar=metavar,
+        help=help,
+        rich_help_panel=heading,
+        autocompletion=complete,
+        show_default=default,
+    )
+
+
+def flag(name: str, help: str, heading: str | None = None) -> Any:
+    """An option without a value, below a heading of the help."""
+    return typer.Option(name, help=help, rich_help_panel=heading)
+
+
+def output_option(metavar: str, help: str, default: bool = False) -> Any:
+    """The option ``-o`` of a file or folder to write; ``default`` shows its default."""
+    return typer.Option("-o", "--output", metavar=metavar, help=help, show_default=default)
+
+
 SpecPath: TypeAlias = Annotated[
     str, typer.Argument(metavar="SPEC", help="The spec, a TOML file; - reads standard input.")
 ]
 Settings: TypeAlias = Annotated[
     list[str] | None,
-    typer.Option(
-        "--set",
-        metavar="KEY=VALUE",
-        help="Set a key over the file's, as drive.n_rpm=90.",
-        autocompletion=completion.keys,
+    option(
+        "KEY=VALUE",
+        "Set a key over the file's, as drive.n_rpm=90.",
+        name="--set",
+        complete=completion.keys,
     ),
 ]
-Reverse: TypeAlias = Annotated[
-    bool, typer.Option("--reverse", help="Turn the input the other way.")
-]
+Reverse: TypeAlias = Annotated[bool, flag("--reverse", "Turn the input the other way.")]
 AlsoReverse: TypeAlias = Annotated[
-    bool, typer.Option("--reverse", help="Also each design turning the other way.")
+    bool, flag("--reverse", "Also each design turning the other way.")
 ]
 Output: TypeAlias = Annotated[
     str,
-    typer.Option(
-        "-o",
-        "--output",
-        metavar="FILE",
-        help="Write to this file; - prints.",
-        show_default=False,
-    ),
+    output_option("FILE", "Write to this file; - prints."),
 ]
 Format: TypeAlias = Annotated[
     str,
-    typer.Option(
-        "--format",
-        metavar="FORMAT",
-        help=one_of(FORMATS),
-        autocompletion=completion.words(lambda: FORMATS),
-    ),
+    option("FORMAT", one_of(FORMATS), name="--format", complete=completion.words(lambda: FORMATS)),
 ]
 
 

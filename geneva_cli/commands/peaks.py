@@ -2,9 +2,7 @@
 
 from typing import Annotated
 
-import typer
-
-from geneva_cli.commands.options import Format, Output, Reverse, Settings, SpecPath, warn
+from geneva_cli.commands.options import Format, Output, Reverse, Settings, SpecPath, flag, warn
 
 EXAMPLES = (
     "geneva peaks spec.toml",
@@ -15,9 +13,7 @@ EXAMPLES = (
 
 def run(
     spec: SpecPath,
-    certify: Annotated[
-        bool, typer.Option("--certify", help="Prove each peak between two bounds.")
-    ] = False,
+    certify: Annotated[bool, flag("--certify", "Prove each peak between two bounds.")] = False,
     reverse: Reverse = False,
     settings: Settings = None,
     output: Output = "-",

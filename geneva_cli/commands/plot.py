@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import AlsoReverse, Output, Settings, say, warn
+from geneva_cli.commands.options import AlsoReverse, Output, Settings, option, say, warn
 from geneva_cli.errors import GenevaError, cut
 
 EXAMPLES = (
@@ -22,34 +22,25 @@ def run(
     ],
     pick: Annotated[
         str,
-        typer.Option(
-            metavar="QUANTITY,...",
-            help="Only these, as velocity,pin_force_N.",
-            autocompletion=completion.listed(completion.quantities),
+        option(
+            "QUANTITY,...",
+            "Only these, as velocity,pin_force_N.",
+            complete=completion.listed(completion.quantities),
         ),
     ] = "",
-    x: Annotated[
-        str, typer.Option("--x", metavar="COLUMN", help="Column of a csv for the x axis.")
-    ] = "",
-    y: Annotated[
-        str, typer.Option("--y", metavar="COLUMN,...", help="Columns of a csv for the y axis.")
-    ] = "",
+    x: Annotated[str, option("COLUMN", "Column of a csv for the x axis.", name="--x")] = "",
+    y: Annotated[str, option("COLUMN,...", "Columns of a csv for the y axis.", name="--y")] = "",
     vary: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="KEY=VALUES",
-            help="One spec with several values: wheel.z=4,6,8.",
-            autocompletion=completion.keys,
+        option(
+            "KEY=VALUES", "One spec with several values: wheel.z=4,6,8.", complete=completion.keys
         ),
     ] = None,
     reverse: AlsoReverse = False,
     settings: Settings = None,
     output: Output = "-",
     format: Annotated[
-        str,
-        typer.Option(
-            metavar="FORMAT", help="table (a chart in text), svg, png, pdf, csv, json or md."
-        ),
+        str, option("FORMAT", "table (a chart in text), svg, png, pdf, csv, json or md.")
     ] = "",
 ) -> None:
     """Plot curves over a cycle, exact at peaks and jumps; or columns of a csv, such as a sweep's.
@@ -85,6 +76,6 @@ def _refuse_with_csv(table: str, specs: list[str], options: dict[str, object]) -
     """Refuse other files and options with a csv, which is plotted by itself."""
     if len(specs) > 1:
         raise GenevaError(f"{cut(table, 300)}: a csv is plotted by itself, without other files")
-    for option, value in options.items():
+    for name, value in options.items():
         if value:
-            raise GenevaError(f"{option} is for specs; for {cut(table, 300)} give --x and --y")
+            raise GenevaError(f"{name} is for specs; for {cut(table, 300)} give --x and --y")

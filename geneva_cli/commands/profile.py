@@ -2,10 +2,17 @@
 
 from typing import Annotated
 
-import typer
-
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Output, Settings, SpecPath, one_of, require_written, warn
+from geneva_cli.commands.options import (
+    Output,
+    Settings,
+    SpecPath,
+    flag,
+    one_of,
+    option,
+    require_written,
+    warn,
+)
 from geneva_cli.drawings.catalogue import PARTS, is_sheet
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output import draw, draw_sheet, in_units, show
@@ -35,100 +42,73 @@ def run(
     spec: SpecPath,
     part: Annotated[
         str,
-        typer.Option(
-            metavar="PART",
-            help="slot, wheel, crank, arm, assembly, parts, sheet or another.",
-            autocompletion=completion.words(lambda: PARTS),
+        option(
+            "PART",
+            "slot, wheel, crank, arm, assembly, parts, sheet or another.",
+            complete=completion.words(lambda: PARTS),
         ),
     ] = "slot",
     tolerance: Annotated[
         float | None,
-        typer.Option(
-            metavar="MM",
-            help="Greatest distance from the true curve.  [default: 0.001; of meshes 0.01]",
-        ),
+        option("MM", "Greatest distance from the true curve.  [default: 0.001; of meshes 0.01]"),
     ] = None,
-    samples: Annotated[
-        int | None, typer.Option(metavar="N", help="Number of rows of a table, evenly spaced.")
-    ] = None,
+    samples: Annotated[int | None, option("N", "Number of rows of a table, evenly spaced.")] = None,
     curves: Annotated[
         str | None,
-        typer.Option(
-            metavar="KIND",
-            help="Curved walls as arcs or spline; .step has spline.",
-            autocompletion=completion.words(lambda: ("arcs", "spline")),
-            rich_help_panel=DRAWING,
+        option(
+            "KIND",
+            "Curved walls as arcs or spline; .step has spline.",
+            DRAWING,
+            complete=completion.words(lambda: ("arcs", "spline")),
         ),
     ] = None,
-    kerf: Annotated[
-        float | None,
-        typer.Option(
-            metavar="MM",
-            help="Paths for a cut of this width.",
-            rich_help_panel=CUT,
-        ),
-    ] = None,
+    kerf: Annotated[float | None, option("MM", "Paths for a cut of this width.", CUT)] = None,
     cutter: Annotated[
-        float | None,
-        typer.Option(
-            metavar="MM",
-            help="Diameter of a milling cutter that must fit.",
-            rich_help_panel=CUT,
-        ),
+        float | None, option("MM", "Diameter of a milling cutter that must fit.", CUT)
     ] = None,
     dog_bones: Annotated[
-        bool,
-        typer.Option(
-            "--dog-bones",
-            help="Free the corners that this cutter leaves round.",
-            rich_help_panel=CUT,
-        ),
+        bool, flag("--dog-bones", "Free the corners that this cutter leaves round.", CUT)
     ] = False,
     center_marks: Annotated[
-        bool,
-        typer.Option(
-            "--center-marks",
-            help="A cross in every circle, on layer CENTER.",
-            rich_help_panel=DRAWING,
-        ),
+        bool, flag("--center-marks", "A cross in every circle, on layer CENTER.", DRAWING)
     ] = False,
     units: Annotated[
         str,
-        typer.Option(
-            metavar="UNIT",
-            help="Unit of drawings and tables: mm or inch.",
-            autocompletion=completion.words(lambda: ("mm", "inch")),
-            rich_help_panel=DRAWING,
+        option(
+            "UNIT",
+            "Unit of drawings and tables: mm or inch.",
+            DRAWING,
+            complete=completion.words(lambda: ("mm", "inch")),
         ),
     ] = "mm",
     dxf_version: Annotated[
         str | None,
-        typer.Option(
-            metavar="VERSION",
-            help="Version of .dxf, R12 to R2018.  [default: R2000]",
-            autocompletion=completion.words(lambda: DXF_VERSIONS),
-            rich_help_panel=DRAWING,
+        option(
+            "VERSION",
+            "Version of .dxf, R12 to R2018.  [default: R2000]",
+            DRAWING,
+            complete=completion.words(lambda: DXF_VERSIONS),
         ),
     ] = None,
     fill: Annotated[
         str | None,
-        typer.Option(
-            metavar="LOOK",
-            help="Plates in .svg: none, tint or hatch.",
-            autocompletion=completion.words(lambda: FILLS),
-            rich_help_panel=DRAWING,
+        option(
+            "LOOK",
+            "Plates in .svg: none, tint or hatch.",
+            DRAWING,
+            complete=completion.words(lambda: FILLS),
         ),
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Draw even a machine that jams.")] = False,
+    force: Annotated[bool, flag("--force", "Draw even a machine that jams.")] = False,
     settings: Settings = None,
     output: Output = "-",
     format: Annotated[
         str,
-        typer.Option(
-            "--format",
-            metavar="FORMAT",
-            help=one_of((*FORMATS, *DRAWN, "pdf")),
-            autocompletion=completion.words(lambda: (*FORMATS, *DRAWN, "pdf")),
+        option(
+            "FORMAT",
+            one_of((*FORMATS, *DRAWN, "pdf")),
+            name="--format",
+            complete=completion.words(lambda: (*FORMATS, *DRAWN, "pdf")),
         ),
     ] = "",
 ) -> None:

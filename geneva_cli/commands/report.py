@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Output, Settings, SpecPath, one_of, say
+from geneva_cli.commands.options import Output, Settings, SpecPath, one_of, option, say
 from geneva_cli.output.formats import DOCUMENTS, FORMATS
 
 EXAMPLES = (
@@ -22,12 +22,7 @@ def run(
     settings: Settings = None,
     output: Output = "-",
     format: Annotated[
-        str,
-        typer.Option(
-            metavar="FORMAT",
-            help=one_of(WRITTEN),
-            autocompletion=completion.words(lambda: WRITTEN),
-        ),
+        str, option("FORMAT", one_of(WRITTEN), complete=completion.words(lambda: WRITTEN))
     ] = "",
 ) -> None:
     """Report on a design for people: failed checks, words, timing, peaks, loads, sizes.

@@ -2,12 +2,11 @@
 
 import sys
 from collections.abc import Iterator
+from contextlib import closing
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
-import typer
-
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Format, Settings, SpecPath
+from geneva_cli.commands.options import Format, Settings, SpecPath, flag, option, output_option
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.progress import tracked
 
@@ -33,105 +32,53 @@ def run(
     spec: SpecPath,
     vary: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="KEY=VALUES",
-            help="As drive.A=0..0.9:0.1 or motion.law=a,b; repeat.",
-            autocompletion=completion.keys,
-            rich_help_panel=DESIGNS,
+        option(
+            "KEY=VALUES",
+            "As drive.A=0..0.9:0.1 or motion.law=a,b; repeat.",
+            DESIGNS,
+            complete=completion.keys,
         ),
     ] = None,
     pick: Annotated[
         str,
-        typer.Option(
-            metavar="FIELD,...",
-            help="Quantities, as acceleration.max,dwell_s.",
-            autocompletion=completion.listed(completion.fields),
-            rich_help_panel=DESIGNS,
+        option(
+            "FIELD,...",
+            "Quantities, as acceleration.max,dwell_s.",
+            DESIGNS,
+            complete=completion.listed(completion.fields),
         ),
     ] = "",
     random: Annotated[
-        int | None,
-        typer.Option(
-            metavar="N",
-            help="N random designs from the ranges, not the grid.",
-            rich_help_panel=DESIGNS,
-        ),
+        int | None, option("N", "N random designs from the ranges, not the grid.", DESIGNS)
     ] = None,
     seed: Annotated[
-        int | None,
-        typer.Option(
-            metavar="S",
-            help="Seed of the random designs; 0 by default.",
-            rich_help_panel=DESIGNS,
-        ),
+        int | None, option("S", "Seed of the random designs; 0 by default.", DESIGNS)
     ] = None,
-    check: Annotated[
-        bool,
-        typer.Option(
-            "--check",
-            help="Add whether all checks pass.",
-            rich_help_panel=DESIGNS,
-        ),
-    ] = False,
+    check: Annotated[bool, flag("--check", "Add whether all checks pass.", DESIGNS)] = False,
     subject_to: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="BOUND",
-            help='Only rows that keep it: "dwell_s >= 0.8"; repeat.',
-            autocompletion=completion.words(completion.fields),
-            rich_help_panel=CHOICE,
+        option(
+            "BOUND",
+            'Only rows that keep it: "dwell_s >= 0.8"; repeat.',
+            CHOICE,
+            complete=completion.words(completion.fields),
         ),
     ] = None,
     pareto: Annotated[
-        str,
-        typer.Option(
-            metavar="min:FIELD,...",
-            help="Only rows that no other row beats in all of these.",
-            rich_help_panel=CHOICE,
-        ),
+        str, option("min:FIELD,...", "Only rows that no other row beats in all of these.", CHOICE)
     ] = "",
     best: Annotated[
-        str,
-        typer.Option(
-            metavar="min:FIELD",
-            help="The best design, refined, as a spec; or max:.",
-            rich_help_panel=CHOICE,
-        ),
+        str, option("min:FIELD", "The best design, refined, as a spec; or max:.", CHOICE)
     ] = "",
-    shard: Annotated[
-        str,
-        typer.Option(
-            metavar="I/N",
-            help="Only shard I of N, as 3/16.",
-            rich_help_panel=LONG,
-        ),
-    ] = "",
-    resume: Annotated[
-        bool,
-        typer.Option(
-            "--resume",
-            help="Continue a stopped run.",
-            rich_help_panel=LONG,
-        ),
-    ] = False,
+    shard: Annotated[str, option("I/N", "Only shard I of N, as 3/16.", LONG)] = "",
+    resume: Annotated[bool, flag("--resume", "Continue a stopped run.", LONG)] = False,
     jobs: Annotated[
-        int | None,
-        typer.Option(
-            metavar="N",
-            help="Number of processes; all cores by default.",
-            rich_help_panel=LONG,
-        ),
+        int | None, option("N", "Number of processes; all cores by default.", LONG)
     ] = None,
     settings: Settings = None,
     output: Annotated[
         str,
-        typer.Option(
-            "-o",
-            "--output",
-            metavar="FILE",
-            help="A .csv or .parquet; - prints.",
-            show_default=False,
-        ),
+        output_option("FILE", "A .csv or .parquet; - prints."),
     ] = "-",
     format: Format = "",
 ) -> None:
@@ -189,7 +136,8 @@ def _write_rows(plan: "SweepRequest", outcome: "Outcome", output: str, resume: b
 
     sweep = plan.sweep
     first = sweep.shard.number == 1
-    with GrowingTable(sweep.names, plan.key, first, output, resume, plan.inputs) as rows:
+    growing = GrowingTable(sweep.names, plan.key, first, output, resume, plan.inputs)
+    with closing(growing) as rows:
         if rows.message:
             print(rows.message, file=sys.stderr)
         if rows.is_whole:

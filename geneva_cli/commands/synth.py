@@ -4,10 +4,8 @@ import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Format, Output, Settings, warn
+from geneva_cli.commands.options import Format, Output, Settings, flag, option, warn
 from geneva_cli.errors import GenevaError, clean, cut
 
 if TYPE_CHECKING:
@@ -26,119 +24,60 @@ ROWS = "Rows"
 
 
 def run(
-    tau: Annotated[
-        str, typer.Option(metavar="X", help="Motion / cycle.", rich_help_panel=WANTED)
-    ] = "",
-    motion_deg: Annotated[
-        str,
-        typer.Option(metavar="DEG", help="Input angle of one motion.", rich_help_panel=WANTED),
-    ] = "",
-    dwell_deg: Annotated[
-        str, typer.Option(metavar="DEG", help="Input angle of a dwell.", rich_help_panel=WANTED)
-    ] = "",
-    motion_s: Annotated[
-        str, typer.Option(metavar="S", help="Seconds of motion.", rich_help_panel=WANTED)
-    ] = "",
-    dwell_s: Annotated[
-        str, typer.Option(metavar="S", help="Seconds of dwell.", rich_help_panel=WANTED)
-    ] = "",
-    cycle: Annotated[
-        str, typer.Option(metavar="S", help="Seconds from step to step.", rich_help_panel=WANTED)
-    ] = "",
-    index_mm: Annotated[
-        str,
-        typer.Option(metavar="MM", help="Travel of a rack per step.", rich_help_panel=WANTED),
-    ] = "",
+    tau: Annotated[str, option("X", "Motion / cycle.", WANTED)] = "",
+    motion_deg: Annotated[str, option("DEG", "Input angle of one motion.", WANTED)] = "",
+    dwell_deg: Annotated[str, option("DEG", "Input angle of a dwell.", WANTED)] = "",
+    motion_s: Annotated[str, option("S", "Seconds of motion.", WANTED)] = "",
+    dwell_s: Annotated[str, option("S", "Seconds of dwell.", WANTED)] = "",
+    cycle: Annotated[str, option("S", "Seconds from step to step.", WANTED)] = "",
+    index_mm: Annotated[str, option("MM", "Travel of a rack per step.", WANTED)] = "",
     subject_to: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="BOUND",
-            help='Of any quantity, as "jerk.max <= 5"; repeat.',
-            autocompletion=completion.words(completion.fields),
-            rich_help_panel=WANTED,
+        option(
+            "BOUND",
+            'Of any quantity, as "jerk.max <= 5"; repeat.',
+            WANTED,
+            complete=completion.words(completion.fields),
         ),
     ] = None,
-    z: Annotated[
-        str,
-        typer.Option(
-            metavar="Z",
-            help="Slots: 6, 3..12 or 3,4,6.",
-            show_default="3..24",
-            rich_help_panel=MACHINES,
-        ),
-    ] = "",
-    internal: Annotated[
-        bool, typer.Option("--internal", help="Internal wheels.", rich_help_panel=MACHINES)
-    ] = False,
-    external: Annotated[
-        bool, typer.Option("--external", help="External wheels.", rich_help_panel=MACHINES)
-    ] = False,
-    spherical: Annotated[
-        bool, typer.Option("--spherical", help="Spherical wheels.", rich_help_panel=MACHINES)
-    ] = False,
-    linear: Annotated[
-        bool, typer.Option("--linear", help="Racks alone.", rich_help_panel=MACHINES)
-    ] = False,
-    carousel: Annotated[
-        str,
-        typer.Option(
-            metavar="N", help="Wheels on a carrier alone: 3, or 1..4.", rich_help_panel=MACHINES
-        ),
-    ] = "",
+    z: Annotated[str, option("Z", "Slots: 6, 3..12 or 3,4,6.", MACHINES, default="3..24")] = "",
+    internal: Annotated[bool, flag("--internal", "Internal wheels.", MACHINES)] = False,
+    external: Annotated[bool, flag("--external", "External wheels.", MACHINES)] = False,
+    spherical: Annotated[bool, flag("--spherical", "Spherical wheels.", MACHINES)] = False,
+    linear: Annotated[bool, flag("--linear", "Racks alone.", MACHINES)] = False,
+    carousel: Annotated[str, option("N", "Wheels on a carrier alone: 3, or 1..4.", MACHINES)] = "",
     rollers: Annotated[
-        int | None,
-        typer.Option(
-            metavar="M", help="Rollers; without it, any number.", rich_help_panel=MACHINES
-        ),
+        int | None, option("M", "Rollers; without it, any number.", MACHINES)
     ] = None,
     law: Annotated[
         str,
-        typer.Option(
-            metavar="NAME",
-            help="Law of curved slots, or all.",
-            autocompletion=completion.words(completion.laws),
-            rich_help_panel=MACHINES,
+        option(
+            "NAME",
+            "Law of curved slots, or all.",
+            MACHINES,
+            complete=completion.words(completion.laws),
         ),
     ] = "modified-sine",
     space: Annotated[
-        str,
-        typer.Option(
-            metavar="X",
-            help="Largest four-bar, in centre distances.",
-            show_default="3",
-            rich_help_panel=MACHINES,
-        ),
+        str, option("X", "Largest four-bar, in centre distances.", MACHINES, default="3")
     ] = "",
     from_: Annotated[
         str,
-        typer.Option(
-            "--from",
-            metavar="SPEC",
-            help="Take z, speed, sizes, loads and limits from it.",
-            rich_help_panel=MACHINES,
-        ),
+        option("SPEC", "Take z, speed, sizes, loads and limits from it.", MACHINES, name="--from"),
     ] = "",
     settings: Settings = None,
     sort: Annotated[
         str,
-        typer.Option(
-            metavar="min:FIELD",
-            help="The least first; max:FIELD: the greatest.",
-            autocompletion=completion.words(completion.fields),
-            rich_help_panel=ROWS,
+        option(
+            "min:FIELD",
+            "The least first; max:FIELD: the greatest.",
+            ROWS,
+            complete=completion.words(completion.fields),
         ),
     ] = "",
-    check: Annotated[
-        int,
-        typer.Option(metavar="N", help="Turn and check the parts of N rows.", rich_help_panel=ROWS),
-    ] = 20,
-    buildable: Annotated[
-        bool, typer.Option("--buildable", help="Only rows that pass.", rich_help_panel=ROWS)
-    ] = False,
-    write: Annotated[
-        int | None,
-        typer.Option(metavar="N", help="Write row N as a spec instead.", rich_help_panel=ROWS),
-    ] = None,
+    check: Annotated[int, option("N", "Turn and check the parts of N rows.", ROWS)] = 20,
+    buildable: Annotated[bool, flag("--buildable", "Only rows that pass.", ROWS)] = False,
+    write: Annotated[int | None, option("N", "Write row N as a spec instead.", ROWS)] = None,
     output: Output = "-",
     format: Format = "",
 ) -> None:

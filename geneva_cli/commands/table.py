@@ -2,9 +2,7 @@
 
 from typing import Annotated
 
-import typer
-
-from geneva_cli.commands.options import Format, Output
+from geneva_cli.commands.options import Format, Output, flag, option
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import show
 
@@ -16,16 +14,14 @@ EXAMPLES = (
 
 
 def run(
-    z: Annotated[str, typer.Option(metavar="Z", help="Slots: 6, 3..12 or 3,4,6.")] = "3..12",
-    internal: Annotated[bool, typer.Option("--internal", help="Internal wheels.")] = False,
+    z: Annotated[str, option("Z", "Slots: 6, 3..12 or 3,4,6.")] = "3..12",
+    internal: Annotated[bool, flag("--internal", "Internal wheels.")] = False,
     spherical: Annotated[
-        bool, typer.Option("--spherical", help="Spherical wheels, shafts at 90 degrees.")
+        bool, flag("--spherical", "Spherical wheels, shafts at 90 degrees.")
     ] = False,
-    n: Annotated[float, typer.Option("--n", metavar="RPM", help="Input speed.")] = 60.0,
-    rollers: Annotated[int, typer.Option(metavar="M", help="Rollers on the crank.")] = 1,
-    A: Annotated[
-        float, typer.Option("--A", metavar="X", help="Side-crank offset; 0: plain crank.")
-    ] = 0.0,
+    n: Annotated[float, option("RPM", "Input speed.", name="--n")] = 60.0,
+    rollers: Annotated[int, option("M", "Rollers on the crank.")] = 1,
+    A: Annotated[float, option("X", "Side-crank offset; 0: plain crank.", name="--A")] = 0.0,
     output: Output = "-",
     format: Format = "",
 ) -> None:

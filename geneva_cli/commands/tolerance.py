@@ -2,22 +2,18 @@
 
 from typing import Annotated
 
-import typer
-
-from geneva_cli.commands.options import Format, Output, Settings, SpecPath, say, warn
+from geneva_cli.commands.options import Format, Output, Settings, SpecPath, flag, option, say, warn
 
 EXAMPLES = ("geneva tolerance spec.toml --set tolerance.slot_angle_deg=0.01",)
 
 
 def run(
     spec: SpecPath,
-    samples: Annotated[int, typer.Option(metavar="N", help="Number of machines to draw.")] = 65536,
-    seed: Annotated[int, typer.Option(metavar="K", help="The same seed, the same machines.")] = 0,
-    radius: Annotated[
-        float | None, typer.Option(metavar="MM", help="Show micrometres too, at this radius.")
-    ] = None,
+    samples: Annotated[int, option("N", "Number of machines to draw.")] = 65536,
+    seed: Annotated[int, option("K", "The same seed, the same machines.")] = 0,
+    radius: Annotated[float | None, option("MM", "Show micrometres too, at this radius.")] = None,
     histogram: Annotated[
-        bool, typer.Option("--histogram", help="Distribution of the drawn machines, a row a bin.")
+        bool, flag("--histogram", "Distribution of the drawn machines, a row a bin.")
     ] = False,
     settings: Settings = None,
     output: Output = "-",

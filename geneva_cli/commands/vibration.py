@@ -2,9 +2,7 @@
 
 from typing import Annotated
 
-import typer
-
-from geneva_cli.commands.options import Format, Output, Reverse, Settings, SpecPath, say
+from geneva_cli.commands.options import Format, Output, Reverse, Settings, SpecPath, option, say
 
 EXAMPLES = ("geneva vibration spec.toml --period-ratio 5.5 --damping 0.02",)
 
@@ -12,13 +10,10 @@ EXAMPLES = ("geneva vibration spec.toml --period-ratio 5.5 --damping 0.02",)
 def run(
     spec: SpecPath,
     period_ratio: Annotated[
-        float | None,
-        typer.Option(metavar="X", help="Motion time over natural period, in place of [shaft]."),
+        float | None, option("X", "Motion time over natural period, in place of [shaft].")
     ] = None,
-    damping: Annotated[
-        float | None, typer.Option(metavar="Z", help="Damping ratio, in place of [shaft]'s.")
-    ] = None,
-    samples: Annotated[int, typer.Option(metavar="N", help="Number of speeds in the csv.")] = 401,
+    damping: Annotated[float | None, option("Z", "Damping ratio, in place of [shaft]'s.")] = None,
+    samples: Annotated[int, option("N", "Number of speeds in the csv.")] = 401,
     reverse: Reverse = False,
     settings: Settings = None,
     output: Output = "-",

@@ -8,16 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.curves.measure import at, points, segment_length
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Segment, Shape, two_arcs
 from geneva_cli.curves.sheet import ABOVE, BELOW, Label, Measure
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array
 
 BESIDE, ON = 3.0, 4.0  # mm: distance of a dimension line to another, and to a line of the part
 IN_LINE = 0.1  # mm: lines that overlap by less may be in line with each other

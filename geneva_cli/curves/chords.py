@@ -8,14 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Mask
+from geneva_cli.numerics.arrays import Array, Mask
 
 # points (n, 2) of the curves in mm at n places: one array for each curve
 Curves: TypeAlias = "Callable[[Array], Sequence[Array]]"

@@ -15,14 +15,11 @@ import numpy as np
 
 from geneva_cli.curves.measure import directions
 from geneva_cli.curves.shapes import Arc, Contour, Line
+from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from geneva_cli.numerics.jet import Array
-
-    Which: TypeAlias = NDArray[np.intp] | tuple[NDArray[np.intp], NDArray[np.intp]]
+    Which: TypeAlias = Whole | tuple[Whole, Whole]
 
 BLOCK = 1 << 14  # distances in a block: they stay in the processor's cache
 
@@ -36,7 +33,7 @@ class PieceDistances(NamedTuple):
 
     distance: Array
     side: Array
-    facing: NDArray[np.bool_]
+    facing: Mask
     along: Array
 
     def at(self, which: Which) -> PieceDistances:
@@ -90,7 +87,7 @@ class Polyarc:
     def __len__(self) -> int:
         return len(self.x0)
 
-    def subset(self, keep: NDArray[np.intp]) -> Polyarc:
+    def subset(self, keep: Whole) -> Polyarc:
         """The boundary's pieces at some indices, for points that are near no other pieces."""
         out = object.__new__(Polyarc)
         out._name(self._columns[:, keep])
@@ -162,16 +159,15 @@ class Polyarc:
         distance = np.where(facing, np.abs(side), np.sqrt(square + beyond * beyond))
         return PieceDistances(distance, np.where(self.sense < 0.0, -side, side), facing, along)
 
-    def _signs(self, view: PieceDistances, piece: NDArray[np.intp]) -> Array:
+    def _signs(self, view: PieceDistances, piece: Whole) -> Array:
         """Signed distances of points from their nearest pieces."""
         # Outside at a convex corner, inside at a hollow one; at a smooth joint the side decides.
         turn = np.where(view.along < 0.0, self.turn_start[piece], self.turn_end[piece])
         corner = ~view.facing & (turn != 0.0)
         inside = np.where(corner, turn < 0.0, view.side > 0.0)
-        out: Array = np.where(inside, -1.0, 1.0) * view.distance
-        return out
+        return np.where(inside, -1.0, 1.0) * view.distance
 
-    def _nearby(self, points: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    def _nearby(self, points: Array) -> tuple[Whole, Whole]:
         """Each point with the pieces among which its nearest one is, both in order.
 
         A piece's ends are half its chord from the middle of its circle. No point of it is farther
@@ -207,7 +203,7 @@ class Polyarc:
         return np.column_stack((x, y))
 
 
-def _changes(numbers: NDArray[np.intp]) -> NDArray[np.bool_]:
+def _changes(numbers: Whole) -> Mask:
     """True where a number differs from the one before; the first is True."""
     out = np.ones(len(numbers), dtype=bool)
     out[1:] = numbers[1:] != numbers[:-1]

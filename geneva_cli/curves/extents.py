@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Arc, Contour, Line, Segment, about
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array
 
 
 def farthest(outline: Polyarc, points: Array) -> Array:
@@ -25,8 +22,7 @@ def farthest(outline: Polyarc, points: Array) -> Array:
     away = np.hypot(vx, vy)
     opposite = outline.arc & (vx * outline.mx + vy * outline.my >= away * outline.cos_half)
     start, end = np.hypot(outline.x0 - x, outline.y0 - y), np.hypot(outline.x1 - x, outline.y1 - y)
-    out: Array = np.where(opposite, away + outline.radius, np.maximum(start, end))
-    return out
+    return np.where(opposite, away + outline.radius, np.maximum(start, end))
 
 
 def from_segments(outline: Polyarc, start: Array, end: Array) -> Array:
@@ -45,14 +41,12 @@ def from_segments(outline: Polyarc, start: Array, end: Array) -> Array:
 
     def away(px: Array, py: Array) -> Array:
         fx, fy = nearest(px, py)
-        out: Array = np.hypot(fx - px, fy - py).min(axis=1)
-        return out
+        return np.hypot(fx - px, fy - py).min(axis=1)
 
     corners, last = away(outline.x0, outline.y0), away(outline.x1, outline.y1)
     arcs = outline.distances(*nearest(outline.cx, outline.cy)).distance.min(axis=1)
     ends = np.minimum(np.abs(outline.signed(start)), np.abs(outline.signed(end)))
-    out: Array = np.minimum.reduce((ends, corners, last, arcs))
-    return out
+    return np.minimum.reduce((ends, corners, last, arcs))
 
 
 def near_segments(outline: Polyarc, start: Array, end: Array, reach: float) -> Polyarc:

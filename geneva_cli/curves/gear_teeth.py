@@ -18,10 +18,10 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.curves.shapes import ORIGIN, Point, Segment, about
+from geneva_cli.numerics.arrays import Array
 
 if TYPE_CHECKING:
     from geneva_cli.curves.fit.path import Curve
-    from geneva_cli.numerics.jet import Array
 
     Writer: TypeAlias = Callable[[Curve, float, float], Sequence[Segment]]
 

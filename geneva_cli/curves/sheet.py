@@ -10,7 +10,7 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.curves.helvetica import width
-from geneva_cli.curves.shapes import Contour, Line, Point, Segment, Shape
+from geneva_cli.curves.shapes import Contour, Line, Point, Segment, Shape, polygon
 
 ARROW = 3.0, 0.4  # mm: an arrow's length, and half its width (ISO 129-1: filled, 15 degrees)
 SMALL, LARGE = 2.5, 3.5  # mm: capitals of dimensions, and of titles (ISO 3098-1)
@@ -128,9 +128,7 @@ def line(layer: str, *points: Point) -> Contour:
 
 def rectangle(layer: str, x0: float, y0: float, x1: float, y1: float) -> Contour:
     """A rectangular frame."""
-    corners = ((x0, y0), (x1, y0), (x1, y1), (x0, y1))
-    ends = zip(corners, (*corners[1:], corners[0]), strict=True)
-    return Contour(layer, tuple(Line(a, b) for a, b in ends))
+    return polygon(layer, [(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
 
 
 def polar(centre: Point, radius: float, turn: float) -> Point:

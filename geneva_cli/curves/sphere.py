@@ -7,14 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.quadrature import rule
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 Vector: TypeAlias = tuple[float, float, float]
 

@@ -7,17 +7,13 @@ has a corner, or the points and the axes of both circles are on one great circle
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.curves.sphere import SphereArc
+from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from geneva_cli.numerics.jet import Array
 
 
 class _Nearest(NamedTuple):
@@ -38,8 +34,7 @@ def half_chords(off: Array, across: Array, beyond: Array) -> Array:
     which it is past the arc's end. ``across`` is the product of the sines of both angles from the
     axis. In the triangle of axis, point and end this needs no difference of near numbers.
     """
-    out: Array = np.sin(0.5 * off) ** 2 + across * np.sin(0.5 * beyond) ** 2
-    return out
+    return np.sin(0.5 * off) ** 2 + across * np.sin(0.5 * beyond) ** 2
 
 
 class SphereArcs:
@@ -75,19 +70,17 @@ class SphereArcs:
         back = np.roll([arc.travel(arc.end) for arc in arcs], 1, axis=0)
         on = np.array([arc.travel(arc.start) for arc in arcs])
         sideways = (np.cross(back, on) * self.start).sum(axis=1)
-        out: Array = np.arctan2(sideways, (back * on).sum(axis=1))
-        return out
+        return np.arctan2(sideways, (back * on).sum(axis=1))
 
     def __len__(self) -> int:
         return len(self.angle)
 
-    def at(self, which: NDArray[np.intp], turn: Array) -> Array:
+    def at(self, which: Whole, turn: Array) -> Array:
         """Points of some of the arcs, (n, 3), at angles about their axes from their starts."""
         c, s = np.cos(turn)[:, None], np.sin(turn)[:, None]
         flat = np.sin(self.angle[which])[:, None]
         ahead = c * self.x[which] + s * self.y[which]
-        out: Array = np.cos(self.angle[which])[:, None] * self.axis[which] + flat * ahead
-        return out
+        return np.cos(self.angle[which])[:, None] * self.axis[which] + flat * ahead
 
     def signed(self, points: Array) -> tuple[Array, Array]:
         """Distances of points (n, 3) from the boundary, and the nearest points of it (n, 3).
@@ -109,8 +102,7 @@ class SphereArcs:
     def distances(self, points: Array) -> Array:
         """Distances of points (n, 3) from each arc, radians, (n, k)."""
         square = self._nearest(points).square
-        out: Array = 2.0 * np.arcsin(np.sqrt(np.minimum(square, 1.0)))
-        return out
+        return 2.0 * np.arcsin(np.sqrt(np.minimum(square, 1.0)))
 
     def _nearest(self, points: Array) -> _Nearest:
         """The nearest points of each arc to points (n, 3)."""
@@ -123,7 +115,7 @@ class SphereArcs:
         square = half_chords(off, np.sin(self.angle) * across, beyond)
         return _Nearest(off, turn, past, short, beyond, square)
 
-    def facing(self, which: NDArray[np.intp], towards: Array) -> tuple[NDArray[np.intp], Array]:
+    def facing(self, which: Whole, towards: Array) -> tuple[Whole, Array]:
         """Points of some of the arcs that face directions (n, 3), or face away from them.
 
         They are on the great circle through the arc's axis and the direction. The result is the

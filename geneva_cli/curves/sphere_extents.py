@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.curves.sphere import Region, SphereArc
 from geneva_cli.curves.sphere_arcs import SphereArcs, half_chords
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array
 
 
 class Circle(NamedTuple):
@@ -36,8 +34,7 @@ class Circle(NamedTuple):
         """Return the points of the circle at azimuths, (n, 3)."""
         c, s = np.cos(azimuth)[:, None], np.sin(azimuth)[:, None]
         flat = math.sin(self.angle)
-        out: Array = math.cos(self.angle) * self.axis + flat * (c * self.x + s * self.y)
-        return out
+        return math.cos(self.angle) * self.axis + flat * (c * self.x + s * self.y)
 
 
 def farthest(boundary: SphereArcs, points: Array) -> Array:
@@ -45,8 +42,7 @@ def farthest(boundary: SphereArcs, points: Array) -> Array:
 
     That is nearest to the opposite point.
     """
-    out: Array = math.pi - boundary.distances(-points)
-    return out
+    return math.pi - boundary.distances(-points)
 
 
 class FromCircle:
@@ -73,8 +69,7 @@ class FromCircle:
         from_points = 2.0 * np.arcsin(np.sqrt(np.minimum(square, 1.0)))
         ends = [self.circle.at(end) for end in (middle - half, middle + half)]
         from_ends = [self.boundary.distances(end).min(axis=1) for end in ends]
-        out: Array = np.minimum.reduce((from_points, *from_ends))
-        return out
+        return np.minimum.reduce((from_points, *from_ends))
 
 
 def short_arcs(regions: Iterable[Region], step: float) -> SphereArcs:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from geneva_cli.drawings.kinds.kind import kind_of
+from geneva_cli.drawings.model import kind_of
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.rules import Range, require_mm
@@ -16,8 +16,7 @@ from geneva_cli.table import Table
 if TYPE_CHECKING:
     from geneva_cli.curves.drawing import Drawing
     from geneva_cli.curves.sheet import Sheet
-    from geneva_cli.drawings.kinds.kind import PartsKind
-    from geneva_cli.drawings.model import PartsModel
+    from geneva_cli.drawings.model import PartsKind, PartsModel
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.parts.parts_of_machine import PartsOfMachine
 
@@ -94,17 +93,16 @@ def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: in
     if part in SHEETS or not is_table(mechanism, part, drawn=False):
         raise GenevaError(f"--part {part} is a drawing: write it as .dxf or .svg")
     require_tolerance(mechanism, tolerance_mm)
-    table: Table = _loaded(_table(mechanism, part))(mechanism, tolerance_mm, samples)
-    return table
+    return _loaded(_table(mechanism, part))(mechanism, tolerance_mm, samples)
 
 
 def require_drawn(mechanism: Mechanism, part: str) -> None:
     """Raise GenevaError for a part that no machine with such a wheel has."""
-    noun, kind = mechanism.spec.output.noun, kind_of(mechanism)
+    kind = kind_of(mechanism)
     known = [name for name in PARTS if _is_of(kind, name)]
     if part not in known:
         raise GenevaError(
-            f"--part {part} is not available for a {noun}, which has {', '.join(known)}",
+            f"--part {part}: this machine has none, only {', '.join(known)}",
             ("wheel", "gearing"),
         )
 
@@ -134,8 +132,7 @@ def machine_of(mechanism: Mechanism, part: str) -> Mechanism:
     """
     if part not in PARTS or not PARTS[part].in_front:
         return mechanism
-    first: Mechanism = _loaded("parts.first_pair:first_pair")(mechanism)
-    return first
+    return _loaded("parts.first_pair:first_pair")(mechanism)
 
 
 def part_drawing(model: PartsModel, part: str, tolerance_mm: float, curves: str) -> Drawing:
@@ -161,8 +158,7 @@ def part_sheet(model: PartsModel, part: str, tolerance_mm: float, curves: str) -
     if not is_sheet(part):
         raise GenevaError(f"--part {part} is no drawing sheet; use {', '.join(SHEETS)}")
     by, built = _maker(model, part)
-    sheet: Sheet = _loaded(by)(built.within(tolerance_mm, curves))
-    return sheet
+    return _loaded(by)(built.within(tolerance_mm, curves))
 
 
 def _maker(model: PartsModel, part: str) -> tuple[str | None, PartsOfMachine]:

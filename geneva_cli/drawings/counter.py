@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 from geneva_cli.curves.drawing import Annotations, Drawing, LevelDistance
-from geneva_cli.curves.plates import Group, Member
-from geneva_cli.layout.projection import outlines_of, titled, with_frame
+from geneva_cli.curves.plates import Group
+from geneva_cli.layout.projection import drawing_of, titled, with_frame
 from geneva_cli.parts.counter_parts import CounterParts
 
 
 def wheel(parts: CounterParts) -> Drawing:
     """Return the pinion; a wide tooth points along x, to the driver at mid-motion."""
-    return _drawn(parts, parts.pinions[-1])
+    return drawing_of(parts.mechanism, "pinion", parts.pinions[-1].part)
 
 
 def crank(parts: CounterParts) -> Drawing:
     """Return the driver; x is from its axis to the middle between its two teeth."""
-    return _drawn(parts, parts.driver)
+    return drawing_of(parts.mechanism, "driver", parts.driver.part)
 
 
 def number_wheel(parts: CounterParts) -> Drawing:
     """Return the number wheel that the driver's pinion turns; x is to the middle of a space."""
-    return _drawn(parts, parts.number_wheels[-1])
+    return drawing_of(parts.mechanism, "number wheel", parts.number_wheels[-1].part)
 
 
 def assembly(parts: CounterParts) -> Drawing:
@@ -28,10 +28,3 @@ def assembly(parts: CounterParts) -> Drawing:
     title, drawn = titled(parts.mechanism), with_frame(parts.moving, [parts.frame])
     look = Annotations((LevelDistance((0.0, 0.0), parts.axis, "L"),))
     return Drawing(title, drawn, look, Group(title, parts.members))
-
-
-def _drawn(parts: CounterParts, member: Member) -> Drawing:
-    """Return the drawing of a part in its own frame."""
-    solid = member.part
-    assert isinstance(solid, Group)
-    return Drawing(titled(parts.mechanism, solid.name), outlines_of(solid), solid=solid)

@@ -1,27 +1,40 @@
-"""The parts of a machine and their full turn, each computed once, on first use."""
+"""The parts of a machine and their full turn, each computed once, on first use.
+
+Each kind of parts is a class below, and a line in ``kind_of``: how the parts of some wheels are
+built, drawn, turned and measured. A kind is imported with the model, and what it builds is not.
+"""
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar, NoReturn, TypeAlias
 
-from geneva_cli.drawings.kinds.kind import kind_of
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics.layout import Dimension
+from geneva_cli.layout.missing import Missing, or_missing
 from geneva_cli.machine.mechanism import Mechanism
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from geneva_cli.collisions.full_turn import FullTurn
     from geneva_cli.collisions.gaps import WorkLimit
     from geneva_cli.collisions.machine_parts import MachineParts
     from geneva_cli.layout.assembly import Assembly
     from geneva_cli.layout.plain_sizes import Sizes
     from geneva_cli.layout.roller_paths import RollerPaths
+    from geneva_cli.layout.stressed import Stressed
     from geneva_cli.outlines.outlines import Outlines
+    from geneva_cli.outlines.rack_outlines import RackOutlines
+    from geneva_cli.parts.counter_parts import CounterParts
     from geneva_cli.parts.flat_parts import FlatParts
     from geneva_cli.parts.parts_of_machine import PartsOfMachine
+    from geneva_cli.parts.rack_parts import RackParts
     from geneva_cli.parts.sphere.shells import Shells
+    from geneva_cli.parts.sphere.sphere_parts import SphereParts
+
+    NamedBuilds: TypeAlias = list[tuple[str, Callable[[], PartsOfMachine]]]
+    Known: TypeAlias = tuple[Outlines | None, Shells | None]
 
 
 class PartsModel:
@@ -127,7 +140,7 @@ class PartsModel:
         return self.kind.built(self)
 
     @property
-    def all_built(self) -> list[tuple[str, Callable[[], PartsOfMachine]]]:
+    def all_built(self) -> NamedBuilds:
         """Names and functions of all parts: before a sphere or a rack links and gears are flat."""
         return self.kind.all_built(self)
 
@@ -155,3 +168,225 @@ class PartsModel:
             return full_turn(self.parts)
         except WorkLimit as error:
             return error
+
+
+class PartsKind(ABC):
+    """The parts of wheels of one kind; functions in tables are written ``module:function``."""
+
+    # functions that draw parts, or make their sheets, by the names of the parts
+    DRAWN: ClassVar[Mapping[str, str]] = {}
+    # functions that tabulate parts, where it is not the function of the catalogue
+    TABLES: ClassVar[Mapping[str, str]] = {}
+    # True if it has all parts of flat machines as well, such as links and gears
+    HAS_FLAT_PARTS: ClassVar[bool] = False
+    # parts whose outlines are those of a surface laid flat
+    LAID_FLAT: ClassVar[tuple[str, ...]] = ()
+
+    def drawn_by(self, name: str, flat: str | None) -> str | None:
+        """Return the function that draws a part; ``flat`` is that of flat machines."""
+        return self.DRAWN.get(name)
+
+    @abstractmethod
+    def built(self, model: PartsModel) -> PartsOfMachine:
+        """Return the parts. Raises GenevaError where the sizes leave none."""
+
+    @abstractmethod
+    def turned(self, model: PartsModel) -> MachineParts:
+        """Return what is turned to find collisions. Raises GenevaError where there is none."""
+
+    def all_built(self, model: PartsModel) -> NamedBuilds:
+        """Return names and functions of all parts: those of links and gears are flat."""
+        return [("wheel and crank", lambda: model.built), ("all parts", lambda: model.flat)]
+
+    def known(self, model: PartsModel, assembly: Assembly) -> Known:
+        """Return the outlines or shells of a machine of the same sizes, with its assembly."""
+        return None, None
+
+    def dimensions(self, model: PartsModel) -> Iterator[Dimension | Missing]:
+        """Yield the dimensions of the parts, or the reason why there are none."""
+        yield from ()
+
+    def stressed(self, mechanism: Mechanism) -> Stressed | None:
+        """Return the sizes of stressed parts, if a layout of flat parts does not have them."""
+        return None
+
+
+class Flat(PartsKind):
+    """Plates in the plane, whose functions stand in the catalogue."""
+
+    HAS_FLAT_PARTS: ClassVar[bool] = True
+
+    def drawn_by(self, name: str, flat: str | None) -> str | None:
+        """Return the function that draws a part."""
+        return flat
+
+    def built(self, model: PartsModel) -> FlatParts:
+        """Return the parts."""
+        return model.flat
+
+    def turned(self, model: PartsModel) -> Outlines:
+        """Return the outlines."""
+        return model.outlines
+
+    def all_built(self, model: PartsModel) -> NamedBuilds:
+        """Return name and function of all parts."""
+        return [("all parts", lambda: model.flat)]
+
+    def known(self, model: PartsModel, assembly: Assembly) -> Known:
+        """Return the outlines with an assembly."""
+        return model.outlines.over(assembly), None
+
+
+class Ball(PartsKind):
+    """Shells of a sphere, on shafts that meet at its centre; links and gears before it are flat."""
+
+    HAS_FLAT_PARTS: ClassVar[bool] = True
+    LAID_FLAT: ClassVar[tuple[str, ...]] = ("wheel", "crank", "arm")
+    TABLES: ClassVar[Mapping[str, str]] = {"wheel": "layout.meridians:meridians_table"}
+    DRAWN: ClassVar[Mapping[str, str]] = {
+        "wheel": "drawings.sphere.drawings:wheel",
+        "crank": "drawings.sphere.drawings:crank",
+        "arm": "drawings.sphere.arm_drawing:arm",
+        "assembly": "drawings.sphere.drawings:assembly",
+        "sheet": "drawings.sphere.sheet:sheet",
+    }
+
+    def built(self, model: PartsModel) -> SphereParts:
+        """Return the parts."""
+        from geneva_cli.parts.sphere.sphere_parts import SphereParts
+
+        return SphereParts(model.shells)
+
+    def turned(self, model: PartsModel) -> Shells:
+        """Return the shells."""
+        return model.shells
+
+    def known(self, model: PartsModel, assembly: Assembly) -> Known:
+        """Return the shells with an assembly."""
+        return None, model.shells.over(assembly)
+
+    def dimensions(self, model: PartsModel) -> Iterator[Dimension | Missing]:
+        """Yield the dimensions of the shells."""
+        from geneva_cli.drawings.sphere.dimensions import dimensions
+
+        return or_missing("dimensions of the shells", lambda: dimensions(self.built(model)))
+
+    def stressed(self, mechanism: Mechanism) -> Stressed | None:
+        """Return the sizes of stressed parts; None if the sizes leave no shells."""
+        from geneva_cli.layout.sphere_sizes import sized_ball
+        from geneva_cli.layout.sphere_stressed import sphere_stressed
+
+        ball = sized_ball(mechanism)
+        return sphere_stressed(mechanism.spec, ball) if ball else None
+
+
+class Rack(PartsKind):
+    """Plates along a line: a rack in its guide, and its crank."""
+
+    DRAWN: ClassVar[Mapping[str, str]] = {
+        "slot": "drawings.rack:slot",
+        "wheel": "drawings.part_drawings:wheel",
+        "crank": "drawings.part_drawings:crank",
+        "arm": "drawings.rack:arm",
+        "frame": "drawings.part_drawings:frame",
+        "guide": "drawings.rack:guide",
+        "assembly": "drawings.rack:assembly",
+        "plate": "drawings.print_plate:plate",
+        "sheet": "drawings.sheet.rack:sheet",
+    }
+
+    def built(self, model: PartsModel) -> RackParts:
+        """Return the parts."""
+        from geneva_cli.parts.rack_parts import RackParts
+
+        return RackParts(model.mechanism)
+
+    def all_built(self, model: PartsModel) -> NamedBuilds:
+        """Return names and functions of all parts; its frame holds its gears, but not links."""
+        framed = model.mechanism.spec.has_parts
+        return [("all parts", lambda: model.built)] if framed else super().all_built(model)
+
+    def turned(self, model: PartsModel) -> RackOutlines:
+        """Return the outlines of the rack and its crank."""
+        from geneva_cli.outlines.rack_outlines import rack_outlines
+
+        return rack_outlines(model.mechanism)
+
+    def dimensions(self, model: PartsModel) -> Iterator[Dimension | Missing]:
+        """Yield the dimensions of the rack."""
+        from geneva_cli.outlines.rack import rack_sizes
+        from geneva_cli.parts.rack_frame import rack_dimensions
+
+        named = "dimensions of the rack"
+        return or_missing(named, lambda: rack_dimensions(rack_sizes(model.mechanism)))
+
+    def stressed(self, mechanism: Mechanism) -> Stressed:
+        """Return the sizes of stressed parts."""
+        from geneva_cli.parts.rack_stressed import rack_stressed
+
+        return rack_stressed(mechanism)
+
+
+class Counter(PartsKind):
+    """Gears on two parallel shafts: a driver, pinions and number wheels."""
+
+    DRAWN: ClassVar[Mapping[str, str]] = {
+        "wheel": "drawings.counter:wheel",
+        "crank": "drawings.counter:crank",
+        "number-wheel": "drawings.counter:number_wheel",
+        "frame": "drawings.part_drawings:frame",
+        "assembly": "drawings.counter:assembly",
+        "plate": "drawings.print_plate:plate",
+        "sheet": "drawings.sheet.counter:sheet",
+    }
+
+    def built(self, model: PartsModel) -> CounterParts:
+        """Return the parts."""
+        from geneva_cli.parts.counter_parts import CounterParts
+
+        return CounterParts(model.mechanism)
+
+    def turned(self, model: PartsModel) -> NoReturn:
+        """Raise GenevaError: the free angles of teeth are checks of their own."""
+        raise GenevaError("a counter has no rollers to turn", ("wheel", "gearing"))
+
+    def all_built(self, model: PartsModel) -> NamedBuilds:
+        """Return name and function of all parts."""
+        return [("all parts", lambda: model.built)]
+
+    def dimensions(self, model: PartsModel) -> Iterator[Dimension | Missing]:
+        """Yield the dimensions of teeth and rim."""
+
+        def listed() -> Iterable[Dimension]:
+            parts = self.built(model)
+            yield from parts.mesh.layout
+            yield Dimension("rim radius", parts.sizes.rim, "mm")
+
+        return or_missing("dimensions of the teeth", listed)
+
+
+class Unbuilt(PartsKind):
+    """No parts but the links and gears in front of the crank."""
+
+    def built(self, model: PartsModel) -> NoReturn:
+        """Raise GenevaError with the reason."""
+        raise GenevaError(model.mechanism.spec.no_parts, ("wheel", "gearing"))
+
+    def turned(self, model: PartsModel) -> NoReturn:
+        """Raise GenevaError with the reason."""
+        self.built(model)
+
+    def all_built(self, model: PartsModel) -> NamedBuilds:
+        """Return name and function of links and gears."""
+        return [("all parts", lambda: model.flat)]
+
+
+def kind_of(mechanism: Mechanism) -> PartsKind:
+    """Return the kind of a machine's parts."""
+    kinds: dict[str, type[PartsKind]] = {
+        "flat": Flat,
+        "ball": Ball,
+        "rack": Rack,
+        "counter": Counter,
+    }
+    return kinds.get(mechanism.spec.wheel.PARTS, Unbuilt)()

@@ -25,7 +25,7 @@ from geneva_cli.curves.shapes import (
 )
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.layout.projection import once, outlines_of, placed, shapes, titled
+from geneva_cli.layout.projection import drawing_of, once, outlines_of, placed, shapes, titled
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.plates import arm_plate
@@ -42,15 +42,12 @@ def wheel(parts: FlatParts | RackParts) -> Drawing:
 
     The origin is the wheel's axis, or the roller's at mid-motion of a rack.
     """
-    solid = parts.wheel.part
-    title = titled(parts.mechanism, parts.mechanism.output.noun)
-    return Drawing(title, outlines_of(solid), solid=solid)
+    return drawing_of(parts.mechanism, parts.mechanism.output.noun, parts.wheel.part)
 
 
 def crank(parts: FlatParts | RackParts) -> Drawing:
     """Return the crank in the wheel's plane; its axis is the origin, x is to the first roller."""
-    solid = parts.crank_without_arm.part
-    return Drawing(titled(parts.mechanism, "crank"), outlines_of(solid), solid=solid)
+    return drawing_of(parts.mechanism, "crank", parts.crank_without_arm.part)
 
 
 def arm(parts: FlatParts) -> Drawing:
@@ -113,8 +110,7 @@ def _side_by_side(plates: Iterable[Plate], between: float) -> Iterator[Member]:
 
 def frame(parts: FlatParts | RackParts | CounterParts) -> Drawing:
     """Return the frame as it is drilled."""
-    solid = parts.frame.part
-    return Drawing(titled(parts.mechanism, "frame"), outlines_of(solid), solid=solid)
+    return drawing_of(parts.mechanism, "frame", parts.frame.part)
 
 
 def gears(parts: FlatParts | RackParts) -> Drawing:

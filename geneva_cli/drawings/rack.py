@@ -5,7 +5,7 @@ from __future__ import annotations
 from geneva_cli.curves.drawing import Annotations, Drawing, LevelDistance
 from geneva_cli.curves.plates import Group
 from geneva_cli.curves.shapes import Contour, Line, closed
-from geneva_cli.layout.projection import outlines_of, titled, with_frame
+from geneva_cli.layout.projection import drawing_of, outlines_of, titled, with_frame
 from geneva_cli.outlines.rack import slot_walls
 from geneva_cli.parts.rack_arm import rack_arm
 from geneva_cli.parts.rack_parts import RackParts
@@ -14,8 +14,7 @@ from geneva_cli.parts.rack_parts import RackParts
 def arm(parts: RackParts) -> Drawing:
     """Return the arm, whose x is from the crank's axis to the roller."""
     # without an arm the error says why
-    solid = parts.arm or rack_arm(parts.mechanism)
-    return Drawing(titled(parts.mechanism, "arm"), outlines_of(solid), solid=solid)
+    return drawing_of(parts.mechanism, "arm", parts.arm or rack_arm(parts.mechanism))
 
 
 def slot(parts: RackParts) -> Drawing:

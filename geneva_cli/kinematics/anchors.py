@@ -6,16 +6,21 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from geneva_cli.kinematics.engagement import Anchor
-from geneva_cli.numerics.arrays import SINGLE, are_alike, are_designs, array, chosen, picked
-from geneva_cli.numerics.batchable import Batchable
+from geneva_cli.numerics.arrays import (
+    SINGLE,
+    Batchable,
+    Whole,
+    are_alike,
+    are_designs,
+    array,
+    chosen,
+    picked,
+)
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.numerics.stacks import Stack, can_stack
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Whole
 
 Solve: TypeAlias = "Callable[[Anchor, Number], Jet]"
 

@@ -10,15 +10,14 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.kinematics.engagement import Displacement, Engagement
 from geneva_cli.kinematics.layout import Layout, Link
-from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import SPEED, Z_MAX, Range
-from geneva_cli.spec.schema import SpecTable
+from geneva_cli.spec.schema import Example, SpecTable
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.laws.law import Law
     from geneva_cli.kinematics.motion import Motion
     from geneva_cli.kinematics.wheels.gearing import Gearing
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array
     from geneva_cli.numerics.spline import Doubt
 
 

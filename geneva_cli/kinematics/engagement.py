@@ -15,14 +15,19 @@ from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import all_true, array, blocks, library
-from geneva_cli.numerics.batchable import Batchable
+from geneva_cli.numerics.arrays import (
+    Batchable,
+    all_true,
+    array,
+    blocks,
+    keep_freed_memory,
+    library,
+)
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
-from geneva_cli.numerics.memory import keep_freed_memory
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.laws.law import Law
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array
 
 K = TypeVar("K", float, "Array")
 

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.engagement import Peak, WheelMotion
 from geneva_cli.kinematics.laws.greatest import greatest
 from geneva_cli.kinematics.laws.law import Law, remaining
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import SINGLE, all_true, ascending, library
+from geneva_cli.numerics.arrays import SINGLE, Array, all_true, ascending, library
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.numerics.latest import Latest
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array
 
 MOTION_MIN = 1e-10  # degrees: a shorter motion, or dwell, is rounding
 

@@ -12,7 +12,7 @@ from geneva_cli.kinematics.engagement import (
 )
 from geneva_cli.kinematics.law_motion import LawMotion
 from geneva_cli.kinematics.laws.law import Law
-from geneva_cli.numerics.batchable import Batchable
+from geneva_cli.numerics.arrays import Batchable
 from geneva_cli.numerics.jet import Jet, Number
 
 

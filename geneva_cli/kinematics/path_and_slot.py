@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from geneva_cli.kinematics.anchors import anchors_of
 from geneva_cli.kinematics.engagement import (
@@ -19,13 +19,9 @@ from geneva_cli.kinematics.engagement import (
 )
 from geneva_cli.kinematics.wheels import classic
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import library, parameter
-from geneva_cli.numerics.batchable import Batchable
-from geneva_cli.numerics.jet import Jet, Number, atan2, sin_cos, sqrt, turning
+from geneva_cli.numerics.arrays import Batchable, library, parameter
+from geneva_cli.numerics.jet import Array, Jet, Number, atan2, sin_cos, sqrt, turning
 from geneva_cli.numerics.latest import Latest
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 END_DEG = 0.05  # nearer than this to entry or exit, angle and velocity keep their relative accuracy
 

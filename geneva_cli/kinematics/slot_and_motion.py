@@ -15,7 +15,7 @@ from functools import cached_property
 from geneva_cli.kinematics.engagement import Slot, SlotAxis
 from geneva_cli.kinematics.law_motion import LawMotion
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.batchable import Batchable
+from geneva_cli.numerics.arrays import Batchable
 from geneva_cli.numerics.jet import Jet, Number, piecewise, sin_cos
 from geneva_cli.numerics.latest import Latest
 

@@ -19,12 +19,11 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.numerics.arrays import Array, Mask
 from geneva_cli.spec.tables import Z_DRAWN
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.plane_motion import PlaneMotion
-    from geneva_cli.numerics.arrays import Mask
-    from geneva_cli.numerics.jet import Array
 
 
 class Assembly(NamedTuple):
@@ -112,8 +111,7 @@ class Assembly(NamedTuple):
             return self._ahead - self.sign * engagement.crank_sense * np.radians(input_deg)
         x, y = ((self.pin(0, input_deg) if first is None else first) - (self.L, 0.0)).T
         # in long numbers, since processors differ in the last bit of doubles' arc tangents
-        angle: Array = np.arctan2(y.astype(np.longdouble), x).astype(np.float64)
-        return angle
+        return np.arctan2(y.astype(np.longdouble), x).astype(np.float64)
 
     @property
     def _ahead(self) -> float:

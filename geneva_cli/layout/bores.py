@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 from geneva_cli.curves.shapes import ORIGIN, Arc, Circle, Line, Point, Shape, about, closed, polygon
 from geneva_cli.errors import GenevaError
@@ -20,6 +21,10 @@ from geneva_cli.spec.tables import Size
 @dataclass(frozen=True)
 class Bore(ABC):
     """A bore, and the section of the shaft in it; round in all that a shape does not change."""
+
+    is_round: ClassVar[bool] = True  # a diameter is a dimension of the bore
+    is_plain: ClassVar[bool] = False  # the bore is a circle, which has no direction
+    keyed: ClassVar[bool] = False  # the shaft has a keyway
 
     radius: float
 
@@ -52,21 +57,6 @@ class Bore(ABC):
         return self.note
 
     @property
-    def is_round(self) -> bool:
-        """True if a diameter is a dimension of the bore."""
-        return True
-
-    @property
-    def is_plain(self) -> bool:
-        """True if the bore is a circle, which has no direction."""
-        return False
-
-    @property
-    def keyed(self) -> bool:
-        """True if the shaft has a keyway."""
-        return False
-
-    @property
     def end_diameter(self) -> float | None:
         """Diameter of a round end of the shaft beyond the bore; None where there is none."""
         return 2.0 * self.radius
@@ -80,10 +70,7 @@ class Bore(ABC):
 class RoundBore(Bore):
     """A round bore."""
 
-    @property
-    def is_plain(self) -> bool:
-        """True."""
-        return True
+    is_plain: ClassVar[bool] = True
 
     def shape(self, layer: str, direction: float) -> Shape:
         """Return the circle."""
@@ -93,6 +80,8 @@ class RoundBore(Bore):
 @dataclass(frozen=True)
 class KeyedBore(Bore):
     """A round bore with a keyway by a standard."""
+
+    keyed: ClassVar[bool] = True
 
     standard: str
     key: ParallelKey
@@ -114,11 +103,6 @@ class KeyedBore(Bore):
         """Width and depth of the shaft's keyway."""
         wide, deep = length(self.key.width, fine=True), length(self.key.in_shaft)
         return f"keyway {wide} P9, {deep} deep ({self.standard})"
-
-    @property
-    def keyed(self) -> bool:
-        """True."""
-        return True
 
     def shape(self, layer: str, direction: float) -> Shape:
         """Return the bore about the origin; its first piece is the keyway's top."""
@@ -170,6 +154,8 @@ class FlatBore(Bore):
 class HexBore(Bore):
     """A hexagonal bore; its radius is half of its width across flats."""
 
+    is_round: ClassVar[bool] = False
+
     @property
     def reach(self) -> float:
         """Distance of a corner from the axis."""
@@ -184,11 +170,6 @@ class HexBore(Bore):
     def note(self) -> str:
         """Width across flats."""
         return f"hexagon {length(2.0 * self.radius)} across flats"
-
-    @property
-    def is_round(self) -> bool:
-        """False."""
-        return False
 
     @property
     def end_diameter(self) -> float | None:

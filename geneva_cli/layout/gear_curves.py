@@ -111,8 +111,7 @@ class CurveLength(NamedTuple):
         """Return the input's angles, radians, at lengths of the curve from input angle 0 on."""
         first = self.ahead.origins[0]
         ahead: np.ndarray = self.ahead(first + np.mod(s - first, self.whole), 0)[0]
-        angle: np.ndarray = math.tau * s / self.whole + ahead
-        return angle
+        return math.tau * s / self.whole + ahead
 
 
 def curve_length(gears: Gears) -> CurveLength:

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.pin import pin
-from geneva_cli.loads.strength.allowed import shear_allowed_MPa
 from geneva_cli.loads.strength.arm import arm_stress_MPa
-from geneva_cli.loads.strength.keys import KeyDimensions, key_stress
+from geneva_cli.loads.strength.keys import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.loads.strength.shafts import shear_MPa
 from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.numerics.preferred import rounded_from

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
 
 from geneva_cli.curves.shapes import Point
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 def links_at(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.measure import S, mapped, turned
 from geneva_cli.curves.plates import Group, Member, Part, Plate, Stack
 from geneva_cli.curves.shapes import Circle, Point, Shape
@@ -26,6 +27,11 @@ def titled(mechanism: Mechanism, part: str = "") -> str:
 def outlines_of(part: Part) -> tuple[Shape, ...]:
     """Return the outlines and holes of a part in its own frame, each once, layer by layer."""
     return tuple(sorted(once(shapes([Member(part)])), key=_order))
+
+
+def drawing_of(mechanism: Mechanism, part: str, solid: Part) -> Drawing:
+    """Return the drawing of a part in its own frame, under its name."""
+    return Drawing(titled(mechanism, part), outlines_of(solid), solid=solid)
 
 
 def _order(shape: Shape) -> tuple[int, bool]:

@@ -232,7 +232,7 @@ def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
     The horn is at most a fifth of the available radius. 0 for no disc; linkages have none.
     """
     spec, size = assembly.mechanism.spec, assembly.mechanism.spec.size
-    if size.lock_radius_mm == 0.0 or not spec.drive.LOCKS:
+    if not spec.has_lock:
         return 0.0
     limit = arm - w - size.allowances.lock_clearance_mm
     least, r = max(assembly.L - rim, 0.0), assembly.mechanism.roller_radius_mm

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -17,11 +17,8 @@ from geneva_cli.kinematics.pitch_curve import (
     retraces,
 )
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import array
+from geneva_cli.numerics.arrays import Array, Number, array
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array, Number
 
 T = TypeVar("T", PinHeading, Pitch)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,12 +10,9 @@ from geneva_cli.curves import chords
 from geneva_cli.kinematics.pitch_curve import WALLED, pitch
 from geneva_cli.layout.slot_profile import flanks, slot
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import array
+from geneva_cli.numerics.arrays import Array, array
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.table import Table, computed_table
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 def nodes(mechanism: Mechanism, tolerance_mm: float, fewest: bool = True) -> Array:

@@ -139,7 +139,7 @@ def _lock(mechanism: Mechanism, limit: float, least: float, roller: float) -> fl
     space.
     """
     size, L = mechanism.spec.size, mechanism.center_distance_mm
-    if size.lock_radius_mm == 0.0 or not mechanism.spec.drive.LOCKS:
+    if not mechanism.spec.has_lock:
         return 0.0
     limit -= size.allowances.lock_clearance_mm / L
     low, high = (L * math.sin(max(0.0, x)) for x in (least, limit))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -43,6 +44,15 @@ def number(value: float, decimals: int = 3) -> str:
     """
     text = f"{round(value, decimals) + 0.0:.{decimals}f}"  # no -0
     return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def degrees(angle: float, decimals: int = 3) -> str:
+    """Return an angle in radians as degrees.
+
+    >>> degrees(0.5)
+    '28.648°'
+    """
+    return f"{number(math.degrees(angle), decimals)}°"
 
 
 def length(mm: float, fine: bool = False) -> str:

@@ -6,16 +6,14 @@ The gentlest has the least peak velocity. A few points of each wheel give bounds
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.kinematics.paths.samples import blocks, joined, points
 from geneva_cli.kinematics.roller_path import RollerPath
 from geneva_cli.linkage.wheels import PathWheels
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Number, Whole
+from geneva_cli.numerics.arrays import Array, Number, Whole
 
 SAME_PEAK = 1e-8  # fraction by which two wheels' peak velocities may differ and count as equal
 

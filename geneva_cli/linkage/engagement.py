@@ -3,26 +3,29 @@
 from __future__ import annotations
 
 from decimal import localcontext
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import NamedTuple, cast
 
 import numpy as np
 
 from geneva_cli.kinematics import path_and_slot
 from geneva_cli.kinematics.engagement import Anchor, Carrier, Engagement
-from geneva_cli.kinematics.link import LinkRate, LinkReactions
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, StraightSlotMotion
-from geneva_cli.kinematics.roller_path import PointDisplacement, RollerPath, exactly, rounded
+from geneva_cli.kinematics.roller_path import (
+    LinkRate,
+    LinkReactions,
+    PointDisplacement,
+    RollerPath,
+    exactly,
+    rounded,
+)
 from geneva_cli.kinematics.wheels.poses import HalfStep
 from geneva_cli.linkage.exact_path import ExactPoint, angle, length, unit
 from geneva_cli.linkage.wheel_for_path import Fit
 from geneva_cli.linkage.wheels_for_paths import LONG_PI, Fits, long_point, polished
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import library, parameter
+from geneva_cli.numerics.arrays import Array, library, parameter
 from geneva_cli.numerics.jet import Jet, Number, sine_versine, turning
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array
 
 ANCHORS = 4  # anchors on either side of the middle: near the wheel the path is strongly curved
 

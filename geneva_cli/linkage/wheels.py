@@ -7,7 +7,7 @@ point, leaves at the other and stays outside the slot otherwise.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,9 +15,7 @@ from geneva_cli.kinematics.paths.course import PinCourse, PlacedWheel, leaves_sl
 from geneva_cli.kinematics.paths.pairs import DOUBLE_ROOT_SLOPE, EndPairs, newton, pairs, residual
 from geneva_cli.kinematics.paths.samples import PathSamples, blocks, joined, points, sampled
 from geneva_cli.kinematics.roller_path import RollerPath
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
 
 SAME_ENTRY = 1e-6  # radians: entries nearer to each other are one
 
@@ -142,9 +140,16 @@ def _block_followed(
     wheel = PlacedWheel._make(x[:, None] for x in (centre, rho * rho, sense))
     number = np.zeros(int(samples.which.max(initial=0)) + 1, dtype=int)
     number[samples.which] = np.arange(len(samples.which))
-    at = samples.at.taken(number[ends.which]).taken((slice(None), slice(0, -1)))
-    entry, motion = ends.at.phi[:, :1], np.diff(ends.at.phi, axis=1)
-    since = (at.phi - entry) % math.tau
+    row, count = number[ends.which], samples.angle.shape[1] - 1
+    # the samples from entry onwards, over a turn
+    first = samples.at.phi[row, :1]
+    entry = first + (ends.at.phi[:, :1] - first) % math.tau
+    motion = np.diff(ends.at.phi, axis=1)
+    before = np.count_nonzero(samples.at.phi[row, :-1] <= entry, axis=1)
+    column = before[:, None] + np.arange(count)
+    turned = column >= count
+    at = samples.at.at_samples(row[:, None], column - count * turned)
+    since = at.phi - entry + math.tau * turned
     course = wheel.course(at)
     inside = since < motion
     good = np.where(inside, (course.moment > 0.0) & (course.short > 0.0), course.short < 0.0)
@@ -155,14 +160,15 @@ def _block_followed(
     wheel, ends, since, motion = wheel.taken(kept), ends.taken(kept), since[kept], motion[kept]
     limits = wheel.course(ends.at)
     limits = limits._replace(moment=0.0 * limits.moment, short=0.0 * limits.short)
-    since = np.hstack((since, 0.0 * motion, motion, 0.0 * motion + math.tau))
-    order = np.argsort(since, axis=1)
-    nodes = np.take_along_axis(since, order, axis=1)
-    full = PinCourse(
-        *(
-            np.take_along_axis(np.hstack((x[kept], y, y[:, :1])), order, axis=1)
-            for x, y in zip(course, limits, strict=True)
-        )
+    exit_ = np.count_nonzero(inside[kept], axis=1)[:, None] + 1
+    node = np.arange(-1, count + 2) - (np.arange(count + 3) > exit_)
+    node[:, [0, -1]] = count
+    np.put_along_axis(node, exit_, count + 1, axis=1)
+    node += np.arange(len(kept))[:, None] * (count + 2)
+    nodes = np.hstack((since, 0.0 * motion, motion)).take(node)
+    nodes[:, -1] = math.tau
+    full = PinCourse._make(
+        np.hstack((x[kept], y)).take(node) for x, y in zip(course, limits, strict=True)
     )
     moment = np.where(nodes <= motion, full.moment, 0.0)
     velocity = (moment / (wheel.square - full.short)).max(axis=1)

@@ -15,7 +15,7 @@ integrated between to the last digits.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -35,13 +35,10 @@ from geneva_cli.loads.groups import parts
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.jet import Jet
+from geneva_cli.numerics.arrays import Mask, Whole
+from geneva_cli.numerics.jet import Array, Jet
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
 from geneva_cli.numerics.search import search
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Mask, Whole
-    from geneva_cli.numerics.jet import Array
 
 
 class Unevenness(NamedTuple):

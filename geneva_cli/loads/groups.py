@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.analysis.load_functions import LoadBatch
 from geneva_cli.machine.many import taken
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Number, Whole
+from geneva_cli.numerics.arrays import Array, Number, Whole
 
 
 def of_groups(

@@ -7,8 +7,6 @@ of both squares is smooth where the sliding reverses, and that place is not need
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from geneva_cli.analysis.contact import mirrored
@@ -17,14 +15,11 @@ from geneva_cli.analysis.load_functions import LoadFunctions, SignFunctions, sig
 from geneva_cli.analysis.quantities import square_of
 from geneva_cli.analysis.stretches import spans_of
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import all_true, array
+from geneva_cli.numerics.arrays import Whole, all_true, array
+from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.pieces import gathered, spread
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
 from geneva_cli.numerics.search import search
-from geneva_cli.numerics.spread import gathered, spread
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Whole
-    from geneva_cli.numerics.jet import Array
 
 
 def is_balanced(load: LoadFunctions) -> bool:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -34,13 +34,10 @@ from geneva_cli.loads.summaries import load_peaks, search_loads
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import array, parameter
-from geneva_cli.numerics.jet import Jet, Number
-from geneva_cli.numerics.known import Known
-from geneva_cli.numerics.ties import first_greatest
+from geneva_cli.numerics.greatest import first_greatest
+from geneva_cli.numerics.jet import Array, Jet, Number
+from geneva_cli.numerics.latest import Known
 from geneva_cli.spec.load_limits import load_limits
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 class LoadState(NamedTuple):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,15 +23,11 @@ from geneva_cli.analysis.stretches import mirror_images, spans_of
 from geneva_cli.loads.groups import of_groups
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import array
+from geneva_cli.numerics.arrays import Mask, Whole, array
+from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.pieces import gathered, spread
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
-from geneva_cli.numerics.search import search
-from geneva_cli.numerics.spread import gathered, spread
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Mask, Whole
-    from geneva_cli.numerics.jet import Array
-    from geneva_cli.numerics.search import Stretches
+from geneva_cli.numerics.search import Stretches, search
 
 
 class LoadMeans(NamedTuple):

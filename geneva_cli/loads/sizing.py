@@ -36,8 +36,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from geneva_cli.loads.cycle import Cycle
-    from geneva_cli.numerics.arrays import N, Number
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array, N, Number
     from geneva_cli.spec.tables import Motor
 
 Peaks: TypeAlias = "tuple[float, ...]"  # of one engagement, in the order of ``FORM_PEAKS``

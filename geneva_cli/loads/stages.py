@@ -9,22 +9,20 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.contact import NEAR_CUSP, is_straight
+from geneva_cli.analysis.stretches import Stretch
 from geneva_cli.figure import Piece
+from geneva_cli.kinematics.engagement import Engagement, WheelMotion
 from geneva_cli.loads import summary
+from geneva_cli.loads.cycle import Cycle
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.sampling import ASPECT, CHORD_ERROR, places, refined, thinned
 from geneva_cli.numerics.tolerances import ROUNDED
-
-if TYPE_CHECKING:
-    from geneva_cli.analysis.stretches import Stretch
-    from geneva_cli.kinematics.engagement import Engagement, WheelMotion
-    from geneva_cli.loads.cycle import Cycle
-    from geneva_cli.numerics.jet import Array
 
 # derivatives 0..3 of the wheel's angle -> the quantity, besides the output itself
 MOTION_QUANTITIES: dict[str, Callable[[Sequence[Array]], Array]] = {

@@ -16,7 +16,7 @@ designs are searched together, one block of designs after the other.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import NamedTuple, cast
 
 import numpy as np
 
@@ -41,11 +41,9 @@ from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.loads.groups import of_groups
 from geneva_cli.loads.means import means_from, sources_of, sums
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Number
+from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.search import SearchResult, search
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Number
-    from geneva_cli.numerics.jet import Array
 
 
 class LoadSummary(NamedTuple):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -22,19 +22,14 @@ from geneva_cli.analysis.quantities import (
 from geneva_cli.errors import Notice
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.summaries import LoadSummary
+from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.jet import Array
 from geneva_cli.table import Reading, Table, computed_table, record_table, rows_table
-
-if TYPE_CHECKING:
-    from geneva_cli.machine.spec import Spec
-    from geneva_cli.numerics.jet import Array
 
 SHOWN_QUANTITIES = (
     "omega_rad_s",
     "alpha_rad_s2",
     "wheel_torque_Nm",
-    "rack_speed_m_s",
-    "rack_acceleration_m_s2",
-    "rack_force_N",
     "pin_force_N",
     STRESS,
     "sliding_m_s",
@@ -42,7 +37,11 @@ SHOWN_QUANTITIES = (
     "power_W",
     "wheel_bearing_N",
     "crank_bearing_N",
+    # what only some machines have stands behind the columns that scripts count
     PV,
+    "rack_speed_m_s",
+    "rack_acceleration_m_s2",
+    "rack_force_N",
     "guide_force_N",
     "wheel_near_bearing_N",
     "wheel_far_bearing_N",
@@ -162,7 +161,8 @@ def missing(cycle: Cycle) -> list[Notice]:
     for name, (_, factor, needs) in multiples(cycle.mechanism).items():
         if factor is None:
             unknown.setdefault(needs, []).append(name)
-    out += [f"{', '.join(names)}: needs {needs}" for needs, names in unknown.items()]
+    for needs, names in unknown.items():
+        out.append(f"{', '.join(names)}: need{'s' * (len(names) == 1)} {needs}")
     return [Notice("not-known", text) for text in out]
 
 

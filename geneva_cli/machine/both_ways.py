@@ -15,15 +15,12 @@ torque on the wheel is I w² psi'' + M_r in both machines, with psi'' at theta n
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 from geneva_cli.errors import marking
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.spec.rules import is_array
-
-if TYPE_CHECKING:
-    from geneva_cli.spec.schema import SpecTable
+from geneva_cli.spec.schema import SpecTable
 
 
 def backwards(mechanism: Mechanism) -> Mechanism:

@@ -12,8 +12,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from geneva_cli.kinematics.engagement import Engagement, Vector, cross
-from geneva_cli.numerics.arrays import choose
-from geneva_cli.numerics.batchable import Batchable
+from geneva_cli.numerics.arrays import Batchable, choose
 from geneva_cli.numerics.jet import Jet, Number, composed, sin_cos
 
 if TYPE_CHECKING:

@@ -25,7 +25,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import cache, partial
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypeVar, cast
+from typing import NamedTuple, TypeAlias, TypeVar, cast
 
 import numpy as np
 
@@ -33,14 +33,18 @@ from geneva_cli.errors import GenevaError, marking
 from geneva_cli.kinematics.motion import Motion
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import BEFORE, Spec, attribute
-from geneva_cli.numerics.arrays import record_of
-from geneva_cli.numerics.batchable import Batchable
+from geneva_cli.numerics.arrays import (
+    Array,
+    Batchable,
+    Mask,
+    Number,
+    Which,
+    Whole,
+    keep_freed_memory,
+    record_of,
+)
 from geneva_cli.numerics.latest import Latest
-from geneva_cli.numerics.memory import keep_freed_memory
 from geneva_cli.spec.schema import Field, Points, SpecTable, fields, unknown
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Mask, Number, Which, Whole
 
 T = TypeVar("T")
 Change: TypeAlias = "Callable[[Array], object]"

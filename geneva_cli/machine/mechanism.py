@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from geneva_cli.kinematics.drive import Plan
 from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.kinematics.laws.law import Law
 from geneva_cli.kinematics.layout import AxisPlace, Layout, Pivot, crank_places, wheel_places
+from geneva_cli.kinematics.wheels.gearing import Output
 from geneva_cli.machine import compatible
-from geneva_cli.machine.size_rules import refuse_sizes
+from geneva_cli.machine.size_rules import refuse_sizes, refuse_tolerances
 from geneva_cli.machine.spec import Spec
-from geneva_cli.machine.tolerance_rules import refuse_tolerances
-from geneva_cli.numerics.arrays import N, choose, designs_of, larger, library
+from geneva_cli.numerics.arrays import N, Whole, choose, designs_of, larger, library
+from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
-
-if TYPE_CHECKING:
-    from geneva_cli.kinematics.laws.law import Law
-    from geneva_cli.kinematics.wheels.gearing import Output
-    from geneva_cli.numerics.arrays import Whole
-    from geneva_cli.numerics.jet import Array
 
 
 class ShaftPlace(NamedTuple):

@@ -32,8 +32,7 @@ from geneva_cli.kinematics.engagement import (
 )
 from geneva_cli.machine.driven_shaft import DrivenShaft, ShaftPath
 from geneva_cli.numerics.angles import DEGREE, radians
-from geneva_cli.numerics.arrays import array, library, narrowed
-from geneva_cli.numerics.batchable import Batchable
+from geneva_cli.numerics.arrays import Batchable, array, library, narrowed
 from geneva_cli.numerics.jet import Jet, Number, atan2, composed, piecewise
 from geneva_cli.numerics.latest import Latest
 
@@ -41,7 +40,7 @@ if TYPE_CHECKING:
     from geneva_cli.kinematics.drive import Drive
     from geneva_cli.machine.drives.transmission import Transmission
     from geneva_cli.machine.spec import Spec
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array
 
 
 def retimed(plan: Plan, spec: Spec, in_front: Drive) -> Plan:

@@ -235,6 +235,20 @@ class Spec:
         return shaft_deg if before is None else before.input_deg(shaft_deg)
 
     @property
+    def has_lock(self) -> bool:
+        """True if the crank has a part that locks the wheel in the dwell."""
+        return self.drive.LOCKS and self.size.lock_radius_mm != 0.0
+
+    @property
+    def dwell_holder(self) -> str | None:
+        """What holds the wheel in the dwell; None if nothing does.
+
+        >>> Spec(External(6)).dwell_holder, Spec(Counter(4)).dwell_holder
+        ('locking disc', 'locking rim')
+        """
+        return self.wheel.held_by or (self.wheel.LOCK if self.has_lock else None)
+
+    @property
     def is_loaded(self) -> bool:
         """True if the spec has a load whose forces are computed: an inertia, a torque or friction.
 

@@ -2,7 +2,8 @@
 
 The pages in ``reference`` are the only source. A ``## `` heading names what an entry explains, or
 several names of one thing; a name that begins with a dot is an ending of others, as ``.max``. The
-first paragraph is the meaning. Items with a label have the fields: ``- Formula: ...``.
+first paragraph is the meaning. Items with a label have the fields: ``- Formula: ...``. Links hold
+for later entries too whose names begin with the same word.
 """
 
 from __future__ import annotations
@@ -64,7 +65,13 @@ def _read(page: str) -> list[Entry]:
     with open(place, encoding="utf-8") as file:
         text = re.sub(r"<!--.*?-->|<img [^>]*>", "", file.read(), flags=re.DOTALL)
     _, *sections = re.split(r"^## ", text, flags=re.MULTILINE)
-    return [_entry(page, section) for section in sections]
+    read: list[Entry] = []
+    links: dict[str, str] = {}  # those of the last entry, by the first word of its name
+    for entry in (_entry(page, section) for section in sections):
+        word = entry.names[0].partition(".")[0]
+        links[word] = entry.see or links.get(word, "")
+        read.append(entry._replace(see=links[word]))
+    return read
 
 
 def _entry(page: str, section: str) -> Entry:

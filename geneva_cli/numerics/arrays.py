@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Callable, Iterable, Sequence
+from functools import cache
 from typing import TYPE_CHECKING, ClassVar, Protocol, TypeAlias, TypeVar, cast
 
 if TYPE_CHECKING:
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
     import numpy as np
     from numpy.typing import NDArray
+
 
 Array: TypeAlias = "NDArray[np.float64]"
 Mask: TypeAlias = "NDArray[np.bool_]"
@@ -27,7 +29,6 @@ Complex: TypeAlias = "NDArray[np.complex128]"
 Long: TypeAlias = "NDArray[np.longdouble]"  # the longest floating-point numbers of the machine
 Number: TypeAlias = "float | Array"
 Truth: TypeAlias = "bool | Mask"
-
 # One kind of number as argument, and the same kind as result.
 N = TypeVar("N", float, "Array", "Number")
 Arrays = TypeVar("Arrays", "Array", "Whole", "Mask")
@@ -35,7 +36,6 @@ Either = TypeVar("Either", "Array", "Whole")
 Real = TypeVar("Real", float, "Array", "Number", "Decimal")
 T = TypeVar("T")
 Record = TypeVar("Record", bound=tuple[object, ...])
-
 _PLAIN = (float, int)
 
 
@@ -392,16 +392,6 @@ def only_of(rows: Iterable[Number | None]) -> list[float | None]:
     return [None if x is None or math.isnan(x) else x for x in numbers]
 
 
-def rows_of(values: Sequence[Number], count: int) -> Array:
-    """Rows of ``count`` numbers each, from arrays or single numbers."""
-    import numpy
-
-    out = numpy.empty((len(values), count))
-    for row, value in zip(out, values, strict=True):
-        row[:] = value  # a fifth of the time of broadcast_to
-    return out
-
-
 def larger(a: N, b: N) -> N:
     """The larger of two numbers, element by element for arrays."""
     return choose(b > a, b, a)
@@ -426,3 +416,27 @@ def rising(x: Either) -> Either:
     once[1:] = ordered[1:] != ordered[:-1]
     distinct: Either = ordered[once]
     return distinct
+
+
+class Batchable:
+    """An object whose attributes are floats, arrays (n, 1) of n designs, or objects with such.
+
+    Paths, slots, motions and engagements are. ``machine.many`` reduces a batch of them to some of
+    its designs; an object without this base keeps its numbers, whatever they are.
+    """
+
+    __slots__ = ()
+
+
+@cache
+def keep_freed_memory() -> None:
+    """Let the allocator keep up to 32 MB of freed memory for the next arrays.
+
+    The allocator of Linux returns freed memory at the heap's end to the system, and gets it back
+    page by page: a jet then takes up to twice as long. Once a large block was freed, the allocator
+    keeps twice its size. The block is never written, so it takes no memory. Other allocators do not
+    change.
+    """
+    import numpy
+
+    numpy.empty(1 << 21)  # 16 MB

@@ -15,12 +15,9 @@ Source: L. N. Trefethen, "Approximation Theory and Approximation Practice", SIAM
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array
 
 SERIES_DEGREE = 16  # of the series: for most loads, its terms have ended between two cuts
 MIDDLE = SERIES_DEGREE // 2  # number of the middle point

@@ -14,13 +14,11 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import blocks, joined
+from geneva_cli.numerics.arrays import Array, Mask, Whole, blocks, joined
 from geneva_cli.numerics.newton import Brackets, nearer, newton_roots
 from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Mask, Whole
-
     Which: TypeAlias = slice | Whole
     Sample: TypeAlias = Array | tuple[Array, Array, Array]  # place, value, slope
 

@@ -15,11 +15,9 @@ from typing import TYPE_CHECKING, ClassVar, NoReturn, TypeAlias, cast
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array, Enclosed, Library, Number, Undecided
+from geneva_cli.numerics.arrays import Array, Enclosed, Library, Mask, Number, Truth, Undecided
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Mask, Truth
-
     Bound: TypeAlias = Array | float
 
 NEAR = 1e-9  # radians: a peak of the sine this near to an interval counts as inside

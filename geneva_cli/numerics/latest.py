@@ -1,4 +1,4 @@
-"""A cache of one entry for functions of an angle.
+"""Caches of functions: of an angle, whose evaluations are counted, and of a design.
 
 Motion, path, slot and guide of one roller depend on each other, and each is evaluated at the same
 array of angles. The cache avoids computing their common parts again. What it computes is counted:
@@ -7,15 +7,14 @@ most of the time of loads, outlines and turns is spent there.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from functools import lru_cache
+from typing import Generic, TypeVar
 
 from geneva_cli.numerics.arrays import SINGLE, read_only
-from geneva_cli.numerics.jet import Jet, Number
-from geneva_cli.numerics.work import count
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.jet import Array, Jet, Number
 
 
 class Latest:
@@ -49,3 +48,67 @@ class Latest:
         jets = tuple(Jet([read_only(c) for c in jet.c]) for jet in jets)
         self._kept = x, x.copy(order="K"), order, jets
         return jets
+
+
+class Work:
+    """Evaluations of functions of an angle at arrays of angles."""
+
+    def __init__(self) -> None:
+        self.evaluations = 0
+
+
+_counted: ContextVar[Work | None] = ContextVar("counted", default=None)
+
+
+@contextmanager
+def counted() -> Iterator[Work]:
+    """Count the evaluations within the block; those of a block inside it count there only."""
+    work = Work()
+    token = _counted.set(work)
+    try:
+        yield work
+    finally:
+        _counted.reset(token)
+
+
+def count() -> None:
+    """Count one evaluation, if anybody counts."""
+    work = _counted.get()
+    if work is not None:
+        work.evaluations += 1
+
+
+K = TypeVar("K")
+T = TypeVar("T")
+KEPT = 16  # designs whose results are kept: those that a sweep computes together
+
+
+class Known(Generic[K, T]):
+    """A function of a design that keeps its last results, and may take them from a batch.
+
+    >>> square = Known(lambda x: x * x)
+    >>> square.put(3, lambda: 9.0), square.put(4, lambda: None)
+    (None, None)
+    >>> square(3), square(4)
+    (9.0, 16)
+    """
+
+    def __init__(self, compute: Callable[[K], T]) -> None:
+        self.compute = compute
+        self._later: dict[K, Callable[[], T | None]] = {}
+        self._kept = lru_cache(maxsize=KEPT)(self._result)
+
+    def __call__(self, of: K) -> T:
+        """The result of the function, computed at the first call."""
+        return self._kept(of)
+
+    def put(self, of: K, later: Callable[[], T | None]) -> None:
+        """Let ``later`` compute the result of a design; if it returns None, the function does."""
+        self._later[of] = later
+        while len(self._later) > KEPT:
+            del self._later[next(iter(self._later))]
+
+    def _result(self, of: K) -> T:
+        later = self._later.pop(of, None)
+        result = later() if later else None
+        return self.compute(of) if result is None else result

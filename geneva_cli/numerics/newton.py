@@ -7,14 +7,12 @@ is NaN anywhere has NaN for a result, and disturbs no other.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.numerics.roots import MOST_STEPS
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Mask, Whole
 
 
 class Brackets(NamedTuple):

@@ -15,15 +15,13 @@ import numpy as np
 
 from geneva_cli.numerics import chebyshev
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import columns_taken, joined, rows_taken
+from geneva_cli.numerics.arrays import Array, Mask, Whole, columns_taken, joined, rows_taken
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
-from geneva_cli.numerics.spread import gathered, spread
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Mask, Whole
-
     Which: TypeAlias = slice | Whole
     Some: TypeAlias = slice | Whole | Mask
+
 
 AT_END = 1e-9  # fraction of a row: a zero this near to an end, such as a motion's, is the end's own
 LATER_TERMS = 4.0  # times the last terms of a series: a bound on all later terms
@@ -337,3 +335,29 @@ def _between(cut: Whole, t: Array, part: Array) -> tuple[Whole, Array]:
     start, end = np.concatenate((part[0], t)), np.concatenate((part[1], t))
     one, two = np.lexsort((start, number)), np.lexsort((end, number))
     return number[one], np.stack((start[one], end[two]))
+
+
+def spread(x: Array, w: Array) -> Array:
+    """u at places x, where x = w sinh(u / w): samples even in u are spread about 0.
+
+    Near 0, where functions change fastest, the range within w of 0 gets as much length as the rest.
+    Poles at x = i w and -i w move to u = i w pi/2 and -i w pi/2. So the same number of samples
+    gives more digits. Near 0, u is x; with a large w it is x everywhere.
+
+    Source: D. Elliott, P. R. Johnston, "A sinh transformation for evaluating nearly singular
+    boundary element integrals", Int. J. Numer. Meth. Engng 62 (2005).
+    """
+    u: Array = w * np.arcsinh(x / w)
+    return u
+
+
+def gathered(u: Array, w: Array) -> tuple[Array, Array]:
+    """The places x at u, and their derivative by u.
+
+    >>> import numpy as np
+    >>> w = np.array([2.0, 1e3])
+    >>> gathered(spread(np.array([6.0, 6.0]), w), w)[0].round(12)
+    array([6., 6.])
+    """
+    sine = np.sinh(u / w)
+    return w * sine, np.sqrt(1.0 + sine * sine)

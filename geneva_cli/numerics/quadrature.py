@@ -14,15 +14,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import joined, read_only
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Mask, Whole
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array, Mask, Whole, joined, read_only
 
 NODES = 20  # nodes of a rule that suffice for most loads between two cuts
 NARROW_NODES = 12  # nodes for a span that is narrow compared with its design's widest

@@ -10,12 +10,11 @@ random shift, scramble the digits of each dimension (Matousek, J. Complexity 14,
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Whole
+from geneva_cli.numerics.arrays import Array, Whole
 
 DIGITS = 53  # of a double
 # Inner coefficients of the primitive polynomial as a number, and the first direction numbers: Joe

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Generic, cast
+from typing import Generic, cast
 
-from geneva_cli.numerics.arrays import Record, are_alike, record_of
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Whole
+from geneva_cli.numerics.arrays import Array, Record, Whole, are_alike, record_of
 
 
 def can_stack(records: Sequence[object]) -> bool:

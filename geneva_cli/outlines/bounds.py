@@ -19,15 +19,13 @@ from geneva_cli.collisions.gaps import Gaps
 from geneva_cli.collisions.pairs import Bounds, Intervals, Pair, raised
 from geneva_cli.curves.extents import farthest, from_segments, near_segments, short_pieces
 from geneva_cli.kinematics.plane_motion import turned_points
+from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.outlines.travel import Travel, path_travel, slot_travel
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from geneva_cli.collisions.pairs import Window
     from geneva_cli.curves.shapes import Contour
     from geneva_cli.kinematics.engagement import Engagement
-    from geneva_cli.numerics.jet import Array
 
 AXIS = np.zeros((1, 2))
 
@@ -77,8 +75,7 @@ class FlatPairs:
 
     def beyond(self, points: Array) -> Array:
         """Return the distance of points (n, 2) from the level that the wheel reaches, mm."""
-        out: Array = self.gaps.assembly.sign * (self.moves.level(points) - self.rim)
-        return out
+        return self.gaps.assembly.sign * (self.moves.level(points) - self.rim)
 
 
 class Segments(NamedTuple):
@@ -113,13 +110,11 @@ class Roller:
     def travel(self, on: Intervals, centre: Array) -> Array:
         """Return how far the centre is at most from its place in the middle, ``centre``."""
         moves = self.reach.moves
-        out: Array = self.path.most(*self.own(on)) + moves.lever(moves.level(centre)) * on.wheel
-        return out
+        return self.path.most(*self.own(on)) + moves.lever(moves.level(centre)) * on.wheel
 
     def gap(self, on: Intervals) -> Array:
         """Return the gap to the wheel in the middle of intervals."""
-        gap: Array = self.gaps.rollers(self.gaps.pose(on.middle))[:, self.number]
-        return gap
+        return self.gaps.rollers(self.gaps.pose(on.middle))[:, self.number]
 
     def along(self, segments: Segments, centre: Array, gap: Array) -> Array:
         """Return the gap of a roller whose centre moves along segments.
@@ -157,7 +152,7 @@ class FreeRoller(Roller):
         gap = np.maximum(self.gap(on), far)
         least = gap - self.travel(on, centre)
 
-        def near_chord(which: NDArray[np.intp]) -> Array:
+        def near_chord(which: Whole) -> Array:
             some = on.at(which)
             aside = self.path.aside(*self.own(some))
             segments = Segments(self.centre(some.start), self.centre(some.end), aside)
@@ -223,7 +218,7 @@ class Lock:
         wheel = reach.moves.lever(far) * on.wheel
         least = gap - wheel - (self.disc + reach.apart) * on.crank
 
-        def in_recess(which: NDArray[np.intp]) -> Array:
+        def in_recess(which: Whole) -> Array:
             return self._in_recess(on.at(which), pose.wheel[which], pose.crank[which])
 
         least = raised(least, least < reach.target, in_recess)
@@ -240,10 +235,9 @@ class Lock:
         offset = turned_points(moves.into(middle, -wheel) - axis, -crank)
         far = np.where(self._within_rim(crank, on), farthest(self.pieces, offset), 0.0)
         moved = moves.lever(L) * on.wheel + np.hypot(*offset.T) * on.crank
-        out: Array = free - far.max(axis=1) - moved
-        return out
+        return free - far.max(axis=1) - moved
 
-    def _within_rim(self, crank: Array, on: Intervals) -> NDArray[np.bool_]:
+    def _within_rim(self, crank: Array, on: Intervals) -> Mask:
         """Return a mask (n, k) of the pieces of the crank that may come within the wheel's rim."""
         pieces = self.pieces
         c, s = np.cos(crank)[:, None], np.sin(crank)[:, None]
@@ -251,5 +245,4 @@ class Lock:
         level = self.reach.moves.level(np.stack((x, y), axis=-1))
         beyond = self.reach.gaps.assembly.sign * (level - self.reach.rim)
         moved = self.disc * on.crank[:, None] + self.reach.apart
-        out: NDArray[np.bool_] = beyond - pieces.size <= moved
-        return out
+        return beyond - pieces.size <= moved

@@ -28,11 +28,11 @@ from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import ORIGIN, Arc, Contour, Segment, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.roots import boundary
 
 if TYPE_CHECKING:
     from geneva_cli.curves.gear_teeth import Writer
-    from geneva_cli.numerics.jet import Array
 
 WHEEL, CRANK = "WHEEL", "CRANK"
 
@@ -178,8 +178,7 @@ def half_angles(teeth: RoundTeeth, r: Array) -> Array:
     cosine = np.minimum(teeth.base / np.maximum(r, max(start, teeth.base)), 1.0)
     at = np.arccos(cosine)
     on_flank = rack.half / teeth.radius + involute(rack.angle) - (np.tan(at) - at)
-    out: Array = np.where(r >= start, on_flank, np.interp(r, ascending, side[::-1]))
-    return out
+    return np.where(r >= start, on_flank, np.interp(r, ascending, side[::-1]))
 
 
 def driver_teeth(sizes: CounterSizes, write: Writer) -> Contour:

@@ -10,20 +10,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.known import Known
+from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.latest import Known
 from geneva_cli.outlines.counter import CounterSizes, counter_sizes, half_angles
 
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
-
-    # radii and directions about the driver's axis, for inputs, of points at fractions of a line
-    Line: TypeAlias = Callable[[Array, Array], tuple[Array, Array]]
+# radii and directions about the driver's axis, for inputs, of points at fractions of a line
+Line: TypeAlias = Callable[[Array, Array], tuple[Array, Array]]
 
 
 class CounterPlay(NamedTuple):
@@ -106,8 +104,7 @@ def _free(
     after = np.mod(np.arctan2(y, x) - turned + 0.5 * pitch, pitch) - 0.5 * pitch
     spare = np.where(sense * after > 0.0, 0.0, pitch) + sense * after
     spare = spare - half_angles(sizes.pinion, np.minimum(away, sizes.pinion.tip))
-    out: Array = np.where(away <= sizes.pinion.tip, spare, np.inf)
-    return out
+    return np.where(away <= sizes.pinion.tip, spare, np.inf)
 
 
 def _lines(sizes: CounterSizes) -> Iterator[tuple[Line, float]]:

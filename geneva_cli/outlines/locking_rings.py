@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import cache
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -18,14 +18,12 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.reliefs import sectors
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import CLEARLY, SAME_ANGLE, SAME_LENGTH
 
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
-
-    # Points of the wheel inside the disc in one motion, at each so many of its positions: x and y
-    # in the crank's frame.
-    Swept: TypeAlias = Callable[[int, int], tuple[Array, Array]]
+# Points of the wheel inside the disc in one motion, at each so many of its positions: x and y
+# in the crank's frame.
+Swept: TypeAlias = Callable[[int, int], tuple[Array, Array]]
 
 LAYER = "CRANK"
 EDGE = 0.035  # radians, two degrees: width of the range that counts as a sector's edge
@@ -124,8 +122,7 @@ def beyond(sizes: Sizes, wheel: PolarPoints, half: float) -> bool:
 
 def _spare(sizes: Sizes, at_edge: Array) -> Array:
     """Return the distance of the edges beyond the farthest point near them."""
-    out: Array = np.minimum(sizes.relief, (sizes.lock - at_edge) / 3.0)
-    return out
+    return np.minimum(sizes.relief, (sizes.lock - at_edge) / 3.0)
 
 
 def _ring(sizes: Sizes, middle: float, half: float, edge: float, floor: float) -> Contour:

@@ -18,13 +18,13 @@ from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.reliefs import has_arcs, without_lock
 from geneva_cli.layout.sizes import sizes
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.crank import crank_contours, is_whole
 from geneva_cli.outlines.walls.straight import straight_walls
 from geneva_cli.outlines.wheel import wheel_contour
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
     from geneva_cli.outlines.bounds import FlatPairs
 
 CURVED = 2e-6  # of the centre distance: accuracy of curved walls
@@ -73,8 +73,7 @@ class Outlines(NamedTuple):
         # the corners are on the rim, half a slot's width from the slot's middle
         level = math.sqrt(max(self.sizes.rim**2 - self.sizes.half_width**2, 0.0))
         far = np.hypot(*self.assembly.driving(motion, at).T)
-        past: Array = self.assembly.sign * (level - far)
-        return past
+        return self.assembly.sign * (level - far)
 
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""

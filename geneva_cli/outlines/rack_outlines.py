@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,13 +12,11 @@ from geneva_cli.collisions.sliding_stops import SlidingStops
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.layout.assembly import Assembly, assembled
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.bounds import FlatPairs
 from geneva_cli.outlines.outlines import CONTACT
 from geneva_cli.outlines.rack import RackSizes, locking_sector, rack_contour, rack_sizes
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 class RackGaps(Gaps):
@@ -69,8 +67,7 @@ class RackOutlines(NamedTuple):
 
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far the roller is in its slot, beyond the rack's edge, mm, (n,)."""
-        past: Array = self.sizes.edge - self.assembly.driving(motion, at)[:, 0]
-        return past
+        return self.sizes.edge - self.assembly.driving(motion, at)[:, 0]
 
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""

@@ -8,15 +8,12 @@ recesses are circles about the crank's.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.curves.sphere import Region, SphereArc, Vector, opposite, place
 from geneva_cli.layout.ball import Ball
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array
 
 QUARTER = 0.5 * math.pi
 POLE = (0.0, 0.0, 1.0)

@@ -23,10 +23,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.collisions.gaps import Gaps
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
     from geneva_cli.outlines.outlines import Outlines
 
 
@@ -84,8 +84,7 @@ def clearances_before(outlines: Outlines, stop: WheelStop, past_deg: float = 0.0
     turns = np.array([-(z // 2), z - 1 - z // 2])  # of the two engagements, in the drawings
     way = np.linspace(stop.crank_deg - 180.0, stop.crank_deg + past_deg, 361)
     at = 360.0 * turns[:, None] + np.array([[-1.0], [1.0]]) * way
-    out: Array = parts.locking(parts.pose(at.ravel())).reshape(at.shape)
-    return out
+    return parts.locking(parts.pose(at.ravel())).reshape(at.shape)
 
 
 def _disc_begins(outlines: Outlines) -> float:

@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
+from typing import NamedTuple, TypeAlias, cast
 
 import numpy as np
 
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.numerics.arrays import Undecided
+from geneva_cli.numerics.arrays import Array, Mask, Undecided, Whole
 from geneva_cli.numerics.intervals import Interval, size_of
 from geneva_cli.numerics.jet import Jet, Number
 
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Mask, Whole
-    from geneva_cli.numerics.jet import Array
-
-    Curve: TypeAlias = Callable[[Number, int], tuple[Jet, Jet]]
+Curve: TypeAlias = Callable[[Number, int], tuple[Jet, Jet]]
 
 UNKNOWN = 1e30  # mm: a bound that is not known, so large that no interval closes with it
 
@@ -50,14 +46,12 @@ class Travel:
 
     def aside(self, start: Array, end: Array) -> Array:
         """Return how far the curve is at most from its chord on intervals."""
-        out: Array = self._greatest(self.bend, start, end) * np.radians(end - start) ** 2 / 8.0
-        return out
+        return self._greatest(self.bend, start, end) * np.radians(end - start) ** 2 / 8.0
 
     def _greatest(self, values: Array, start: Array, end: Array) -> Array:
         """Return the greatest value of the cells that intervals touch."""
         touch = (self.edges[:-1] <= end[:, None]) & (self.edges[1:] >= start[:, None])
-        out: Array = np.where(touch, values, 0.0).max(axis=1)
-        return out
+        return np.where(touch, values, 0.0).max(axis=1)
 
 
 def path_travel(engagement: Engagement, length: float, turn_deg: float) -> Travel:

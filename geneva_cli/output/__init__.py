@@ -1,4 +1,8 @@
-"""Output of tables, drawings, figures and documents to standard output or files, by format."""
+"""Output of tables, drawings, figures and documents to standard output or files, by format.
+
+Each format is a module that is imported when it is asked for. Its ``chunks`` yield a file's text in
+pieces; a mesh's ``data`` yield bytes.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +12,7 @@ import sys
 from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from itertools import chain
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, cast
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output.formats import (
@@ -94,41 +98,6 @@ def shown(value: Any, unit: str) -> tuple[Any, str]:
     return value_in_inches(value, unit)
 
 
-class Format(Protocol):
-    """The interface of a table format's module."""
-
-    def chunks(self, table: Table) -> Iterator[str]:
-        """The text, in pieces."""
-
-
-class DrawnFormat(Protocol):
-    """The interface of a drawing format's module."""
-
-    def chunks(self, drawing: Drawing, units: str, **own: Any) -> Iterator[str]:
-        """The text, in pieces; ``units`` is mm or inch, ``own`` are the format's own options."""
-
-
-class MeshFormat(Protocol):
-    """The interface of a mesh format's module."""
-
-    def data(self, drawing: Drawing, units: str) -> Iterator[bytes]:
-        """The file's bytes, in pieces; ``units`` must be mm."""
-
-
-class SheetFormat(Protocol):
-    """The interface of a sheet format's module."""
-
-    def chunks(self, sheet: Sheet, **own: Any) -> Iterator[str]:
-        """The text, in pieces; ``own`` are the format's own options."""
-
-
-class DocumentFormat(Protocol):
-    """The interface of a document format's module."""
-
-    def chunks(self, document: Document) -> Iterator[str]:
-        """The text, in pieces."""
-
-
 def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
     """Print the table, or write it to the file ``output``; ``inputs`` are never overwritten.
 
@@ -156,8 +125,7 @@ def _chunks(table: Table, output: str, name: str) -> Iterator[str]:
         from geneva_cli.output.window import window
 
         return chunks(table, window(bool(choice.columns), choice.wide))
-    module = cast(Format, importlib.import_module(f"geneva_cli.output.{FORMATS[name]}"))
-    return module.chunks(table)
+    return importlib.import_module(f"geneva_cli.output.{FORMATS[name]}").chunks(table)
 
 
 def is_seen(output: str) -> bool:
@@ -219,9 +187,9 @@ def draw(
     refuse_columns()
     loaded = importlib.import_module(f"geneva_cli.output.{DRAWN[name]}")
     if name in MESHES:
-        _put_bytes(cast(MeshFormat, loaded).data(drawing, units), output, name, inputs)
+        _put_bytes(loaded.data(drawing, units), output, name, inputs)
     else:
-        _put(cast(DrawnFormat, loaded).chunks(drawing, units, **own), output, inputs)
+        _put(loaded.chunks(drawing, units, **own), output, inputs)
 
 
 def draw_sheet(
@@ -235,7 +203,7 @@ def draw_sheet(
     name = sheet_as(output, format)
     require_own(own, name)
     refuse_columns()
-    module = cast(SheetFormat, importlib.import_module(f"geneva_cli.output.sheets.{name}"))
+    module = importlib.import_module(f"geneva_cli.output.sheets.{name}")
     _put(module.chunks(sheet, **own), output, inputs)
 
 
@@ -255,24 +223,16 @@ def plot(figure: Figure, output: str = "-", format: str = "", inputs: Iterable[s
         from geneva_cli.output.inches import figure_in_inches
 
         figure = figure_in_inches(figure)
-    if name == "svg":
-        from geneva_cli.output import plot_svg
-
-        _put(plot_svg.chunks(figure), output, inputs)
-        return
-    if name == "pdf":
-        from geneva_cli.output import plot_pdf
-
-        _put(plot_pdf.chunks(figure), output, inputs)
-        return
     if name == "table":
         from geneva_cli.output import plot_text
 
         _put(plot_text.chunks(figure, *_terminal(output)), output, inputs)
         return
-    from geneva_cli.output.plot_png import png_bytes
-
-    _put_bytes((png_bytes(figure) for _ in range(1)), output, name, inputs)
+    module = importlib.import_module(f"geneva_cli.output.plot_{name}")
+    if name == "png":
+        _put_bytes((module.png_bytes(figure) for _ in range(1)), output, name, inputs)
+    else:
+        _put(module.chunks(figure), output, inputs)
 
 
 def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
@@ -307,8 +267,7 @@ def show_document(
     if name not in DOCUMENTS:
         raise GenevaError(f"--format {cut(name)}: it must be one of {', '.join(DOCUMENTS)}")
     refuse_columns()
-    path = f"geneva_cli.output.document.{DOCUMENTS[name]}"
-    module = cast(DocumentFormat, importlib.import_module(path))
+    module = importlib.import_module(f"geneva_cli.output.document.{DOCUMENTS[name]}")
     if choice.units != "mm":
         from geneva_cli.output.inches import document_in_inches
 

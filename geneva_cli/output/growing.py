@@ -9,36 +9,15 @@ from __future__ import annotations
 import hashlib
 import os
 import stat
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator
-from types import TracebackType
-from typing import BinaryIO, Self
+from typing import BinaryIO
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output.files import place, replacing, write_errors
 from geneva_cli.output.state import SUFFIX, StateFile
 
 
-class Closable(ABC):
-    """A resource that is closed at the end of its block, also after an error."""
-
-    @abstractmethod
-    def close(self) -> None:
-        """Close the file."""
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
-
-
-class GrowingFile(Closable):
+class GrowingFile:
     """Lines appended to a file, ``done`` of which exist already, below the header.
 
     ``key`` is all that the lines depend on. With ``resume`` a run continues one with the same key,

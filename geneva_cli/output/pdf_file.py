@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from geneva_cli.curves import helvetica
 from geneva_cli.curves.measure import halves
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Point, Segment, Shape, about
+from geneva_cli.curves.shapes import Arc, Cubic, Point, Segment, Shape, as_contour
 from geneva_cli.errors import clean
 
 POINT = 72.0 / 25.4  # points per millimetre
@@ -69,11 +69,7 @@ def pdf_text(title: str, pages: Sequence[Page]) -> Iterator[str]:
 
 def outline(shape: Shape) -> str:
     """The operators that trace a shape, closed if the shape is."""
-    if isinstance(shape, Circle):
-        pieces = tuple(
-            about(shape.centre, shape.radius, start, math.pi) for start in (0.0, math.pi)
-        )
-        shape = Contour(shape.layer, pieces)
+    shape = as_contour(shape)
     words = [f"{point(shape.segments[0].start)} m\n"]
     words += [_piece(part) for segment in shape.segments for part in _quarters(segment)]
     return "".join(words) + ("h\n" if shape.closed else "")

@@ -11,10 +11,10 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output import refuse_columns, refuse_inches
 from geneva_cli.output.delimited import one_line
 from geneva_cli.output.finite import refuse_nonsense
-from geneva_cli.output.growing import Closable, GrowingFile
+from geneva_cli.output.growing import GrowingFile
 
 
-class GrowingTable(Closable):
+class GrowingTable:
     """The destination of the rows of ``names``, ``done`` of which exist already.
 
     ``key`` is all that they depend on, for ``resume``; ``message`` says what that does. A later

@@ -83,8 +83,13 @@ def _lines(lines: Iterable[SummaryLine], look: TextStyle) -> Iterator[str]:
 
 
 def _wrapped(text: str, width: int, look: TextStyle) -> list[str]:
-    """A text in lines; a value is not separated from its power of ten."""
+    """A text in lines; a value is not separated from its power of ten or its unit."""
     no_break = "\u00a0"  # a space without a line break
+    text = re.sub(
+        r"(?<=\d) (N m s|N m|N|kg m²|kg|rad/s²?|MPa|J|W|kW|mm|µm|deg|rpm|%)(?!\w)",
+        lambda unit: no_break + unit[1].replace(" ", no_break),
+        text,
+    )
     text = _letters(no_break.join(map(clean, text.split(no_break))), look)
     lines = textwrap.wrap(text, max(width, 1), break_long_words=False, break_on_hyphens=False)
     return [line.replace(no_break, " ") for line in lines]

@@ -5,12 +5,11 @@ The lowest plates come first, so that the upper ones cover them; bores stay open
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 
 from geneva_cli.curves.measure import mapped, turned
 from geneva_cli.curves.plates import Group, Part, Plate, Stack
-from geneva_cli.curves.shapes import Contour, Point, Shape, about
+from geneva_cli.curves.shapes import Contour, Point, Shape, as_contour
 from geneva_cli.output.inks import INKS, inks
 from geneva_cli.output.svg_paths import number, path
 
@@ -50,18 +49,20 @@ def opacity(layer: str) -> float:
 
 
 def rings(solid: Part, unit: float = 1.0) -> list[tuple[str, list[Contour]]]:
-    """The outline and holes of each plate, with its layer; the lowest plate first."""
+    """The outline and holes of each plate, with its layer; the lowest plate first.
+
+    Of plates with one outline above each other, such as a counter's wheels, only the highest is
+    there: their tints would add up.
+    """
     every = sorted(_placed(solid, lambda shape: shape), key=lambda p: (p[0].high, p[0].low))
-    return [
-        (
-            plate.layer,
-            [
-                _contour(mapped(move(s), _divided(unit), lambda radius: radius / unit))
-                for s in (plate.outline, *plate.holes)
-            ],
-        )
-        for plate, move in every
-    ]
+    highest: dict[tuple[str, Contour], list[Contour]] = {}
+    for plate, move in every:
+        contours = [
+            as_contour(mapped(move(s), _divided(unit), lambda radius: radius / unit))
+            for s in (plate.outline, *plate.holes)
+        ]
+        highest[plate.layer, contours[0]] = contours
+    return [(layer, contours) for (layer, _), contours in highest.items()]
 
 
 def _placed(part: Part, move: Move) -> Iterator[tuple[Plate, Move]]:
@@ -83,12 +84,3 @@ def _placed(part: Part, move: Move) -> Iterator[tuple[Plate, Move]]:
 
 def _divided(unit: float) -> Callable[[Point], Point]:
     return lambda p: (p[0] / unit, p[1] / unit)
-
-
-def _contour(shape: Shape) -> Contour:
-    if isinstance(shape, Contour):
-        return shape
-    half = math.pi
-    return Contour(
-        shape.layer, tuple(about(shape.centre, shape.radius, a, half) for a in (0.0, half))
-    )

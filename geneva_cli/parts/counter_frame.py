@@ -12,7 +12,6 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bearings import shoulder_length
@@ -23,6 +22,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.outlines.counter import CounterSizes
 from geneva_cli.parts.built_shafts import built_shafts
+from geneva_cli.parts.edged_parts import FrameAndShafts
 from geneva_cli.parts.mounted_plate import corner_radius, mounted_plate, require_walls, shaft_holes
 from geneva_cli.parts.shaft import Seat, Shaft, shaft_ends
 
@@ -93,7 +93,7 @@ def bore(mechanism: Mechanism, sizes: CounterSizes, part: str) -> Bore:
     return form
 
 
-def shafts_and_frame(mechanism: Mechanism, sizes: CounterSizes) -> tuple[tuple[Member, ...], Plate]:
+def shafts_and_frame(mechanism: Mechanism, sizes: CounterSizes) -> FrameAndShafts:
     """Return both shafts, plain or turned, and the frame that holds them.
 
     Raises GenevaError, naming the key, where they do not fit.
@@ -108,7 +108,7 @@ def shafts_and_frame(mechanism: Mechanism, sizes: CounterSizes) -> tuple[tuple[M
     require_walls(holes, wall_min(size, L), axles)
     reach = [*holes, *(Circle("BORE", one.at, 0.0) for one in own)]
     frame = mounted_plate(holes, reach, corner_radius(size, L), (bottom, top))
-    return tuple(axles), frame
+    return FrameAndShafts(frame, tuple(axles))
 
 
 def _shafts(mechanism: Mechanism, sizes: CounterSizes, lowest: float) -> Iterator[Shaft]:

@@ -27,7 +27,7 @@ from geneva_cli.outlines.counter import (
 )
 from geneva_cli.outlines.counter_mesh import counter_mesh
 from geneva_cli.parts.counter_frame import Heights, bore, heights, shafts_and_frame
-from geneva_cli.parts.edged_parts import EdgedParts
+from geneva_cli.parts.edged_parts import EdgedParts, FrameAndShafts
 
 if TYPE_CHECKING:
     from geneva_cli.curves.gear_teeth import Writer
@@ -134,18 +134,8 @@ class CounterParts(EdgedParts):
         return driver_teeth(self.sizes, write), driver_rim(self.sizes, write)
 
     @cached_property
-    def _framed(self) -> tuple[tuple[Member, ...], Plate]:
+    def _framed(self) -> FrameAndShafts:
         return shafts_and_frame(self.mechanism, self.sizes)
-
-    @cached_property
-    def shafts(self) -> tuple[Member, ...]:
-        """The shafts of pinions and of number wheels."""
-        return self._edged(self._framed[0])
-
-    @cached_property
-    def frame(self) -> Member:
-        """The frame, which holds both shafts."""
-        return self._edged([Member(self._framed[1])])[0]
 
     @property
     def moving(self) -> tuple[Member, ...]:

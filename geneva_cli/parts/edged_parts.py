@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Self
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 from geneva_cli.curves.edges import Edge
 from geneva_cli.curves.plates import Member, Plate, edged
@@ -12,6 +14,14 @@ from geneva_cli.parts.parts_of_machine import PartsOfMachine
 
 if TYPE_CHECKING:
     from geneva_cli.curves.gear_teeth import Writer
+
+
+class FrameAndShafts(NamedTuple):
+    """The frame, what is on it, and the shafts, whether they reach it or not."""
+
+    plate: Plate
+    shafts: tuple[Member, ...]
+    spacers: tuple[Member, ...] = ()  # below the parts that are screwed to it
 
 
 class EdgedParts(PartsOfMachine):
@@ -44,6 +54,21 @@ class EdgedParts(PartsOfMachine):
             return lambda curve, a, b: fit.cubics(curve, a, b, fine)
         kind, tolerance = fit.KINDS[self.curves], self.tolerance
         return lambda curve, a, b: kind(curve, a, b, tolerance)
+
+    @property
+    @abstractmethod
+    def _framed(self) -> FrameAndShafts:
+        """The frame and the shafts with sharp edges, computed once."""
+
+    @cached_property
+    def shafts(self) -> tuple[Member, ...]:
+        """All shafts, whether they reach the frame or not."""
+        return self._edged(self._framed.shafts)
+
+    @cached_property
+    def frame(self) -> Member:
+        """The frame, which holds the shafts."""
+        return self._edged([Member(self._framed.plate)])[0]
 
     @property
     def _edge(self) -> Edge:

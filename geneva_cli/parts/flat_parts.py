@@ -24,8 +24,8 @@ from geneva_cli.outlines.crank import roller_centres
 from geneva_cli.outlines.outlines import Outlines, outlines, slot_walls
 from geneva_cli.outlines.wheel import wheel_contour
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
-from geneva_cli.parts.edged_parts import EdgedParts
-from geneva_cli.parts.frame import FrameAndShafts, framed
+from geneva_cli.parts.edged_parts import EdgedParts, FrameAndShafts
+from geneva_cli.parts.frame import framed
 from geneva_cli.parts.links import Links, drawn_links
 from geneva_cli.parts.plates import arm_plate, locking_plates, roller_plates, wheel_part
 from geneva_cli.parts.shafts import crank_hub
@@ -276,16 +276,6 @@ class FlatParts(EdgedParts):
     @cached_property
     def _framed(self) -> FrameAndShafts:
         return framed(self.mechanism, self.drawn, self.links, self._base, self.first)
-
-    @cached_property
-    def shafts(self) -> tuple[Member, ...]:
-        """All shafts, whether they reach the frame or not."""
-        return self._edged(self._framed.shafts)
-
-    @cached_property
-    def frame(self) -> Member:
-        """The frame, which holds the shafts."""
-        return self._edged([Member(self._framed.plate)])[0]
 
     @cached_property
     def spacers(self) -> tuple[Member, ...]:

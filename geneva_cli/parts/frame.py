@@ -29,6 +29,7 @@ from geneva_cli.outlines.wheel_hub import wheel_hub
 from geneva_cli.parts.all_shafts import all_shafts, passing, passing_arm
 from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.built_shafts import built_shafts
+from geneva_cli.parts.edged_parts import FrameAndShafts
 from geneva_cli.parts.link_shafts import outside_links
 from geneva_cli.parts.links import Links, placed_holes
 from geneva_cli.parts.mounted_plate import (
@@ -40,14 +41,6 @@ from geneva_cli.parts.mounted_plate import (
     require_walls,
     shaft_hole,
 )
-
-
-class FrameAndShafts(NamedTuple):
-    """The frame, what is on it, and the shafts, whether they reach it or not."""
-
-    plate: Plate
-    shafts: tuple[Member, ...]
-    spacers: tuple[Member, ...] = ()  # below the parts that are screwed to it
 
 
 class Screwed(NamedTuple):

@@ -19,7 +19,7 @@ from geneva_cli.layout.bores import RoundBore
 from geneva_cli.layout.gear_curves import SAMPLES, radii, ratio_and_turn, required_gears
 from geneva_cli.layout.link_positions import gear_plane, same
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import array
+from geneva_cli.numerics.arrays import Array, array
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.link_sizes import link_sizes
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geneva_cli.curves.gear_teeth import Writer
-    from geneva_cli.numerics.jet import Array
 
 PITCH, BORE, CUT = "PITCH", "BORE", "LINK"
 NAMES = "driven gear", "driver gear"

@@ -8,16 +8,14 @@ small for the bore is one piece with the shaft, which ends at the link's faces.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.curves.shapes import Point
 from geneva_cli.kinematics.layout import Joint, Link
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.link_sizes import places
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 class LinkAxis(NamedTuple):

@@ -6,17 +6,15 @@ Pins that stand in the frame belong to the frame, like shafts, and are omitted h
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.kinematics.layout import Joint, Link
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.link_sizes import LinkSizes, places
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 LAYER, ROLLER = "LINK", "ROLLER"
 

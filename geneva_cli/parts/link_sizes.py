@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from itertools import combinations
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,13 +19,11 @@ from geneva_cli.layout.plain_sizes import drawn_thicknesses, half_or, pin_radius
 from geneva_cli.layout.sizes import sized
 from geneva_cli.machine.least_wall import eye_about, wall_min
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.arm import has_arm, shaft_bore
 from geneva_cli.spec.tables import Size
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 SLOT_MARGIN = 0.25  # distance from a block to the end of its slot, as a fraction of the pin's hole
 

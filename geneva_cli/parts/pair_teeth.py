@@ -18,12 +18,12 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.drive import Gears
 from geneva_cli.kinematics.layout import Dimension
 from geneva_cli.layout.gear_curves import CurveLength, curve_length
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
     from geneva_cli.curves.fit.path import Curve
     from geneva_cli.curves.gear_teeth import Writer
-    from geneva_cli.numerics.jet import Array
 
 
 class PairTeeth(NamedTuple):

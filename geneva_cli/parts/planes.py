@@ -21,6 +21,7 @@ from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.layout.link_positions import gear_plane, links_at, same
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import wheel_hub_length
@@ -29,7 +30,6 @@ from geneva_cli.parts.links import Links
 from geneva_cli.parts.shafts import wheel_shaft_ends, wheel_shaft_radius
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
     from geneva_cli.parts.link_sizes import LinkSizes
 
 LOOKS = 1440  # input angles in a turn: the error of a gap is quadratic in their distance

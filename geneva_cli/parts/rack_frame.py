@@ -15,7 +15,7 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from geneva_cli.curves.plates import Member, Plate
+from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.curves.sheet import rectangle
 from geneva_cli.errors import GenevaError
@@ -28,6 +28,7 @@ from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.rack import RackSizes, rack_ends, rack_sizes, slot_places
 from geneva_cli.parts.built_shafts import built_shafts
+from geneva_cli.parts.edged_parts import FrameAndShafts
 from geneva_cli.parts.gear_pair import NAMES, gear_shafts, gear_span
 from geneva_cli.parts.mounted_plate import (
     HOLES,
@@ -77,7 +78,7 @@ def shaft_radius(mechanism: Mechanism) -> float:
     return rack_bore(mechanism) if has_arm(mechanism) else 0.0
 
 
-def shafts_and_frame(mechanism: Mechanism) -> tuple[tuple[Member, ...], Plate]:
+def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
     """Return the shafts, plain or turned, and the frame, with holes for them and guide's screws.
 
     Raises GenevaError, naming the key, where they do not fit.
@@ -93,7 +94,7 @@ def shafts_and_frame(mechanism: Mechanism) -> tuple[tuple[Member, ...], Plate]:
         bored.insert(0, hole_without_shaft(diameter, mechanism.crank_shaft.at, L))
     holes = [*bored, *(hole for at in _rows(sizes) for hole in _row(sizes, at))]
     frame = mounted_plate(holes, holes, corner_radius(size, L), (bottom, heights.top))
-    return tuple(axles), frame
+    return FrameAndShafts(frame, tuple(axles))
 
 
 def _shafts(mechanism: Mechanism, heights: RackFrame) -> Iterator[Shaft]:

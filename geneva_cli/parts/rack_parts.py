@@ -19,7 +19,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.missing import NamedParts
 from geneva_cli.layout.plain_sizes import drawn_thicknesses
 from geneva_cli.outlines.rack import RackSizes, rack_contour, rack_sizes
-from geneva_cli.parts.edged_parts import EdgedParts
+from geneva_cli.parts.edged_parts import EdgedParts, FrameAndShafts
 from geneva_cli.parts.gear_pair import gear_pair
 from geneva_cli.parts.rack_arm import rack_arm, rack_crank
 from geneva_cli.parts.rack_frame import (
@@ -85,11 +85,6 @@ class RackParts(EdgedParts):
         return Member(Group("crank", members), self.axis, math.pi)
 
     @cached_property
-    def shafts(self) -> tuple[Member, ...]:
-        """The crank's shaft, if it has an arm, and that of a driver gear."""
-        return self._edged(self._framed[0])
-
-    @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
         """The noncircular gears that turn the crank, with teeth or up to their pitch curves."""
         return gear_pair(self.mechanism, None, self.writer, shaft_radius(self.mechanism))
@@ -106,12 +101,7 @@ class RackParts(EdgedParts):
         return self._edged(Member(plate) for plate in guide(self.mechanism))
 
     @cached_property
-    def frame(self) -> Member:
-        """The frame, which holds the crank's shaft and the guide."""
-        return self._edged([Member(self._framed[1])])[0]
-
-    @cached_property
-    def _framed(self) -> tuple[tuple[Member, ...], Plate]:
+    def _framed(self) -> FrameAndShafts:
         self._require_built()
         return shafts_and_frame(self.mechanism)
 

@@ -453,3 +453,10 @@ def _whole(value: float) -> str:
     if value == math.floor(value):
         return f": write {value:.0f}"
     return f", {math.floor(value)} or {math.ceil(value)}"
+
+
+class Example(NamedTuple):
+    """An example spec: its title, and its keys by table."""
+
+    about: str
+    tables: dict[str, dict[str, object]]

@@ -66,6 +66,15 @@ def full_names() -> dict[str, str]:
     return {f"{_bare(k)}.{k.key}": k.meaning for k in all_keys() if k.table}
 
 
+def tables_with(key: str) -> list[str]:
+    """The tables that have a key.
+
+    >>> tables_with("friction")
+    ['load', 'support', 'product']
+    """
+    return list(dict.fromkeys(_bare(k) for k in all_keys() if k.key == key and k.table))
+
+
 def words_of(name: str) -> tuple[str, ...]:
     """Words that a key may have, in any kind that has it; none for other keys.
 

@@ -90,9 +90,8 @@ class Text(NamedTuple):
         try:
             tree = _parsed(self.text)
         except tomli.TOMLDecodeError as error:
-            reason = cut(error.msg[:1].lower() + error.msg[1:], 200)
-            hint = _hint(self.text.split("\n")[error.lineno - 1])
-            raise GenevaError(f"{self.name}:{error.lineno}: not TOML: {reason}{hint}") from None
+            reason = _reason(error.msg, self.text.split("\n")[error.lineno - 1])
+            raise GenevaError(f"{self.name}:{error.lineno}: not TOML: {reason}") from None
         except RecursionError:
             raise GenevaError(f"{self.name}: not a spec: brackets are nested too deeply") from None
         except ValueError as error:  # a whole number of thousands of digits
@@ -107,6 +106,18 @@ class Text(NamedTuple):
 
 # A sweep reads one text many times with other settings; nothing changes a parsed tree.
 _parsed = lru_cache(maxsize=8)(tomli.loads)
+
+
+def _reason(message: str, line: str) -> str:
+    """What is wrong with a line that is not TOML, and what is right instead."""
+    if re.search(r"overwrite|twice|Duplicate", message):
+        return "this key or table is set above already; keep one of the two"
+    reason = cut(message[:1].lower() + message[1:], 200)
+    if message == "Invalid statement" or message.startswith("Expected '=' after a key"):
+        return f'{reason}; write [table], or KEY = VALUE as in z = 6, or a comment behind "#"'
+    if message == "Invalid value" and not line.partition("=")[2].strip():
+        return "the value is missing; write one behind the sign, as in z = 6"
+    return reason + _hint(line)
 
 
 def _hint(line: str) -> str:

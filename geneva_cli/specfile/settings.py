@@ -36,10 +36,18 @@ def setting(text: str, option: str = "--set") -> Setting:
         raise GenevaError(f"{typed}: it must be KEY=VALUE, as in {option} drive.n_rpm=90")
     if not all(parts) or (len(parts) == 1 and parts != ["title"]):
         raise GenevaError(
-            f"{typed}: a key is written with its table, as in {option} drive.n_rpm=90"
+            f"{typed}: a key is written with its table, as in {option} {_whole(text)}"
         )
     path = tuple(int(p) if i and p.isdecimal() else p for i, p in enumerate(parts))
     return Setting(typed, path, read_value(value, typed))
+
+
+def _whole(text: str) -> str:
+    """A text ``key=value`` with the first table that has the key; for another key, an example."""
+    from geneva_cli.specfile.keys import tables_with  # only for messages
+
+    tables = tables_with(text.partition("=")[0].strip())
+    return f"{tables[0]}.{text.strip()}" if tables else "drive.n_rpm=90"
 
 
 def read_value(text: str, option: str) -> Any:

@@ -9,8 +9,7 @@ from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.spec import BEFORE
-from geneva_cli.spec.example import Example
-from geneva_cli.spec.schema import REQUIRED, Field, fields
+from geneva_cli.spec.schema import REQUIRED, Example, Field, fields
 from geneva_cli.spec.tables import LISTS
 from geneva_cli.specfile.json_schema import FILE
 from geneva_cli.specfile.writer import keys_of, quoted

@@ -60,6 +60,10 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
         raise GenevaError(f"title must be text, not {shown(title)}", ("title",))
     for table, value in tree.items():
         if table not in TABLES:
+            if not isinstance(value, dict) and (tables := _tables_with(table)):
+                raise GenevaError(
+                    f"{table} belongs to {tables}; write it below that line", (table,)
+                )
             hint = nearest(table, (*TABLES, "title"))
             what = f"[{cut(table)}]" if isinstance(value, dict) else cut(table)
             raise GenevaError(
@@ -211,7 +215,23 @@ def _refuse_lawless(values: dict[str, Any]) -> None:
                 ("motion", key),
             )
         if key not in known:
-            raise unknown(key, "motion", ("law", *known))
+            raise _unknown(key, "motion", ("law", *known))
+
+
+def _unknown(key: str, table: str, known: Collection[str]) -> GenevaError:
+    """Error for a key that a table does not have; it names the tables that have it."""
+    if tables := _tables_with(key):
+        where = (*table.split("."), key)
+        return GenevaError(f"unknown key {key} in [{table}]; it belongs to {tables}", where)
+    return unknown(key, table, tuple(known))
+
+
+def _tables_with(key: str) -> str:
+    """The tables that have a key, for a message; nothing where none or more than three have it."""
+    from geneva_cli.specfile.keys import tables_with  # only for messages
+
+    tables = [f"[[{name}]]" if name in LISTS else f"[{name}]" for name in tables_with(key)]
+    return " or ".join(tables) if len(tables) <= 3 else ""
 
 
 def _refuse_foreign(
@@ -262,7 +282,7 @@ def _values(
     out = {}
     for key, value in values.items():
         if key not in known:
-            raise unknown(key, cls.TABLE, (*also, *known))
+            raise _unknown(key, cls.TABLE, (*also, *known))
         field = known[key]
         rule = field.rule
         named = isinstance(rule, Csv)

@@ -41,16 +41,12 @@ ROWS = {
     "inertia_ratio": "sizing.inertia_ratio",
     "residual_deg": "vibration.residual_deg",
 }
-# What no number says.
+# What no number says of the alternatives; the design's own words are its machine's.
 WORDS = {
-    "holds_the_dwell_by": ("locking disc", "cam", "motor torque"),
-    "impact_at_entry": ("if R/L is off", "none", "none"),
-    "without_power": (
-        "follows crank",
-        "follows cam",
-        "coasts",
-    ),
-    "another_step_or_time": ("a new wheel", "a new cam", "a parameter"),
+    "holds_the_dwell_by": ("cam", "motor torque"),
+    "impact_at_entry": ("none", "none"),
+    "without_power": ("follows cam", "coasts"),
+    "another_step_or_time": ("a new cam", "a parameter"),
 }
 LAWS: dict[str, Law] = {"cam": ModifiedSine(), "servo": SCurve()}
 NAMES = tuple(LAWS)
@@ -68,11 +64,22 @@ def against(path: str, settings: Sequence[str], names: Sequence[str]) -> Table:
     design = load(path, settings)
     columns = {name: _values(design, name) for name in dict.fromkeys(("geneva", *names))}
     rows: list[tuple[Cell, ...]] = [(row, *(own[row] for own in columns.values())) for row in ROWS]
-    order = ("geneva", *NAMES)
+    own_words = _words(design)
     for row, words in WORDS.items():
-        rows.append((row, *(words[order.index(name)] for name in columns)))
+        said = {"geneva": own_words[row], **dict(zip(NAMES, words, strict=True))}
+        rows.append((row, *(said[name] for name in columns)))
     known = [row for row in rows if any(cell is not None for cell in row[1:])]
     return rows_table(("quantity", *columns), known, design.spec.title, mixed=True)
+
+
+def _words(design: Design) -> dict[str, str]:
+    """What no number says of the design, by the rows of WORDS."""
+    return {
+        "holds_the_dwell_by": design.spec.dwell_holder or "nothing",
+        "impact_at_entry": "in every step" if design.spec.wheel.JUMPS else "if R/L is off",
+        "without_power": "follows crank",
+        "another_step_or_time": "a new wheel",
+    }
 
 
 def alternative(design: Design, name: str, rotor: bool = False) -> Mechanism:

@@ -57,8 +57,10 @@ def verdicts(
 ) -> Iterator[Verdict]:
     """The verdicts on specs, in their order, each as ``verdict`` returns it.
 
-    This process reads standard input (``-``) itself.
+    This process reads standard input (``-``) itself. Raises GenevaError if it stands there twice.
     """
+    if list(paths).count("-") > 1:
+        raise GenevaError("<stdin>: given twice, but it can be read only once; name it once")
     judge = partial(verdict, settings=settings, proof_mm=proof_mm)
     files = [path for path in paths if path != "-"]
     others = mapped(judge, files, min(len(files), cores()), "specs")

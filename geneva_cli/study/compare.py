@@ -6,12 +6,16 @@ import math
 from collections.abc import Sequence
 
 from geneva_cli.drawings.model import PartsModel
+from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.tolerances import ROUNDED
+from geneva_cli.spec.tables import PLAIN
+from geneva_cli.specfile.writer import keys_in, values_of
 from geneva_cli.study.fields import Cell, pick, values
 from geneva_cli.study.spec_texts import designs_of, spec_texts
 from geneva_cli.study.sweep.constraints import is_number
 from geneva_cli.table import Reading, Table, rows_table
-from geneva_cli.verdict.quantities.groups import INPUTS
+from geneva_cli.verdict.quantities.groups import INPUTS, MACHINE
+from geneva_cli.verdict.quantities.names import group_of
 
 
 def compare(
@@ -25,9 +29,10 @@ def compare(
     """Return the comparison: ``quantity``, one column for each design, and ``differs`` for several.
 
     Either one design is varied through values of keys (``vary``, texts ``KEY=VALUES``), or several
-    specs are compared. ``picks`` are the quantities to show; without them all that need no parts
-    are shown. ``ratio`` divides numbers by those of the first design. Numbers differ if they
-    do so by more than rounding. ``reverse`` adds a column for each design turning the other way.
+    specs are compared. ``picks`` are the quantities to show. Without them all that need no parts
+    are shown, and the keys of wheel, drives and motion in which the specs differ. ``ratio`` divides
+    numbers by those of the first design. Numbers differ if they do so by more than rounding.
+    ``reverse`` adds a column for each design turning the other way.
 
     Raises GenevaError for a design that cannot be read or built.
     """
@@ -38,13 +43,16 @@ def compare(
         picked = pick(picks)
         each = [dict(zip(picked.names, picked.of(m), strict=True)) for m in machines]
     else:
-        each = [values(PartsModel(m)) for m in machines]
+        first = dict.fromkeys(MACHINE.names)
+        each = [{**first, **_shape(m.spec), **values(PartsModel(m))} for m in machines]
     rows = []
     for quantity in dict.fromkeys(name for own in each for name in own):
         if quantity.startswith(INPUTS) and not picks:  # the spec or the columns' names show these
             continue
         cells = [own.get(quantity) for own in each]
         differs = not all(_same(c, cells[0]) for c in cells[1:])
+        if quantity not in group_of() and (vary or not differs):
+            continue  # a key that the designs share, or that the columns' names show
         if any(c is not None for c in cells):
             rows.append((quantity, *(_ratios(cells) if ratio else cells), differs))
     names = ("quantity", *designs, "differs")
@@ -52,6 +60,15 @@ def compare(
         names, rows = names[:-1], [row[:-1] for row in rows]
     table = rows_table(names, rows, mixed=True)
     return table.replaced(reading=Reading(designs=True))
+
+
+def _shape(spec: Spec) -> dict[str, Cell]:
+    """The keys of wheel, drives and motion by table.key, but those that are lists."""
+    values: dict[str, Cell] = {}
+    for table, keys in keys_in(spec).items():
+        for own in values_of(spec, table) if table not in PLAIN else ():
+            values |= {f"{table}.{key.key}": own[key.key] for key in keys}
+    return {key: value for key, value in values.items() if isinstance(value, (str, float, int))}
 
 
 def differing(table: Table) -> Table:

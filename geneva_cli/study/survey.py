@@ -7,8 +7,7 @@ from geneva_cli.analysis.timing import Timing, timing
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.kinematics.wheels import classic
 from geneva_cli.numerics.angles import sin_cos_pi
-from geneva_cli.spec.ranges import RangeText, range_text
-from geneva_cli.spec.rules import SPEED, Z_MAX
+from geneva_cli.spec.rules import SPEED, Z_MAX, RangeText, range_text
 from geneva_cli.table import Reading, Table, rows_table
 
 NAMES = (

@@ -21,9 +21,8 @@ from geneva_cli.kinematics.law_motion import MOTION_MIN
 from geneva_cli.kinematics.wheels.gearing import Gearing, Output
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.tables import DISTANCE_MM
-from geneva_cli.study.goals import Objective
 from geneva_cli.study.spans import AllowedSpan
-from geneva_cli.study.sweep.constraints import Constraint
+from geneva_cli.study.sweep.constraints import Constraint, Objective
 
 GEARINGS = ("external", "internal", "spherical")  # wheels; racks are searched alone
 USUAL_RPM = 60.0

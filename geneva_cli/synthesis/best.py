@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from geneva_cli.machine.spec import Spec
 from geneva_cli.study.batches import numbers
-from geneva_cli.study.goals import Objective
+from geneva_cli.study.sweep.constraints import Objective
 from geneva_cli.study.target import Target
 from geneva_cli.synthesis.bounds import known_bounds, known_sort
 from geneva_cli.synthesis.families.family import Family

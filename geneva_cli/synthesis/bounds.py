@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from geneva_cli.study.goals import Objective
-from geneva_cli.study.sweep.constraints import Constraint
+from geneva_cli.study.sweep.constraints import Constraint, Objective
 from geneva_cli.study.target import Target
 from geneva_cli.verdict.quantities.names import in_batch
 

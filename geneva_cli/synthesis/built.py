@@ -12,7 +12,7 @@ from geneva_cli.synthesis.parts import SPARE, USUAL, exact, parts, with_roller
 from geneva_cli.synthesis.parts_data import parts_data
 from geneva_cli.synthesis.turns import HAND_OVER_PLAY, LOST, Failure, Turns
 from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.checks.registry import LIMITS, MOTION, motion_checks
+from geneva_cli.verdict.checks.registry import LIMITS, MOTION, applicable
 
 # keys that conflict with a crank's bore
 SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}
@@ -111,7 +111,7 @@ def _other_failing(turns: Turns, spec: Spec, known: Sequence[Failure]) -> list[F
     named = dict(LIMITS)
     if UNDERCUT in {one.name for one in known}:
         named[UNDERCUT] = MOTION[UNDERCUT]
-    before = [Failure(c.name) for c in motion_checks(named, machine) if c.passes is False]
+    before = [Failure(c.name) for c in applicable(named, machine) if c.passes is False]
     return before or turns.some_failing(machine, known) or _of_motion(machine)
 
 

@@ -27,7 +27,7 @@ from geneva_cli.outlines.outlines import CONTACT
 from geneva_cli.outlines.rack import rack_sizes
 from geneva_cli.spec.tables import Size
 from geneva_cli.synthesis.parts_data import PartsData, gap_at_rest, parts_data
-from geneva_cli.verdict.checks.undercut import undercut_depth
+from geneva_cli.verdict.checks.motion import undercut_depth
 from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT
 
 USUAL = (5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.8, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)  # % of L

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,12 +19,9 @@ from geneva_cli.layout.roller_paths import RollerPaths
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.numerics.arrays import array
+from geneva_cli.numerics.arrays import Array, array
 from geneva_cli.study.batches import batch_machines
 from geneva_cli.study.target import USUAL_RPM
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array
 
 SLOT_SAMPLES = 720  # also of a whole turn of the crank
 UNDERCUT_SAMPLES = 120  # of half a motion

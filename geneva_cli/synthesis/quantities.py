@@ -13,10 +13,10 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.progress import tracked
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.study.batches import numbers
-from geneva_cli.study.goals import Objective
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import (
     Constraint,
+    Objective,
     is_number,
     refuse_contradictions,
     refuse_words,

@@ -10,13 +10,16 @@ from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.registry import STANDARD_LAWS as LAWS
 from geneva_cli.machine.drives.carousel import Carousel
 from geneva_cli.machine.spec import Spec
-from geneva_cli.spec.ranges import range_text
-from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
+from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range, range_text
 from geneva_cli.spec.schema import fields
-from geneva_cli.study.goals import objective
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.survey import parse_z
-from geneva_cli.study.sweep.constraints import Constraint, constraint, refuse_contradictions
+from geneva_cli.study.sweep.constraints import (
+    Constraint,
+    constraint,
+    objective,
+    refuse_contradictions,
+)
 from geneva_cli.study.target import GEARINGS, PEAK, SPACE, Target
 from geneva_cli.verdict.quantities.names import whole_name
 

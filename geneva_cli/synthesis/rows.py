@@ -17,8 +17,8 @@ from geneva_cli.study.target import Target
 from geneva_cli.synthesis.families.family import Family, allows
 from geneva_cli.synthesis.parts import machine_and_parts
 from geneva_cli.synthesis.parts_data import compute_parts_data, parts_data
-from geneva_cli.verdict.checks.groove import GROOVE_MAX_DEG, groove_pressure
-from geneva_cli.verdict.checks.registry import LIMITS, MOTION, motion_checks
+from geneva_cli.verdict.checks.motion import GROOVE_MAX_DEG, groove_pressure
+from geneva_cli.verdict.checks.registry import LIMITS, MOTION, applicable
 
 NEAR_DEG = 3.0  # below its limit, within which the pressure angle is searched between samples
 PEAKS = {  # keys of [limits], and the quantities that they limit
@@ -127,7 +127,7 @@ def _failing(machine: Mechanism, costs: Sequence[float]) -> str:
     over = [name for name, x in peaks.items() if not keeps(x, "at most", limits[name])]
     others = {name: check for name, check in LIMITS.items() if name not in PEAKS}
     motion, rest = (
-        [check.name for check in motion_checks(among, machine) if check.passes is False]
+        [check.name for check in applicable(among, machine) if check.passes is False]
         for among in (MOTION, others)
     )
     return ", ".join([*motion, *over, *rest])

@@ -36,7 +36,7 @@ from geneva_cli.synthesis.quantities import (
     quantity_request,
 )
 from geneva_cli.synthesis.replacements import replacement_rows
-from geneva_cli.synthesis.rows import Candidate, MachineRow, rows
+from geneva_cli.synthesis.rows import MachineRow, rows
 from geneva_cli.verdict.quantities.names import in_batch
 
 TURNED = 20  # rows whose parts are turned by default
@@ -281,14 +281,6 @@ def _first(request: QuantityRequest, row: MachineRow) -> float:
         return row.candidate.peak
     value = row.extra[request.names.index(request.sort.name)]
     return request.sort.sign * float(value) if is_number(value) else math.nan
-
-
-def synthesis(target: Target) -> list[tuple[Spec, Candidate]]:
-    """The machines that meet the requirement, the lowest peak acceleration first, no part turned.
-
-    Raises GenevaError, saying what is within reach, if there is none.
-    """
-    return [(row.spec, row.candidate) for row in search(target).rows]
 
 
 def _out_of_reach(target: Target, reached: list[float], errors: list[str]) -> str:

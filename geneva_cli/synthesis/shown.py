@@ -168,9 +168,16 @@ def _fitting(columns: list[SynthesisColumn]) -> list[SynthesisColumn]:
     return [columns[i] for i in kept]
 
 
-def _ranks(columns: list[SynthesisColumn]) -> dict[str, int]:
-    """The rank of each column in importance."""
-    rank = {source: i for i, source in enumerate(HEADS)}
+def _ranks(columns: list[SynthesisColumn]) -> dict[str, float]:
+    """The rank of each column in importance.
+
+    The number of rollers comes before the parts if rows differ in nothing else that names them.
+    """
+    rank: dict[str, float] = {source: i for i, source in enumerate(HEADS)}
+    named = [c.cells for c in columns if rank[c.source] <= rank["machine"] and c.source != "no"]
+    names = [*zip(*named, strict=True)]
+    if len({*names}) < len(names):
+        rank["rollers"] = rank["machine"] + 0.5
     peak = "acceleration_max"
     for rate in ("acceleration_max_rad_s2", "acceleration_max_m_s2"):
         if rate in {c.source for c in columns}:  # rows are sorted by it

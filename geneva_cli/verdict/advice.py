@@ -18,8 +18,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.latest import counted
 from geneva_cli.numerics.roots import Falsi
-from geneva_cli.numerics.work import counted
 from geneva_cli.verdict.checks import checks, checks_at_rest, single_check
 from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
 from geneva_cli.verdict.checks.registry import SPHERE, STATIC, turn_checks

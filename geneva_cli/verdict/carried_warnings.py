@@ -1,8 +1,4 @@
-"""Warnings about the load that the wheel carries, and about its motor.
-
-They are about the wheel's own inertia, unbalanced or distant masses, unlikely materials, and keys
-without effect.
-"""
+"""Warnings about what the wheel carries, about materials, unlikely numbers, keys without effect."""
 
 from __future__ import annotations
 
@@ -11,9 +7,11 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from geneva_cli.analysis.carried import G, inertia_kgm2, weight_kg
+from geneva_cli.analysis.peaks import worst_of
 from geneva_cli.errors import Notice
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.angles import omega
 from geneva_cli.spec.tables import Motor
 
 if TYPE_CHECKING:
@@ -160,3 +158,44 @@ def _keys_without_effect(spec: Spec) -> list[Notice]:
             )
         )
     return out
+
+
+def unlikely_warnings(mechanism: Mechanism) -> list[Notice]:
+    """The warnings, of a wheel that turns."""
+    return [*_heavy(mechanism), *_fast(mechanism)] if mechanism.output.turns else []
+
+
+def _heavy(mechanism: Mechanism) -> list[Notice]:
+    L, inertia = mechanism.center_distance_mm / 1000.0, inertia_kgm2(mechanism.spec)
+    # The largest table expected is solid steel, 6 L across and L/2 thick; J = pi rho h D^4 / 32. A
+    # larger inertia is nearly always meant in kg cm2.
+    diameter, thickness, density = 6.0 * L, 0.5 * L, 7850.0  # m, m, kg/m3
+    most = math.pi * density * thickness * diameter**4 / 32.0
+    if not inertia > most:
+        return []
+    return [
+        Notice(
+            "heavy-inertia",
+            f"an inertia of {inertia:.4g} kg m² is large for a centre distance of {1e3 * L:.4g} "
+            f"mm. A solid steel table {1e3 * diameter:.4g} mm across and {1e3 * thickness:.4g} "
+            f"mm thick has {most:.3g} kg m². If it is in kg cm², write {1e-4 * inertia:.4g}",
+        )
+    ]
+
+
+def _fast(mechanism: Mechanism) -> list[Notice]:
+    engagement = mechanism.engagements[0]
+    x, y = engagement.path(engagement.entry_deg, 0)
+    rim = math.hypot(x.c[0], y.c[0]) * mechanism.center_distance_mm / 1000.0
+    n = mechanism.spec.drive.n_rpm
+    speed = rim * worst_of(mechanism, "velocity").max * omega(n)
+    sound_m_s = 343.0
+    if not speed > sound_m_s:
+        return []
+    return [
+        Notice(
+            "faster-than-sound",
+            f"the wheel's rim moves at up to {speed:.4g} m/s, faster than sound ({sound_m_s:g} "
+            f"m/s): check n_rpm = {n:g}, the input's turns a minute",
+        )
+    ]

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from geneva_cli.analysis.peaks import worst
 from geneva_cli.errors import Notice
+from geneva_cli.kinematics.laws.law import Law
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import BEFORE
-
-if TYPE_CHECKING:
-    from geneva_cli.kinematics.laws.law import Law
 
 
 def direction_warnings(mechanism: Mechanism) -> Iterator[Notice]:

@@ -1,4 +1,4 @@
-"""The verdict on a design in one line, and lines for failures, warnings and the tightest check."""
+"""The verdict on a design in one line; lines for failures and warnings; values with units."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 from geneva_cli.document import FAILS, PASSES, WARNS, SummaryLine
 from geneva_cli.errors import Notice, is_warning
 from geneva_cli.names import spoken
+from geneva_cli.output import shown
+from geneva_cli.output.document.values import value_text
 from geneva_cli.table import Table, record_table
-from geneva_cli.verdict.measured import bare, measured
 
 if TYPE_CHECKING:
     from geneva_cli.verdict.checks.check import Check
@@ -144,3 +145,22 @@ def _limit_fraction(check: Check) -> float | None:
     if not (check.passes and value and limit and has_margin):
         return None
     return value / limit if check.must_be == "at most" else limit / value
+
+
+def measured(value: float, unit: str = "", digits: int = 4) -> str:
+    """A value with its unit, and with the significant digits of a sentence.
+
+    >>> measured(8.25622, "mm"), measured(-58.2111, "deg")
+    ('8.256 mm', '-58.21°')
+    """
+    value, unit = shown(value, unit)
+    return value_text(value, "°" if unit == "deg" else unit, digits)
+
+
+def bare(value: float, unit: str, digits: int = 4) -> str:
+    """A value without its unit, which stands at another value of the sentence.
+
+    >>> bare(8.25622, "mm")
+    '8.256'
+    """
+    return value_text(shown(value, unit)[0], "", digits)

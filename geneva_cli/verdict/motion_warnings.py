@@ -4,20 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 from geneva_cli.analysis.peaks import peak
 from geneva_cli.errors import Notice
 from geneva_cli.kinematics.engagement import WheelMotion
+from geneva_cli.kinematics.laws.law import Law
 from geneva_cli.layout.fits import loosest_mm
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
+from geneva_cli.numerics.latest import counted
 from geneva_cli.numerics.tolerances import keeps
-from geneva_cli.numerics.work import counted
 from geneva_cli.spec.tables import Z_USUAL
-
-if TYPE_CHECKING:
-    from geneva_cli.kinematics.laws.law import Law
 
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
 
@@ -33,7 +30,7 @@ def motion_warnings(mechanism: Mechanism) -> list[Notice]:
                 f"z = {z}: more than {Z_USUAL} slots leave little of the wheel between them",
             )
         )
-    if mechanism.spec.wheel.held_by is None and _no_lock(mechanism):
+    if mechanism.spec.dwell_holder is None:
         out.append(
             Notice(
                 "nothing-holds",
@@ -93,7 +90,7 @@ def _loose_fits(mechanism: Mechanism) -> Iterator[Notice]:
     pairs = [("slot_clearance_mm", "roller", "slot", mechanism.roller_radius_mm)]
     if mechanism.spec.wheel.toothed:
         pairs = []
-    if not _no_lock(mechanism):
+    if mechanism.spec.has_lock:
         radius = mechanism.ratio * mechanism.center_distance_mm if disc is None else disc
         pairs.append(("lock_clearance_mm", "locking disc", "recess", radius))
     for key, part, mate, radius in pairs:
@@ -132,9 +129,9 @@ def _starts_at_speed(mechanism: Mechanism) -> list[Notice]:
     spec = mechanism.spec
     if not spec.wheel.JUMPS:
         return []
-    from geneva_cli.analysis.impacts import start_impact
+    from geneva_cli.analysis.impacts import start_impacts
 
-    impact = start_impact(mechanism)
+    impact = start_impacts(mechanism).only
     assert impact is not None  # the wheel's speed jumps
     w = impact.jump * omega(spec.drive.n_rpm)
     if impact.moment_Nms is None:
@@ -152,10 +149,6 @@ def _starts_at_speed(mechanism: Mechanism) -> list[Notice]:
             f"input's. Acceleration and forces have no bound there: {hit}",
         )
     ]
-
-
-def _no_lock(mechanism: Mechanism) -> bool:
-    return mechanism.spec.size.lock_radius_mm == 0.0 or not mechanism.spec.drive.LOCKS
 
 
 def _rounded_points(mechanism: Mechanism) -> list[Notice]:

@@ -1,4 +1,4 @@
-"""The dimensions of stressed parts and of the lock, for one machine or a batch.
+"""The dimensions of stressed parts, of the lock and of racks' horns, for one machine or a batch.
 
 Parts are sized one design after the other, as their defaults depend on rollers' whole paths.
 """
@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.locking import Lock
-from geneva_cli.drawings.kinds.kind import kind_of
+from geneva_cli.drawings.model import kind_of
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.sizes import Layout, sized
 from geneva_cli.layout.stressed import Stressed, lock_of, stressed
@@ -22,9 +22,8 @@ from geneva_cli.machine.many import alone, designs_in
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import parameter
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.jet import Array
+from geneva_cli.outlines.rack import rack_sizes
 
 
 class LockSizes(NamedTuple):
@@ -35,7 +34,7 @@ class LockSizes(NamedTuple):
 
 
 def design_lock_sizes(mechanism: Mechanism) -> LockSizes | None:
-    """The sizes of m designs: numbers if they are equal in all, None if none has a lock."""
+    """The sizes of m designs, (m, 1), or numbers for one; None if none has a lock."""
     whole = mechanism.spec
     # the parts' sizes depend on these tables; designs that differ in loads only are sized once
     spec = Spec(whole.wheel, whole.drive, whole.motion, whole.size, drive_before=whole.drive_before)
@@ -44,15 +43,23 @@ def design_lock_sizes(mechanism: Mechanism) -> LockSizes | None:
 
 def layouts_lock_sizes(layouts: Sequence[Layout | None]) -> LockSizes | None:
     """The sizes of designs whose parts are laid out; None if none has a lock."""
-    m = len(layouts)
-    rows = np.full((1 + len(Lock._fields), m, 1), np.nan)
-    for i, parts in enumerate(layouts):
-        if parts is not None and parts[1].lock:
-            rows[:, i, 0] = parts[1].half_width, *lock_of(*parts)
-    if np.isnan(rows).all():
+    columns = number_columns(
+        [(one[1].half_width, *lock_of(*one)) if one and one[1].lock else None for one in layouts]
+    )
+    return LockSizes(columns[0], Lock(*columns[1:])) if columns else None
+
+
+def number_columns(rows: Sequence[Sequence[float] | None]) -> list[float] | None:
+    """The columns of m designs' numbers, (m, 1), or numbers for one; None if no design has any.
+
+    They are NaN for a design without numbers.
+    """
+    known = next((row for row in rows if row is not None), None)
+    if known is None:
         return None
-    half_width, *lock = (parameter(row) if m > 1 else row.item() for row in rows)
-    return LockSizes(half_width, Lock(*lock))
+    none = [math.nan] * len(known)
+    columns = np.array([none if row is None else row for row in rows]).T[..., None]
+    return [parameter(column) if len(rows) > 1 else column.item() for column in columns]
 
 
 class PartSizes(NamedTuple):
@@ -102,3 +109,20 @@ def stressed_parts(machine: Mechanism, layout: Layout | None) -> Stressed | None
 def _numbers(of: Stressed) -> list[float]:
     shafts, keys = (*of.wheel_shaft, *of.crank_shaft), (*of.wheel_key, *of.crank_key)
     return [of.contact, of.pin, *shafts, *map(float, of.arm), *map(float, keys)]
+
+
+def rack_horns(machines: Sequence[Mechanism]) -> tuple[float, float] | None:
+    """Half the slot's width and the recess's radius of racks, (m, 1); None if none has a lock.
+
+    They are NaN for a rack without a lock, and for one that cannot be cut.
+    """
+    columns = number_columns([_horn(machine) for machine in machines])
+    return (columns[0], columns[1]) if columns else None
+
+
+def _horn(machine: Mechanism) -> tuple[float, float] | None:
+    try:
+        sizes = rack_sizes(machine)
+    except GenevaError:  # the check of the parts reports the error
+        return None
+    return (sizes.half_width, sizes.recess) if sizes.lock else None

@@ -5,20 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
 from geneva_cli.errors import Notice
 from geneva_cli.layout.sizes import sized
 from geneva_cli.loads.strength import horn, lock, shafts
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Number
 from geneva_cli.verdict.quantities.designs import single
 from geneva_cli.verdict.quantities.groups import REPORT, only
 from geneva_cli.verdict.quantities.under_load import under_load
-
-if TYPE_CHECKING:
-    from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.numerics.arrays import Number
 
 # The groups by the names of their tables, and by the whole names of their quantities.
 REPORT_GROUPS = {name: group for group in REPORT for name in (group.table, *group.names)}

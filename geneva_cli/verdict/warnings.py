@@ -7,12 +7,10 @@ from geneva_cli.errors import Notice
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.wheel_inertia import known_wheel_body
-from geneva_cli.verdict.carried_warnings import carried_warnings
+from geneva_cli.verdict.carried_warnings import carried_warnings, unlikely_warnings
 from geneva_cli.verdict.direction_warnings import direction_warnings
 from geneva_cli.verdict.motion_warnings import motion_warnings
-from geneva_cli.verdict.process_warnings import process_warnings
-from geneva_cli.verdict.turn_warnings import turn_warnings
-from geneva_cli.verdict.unlikely_warnings import unlikely_warnings
+from geneva_cli.verdict.parts_warnings import process_warnings, turn_warnings
 
 
 def warnings(model: PartsModel) -> list[Notice]:

@@ -17,8 +17,8 @@ from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.summary import reversals_deg, summaries
 from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.angles import omega
+from geneva_cli.verdict.carried_warnings import unlikely_warnings
 from geneva_cli.verdict.cycle_warnings import back_driven_deg
-from geneva_cli.verdict.unlikely_warnings import unlikely_warnings
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 TURRET = Spec(
@@ -189,7 +189,7 @@ def test_each_bearing_of_a_shaft():
     # where shafts meet there is no such lever
     ball = Design(Spherical(6), load=Load(0.4, 15.0), shaft=shaft)
     assert ball.loads["wheel_near_bearing_N"].max is None
-    assert "crank_far_bearing_N: needs parallel shafts; on a sphere" in ball.load_warnings[-1]
+    assert "crank_far_bearing_N: need parallel shafts; on a sphere" in ball.load_warnings[-1]
 
 
 # The command

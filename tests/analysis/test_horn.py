@@ -13,7 +13,7 @@ from words import Motion, Spec, Wheel
 from geneva_cli import load as read
 from geneva_cli.layout.sizes import sized
 from geneva_cli.loads.loads import state
-from geneva_cli.loads.strength.horn import horn, horns, product, stoutness
+from geneva_cli.loads.strength.horn import horn_stresses, horns, product, stoutness
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Load, Size
 
@@ -33,7 +33,7 @@ def test_a_straight_slot_s_horn_is_its_formula(z, L, r, h):
     stops where the stress is flat.
     """
     R = L * math.sin(math.pi / z) - r - h
-    found = horn(machine(z, L, r, torque_Nm=10.0), r, R, 15.0)
+    found = horn_stresses(machine(z, L, r, torque_Nm=10.0), r, R, 15.0).single
     with mpmath.workdps(30):
         foot, M = L * mpmath.cos(mpmath.pi / z), mpmath.mpf(10000)
 
@@ -76,7 +76,7 @@ def test_plane_stress_agrees_with_the_beam(z, L, r, h):
     depth = L * math.cos(b) - (L - L * math.sin(b))
     s, along, _ = in_plane_stress(wall, wall - h, depth, math.pi - 2.0 * b, 0.15 * h)
     inside = (s > 0.8 * h) & (s < 0.75 * depth)
-    found = horn(machine(z, L, r), r, wall - h, 1.0)
+    found = horn_stresses(machine(z, L, r), r, wall - h, 1.0).single
     force = 10000.0 / (L * math.cos(b))  # at the mouth
     assert h < wall / 6.0
     assert abs(along[inside]).max() == pytest.approx(found.stress_MPa / force, rel=0.02)
@@ -124,7 +124,9 @@ def test_plane_stress_agrees_on_internal_wheels(z, L, r, h, low, high):
     s, along, _ = in_plane_stress(wall, wall - h, depth, math.pi + 2.0 * b, 0.15 * h)
     inside = (s > 0.8 * h) & (s < 0.75 * depth)
     mechanism = build(Spec(Wheel(z, "internal"), size=Size(L, r), load=LOAD))
-    beam = horn(mechanism, r, wall - h, 1.0).stress_MPa / (10000.0 / (L * math.cos(b)))
+    beam = horn_stresses(mechanism, r, wall - h, 1.0).single.stress_MPa / (
+        10000.0 / (L * math.cos(b))
+    )
     assert low < abs(along[inside]).max() / beam < high
     assert stoutness(mechanism, r, wall - h) == pytest.approx(h / (wall - h), rel=1e-12)
 
@@ -133,28 +135,30 @@ def test_a_thick_horn_is_no_beam():
     """A horn of 10 mm on a recess of 35: the formula has more than 2 % too little."""
     wall = 45.0
     s, along, _ = in_plane_stress(wall, 35.0, 36.6, math.radians(120.0), 1.5)
-    found = horn(machine(6, 100.0, 5.0), 5.0, 35.0, 1.0)
+    found = horn_stresses(machine(6, 100.0, 5.0), 5.0, 35.0, 1.0).single
     most = abs(along[(s > 8.0) & (s < 0.75 * 36.6)]).max()
     assert most > 1.02 * found.stress_MPa / (10000.0 / 86.60254)
 
 
 def test_the_side_that_bears():
     """Inertia alone: the horn behind bears in the second half, as much as the other did."""
-    found = horn(machine(6, 100.0, 5.0, inertia_kgm2=0.01), 5.0, 40.0, 10.0)
+    found = horn_stresses(machine(6, 100.0, 5.0, inertia_kgm2=0.01), 5.0, 40.0, 10.0).single
     assert abs(found.at_deg) == pytest.approx(60.0, abs=1.0)
-    heavy = horn(machine(6, 100.0, 5.0, inertia_kgm2=0.01, torque_Nm=10.0), 5.0, 40.0, 10.0)
-    light = horn(machine(6, 100.0, 5.0, torque_Nm=10.0), 5.0, 40.0, 10.0)
+    heavy = horn_stresses(
+        machine(6, 100.0, 5.0, inertia_kgm2=0.01, torque_Nm=10.0), 5.0, 40.0, 10.0
+    ).single
+    light = horn_stresses(machine(6, 100.0, 5.0, torque_Nm=10.0), 5.0, 40.0, 10.0).single
     assert heavy.stress_MPa > light.stress_MPa
 
 
 def test_without_a_lock_there_is_no_horn():
-    assert horn(machine(6, 100.0, 5.0), 5.0, 0.0, 10.0) is None
+    assert horn_stresses(machine(6, 100.0, 5.0), 5.0, 0.0, 10.0).single is None
 
 
 def test_a_curved_slot_has_horns_too():
     """Near the mouth a matched cycloidal slot is nearly straight: of the same order as one."""
     motion = Motion("cycloidal", ratio="matched")
     spec = Spec(Wheel(6), motion=motion, size=Size(100.0, 5.0), load=LOAD)
-    found = horn(build(spec), 5.0, 35.0, 10.0)
+    found = horn_stresses(build(spec), 5.0, 35.0, 10.0).single
     assert found.stress_MPa > 0.0
     assert found.thickness_mm < 35.0

@@ -15,7 +15,7 @@ from geneva_cli.analysis import positive_drive as positive
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.tolerance.dimensions import corners
 from geneva_cli.analysis.tolerance.motion_error import motion_errors
-from geneva_cli.analysis.tolerance.spread import spread
+from geneva_cli.analysis.tolerance.random_machines import spread
 from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst, motion_plays, used
 from geneva_cli.analysis.vibration.answers import values
 from geneva_cli.analysis.vibration.oscillator import required_oscillator
@@ -26,6 +26,7 @@ from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.sizing import SIZING_NAMES, sizing, sizings
 from geneva_cli.loads.strength import horn, lock, roller, shafts
 from geneva_cli.machine.many import many
+from geneva_cli.numerics.arrays import only_of
 from geneva_cli.spec.tables import (
     Load,
     Motor,
@@ -118,8 +119,8 @@ def test_shocks(name):
     entry, back = impacts.entry_impacts(machine), impacts.reversal_impacts(machine)
     drag = change_of_sides.lasting_drag_Nm(machine)
     for i, one in each:
-        records(entry, i, impacts.entry_impact(one))
-        records(back, i, impacts.reversal_impact(one))
+        records(entry, i, impacts.entry_impacts(one).only)
+        records(back, i, impacts.reversal_impacts(one).only)
         same(impacts.mouth_jumps_worst(machine), i, impacts.mouth_jumps_worst(one).item())
         # what the inertia asks for less what resists: in units of either
         same(drag, i, change_of_sides.lasting_drag_Nm(one), size=one.spec.load.torque_Nm)
@@ -129,8 +130,8 @@ def test_answers_of_one_design_are_not_the_first_of_many():
     """Asked of several, they refuse."""
     machine, _ = designs("modified-trapezoid")
     for ask in (
-        impacts.entry_impact,
-        impacts.reversal_impact,
+        lambda several: impacts.entry_impacts(several).only,
+        lambda several: impacts.reversal_impacts(several).only,
         undercut.undercut,
         positive.positive_drive,
     ):
@@ -213,7 +214,7 @@ def test_horns(name):
     ]
     for i, one in each:
         sizes = half_width[i].item(), recess[i].item()
-        alone_ = horn.horn(one, *sizes, one.spec.size.face_width_mm)
+        alone_ = horn.horn_stresses(one, *sizes, one.spec.size.face_width_mm).single
         assert alone_ is not None
         records(found, i, alone_, close=SEARCHED, places=PLACE)
         for number, side in enumerate(horn.horns(one, *sizes)):
@@ -270,7 +271,9 @@ def test_rollers(name):
     for i, one in each:
         for way, passage in zip(ways, roller.passages(one), strict=True):
             records(way, i, passage, close=SUMMED)
-        records(life, i, roller.life(one), close=SUMMED)
+        records(
+            life, i, roller.Life(*only_of(roller.lives(one, roller.by_roller(one)))), close=SUMMED
+        )
         same(worn, i, roller.wears_mm(one, roller.passages(one)).item(), SUMMED)
 
 

@@ -145,3 +145,9 @@ def test_proof_sets_the_tolerance() -> None:
         assert found.exit_code == 2
         assert "--proof" in found.stderr
         assert "must be above 0, at most 12 mm" in found.stderr
+
+
+def test_standard_input_is_read_once() -> None:
+    twice = CliRunner().invoke(app, ["check", "-", PLAIN, "-"], input="[wheel]\nz = 6\n")
+    assert twice.exit_code == 2 and not twice.stdout
+    assert twice.stderr == "<stdin>: given twice, but it can be read only once; name it once\n"

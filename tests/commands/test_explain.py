@@ -32,6 +32,7 @@ from geneva_cli.loads import figures, summary
 from geneva_cli.loads.sizing import SHOWN_SIZING
 from geneva_cli.manual import TOPICS
 from geneva_cli.manual.explained import GROUPS, Entry, entries
+from geneva_cli.names import unit_of
 from geneva_cli.specfile.meanings import listed, meanings, names
 from geneva_cli.specfile.template import EXAMPLES
 from geneva_cli.study import batch, survey
@@ -41,6 +42,7 @@ from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION, STATIC, TURNING
 from geneva_cli.verdict.checks.registry import PROOFS as PROVED
 from geneva_cli.verdict.quantities import groups
+from geneva_cli.verdict.quantities.names import group_of
 from geneva_cli.verdict.tolerance.tables import ANGLES
 
 WORDLESS = {"word", "yes or no", "list", "table", "text", "number"}  # not worked out by a formula
@@ -195,6 +197,14 @@ def test_an_entry_is_whole(entry: Entry):
         path, _, test = proof.partition("::")
         text = (repo.ROOT / path).read_text(encoding="utf-8")
         assert path.startswith("tests/") and f"\ndef {test}(" in text, proof
+
+
+@pytest.mark.parametrize("name", ["strength.pin", "strength.horn", "strength.lock", "shock.entry"])
+def test_a_group_of_values_has_no_unit_of_its_own(name):
+    """Stresses, lengths and margins: no one unit is that of all."""
+    units = {unit_of(value) for value in group_of() if value.startswith(f"{name}.")}
+    assert len(units) > 1
+    assert [one.unit for one in meanings(name)] == ["that of each value"]
 
 
 def test_no_proof_is_of_nothing():

@@ -143,6 +143,21 @@ def test_a_bar_shows_what_is_left_and_goes(capsys, monkeypatch):
     assert all(not part.strip() for part in end)
 
 
+def test_one_item_shows_the_progress_within_it(capsys, monkeypatch):
+    """A bar of one item would stand still until the end."""
+    clock = iter([0.0, 2.0, 3.0])
+    monkeypatch.setattr("geneva_cli.output.bar.time.monotonic", lambda: next(clock))
+    monkeypatch.setattr("geneva_cli.output.bar._columns", lambda: 60)
+    progress.show_with(TextBar)
+    try:
+        outer = (len([*progress.tracked("ab", "steps", 2)]) for _ in range(1))
+        assert [*progress.tracked(outer, "specs", 1)] == [2]
+    finally:
+        progress.show_with(None)
+    shown = capsys.readouterr().err
+    assert "1 of 2 steps, 0:02 left" in shown and "specs" not in shown
+
+
 @pytest.mark.parametrize("gearing", ["spherical", "external"])
 def test_too_many_rows_that_are_solved(gearing):
     with pytest.raises(GenevaError, match=r"--z 3\.\.10002: that is more than 1000 rows"):

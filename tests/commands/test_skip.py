@@ -8,12 +8,6 @@
 | a table's row, A = 0               | none: closed forms                               |
 """
 
-import importlib.util
-import math
-import os
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 
@@ -143,73 +137,3 @@ def test_the_classic_peaks_need_no_search(engagement, jets):
     assert counted(jets) == 0
     peaks_module.peaks_of(engagement(6, "internal").motion, peaks_module.QUANTITIES)
     assert counted(jets) == 1
-
-
-def loaded(*arguments):
-    code = (
-        "import os, sys\nend = os._exit\n"
-        "def leave(status):\n"
-        "    print(*sys.modules, file=sys.stderr, flush=True)\n    end(status)\n"
-        "os._exit = leave\nsys.argv[0] = 'geneva'\n"
-        "from geneva_cli.app import main\nmain()\n"
-    )
-    found = subprocess.run(
-        [sys.executable, "-c", code, *arguments], capture_output=True, text=True, timeout=60
-    )
-    return {m.removeprefix("geneva_cli.") for m in found.stderr.split() if "geneva_cli." in m}
-
-
-ARRAYS = "kinematics.wheels.classic_arrays"
-MOTION = {
-    "machine.mechanism",
-    "kinematics.engagement",
-    "numerics.jet",
-    "kinematics.wheels.gearing",
-    "analysis.peaks",
-    "numerics.roots",
-    "kinematics.laws",
-    ARRAYS,
-    "analysis.motion",
-}
-
-BEYOND = {  # a plain spec's peaks
-    ARRAYS,
-    "layout.slot_profile",
-    "loads.loads",
-    "verdict.checks",
-    "analysis.motion",
-}
-
-
-def test_a_plain_table_loads_nothing_of_motions():
-    assert not loaded("table", "--z", "3..12") & MOTION
-
-
-def test_a_tables_side_crank_loads_neither_laws_tables_nor_arrays():
-    modules = loaded("table", "--z", "6", "--A", "0.5")
-    assert "machine.drives.side_crank" in modules
-    assert not modules & {ARRAYS, "analysis.motion", "kinematics.laws.table"}
-
-
-def test_a_plain_spec_loads_no_other_drive(tmp_path):
-    spec = os.path.join(tmp_path, "spec.toml")
-    with open(spec, "w") as file:
-        file.write("[wheel]\nz = 6\n")
-    modules = loaded("peaks", spec)
-    assert {"analysis.peaks", "machine.drives.crank"} <= modules
-    kinds = registry.GEARINGS | registry.DRIVES | registry.LAWS
-    others = {path.partition(":")[0] for path in kinds.values()}
-    assert modules & others == {"kinematics.wheels.external", "machine.drives.crank"}
-    assert not modules & BEYOND
-
-
-def test_every_module_that_must_not_be_loaded_is_one():
-    for module in MOTION | BEYOND:
-        assert importlib.util.find_spec(f"geneva_cli.{module}"), module
-
-
-def test_a_count_would_be_noticed(engagement, jets):
-    s = engagement(6, A=0.6)
-    s.motion(np.zeros(7))
-    s.motion(math.pi)
-    assert counted(jets) == 8

@@ -8,17 +8,16 @@ import pytest
 from typer.testing import CliRunner
 
 from geneva_cli import Counter, Crank, Design, Load, SideCrank, Size
-from geneva_cli.analysis.impacts import start_impact
+from geneva_cli.analysis.impacts import start_impacts
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.outlines.counter import counter_sizes
-from geneva_cli.verdict.quantities.counter import counter
 from geneva_cli.verdict.quantities.designs import Designs
 from geneva_cli.verdict.quantities.loads import sizing
-from geneva_cli.verdict.quantities.motion import peaks, timing
+from geneva_cli.verdict.quantities.motion import counter, peaks, timing
 
 ODOMETER = Design(Counter(4, driver_teeth=20))
 SIZE = Size(face_width_mm=3.0)
@@ -98,14 +97,14 @@ def test_the_impact():
     search for it ends within 1e-12.
     """
     dw = 2.5 * 2.0 * math.pi  # 60 rpm
-    impact = start_impact(HEAVY.mechanism)
+    impact = start_impacts(HEAVY.mechanism).only
     assert impact is not None and impact.force_N is not None
     assert (impact.at_deg, impact.jump) == (-18.0, 2.5)
     assert impact.moment_Nms == pytest.approx(1e-6 * dw, rel=1e-14)
     assert impact.force_N == pytest.approx(dw * math.sqrt(14e9 * 3e-3 * 1e-6), rel=1e-12)
     (notice,) = [text for text in HEAVY.warnings if text.name == "speed-jumps"]
     assert "1.571e-05 N m s" in notice and "0.0001234 J" in notice and "101.8 N" in notice
-    assert start_impact(Design(Counter(4)).mechanism).moment_Nms is None
+    assert start_impacts(Design(Counter(4)).mechanism).only.moment_Nms is None
 
 
 def test_a_row_of_number_wheels():

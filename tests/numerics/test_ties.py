@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from geneva_cli.numerics.ties import quartiles
+from geneva_cli.numerics.greatest import quartiles
 
 
 def test_quartiles_of_many_rows():

@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+from contextlib import closing
 
 import pytest
 
@@ -25,7 +26,7 @@ def read(path):
 
 def begun(path, *blocks, header=HEADER):
     """What a stopped run leaves."""
-    with GrowingFile(path, header, KEY, False) as file:
+    with closing(GrowingFile(path, header, KEY, False)) as file:
         for block in blocks:
             file.append(block)
 
@@ -41,7 +42,7 @@ def change(path, old, new):
 
 def resumed(path, *blocks, header=HEADER):
     """The rows that were there, what was said, and the file after ``blocks`` are added."""
-    with GrowingFile(path, header, KEY, True) as file:
+    with closing(GrowingFile(path, header, KEY, True)) as file:
         done, message = file.done, file.message
         for block in blocks:
             file.append(block)
@@ -53,7 +54,7 @@ def test_it_is_there_only_when_it_is_whole(path):
     with open(path, "w") as file:
         file.write("old")
     os.chmod(path, 0o640)
-    with GrowingFile(path, HEADER, KEY, False) as file:
+    with closing(GrowingFile(path, HEADER, KEY, False)) as file:
         file.append("1,2\n")
         assert read(path) == "old"
         file.finish()
@@ -115,12 +116,12 @@ def test_a_block_that_is_lost_doubled_or_moved_is_noticed(path):
     for order, kept in (([0, 1, 3], 2), ([0, 1, 1, 2, 3], 2), ([0, 2, 1, 3], 0), ([1, 2, 3], 0)):
         with open(path + ".geneva", "wb") as file:
             file.write(start + b"".join(blocks[i] for i in order))
-        with GrowingFile(path, HEADER, KEY, True) as file:
+        with closing(GrowingFile(path, HEADER, KEY, True)) as file:
             assert file.done == kept
 
 
 def test_a_state_that_is_changed_meanwhile_does_not_become_the_file(path):
-    with GrowingFile(path, HEADER, KEY, False) as file:
+    with closing(GrowingFile(path, HEADER, KEY, False)) as file:
         for block in THREE:
             file.append(block)
         change(path, b"5,6", b"5,7")
@@ -175,8 +176,9 @@ def test_an_input_of_the_name_of_the_state_is_refused(path):
 
 HOLD = """
 import sys
+from contextlib import closing
 from geneva_cli.output.growing import GrowingFile
-with GrowingFile(sys.argv[1], "a,b\\n", "request", False) as file:
+with closing(GrowingFile(sys.argv[1], "a,b\\n", "request", False)) as file:
     file.append("1,2\\n")
     print("held", flush=True)
     sys.stdin.readline()
@@ -214,7 +216,7 @@ def test_a_killed_run_holds_nothing(path, other_run):
 
 def test_without_resume_it_begins_again(path):
     begun(path, "1,2\n")
-    with GrowingFile(path, HEADER, KEY, False) as file:
+    with closing(GrowingFile(path, HEADER, KEY, False)) as file:
         assert file.done == 0
         file.finish()
     assert read(path) == HEADER
@@ -229,14 +231,14 @@ def test_it_does_not_go_on_for_another_request(path):
 
 def whole(path, *lines):
     """A file made by a run that may be asked for again."""
-    with GrowingFile(path, HEADER, KEY, True) as file:
+    with closing(GrowingFile(path, HEADER, KEY, True)) as file:
         for line in lines:
             file.append(line)
         file.finish()
 
 
 def test_where_there_is_nothing_to_go_on_from_it_begins(path):
-    with GrowingFile(path, HEADER, KEY, True) as file:
+    with closing(GrowingFile(path, HEADER, KEY, True)) as file:
         assert "nothing to continue for rows.csv; from the first row" in file.message
         assert (file.done, file.is_whole) == (0, False)
         file.append("1,2\n")
@@ -246,7 +248,7 @@ def test_where_there_is_nothing_to_go_on_from_it_begins(path):
 
 def test_of_a_whole_file_there_is_nothing_to_do(path):
     whole(path, "1,2\n")
-    with GrowingFile(path, HEADER, KEY, True) as file:
+    with closing(GrowingFile(path, HEADER, KEY, True)) as file:
         assert file.is_whole
         assert file.message == "--resume: rows.csv is whole already"
     assert read(path) == "a,b\n1,2\n"
@@ -259,7 +261,7 @@ def test_a_file_of_something_else_or_changed_since_is_not_taken_for_whole(path, 
     if key == KEY:
         with open(path, "a") as file:
             file.write("3,4\n")
-    with GrowingFile(path, HEADER, key, True) as file:
+    with closing(GrowingFile(path, HEADER, key, True)) as file:
         assert not file.is_whole
         file.append("5,6\n")
         file.finish()
@@ -275,7 +277,7 @@ def test_a_lost_file_is_made_again(path):
 
 def test_without_resume_nothing_is_left_beside_the_file(path):
     whole(path, "1,2\n")
-    with GrowingFile(path, HEADER, KEY, False) as file:
+    with closing(GrowingFile(path, HEADER, KEY, False)) as file:
         file.finish()
     assert os.listdir(os.path.dirname(path)) == ["rows.csv"]
 

@@ -5,6 +5,7 @@ import re
 from xml.etree import ElementTree
 
 import pytest
+import repo
 from drawing_witness import apart, drawn_shapes, svg_path, svg_shapes
 from shapely.geometry import Polygon
 from test_svg import luminance
@@ -14,7 +15,7 @@ from words import Drive, Spec, Wheel
 from geneva_cli.app import app
 from geneva_cli.curves.mass import face
 from geneva_cli.curves.plates import plates
-from geneva_cli.design import Design
+from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import draw
 from geneva_cli.output.formats import FILLS
@@ -107,6 +108,14 @@ def test_a_fill_is_what_the_plates_are(assembly):
         assert area == pytest.approx(face(plate).area, rel=1e-3)  # of 96 chords a piece
     # the layers themselves are what they are without it
     assert apart(svg_shapes("".join(chunks(assembly, "mm"))), drawn_shapes(assembly)) < 1e-8
+
+
+def test_wheels_in_a_row_are_filled_once():
+    """One tint for all gears, one for all pairs of teeth and one for all rims; two for pinions."""
+    counter = load(str(repo.DESIGNS / "odometer.toml")).drawing("assembly", 0.01)
+    fills = [path.get("fill") for path in groups(root(counter))["FILL"]]
+    counts = {layer: fills.count(INKS[layer].rgb) for layer in ("CRANK", "WHEEL", "FRAME")}
+    assert counts == {"CRANK": 3, "WHEEL": 2, "FRAME": 1}
 
 
 def test_fills(assembly):

@@ -6,6 +6,7 @@ by point.
 
 import functools
 import math
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ from geneva_cli import Counter, Design, Size, load
 from geneva_cli.curves import fit
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.gear_teeth import involute
+from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Group, Stack
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
@@ -341,7 +343,7 @@ def test_what_does_not_fit_is_refused_with_its_key():
         design = Design(spec, size=size)
         (check,) = [one for one in design.checks if one.name == "parts"]
         assert check.passes is False and text in check.why, text
-    with pytest.raises(GenevaError, match="not available for a wheel, which has wheel, crank, "):
+    with pytest.raises(GenevaError, match="this machine has none, only wheel, crank, "):
         Design(Counter(4)).drawing("links")
 
 
@@ -365,7 +367,7 @@ def test_the_page_turns_the_number_wheel_with_the_driver():
     """By a tenth of a turn with two of its teeth, in the driver's sense, and it rests with both."""
     shown = scene(WHOLE["plain"])
     bodies = {body.name: body.angle for body in shown.bodies}
-    number, driver, pinion = (bodies[name] for name in ("number wheel", "crank", "wheel"))
+    number, driver, pinion = (bodies[name] for name in ("number wheel 2", "driver", "pinion 1"))
     for t in (0.0, 9.0, 18.0, 36.0):  # from entry on
         moved = [value_at(one, t) - value_at(one, 0.0) for one in (number, driver, pinion)]
         assert moved[0] == pytest.approx(-math.radians(t), abs=2e-7)
@@ -374,3 +376,23 @@ def test_the_page_turns_the_number_wheel_with_the_driver():
     assert value_at(number, 200.0) == pytest.approx(value_at(number, 36.0), abs=1e-12)
     # a space of it lies about the pinion's wide tooth half-way
     assert value_at(number, 18.0) == pytest.approx(math.pi, abs=2e-7)
+
+
+def test_the_page_has_each_pinion_and_number_wheel():
+    """Five stations, apart. A carry reaches the k-th pinion in one of 10^(k - 1) turns."""
+    shown = scene(WHOLE["odometer"])
+    every = {body.name: body.every for body in shown.bodies}
+    for k in range(1, 6):
+        assert every[f"pinion {k}"] == every[f"number wheel {k + 1}"] == 10 ** (k - 1)
+    # a number wheel's two teeth stand in the next station, and move with its gear
+    assert [every[f"teeth of number wheel {k}"] for k in range(2, 6)] == [1, 10, 100, 1000]
+    assert every["driver"] == 1 and len(every) == 15
+    centres = [body.centre for body in shown.bodies if body.name.startswith("number")]
+    tips = max(max(abs(v) for v in bounds(s)) for s in WHOLE["odometer"].drawing("crank").shapes)
+    assert min(math.dist(a, b) for a, b in combinations(centres, 2)) > 2.0 * tips
+    words = [state.words for state in shown.states]
+    assert words == [
+        "the driver moves the first pinion; at a carry number wheels move the others",
+        "the pinion rests, locked by the rim",
+    ]
+    assert shown.figure.panels[0].y.label == "Speed of the pinion, relative to the input"

@@ -25,7 +25,7 @@ from geneva_cli.study.animation.scene import scene
 from geneva_cli.study.animation.turn import MachineTurn
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.checks import single_check
-from geneva_cli.verdict.checks.arrival import stopping_torque
+from geneva_cli.verdict.checks.shocks import stopping_torque
 from geneva_cli.verdict.cycle_warnings import cycle_warnings
 
 MACHINES = {

@@ -4,7 +4,9 @@ The parts are compared with their hand calculation, and the sheet's dimensions w
 """
 
 import math
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 import repo
 from drawing_witness import vertices
@@ -17,6 +19,7 @@ from geneva_cli.curves.plates import plates, solids
 from geneva_cli.curves.shapes import Arc, Circle
 from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.drawings.model import PartsModel
+from geneva_cli.drawings.sheet.bores import bored
 from geneva_cli.drawings.sheet.crank import draw_arm, draw_disc, draw_roller
 from geneva_cli.drawings.sheet.links import draw_link
 from geneva_cli.drawings.sheet.standing import draw_frame
@@ -25,9 +28,10 @@ from geneva_cli.drawings.sheet.wheel import draw_wheel
 from geneva_cli.drawings.sphere.arm_drawing import arm_cone
 from geneva_cli.drawings.sphere.drawings import wheel_cone
 from geneva_cli.layout.bores import RoundBore, bore_of
-from geneva_cli.layout.reliefs import arc_floor
+from geneva_cli.layout.reliefs import Relief, arc_floor
 from geneva_cli.layout.sizes import machine_sizes
 from geneva_cli.layout.stressed import stressed
+from geneva_cli.outlines.crank import _widened
 from geneva_cli.parts.all_shafts import passing_arm
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.counter_parts import CounterParts
@@ -434,8 +438,8 @@ def test_the_crank_of_a_sphere():
     assert spans["arm"] == (105.5, 115.5)
     assert parts.ball.shafts_end_mm(size) == 115.75
     # a cap about a hub leaves a wall as thick as the hub's, or the least one
-    for bored, edge in ((50.0, 70.0), (59.0, 62.0)):
-        assert parts.ball.cap(60.0, bored, 2.0) == pytest.approx(math.asin(edge / 105.5))
+    for bore, edge in ((50.0, 70.0), (59.0, 62.0)):
+        assert parts.ball.cap(60.0, bore, 2.0) == pytest.approx(math.asin(edge / 105.5))
 
 
 def test_cones_that_shells_are_laid_flat_on():
@@ -533,3 +537,59 @@ def test_a_low_mouth_is_raised_by_a_fifth():
     assert sorted({round(one, 6) for one in about_axis}) == [
         pytest.approx(one, abs=1e-6) for one in (raised, rim)
     ]
+
+
+class Swept:
+    """Points of the wheel in a crank's frame, and the motions that they were asked for."""
+
+    def __init__(self, *polar):
+        self.motions = []
+        self.points = np.array([[r * math.cos(a), r * math.sin(a)] for r, a in polar]).T
+
+    def __call__(self, motion, every):
+        self.motions.append((motion, every))
+        return tuple(self.points)
+
+
+@pytest.mark.parametrize(
+    ("at", "start", "end"),
+    [
+        ((), 2.6, 3.4),  # within the relief, which ends 0.4 from its middle
+        ((3.7,), 2.6, 3.75),  # 0.7 after the middle, and a clearance of 2 mm at 40 mm: 0.05
+        ((2.3,), 2.25, 3.4),
+        ((2.3, 3.7, 2.5, 3.5), 2.25, 3.75),  # the farthest to each side
+        ((-2.6,), 2.6, 2.0 * math.pi - 2.55),  # -2.6 is 3.68
+    ],
+)
+def test_a_relief_is_as_wide_as_the_wheel_reaches(at, start, end):
+    """A disc of 40 mm with a relief from 2.6 to 3.4 radians, for motion 1."""
+    swept = Swept((30.0, 3.0), (20.0, 2.7), (20.0, 3.3), *((35.0, a) for a in at))
+    sizes = SimpleNamespace(lock=40.0, relief=2.0)
+    wide = _widened(sizes, Relief(2.6, 3.4, 1), swept)
+    # one digit of a direction is 4e-16
+    assert wide == pytest.approx((start, end, 1), abs=2e-15)
+    assert swept.motions == [(1, 1)]
+
+
+@pytest.mark.parametrize("direction", [0.0, 2.0])
+@pytest.mark.parametrize(
+    ("keys", "far", "text"),
+    [
+        # DIN 6885-1: a bore of 20 mm has a keyway 2.8 mm above its circle
+        ({"crank_keyway": "DIN 6885-1"}, 12.8, "keyway 6 JS9, 22.8 over bore (DIN 6885-1)"),
+        # a flat 2 mm below the circle, which is 18 mm from the far side
+        ({"crank_bore": "D", "crank_flat_mm": 2.0}, 8.0, "flat, 18 to the far side"),
+        ({"crank_bore": "hex"}, 10.0, "hexagon 20 across flats"),
+    ],
+)
+def test_the_leader_of_a_bore_points_at_the_middle_of_its_shape(keys, far, text, direction):
+    """The keyway's top, the flat, or a side: its middle lies in the bore's direction."""
+    size, view = Size(crank_bore_mm=20.0, **keys), View("", 0.5)
+    bored(view, [bore_of(size, "crank", 10.0).shape("BORE", direction)], size, "crank")
+    (leader,) = [one for one in view.measures if one.kind == "note"]
+    assert leader.label.text == text
+    middle = far * math.cos(direction), far * math.sin(direction)
+    assert leader.points == (pytest.approx([0.5 * x for x in middle], abs=1e-12),)
+    angle = {0.0: "0", 2.0: "114.59"}[direction]
+    first = text.split()[0].rstrip(",")
+    assert view.notes == [f"{first} at {angle}°, counterclockwise from the right"]

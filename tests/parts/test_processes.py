@@ -20,7 +20,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.processes import PROCESSES
 from geneva_cli.spec.workshops import deviation_mm, workshop
 from geneva_cli.verdict.checks.check import Check
-from geneva_cli.verdict.report.inputs import inputs
+from geneva_cli.verdict.report.sizes import inputs
 from geneva_cli.verdict.report.sizes import sizes as report_sizes
 
 

@@ -20,7 +20,7 @@ from geneva_cli.outlines.rack import locking_sector, rack_contour, rack_sizes
 from geneva_cli.outlines.rack_outlines import turned_rack
 from geneva_cli.parts.rack_stressed import rack_stressed
 from geneva_cli.verdict.quantities.designs import Designs
-from geneva_cli.verdict.quantities.guide import guide
+from geneva_cli.verdict.quantities.strength import guide
 
 R, r = 50.0, 6.0
 
@@ -167,9 +167,9 @@ def test_parts_are_written(name, tmp_path):
 
 
 def test_other_parts_are_refused_with_those_that_there_are():
-    with pytest.raises(GenevaError, match="has slot, wheel, crank, arm, frame, guide, parts"):
+    with pytest.raises(GenevaError, match="only slot, wheel, crank, arm, frame, guide, parts"):
         design().drawing("links")
-    with pytest.raises(GenevaError, match="guide is not available for a wheel"):
+    with pytest.raises(GenevaError, match="guide: this machine has none, only slot, "):
         Design(External(6)).drawing("guide")
 
 

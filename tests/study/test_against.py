@@ -61,6 +61,20 @@ def test_s_curve(cruise, ramp):
                 assert float(jet[2]) == pytest.approx(float(acceleration(u)), abs=1e-13)
 
 
+@pytest.mark.parametrize(
+    ("design", "holder", "impact"),
+    [
+        ("turret", "locking disc", "if R/L is off"),
+        ("odometer", "locking rim", "in every step"),
+        ("four-bar-z4", "detent", "if R/L is off"),
+    ],
+)
+def test_what_holds_the_dwell(design, holder, impact):
+    """A counter's rim slides on wide teeth, and its speed jumps; a four-bar needs a device."""
+    own = columns(f"designs/{design}.toml")["geneva"]
+    assert (own["holds_the_dwell_by"], own["impact_at_entry"]) == (holder, impact)
+
+
 def test_same_step_and_time():
     """All three have the motion's time, the dwell and the step of the design."""
     own = columns()

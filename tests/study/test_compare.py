@@ -64,6 +64,24 @@ def test_each_column_is_the_designs_own_report():
         assert all(column[q] == report[q] for q in shared)
 
 
+def test_keys_in_which_specs_differ(tmp_path):
+    """The keys of both drives. Keys that the specs share, or that --vary sets, have no row."""
+    for name, A in (("near", 0.3), ("far", 0.5)):
+        (tmp_path / f"{name}.toml").write_text(
+            '[wheel]\nz = 4\n[drive]\nkind = "epicyclic"\nplanet_ratio = "shockless"\n'
+            f'[drive.before]\nkind = "side-crank"\nA = {A}\n'
+        )
+    near, far = (str(tmp_path / f"{name}.toml") for name in ("near", "far"))
+    rows = by_quantity(compare([near, far, path("turret.toml")]))
+    cells = {name: list(row.values())[1:] for name, row in rows.items()}
+    assert cells["drive.before.kind"] == ["side-crank", "side-crank", None, True]
+    assert cells["drive.before.A"] == [0.3, 0.5, None, True]
+    assert cells["drive.planet_ratio"] == ["shockless", "shockless", None, True]
+    pair = by_quantity(compare([near, far]))
+    assert "drive.before.A" in pair and "drive.planet_ratio" not in pair
+    assert "drive.before.A" not in by_quantity(compare([near], vary=["drive.before.A=0.3,0.5"]))
+
+
 def test_a_single_design_differs_from_none():
     table = compare([path("turret.toml")], picks=["k", "tau"])
     assert table.names == ("quantity", "turret")

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.study.goals import Objective, objective
+from geneva_cli.study.sweep.constraints import Objective, objective
 from geneva_cli.study.sweep.front import best, front
 
 

@@ -12,12 +12,12 @@ from typer.testing import CliRunner
 from geneva_cli.app import app
 from geneva_cli.design import Design, load
 from geneva_cli.document import FAILS, PASSES, WARNS, Summary, SummaryLine
+from geneva_cli.loads.makers_form import RATED_kW, RecommendedMotor
 from geneva_cli.output.summary import TextStyle, chunks
 from geneva_cli.study.summary.loads import of_loads
 from geneva_cli.study.summary.report import of_report
 from geneva_cli.study.summary.tolerance import of_tolerance
 from geneva_cli.study.summary.vibration import of_vibration
-from geneva_cli.verdict.motor import RATED_kW, RecommendedMotor
 
 pytestmark = pytest.mark.usefixtures("made_once")
 TURRET = str(repo.DESIGNS / "turret.toml")
@@ -152,6 +152,15 @@ def test_no_line_is_wider_than_the_window(name: str, width: int) -> None:
                 assert words <= set(text.replace("\u00a0", " ").split()) | {
                     word for word in words if " " in word
                 }
+
+
+@pytest.mark.parametrize("width", range(20, 44))
+def test_a_value_and_its_unit_stand_on_one_line(width: int) -> None:
+    text = "up to 1.099 N m on the input and 9.4e-07 kg m² of the load at -61.18 deg of 7 mm"
+    lines = shown(Summary("fine", (SummaryLine("pin", text),), PASSES), width).splitlines()[2:]
+    assert " ".join(line.strip() for line in lines) == f"pin  {text}"
+    for value in ("1.099 N m", "9.4e-07 kg m²", "-61.18 deg", "7 mm"):
+        assert any(value in line for line in lines)
 
 
 def test_an_ascii_terminal_gets_ascii() -> None:

@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import closing
 from functools import lru_cache
 
 import pytest
@@ -127,7 +128,7 @@ def test_a_stopped_sweep_goes_on(tmp_path):
     assert os.listdir(tmp_path) == ["rows.csv"]
     state = tmp_path / "rows.csv.geneva"
     header, *rows = whole.splitlines(keepends=True)
-    with GrowingFile(str(file), header, request(SPEC, GRID).key, False) as left:
+    with closing(GrowingFile(str(file), header, request(SPEC, GRID).key, False)) as left:
         left.append("".join(rows[:2]))
         left.append(rows[2])
     half = state.read_bytes()[:-20]

@@ -68,9 +68,9 @@ def test_what_is_between_follows_from_the_key():
         ("drive.A=nan,1", "no finite number"),
         ("drive.A=inf..1:2", "no finite number"),
         ("drive.A=0:1:0.1", "a range is LOW..HIGH or LOW..HIGH:STEP"),
-        ("drive.A=..1:0.1", "'' is no number"),
-        ("drive.A=0..x:2", "'x' is no number"),
-        ("drive.A=0..1:2:3", "'2:3' is no number"),
+        ("drive.A=..1:0.1", '"" is no number; a range is'),
+        ("drive.A=0..x:2", '"x" is no number'),
+        ("drive.A=0..1:2:3", '"2:3" is no number'),
     ],
 )
 def test_what_is_none_is_refused(text, said):

@@ -20,18 +20,20 @@ from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.mechanism import build
+from geneva_cli.output.terminal import chunks
+from geneva_cli.output.window import Window
 from geneva_cli.synthesis.built import Built
 from geneva_cli.synthesis.families import closed
 from geneva_cli.synthesis.families import limit as limits
 from geneva_cli.synthesis.parts_data import parts_data
 from geneva_cli.synthesis.reading import read_target
 from geneva_cli.synthesis.rows import NEAR_DEG, _groove_failure
-from geneva_cli.synthesis.search import search, synthesis
+from geneva_cli.synthesis.search import search
 from geneva_cli.synthesis.shown import for_people, for_terminal
 from geneva_cli.synthesis.table import NAMES, synthesis_table, turned
 from geneva_cli.synthesis.written import chosen, commented
 from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.checks.groove import GROOVE_MAX_DEG, groove_pressure
+from geneva_cli.verdict.checks.motion import GROOVE_MAX_DEG, groove_pressure
 
 pytestmark = pytest.mark.usefixtures("few_four_bars")
 GEARINGS = ("external", "internal")
@@ -48,6 +50,10 @@ def searched(**options):
     """A target and what there is for it, searched for once."""
     said = {k: tuple(v) if isinstance(v, list) else v for k, v in options.items()}
     return _searched(tuple(sorted(said.items())))
+
+
+def listed(target):
+    return [(row.spec, row.candidate) for row in search(target).rows]
 
 
 def candidates(**options):
@@ -518,7 +524,7 @@ def test_what_cannot_be_written(words, wants):
 
 def test_a_limit_comes_along():
     target = read_target(subject_to=["acceleration.max <= 0.5"], z="6")
-    text = written(target, synthesis(target), 1)
+    text = written(target, listed(target), 1)
     assert "[limits]\nacceleration_max = 0.5" in text
 
 
@@ -580,7 +586,7 @@ def test_the_angle_of_the_shafts_in_50_digits():
 def test_the_shortest_extra_dwell(tmp_path):
     """-33, not -32.99999999999997; and it still makes the motion."""
     target = read_target(z="8", cycle="1.5", motion_s="0.7")
-    found = synthesis(target)
+    found = listed(target)
     number = next(i for i, (_, w) in enumerate(found, 1) if w.law and w.gearing == "external")
     text = written(target, found, number)
     assert "alpha0_deg = -33.0 " in text
@@ -607,7 +613,7 @@ def test_the_roller_that_fills_the_way_in_and_out():
     """z = 6, two rollers in 54 degrees each: the two ways are 10.97 mm apart, the slot as wide."""
     (spec, candidate) = next(
         (s, w)
-        for s, w in synthesis(read_target(tau="0.3", z="6"))
+        for s, w in listed(read_target(tau="0.3", z="6"))
         if w.law and w.rollers == 2 and w.drive == "crank"
     )
     assert spec.size.roller_radius_mm == 5.5
@@ -710,6 +716,17 @@ def test_where_a_cycle_is_asked_for_rows_are_ranked_by_time():
     assert [row["no"] for row in seen.to_rows()] == [1, 2, 3]
     assert seen.title.endswith(f" The first 3 rows. All {len(rows)} rows: -o FILE.csv")
     assert for_terminal(table, len(rows)).title == table.title
+
+
+def test_machines_of_one_name_show_their_rollers_at_60_columns():
+    """A crank of one roller and one of two: they differ in the column that is hidden before."""
+    table = for_terminal(synthesis_table(read_target(z="6", cycle="1.5"), 0), 20)
+    lines = "".join(chunks(table, Window(60))).split("\n\n")[2].splitlines()
+    assert lines[0].split() == ["no", "gearing", "rollers", "machine"]
+    rows = [line.split(maxsplit=1)[1] for line in lines[1:]]
+    assert len({*rows}) == len(rows) == len(table)
+    one = for_terminal(synthesis_table(read_target(z="6", motion_deg="100..180"), 0), 20)
+    assert "rollers" not in "".join(chunks(one, Window(60))).split("\n\n")[2].splitlines()[0]
 
 
 def test_the_lowest_of_a_range_is_the_lowest_in_time():

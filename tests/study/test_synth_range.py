@@ -17,9 +17,9 @@ from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.output.text import chunks
 from geneva_cli.spec.tables import Limits, Load, Size
-from geneva_cli.study.goals import Objective, objective
+from geneva_cli.study.batches import columns
 from geneva_cli.study.spans import AllowedSpan
-from geneva_cli.study.sweep.columns import columns
+from geneva_cli.study.sweep.constraints import Objective, objective
 from geneva_cli.synthesis.reading import SPANS, read_target, span
 from geneva_cli.synthesis.search import search
 from geneva_cli.synthesis.shown import for_people

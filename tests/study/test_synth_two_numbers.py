@@ -7,7 +7,7 @@ import pytest
 from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli.machine.many import many
-from geneva_cli.study.sweep.columns import columns
+from geneva_cli.study.batches import columns
 from geneva_cli.synthesis.reading import read_target
 from geneva_cli.synthesis.search import search
 

@@ -29,7 +29,7 @@ from geneva_cli import (
     Tuned,
     load,
 )
-from geneva_cli.analysis.impacts import entry_impact
+from geneva_cli.analysis.impacts import entry_impacts
 from geneva_cli.layout.sizes import built
 from geneva_cli.machine.both_ways import backwards, every_way
 from geneva_cli.machine.many import many
@@ -222,10 +222,10 @@ def test_advice_serves_both_directions():
 def test_impacts_at_the_entry_of_either_end():
     """The worst of one tolerance: a jump at entry of l' - l over the distance there."""
     of = Design(OFFSET, BOTH, tolerance=Tolerance(crank_radius_mm=0.05))
-    jumps = [entry_impact(m).jump for m in every_way(of.mechanism)]
+    jumps = [entry_impacts(m).only.jump for m in every_way(of.mechanism)]
     assert abs(jumps[1]) != pytest.approx(abs(jumps[0]), rel=0.01)
     other = Design(External(6, offset_mm=-12.0), tolerance=Tolerance(crank_radius_mm=0.05))
-    assert jumps[1] == entry_impact(other.mechanism).jump
+    assert jumps[1] == entry_impacts(other.mechanism).only.jump
 
 
 def test_warnings_name_what_differs():

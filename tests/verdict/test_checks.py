@@ -22,7 +22,7 @@ from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.verdict.checks import Check, checks
 from geneva_cli.verdict.checks.registry import standing_checks
 from geneva_cli.verdict.motion_warnings import motion_warnings
-from geneva_cli.verdict.turn_warnings import turn_warnings
+from geneva_cli.verdict.parts_warnings import turn_warnings
 
 DESIGNS = repo.DESIGNS
 

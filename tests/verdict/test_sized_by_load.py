@@ -18,14 +18,13 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.keyways import DIN_6885_1
 from geneva_cli.layout.sizes import sized
 from geneva_cli.layout.stressed import stressed
-from geneva_cli.loads.strength.allowed import shear_allowed_MPa
 from geneva_cli.loads.strength.arm import (
     ArmDimensions,
     arm_stress_MPa,
     least_thickness_mm,
     torsion_MPa,
 )
-from geneva_cli.loads.strength.keys import KeyDimensions, key_stress
+from geneva_cli.loads.strength.keys import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.loads.strength.part_loads import part_loads
 from geneva_cli.machine.many import many
 from geneva_cli.machine.materials import wheel_material

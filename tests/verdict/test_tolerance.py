@@ -29,7 +29,7 @@ from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.laws.standard import Cycloidal
 from geneva_cli.kinematics.motion import Motion
-from geneva_cli.verdict.tolerance.recesses import locks, sphere_locks
+from geneva_cli.verdict.tolerance.study import locks, sphere_locks
 from tests.repo import ROOT
 
 pytestmark = pytest.mark.usefixtures("made_once")

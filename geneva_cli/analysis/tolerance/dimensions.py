@@ -8,18 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import product
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import all_true
-from geneva_cli.numerics.jet import Jet, Number
+from geneva_cli.numerics.jet import Array, Jet, Number
 from geneva_cli.numerics.sobol import Sobol
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 class Deviations(NamedTuple):

@@ -12,7 +12,7 @@ The slopes are those of a plain crank. e is the distance of the slot's axis from
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,10 +22,7 @@ from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import array, choose, choose_record, parameter, size
-from geneva_cli.numerics.jet import Jet, Number, atan2, sqrt
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.jet import Array, Jet, Number, atan2, sqrt
 
 MOTION_SAMPLES = 361  # input angles at which a motion is sampled
 

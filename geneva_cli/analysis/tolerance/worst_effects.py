@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from itertools import product
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -38,10 +38,7 @@ from geneva_cli.analysis.tolerance.motion_error import (
 )
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import array, blocks, joined, parameter
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, array, blocks, joined, parameter
 
 
 class MotionPlays(NamedTuple):

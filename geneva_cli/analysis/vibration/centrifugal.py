@@ -23,24 +23,21 @@ as U grows with its square.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.carried import MM, inertia_kgm2, unbalance_kgm
+from geneva_cli.analysis.vibration.panels import Panels
 from geneva_cli.analysis.vibration.shape import motion_shapes
 from geneva_cli.analysis.vibration.swing import Swing, residual_swing
+from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.jet import sin_cos
+from geneva_cli.numerics.arrays import Array, Complex, Whole
+from geneva_cli.numerics.jet import Jet, sin_cos
 from geneva_cli.numerics.quadrature import rule
-
-if TYPE_CHECKING:
-    from geneva_cli.analysis.vibration.panels import Panels
-    from geneva_cli.kinematics.engagement import Engagement
-    from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.numerics.arrays import Array, Complex, Whole
-    from geneva_cli.numerics.jet import Jet
 
 STIFFEST = 0.2  # U/k up to which the stiffness of the unbalance counts by its mean
 

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from geneva_cli.analysis.vibration.panels import NODES, SERIES, Panels, X
 from geneva_cli.analysis.vibration.swing import Swing
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Complex, Whole
+from geneva_cli.numerics.arrays import Array, Complex, Whole
 
 legendre = np.polynomial.legendre
 # values at the nodes -> integrals from -1 to each node, and to 1

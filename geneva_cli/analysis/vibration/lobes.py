@@ -9,15 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.vibration.panels import Panels
-from geneva_cli.numerics.arrays import joined
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Whole
+from geneva_cli.numerics.arrays import Array, Whole, joined
 
 _chebyshev = np.polynomial.chebyshev
 

@@ -12,11 +12,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Mask, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Whole
 
-    # Places u (p, k) of the motions (p,), and the highest order -> derivatives 1, 2, ...: (n, p,
-    # k).
+if TYPE_CHECKING:
     Derivatives = Callable[[Array, Whole, int], Array]
 
 NODES = 32  # of Gauss's rule on a panel

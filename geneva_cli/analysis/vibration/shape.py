@@ -3,27 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.analysis.vibration.panels import Panels, panels_of
-from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.kinematics.engagement import Engagement, WheelMotion
+from geneva_cli.kinematics.laws.law import Law
 from geneva_cli.machine.many import selection
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Number, read_only
+from geneva_cli.numerics.arrays import Array, Number, Whole, read_only
+from geneva_cli.numerics.jet import Jet
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from geneva_cli.kinematics.engagement import WheelMotion
-    from geneva_cli.kinematics.laws.law import Law
-    from geneva_cli.numerics.arrays import Array, Whole
-    from geneva_cli.numerics.jet import Jet
-
-    # The wheel's angles, and the numbers of their designs -> another value of each.
     AngleFunction = Callable[[Jet, Whole], Jet]
 
 

@@ -22,7 +22,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -44,11 +44,8 @@ from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import array, parameter
+from geneva_cli.numerics.arrays import Array, Complex, Whole, array, parameter
 from geneva_cli.spec.rules import is_array
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Complex, Whole
 
 SOFTER, STIFFER = math.sqrt(0.8), math.sqrt(1.2)  # the natural frequency's at 20 % of stiffness
 SLOWER, FASTER = 0.5, 2.0  # range of speeds over the design's

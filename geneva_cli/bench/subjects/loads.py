@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -14,10 +14,8 @@ from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.jet import Array
 from geneva_cli.spec.tables import Load, Size
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 Z = 8
 COUNT = 360  # input angles

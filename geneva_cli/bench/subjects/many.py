@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -30,9 +30,7 @@ from geneva_cli.bench.method import Method, Subject, Task, missing
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.jet import Array
 
 PEAK_QUANTITIES = ("velocity", "acceleration")
 

@@ -5,22 +5,21 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from geneva_cli.bench import motion_of_kinds
 from geneva_cli.bench.formulas import textbook
+from geneva_cli.bench.kinds import KINDS, VariedMachine, values_of
 from geneva_cli.bench.method import Method, Subject, Task, missing
 from geneva_cli.bench.scalar_loop import by_numba, motion_loop
 from geneva_cli.bench.truth import digits, motion
+from geneva_cli.kinematics.engagement import WheelMotion
 from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import DEGREE
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.jet import Array
 
 Z = 3  # the wheel that is hardest for a formula
 
@@ -101,7 +100,7 @@ def subject(quick: bool) -> Subject:
     return Subject(
         f"Motion of a wheel of {Z} slots, and of every machine, at N angles",
         "greatest error, in units of each quantity's peak; of every machine against single angles",
-        [*tasks, *motion_of_kinds.tasks(1_000 if quick else 1_000_000)],
+        [*tasks, *kind_tasks(1_000 if quick else 1_000_000)],
         absent=missing("numexpr", "numba"),
     )
 
@@ -137,9 +136,7 @@ def _task(count: int, what: str, orders: tuple[int, ...]) -> Task:
             "ours, mirrored", count, lambda: engagement.motion.derivatives(mirrored, orders), True
         ),
     ]
-    return motion_of_kinds.angle_task(
-        what, skew, lambda results: _error(results, mirrored, orders), methods
-    )
+    return angle_task(what, skew, lambda results: _error(results, mirrored, orders), methods)
 
 
 def _error(results: Any, input_deg: Array, orders: Sequence[int]) -> float:
@@ -170,3 +167,73 @@ def _peak(k: int) -> float:
     half = 90.0 - 180.0 / Z
     scan = np.linspace(0.0, half, 1001) * DEGREE
     return float(np.abs(stable(math.sin(math.pi / Z), scan, (k,))[0]).max())
+
+
+ORDERS = (1, 2)
+
+
+def kind_tasks(count: int) -> list[Task]:
+    """A task for each machine, over ``count`` angles from entry to exit."""
+    return [_kind_task(kind, count) for kind in KINDS]
+
+
+def _kind_task(kind: VariedMachine, count: int) -> Task:
+    value = values_of(kind, 1)[0].item()
+    motion = build(kind.spec.with_(kind.key, value)).engagements[0].motion
+    angles = np.linspace(motion.entry_deg, motion.exit_deg, count)
+    angles[1] = 0.5 * (angles[0] + angles[1])  # not its own mirror image: no half is copied
+    radians, formula = np.radians(angles), kind.formula and partial(kind.formula, value)
+    methods = [
+        *(
+            [
+                Method(
+                    "a handbook's formulas, in blocks", count, partial(_in_blocks, formula, radians)
+                )
+            ]
+            if formula
+            else []
+        ),
+        Method("jets, whole arrays", count, lambda: _jet_rates(motion, angles)),
+        Method("ours", count, lambda: motion.derivatives(angles, ORDERS), True),
+    ]
+    what = f"{kind.name}: velocity and acceleration"
+    return angle_task(what, angles, lambda results: _kind_error(motion, angles, results), methods)
+
+
+def angle_task(
+    what: str, angles: Array, error: Callable[[Any], float], methods: Sequence[Method]
+) -> Task:
+    """A task over angles in degrees, whose baseline is their sine and cosine."""
+    radians = np.radians(angles)
+    return Task(
+        f"{what} at {len(angles)} angles",
+        f"one np.sin + np.cos over {len(angles)} angles",
+        lambda: (np.sin(radians), np.cos(radians)),
+        error,
+        methods,
+    )
+
+
+def _in_blocks(formula: Callable[[Array], Any], x: Array, size: int = 8192) -> Array:
+    """Velocity and acceleration by a formula in blocks of angles that stay in the cache."""
+    out = np.empty((len(ORDERS), len(x)))
+    for i in range(0, len(x), size):
+        out[:, i : i + size] = formula(x[i : i + size])
+    return out
+
+
+def _jet_rates(motion: WheelMotion, angles: Array) -> list[Any]:
+    """The derivatives from one jet; of a copy, as a motion keeps its latest jet."""
+    return list(motion(angles.copy(), ORDERS[-1]).derivatives()[1:])
+
+
+def _kind_error(motion: WheelMotion, angles: Array, results: Sequence[Any]) -> float:
+    """Greatest difference from the values of single angles, by ``math`` instead of NumPy."""
+    # the error is measured at 50 angles
+    some = np.linspace(0, len(angles) - 1, 50).astype(int)
+    exact = np.array([motion(x, ORDERS[-1]).scalars()[1:] for x in angles[some].tolist()]).T
+    errors = [
+        np.abs(values[some] - own).max() / np.abs(values).max()
+        for values, own in zip(results, exact, strict=True)
+    ]
+    return float(max(errors))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,10 +18,8 @@ from geneva_cli.layout.slot_profile import slot
 from geneva_cli.layout.slot_sampling import chord_errors, nodes
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.jet import Array
 from geneva_cli.spec.tables import Size
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 def even(mechanism: Mechanism, tolerance: float) -> Array:

@@ -19,7 +19,7 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.jet import Array
 from geneva_cli.spec.tables import Load, Shaft, Tolerance
-from geneva_cli.study.sweep.columns import columns
+from geneva_cli.study.batches import columns
 
 
 class LoadedMachine(NamedTuple):

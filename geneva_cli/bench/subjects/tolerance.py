@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -22,10 +22,8 @@ from geneva_cli.bench.method import Method, Subject
 from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.jet import Array
 from geneva_cli.spec.tables import Size
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 Z, L, AT_DEG = 6, 100.0, 20.0
 # centre distance, crank, roller, slot, slot's angle, disc, recess: mm and radians

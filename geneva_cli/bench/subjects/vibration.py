@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -18,9 +18,7 @@ from geneva_cli.analysis.vibration.swing import Swing, residual_swing
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.bench.truth import digits
 from geneva_cli.kinematics import registry
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.jet import Array
 
 CHECKED = 200  # ratios whose error is measured
 LEAST_SHARE = 1e-3  # of the step: errors are over the residual, or over this where it is less

@@ -9,15 +9,13 @@ between the curve's own and the mean of the chords on both sides.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.curves.fit.path import CurvePath, fewest, points_of
 from geneva_cli.curves.shapes import Arc, Line
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array
 
 
 class Arcs(NamedTuple):
@@ -82,8 +80,7 @@ def _errors(arcs: Arcs, points: Array, tangents: Array) -> Array:
     at_foot = 1.0 - curvature * local.imag + 1j * curvature * local.real
     along = (tangents * (ahead[:, None] * at_foot).conj()).real > 0.0
     length = np.abs(np.diff(points, axis=1)).sum(axis=1)
-    out: Array = np.where(along.all(axis=1), miss.max(axis=1), length)
-    return out
+    return np.where(along.all(axis=1), miss.max(axis=1), length)
 
 
 def _joined(arcs: Arcs, rounding: float) -> list[Arc | Line]:

@@ -7,15 +7,13 @@ power. The error is measured along the normal, so that a point may slide along t
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.curves.fit.path import CurvePath, fewest, points_of
 from geneva_cli.curves.shapes import Cubic
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array
 
 SHORTEST, LONGEST = 1e-4, 1.0  # handles, in lengths of the piece: none is lost, none loops
 
@@ -95,8 +93,7 @@ def _misses(wanted: FitTargets, handles: Array) -> Array:
     miss = np.abs(wanted.points - _bezier(wanted, handles, v)[0]).max(axis=1)
     # Nearest points that run back and forth do not prove that the whole cubic is near.
     miss[(np.diff(v, axis=1) < 0.0).any(axis=1)] = 1.0
-    out: Array = wanted.length * miss
-    return out
+    return wanted.length * miss
 
 
 def _bezier(wanted: FitTargets, handles: Array, v: Array) -> tuple[Array, Array, Array]:
@@ -129,8 +126,7 @@ def _least_squares(first: Array, second: Array, wanted: Array, damping: Array | 
     b = (first * second.conj()).real.sum(axis=1)
     a, d = a + 1e-30, d * (1.0 + damping) + 1e-30
     p, q = (first * wanted.conj()).real.sum(axis=1), (second * wanted.conj()).real.sum(axis=1)
-    solved: Array = np.stack((d * p - b * q, a * q - b * p), axis=1) / (a * d - b * b)[:, None]
-    return solved
+    return np.stack((d * p - b * q, a * q - b * p), axis=1) / (a * d - b * b)[:, None]
 
 
 def _projected(wanted: FitTargets, handles: Array, v: Array) -> Array:
@@ -144,8 +140,7 @@ def _projected(wanted: FitTargets, handles: Array, v: Array) -> Array:
     slope = np.abs(rate) ** 2
     # at least half the slope, so that a step reduces the distance from any start
     steep = np.maximum(slope - (off * bend.conj()).real, 0.5 * slope)
-    out: Array = np.clip(v + (off * rate.conj()).real / np.maximum(steep, 1e-300), 0.0, 1.0)
-    return out
+    return np.clip(v + (off * rate.conj()).real / np.maximum(steep, 1e-300), 0.0, 1.0)
 
 
 def _state(wanted: FitTargets, handles: Array, v: Array) -> FitState:
@@ -170,5 +165,4 @@ def _improved(wanted: FitTargets, state: FitState, damping: Array | float) -> Ar
     second = -3.0 * v * v * u * (wanted.behind * turned).real
     both, apart = _least_squares(first + second, first - second, off, damping).T
     step = np.stack((both + apart, both - apart), axis=1)
-    out: Array = np.clip(state.handles + step, SHORTEST, LONGEST)
-    return out
+    return np.clip(state.handles + step, SHORTEST, LONGEST)

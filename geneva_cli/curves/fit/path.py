@@ -7,16 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from copy import copy
-from typing import TYPE_CHECKING, Self, TypeAlias, TypeVar
+from typing import Self, TypeAlias, TypeVar
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.numerics.arrays import Array
 
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
-
-    Curve: TypeAlias = Callable[[Array], tuple[Array, Array]]
+Curve: TypeAlias = Callable[[Array], tuple[Array, Array]]
 
 PIECES_MAX = 100_000
 # Processors differ in the last bits of sines and products. Steps as coarse as these hide that, so
@@ -162,8 +160,7 @@ def _respread(places: Array, weights: Array, count: int) -> Array:
     # weight; the root, since an arc's error is its neighbours' too
     weights = np.sqrt(np.maximum(weights, 0.05 * max(weights.mean(), 1.0)))
     area = np.concatenate(([0.0], np.cumsum(weights)))
-    out: Array = np.interp(np.linspace(0.0, area[-1], count + 1), area, places)
-    return out
+    return np.interp(np.linspace(0.0, area[-1], count + 1), area, places)
 
 
 def points_of(z: Array) -> list[tuple[float, float]]:

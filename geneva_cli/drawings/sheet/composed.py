@@ -6,7 +6,7 @@ most. The sheet is the smallest that fits. Above 1:1 the largest part is no wide
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from geneva_cli.curves.sheet import Sheet
@@ -20,12 +20,11 @@ from geneva_cli.drawings.sheet.paper import (
     PaperSize,
     frame,
     scale_name,
-    smaller,
     table,
     title_block,
 )
 from geneva_cli.drawings.sheet.sized import edge_note
-from geneva_cli.drawings.sheet.view import Block, View
+from geneva_cli.drawings.sheet.view import Block
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.written import is_metric, length, number
 from geneva_cli.machine.materials import roller_material, wheel_material
@@ -62,22 +61,6 @@ def on_paper(
         "--part sheet: the parts and their tables do not fit on one A1 sheet; a coarser "
         "--tolerance makes shorter tables"
     )
-
-
-def at_scales(
-    parts: list[Block],
-    scale: float,
-    whole: Callable[[float], View],
-    cut: Callable[[float], View],
-) -> Iterator[list[Block]]:
-    """Yield a sheet's blocks, with the whole machine and its section.
-
-    Their scales are that of the parts, or half of it.
-    """
-    half = smaller(scale, 2.0)
-    wholes, cuts = ([make(s).block() for s in (scale, half)] for make in (whole, cut))
-    for i, k in ((0, 0), (1, 0), (1, 1)):
-        yield [*parts, cuts[k], wholes[i]]
 
 
 def _composed(

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Member, Plate, Stack, plates
 from geneva_cli.curves.shapes import Shape
+from geneva_cli.curves.sheet import Sheet
 from geneva_cli.drawings.parts_list import part_rows
+from geneva_cli.drawings.sheet.composed import on_paper
 from geneva_cli.drawings.sheet.cut import (
     Face,
     balloons,
@@ -17,8 +19,8 @@ from geneva_cli.drawings.sheet.cut import (
     faces,
     steps,
 )
-from geneva_cli.drawings.sheet.paper import scale_name
-from geneva_cli.drawings.sheet.view import View
+from geneva_cli.drawings.sheet.paper import scale_name, smaller
+from geneva_cli.drawings.sheet.view import Block, View
 from geneva_cli.layout.alike import alike
 from geneva_cli.machine.spec import Spec
 
@@ -52,6 +54,31 @@ def shown_on_sheet(
     # chords of 1.5 mm on a part of 500 mm: spans are within 0.1 mm on any paper
     cut = faces(members, 500.0 / max(sizes))
     return SheetContent(members, together, rows, max(sizes), area, items, cut)
+
+
+class Views(NamedTuple):
+    """The views of a flat machine's sheet at a scale: of its parts, and of all of them together."""
+
+    parts: Callable[[float], Iterator[View]]
+    together: Callable[[float], View]
+    axes: tuple[float, ...]  # the shafts' x, for the section
+
+
+def sheet_of(spec: Spec, shown: SheetContent, views: Views, fixed: Sequence[Block] = ()) -> Sheet:
+    """Return a sheet of views, at half their scale the machine and its section if need be.
+
+    ``fixed`` are tables, which have no scale. Raises GenevaError where no scale fits on one sheet.
+    """
+
+    def blocks(scale: float) -> Iterator[list[Block]]:
+        parts = [*(view.block() for view in views.parts(scale)), *fixed]
+        half = smaller(scale, 2.0)
+        wholes = [views.together(s).block() for s in (scale, half)]
+        cuts = [section(shown, views.axes, s).block() for s in (scale, half)]
+        for i, k in ((0, 0), (1, 0), (1, 1)):
+            yield [*parts, cuts[k], wholes[i]]
+
+    return on_paper(spec, shown.rows, shown.largest, blocks, shown.area)
 
 
 def section(shown: SheetContent, axes: Iterable[float], scale: float) -> View:

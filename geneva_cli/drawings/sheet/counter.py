@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 from geneva_cli.curves.plates import Member, plates
 from geneva_cli.curves.shapes import Circle
@@ -10,13 +11,18 @@ from geneva_cli.curves.sheet import HIDDEN, OUTLINE, Sheet
 from geneva_cli.drawings.counter import assembly
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bored, holes_of
-from geneva_cli.drawings.sheet.composed import at_scales, on_paper
-from geneva_cli.drawings.sheet.content import SheetContent, mark_items, section, shown_on_sheet
+from geneva_cli.drawings.sheet.content import (
+    SheetContent,
+    Views,
+    mark_items,
+    sheet_of,
+    shown_on_sheet,
+)
 from geneva_cli.drawings.sheet.gears import draw_teeth
 from geneva_cli.drawings.sheet.linked import flat_plates, shafted, titled
 from geneva_cli.drawings.sheet.paper import scale_name
 from geneva_cli.drawings.sheet.standing import draw_frame
-from geneva_cli.drawings.sheet.view import Block, View
+from geneva_cli.drawings.sheet.view import View
 from geneva_cli.layout.written import length
 from geneva_cli.parts.counter_parts import CounterParts
 
@@ -25,16 +31,10 @@ def sheet(parts: CounterParts) -> Sheet:
     """Return the drawing sheet of a counter. Raises GenevaError where no scale fits on one."""
     spec = parts.mechanism.spec
     shown = shown_on_sheet(spec, parts.members, assembly(parts).shapes)
-
-    def blocks(scale: float) -> Iterator[list[Block]]:
-        yield from at_scales(
-            [view.block() for view in _views(shown, parts, scale)],
-            scale,
-            lambda s: _together(shown, parts, s),
-            lambda s: section(shown, (0.0, parts.sizes.distance), s),
-        )
-
-    return on_paper(spec, shown.rows, shown.largest, blocks, shown.area)
+    views = Views(
+        partial(_views, shown, parts), partial(_together, shown, parts), (0.0, parts.sizes.distance)
+    )
+    return sheet_of(spec, shown, views)
 
 
 def _views(shown: SheetContent, parts: CounterParts, scale: float) -> Iterator[View]:
@@ -52,9 +52,8 @@ def _views(shown: SheetContent, parts: CounterParts, scale: float) -> Iterator[V
     if len(parts.number_wheels) > 1:
         view = begin("number wheel's two teeth", "number wheel's rim")
         *_, two, rim = plates(parts.number_wheels[-1].part)
-        for plate in (two, rim):
-            for shape in (plate.outline, *plate.holes):
-                view.draw(shape, OUTLINE)
+        view.draw_plate(two)
+        view.draw_plate(rim)
         view.remark("teeth and rim as the driver's, with the number wheel's bore")
         yield view
     yield from shafted(begin, parts.shafts)
@@ -70,8 +69,7 @@ def _draw(view: View, parts: CounterParts, gear: str, member: Member, fixed: str
     ``fixed`` is the part of the spec that is fixed to its shaft; others turn on it.
     """
     own = plates(member.part)
-    for shape in dict.fromkeys(one for plate in own for one in (plate.outline, *plate.holes)):
-        view.draw(shape, OUTLINE)
+    view.draw_all(dict.fromkeys(one for plate in own for one in (plate.outline, *plate.holes)))
     toothed = parts.mesh.gears[gear]
     view.cross((0.0, 0.0), toothed.teeth.tip)
     draw_teeth(view, toothed)

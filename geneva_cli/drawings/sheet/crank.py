@@ -11,10 +11,10 @@ from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, bored, circle_of, holes_of
 from geneva_cli.drawings.sheet.standing import draw_hub
-from geneva_cli.drawings.sheet.view import View, times
+from geneva_cli.drawings.sheet.view import View, grouped, times
 from geneva_cli.layout.held_hubs import hub_note
 from geneva_cli.layout.sizes import drawn_pin_radius
-from geneva_cli.layout.written import length, number
+from geneva_cli.layout.written import degrees, length
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.outlines.crank import is_whole
@@ -32,8 +32,7 @@ def draw_disc(view: View, parts: FlatParts) -> None:
     discs, hubs = ([plate for plate in own if plate.layer == layer] for layer in ("CRANK", HUB))
     bores, screwed = holes_of(discs)
     contours = [disc.outline for disc in discs if isinstance(disc.outline, Contour)]
-    for shape in (*contours, *screwed, *bores, *(hub.outline for hub in hubs)):
-        view.draw(shape, OUTLINE)
+    view.draw_all((*contours, *screwed, *bores, *(hub.outline for hub in hubs)))
     circle_of(view, screwed)
     view.cross((0.0, 0.0), sizes.lock if is_whole(assembly, sizes) else 0.2 * sizes.lock)
     for hub in hubs:
@@ -65,13 +64,11 @@ def draw_disc(view: View, parts: FlatParts) -> None:
 def _gaps(view: View, lock: float, locking: list[Arc]) -> None:
     """Draw the angles between the locking arcs."""
     ends = sorted(legs(arc) for arc in _joined(locking))
-    gaps: dict[str, list[tuple[float, float]]] = {}
-    for (_, end), (start, _) in zip(ends, [*ends[1:], *ends[:1]], strict=True):
-        wide = (start - end) % math.tau
-        if wide > SAME_ON_SHEET:
-            gaps.setdefault(f"{number(math.degrees(wide))}°", []).append((end, end + wide))
-    for text, pairs in gaps.items():
-        view.angular(pairs, lock, lock, times(len(pairs), text))
+    after = zip(ends, [*ends[1:], *ends[:1]], strict=True)
+    gaps = ((end, (start - end) % math.tau) for (_, end), (start, _) in after)
+    named = ((degrees(wide), (end, end + wide)) for end, wide in gaps if wide > SAME_ON_SHEET)
+    for text, pairs in grouped(named):
+        view.angular(pairs, lock, lock, text)
 
 
 def _joined(arcs: list[Arc]) -> list[Arc]:
@@ -88,32 +85,21 @@ def _joined(arcs: list[Arc]) -> list[Arc]:
 
 def draw_arm(view: View, mechanism: Mechanism, arm: CrankArm) -> None:
     """Draw the crank arm with its holes."""
-    view.draw(arm.outline, OUTLINE)
-    for shape in (arm.bore, *arm.pins, *arm.bolts):
-        view.draw(shape, OUTLINE)
+    view.draw_all((arm.outline, arm.bore, *arm.pins, *arm.bolts))
     view.cross((0.0, 0.0), arm.hub)
     for pin in arm.pins:
         view.cross(pin.centre, arm.eye, math.atan2(pin.centre[1], pin.centre[0]))
     circle_of(view, arm.bolts)
     deviation = mechanism.spec.tolerance.crank_radius_mm
-    shown: dict[str, list[Circle]] = {}
-    for pin in arm.pins:
-        text = sized.plain(math.hypot(*pin.centre), off=deviation)
-        shown.setdefault(text, []).append(pin)
-    for text, some in shown.items():
-        centre = some[0].centre
-        turn = math.atan2(centre[1], centre[0])
-        view.linear((0.0, 0.0), centre, turn, times(len(some), text), near=True)
+    shown = ((sized.plain(math.hypot(*pin.centre), off=deviation), pin) for pin in arm.pins)
+    for text, (pin, *_) in grouped(shown):
+        turn = math.atan2(pin.centre[1], pin.centre[0])
+        view.linear((0.0, 0.0), pin.centre, turn, text, near=True)
     _between(view, arm)
     bored(view, [arm.bore], mechanism.spec.size, "crank")
     hole = sized.pin_hole(view.fits, mechanism, arm.pins[0].radius)
     view.diameter(arm.pins, times(len(arm.pins), hole))
-    radii: dict[str, list[Arc]] = {}
-    for arc in arm.outline.segments:
-        if isinstance(arc, Arc):
-            radii.setdefault(sized.plain(arc.radius, "R "), []).append(arc)
-    for text, arcs in radii.items():
-        view.of_arcs(arcs, times(len(arcs), text))
+    view.radii(arm.outline.segments)
     bolted(view, arm.bolts)
 
 
@@ -121,15 +107,11 @@ def _between(view: View, arm: CrankArm) -> None:
     """Draw the angles from one pin to the next."""
     angles = sorted(math.atan2(p.centre[1], p.centre[0]) for p in arm.pins)
     reach = max(math.hypot(*p.centre) for p in arm.pins) + arm.eye
-    pairs: dict[str, list[tuple[float, float]]] = {}
-    for start, end in zip(angles, [*angles[1:], angles[0] + math.tau], strict=True):
-        wide = end - start
-        if (
-            wide < math.pi - SAME_ON_SHEET
-        ):  # the rest of a turn, and a straight line, need no dimension
-            pairs.setdefault(f"{number(math.degrees(wide))}°", []).append((start, end))
-    for text, some in pairs.items():
-        view.angular(some, reach, reach, times(len(some), text))
+    pairs = zip(angles, [*angles[1:], angles[0] + math.tau], strict=True)
+    # the rest of a turn, and a straight line, need no dimension
+    bent = ((a, b) for a, b in pairs if b - a < math.pi - SAME_ON_SHEET)
+    for text, some in grouped((degrees(b - a), (a, b)) for a, b in bent):
+        view.angular(some, reach, reach, text)
 
 
 def draw_roller(view: View, mechanism: Mechanism) -> None:
@@ -138,8 +120,7 @@ def draw_roller(view: View, mechanism: Mechanism) -> None:
     pin = drawn_pin_radius(mechanism)
     loose = 0.5 * mechanism.spec.size.allowances.shaft_fit_mm
     circles = [Circle("", axis, roller)] + ([Circle("", axis, pin + loose)] if pin else [])
-    for c in circles:
-        view.draw(c, OUTLINE)
+    view.draw_all(circles)
     view.cross(axis, roller)
     view.diameter(circles[:1], sized.roller(view.fits, mechanism, roller))
     if pin:

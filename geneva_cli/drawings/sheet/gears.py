@@ -22,8 +22,7 @@ def draw_gear(view: View, gear: Gear) -> None:
     outline, axis, screwed = gear.plate.outline, (0.0, 0.0), gear.bolts
     pitch = Circle("", axis, gear.radius)
     if gear.cut:
-        for shape in (outline, *gear.plate.holes):
-            view.draw(shape, OUTLINE)
+        view.draw_plate(gear.plate)
     else:
         _draw_blank(view, gear)
     circle_of(view, screwed)

@@ -10,14 +10,13 @@ import numpy as np
 from geneva_cli.curves.measure import at
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point
-from geneva_cli.curves.sheet import OUTLINE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.paper import table
-from geneva_cli.drawings.sheet.view import Block, View, times
+from geneva_cli.drawings.sheet.view import Block, View, grouped
 from geneva_cli.kinematics.layout import Joint
 from geneva_cli.layout.fits import Fits
 from geneva_cli.layout.link_positions import links_at, same
-from geneva_cli.layout.written import length, number
+from geneva_cli.layout.written import degrees, length
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.links import Links, placed_holes
@@ -29,8 +28,7 @@ def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> 
     """Draw a link, or a block that slides in one, with dimensions from its first hole."""
     plate = member.part
     assert isinstance(plate, Plate)
-    for shape in (plate.outline, *plate.holes):
-        view.draw(shape, OUTLINE)
+    view.draw_plate(plate)
     holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
     slots = [hole for hole in plate.holes if isinstance(hole, Contour)]
     for hole in holes:
@@ -40,15 +38,15 @@ def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> 
         _slot(view, slot, base)
     _places(view, holes, base)
     pressed = _pressed(mechanism)
-    shown: dict[str, list[Circle]] = {}
-    for hole, there in zip(holes, placed_holes(member), strict=True):
-        tight = any(same(there.centre, p, mechanism.center_distance_mm) for p in pressed)
-        text = sized.bore(view.fits, hole.radius)
-        if tight:
-            text = sized.pin_hole(view.fits, mechanism, hole.radius)
-        shown.setdefault(text, []).append(hole)
-    for text, some in shown.items():
-        view.diameter(some, times(len(some), text))
+
+    def written(hole: Circle, there: Circle) -> str:
+        if any(same(there.centre, p, mechanism.center_distance_mm) for p in pressed):
+            return sized.pin_hole(view.fits, mechanism, hole.radius)
+        return sized.bore(view.fits, hole.radius)
+
+    pairs = zip(holes, placed_holes(member), strict=True)
+    for text, some in grouped((written(hole, there), hole) for hole, there in pairs):
+        view.diameter(some, text)
     _outline(view, plate, plate.name in bars.blocks)
 
 
@@ -100,11 +98,11 @@ def _slot(view: View, slot: Contour, base: Point) -> None:
     half = near.radius
     sides = [(x1 + s * half * math.sin(turn), y1 - s * half * math.cos(turn)) for s in (-1.0, 1.0)]
     view.linear(sides[0], sides[1], turn + UP, sized.fitted(view.fits, 2.0 * half, "", "H7"))
-    degrees = math.degrees(abs(math.remainder(turn, math.tau)))
-    if degrees > SAME_ON_SHEET and math.hypot(*base) < SAME_ON_SHEET:
+    off = abs(math.remainder(turn, math.tau))
+    if math.degrees(off) > SAME_ON_SHEET and math.hypot(*base) < SAME_ON_SHEET:
         legs = (0.0, turn) if turn > 0.0 else (turn, 0.0)
         reach = math.dist(base, near.centre)
-        view.angular([legs], 0.0, reach, f"{number(degrees)}°")
+        view.angular([legs], 0.0, reach, degrees(off))
 
 
 def _along(p: Point, q: Point, turn: float) -> float:
@@ -121,11 +119,7 @@ def _outline(view: View, plate: Plate, slides: bool) -> None:
         view.linear((0.0, -half), (0.0, half), UP, sized.fitted(view.fits, 2.0 * half, "", "g6"))
         view.linear((-end, 0.0), (end, 0.0), 0.0, sized.plain(2.0 * end))
         return
-    radii: dict[str, list[Arc]] = {}
-    for arc in arcs:
-        radii.setdefault(sized.plain(arc.radius, "R "), []).append(arc)
-    for text, some in radii.items():
-        view.of_arcs(some, times(len(some), text))
+    view.radii(arcs)
 
 
 def round_parts(members: Sequence[Member], mechanism: Mechanism) -> list[Block]:

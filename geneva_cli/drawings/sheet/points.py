@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,12 +13,10 @@ from geneva_cli.drawings.sheet.view import Block, times
 from geneva_cli.layout.fits import Fits
 from geneva_cli.layout.written import coordinate, is_metric, length, number
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.gear_pair import driven_curve, driver_curve
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 COARSE = 1e-4  # finest tolerance of a table, as a fraction of the centre distance
 MIRRORED = "; the other half is its mirror image in the x axis"

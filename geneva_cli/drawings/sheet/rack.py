@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import partial
 
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Plate, plates
@@ -12,13 +13,18 @@ from geneva_cli.curves.sheet import HIDDEN, OUTLINE, Sheet
 from geneva_cli.drawings.rack import assembly
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, circle_of, holes_of
-from geneva_cli.drawings.sheet.composed import at_scales, on_paper
-from geneva_cli.drawings.sheet.content import SheetContent, mark_items, section, shown_on_sheet
+from geneva_cli.drawings.sheet.content import (
+    SheetContent,
+    Views,
+    mark_items,
+    sheet_of,
+    shown_on_sheet,
+)
 from geneva_cli.drawings.sheet.crank import draw_arm
 from geneva_cli.drawings.sheet.linked import flat_plates, geared, rolling, shafted, titled
 from geneva_cli.drawings.sheet.paper import scale_name
 from geneva_cli.drawings.sheet.standing import draw_frame
-from geneva_cli.drawings.sheet.view import Block, View, times
+from geneva_cli.drawings.sheet.view import View, times
 from geneva_cli.layout.written import length
 from geneva_cli.outlines.rack import slot_places
 from geneva_cli.parts.rack_arm import crank_arm
@@ -31,19 +37,10 @@ def sheet(parts: RackParts) -> Sheet:
     Raises GenevaError where no scale fits on one, and behind links or gears.
     """
     spec = parts.mechanism.spec
-    framed = parts.frame  # behind links or gears the error says why there is none
+    frames = flat_plates([parts.frame])  # behind links or gears the error says why there is none
     shown = shown_on_sheet(spec, parts.members, assembly(parts).shapes)
-
-    def blocks(scale: float) -> Iterator[list[Block]]:
-        apart = [view.block() for view in _views(shown, parts, flat_plates([framed]), scale)]
-        yield from at_scales(
-            apart,
-            scale,
-            lambda s: _together(shown, parts, s),
-            lambda s: section(shown, (parts.sizes.arm,), s),
-        )
-
-    return on_paper(spec, shown.rows, shown.largest, blocks, shown.area)
+    views = partial(_views, shown, parts, frames)
+    return sheet_of(spec, shown, Views(views, partial(_together, shown, parts), (parts.sizes.arm,)))
 
 
 def _views(
@@ -82,8 +79,7 @@ def _draw_rack(view: View, parts: RackParts) -> None:
     """Draw the rack: its slots and recesses, their distances, and the bolts of its bar."""
     sizes, mechanism = parts.sizes, parts.mechanism
     (rack,) = plates(parts.wheel.part)
-    for shape in (rack.outline, *rack.holes):
-        view.draw(shape, OUTLINE)
+    view.draw_plate(rack)
     places, box = slot_places(sizes, mechanism.spec.wheel.z), bounds(rack.outline)
     end = -(sizes.slot_bottom + sizes.half_width)
     for y in places:
@@ -130,8 +126,7 @@ def _draw_sector(view: View, parts: RackParts) -> None:
     sizes, mechanism = parts.sizes, parts.mechanism
     sector = next(one for one in plates(parts.crank.part) if one.layer == "CRANK")
     assert isinstance(sector.outline, Contour)
-    for shape in (sector.outline, *sector.holes):
-        view.draw(shape, OUTLINE)
+    view.draw_plate(sector)
     screwed = holes_of([sector]).bolts
     circle_of(view, screwed)
     view.cross((0.0, 0.0), sizes.floor)

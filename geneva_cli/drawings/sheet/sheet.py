@@ -6,12 +6,18 @@ The assembled machine and its section are drawn at the scale of the parts, or at
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 from geneva_cli.curves.sheet import Sheet
 from geneva_cli.drawings.machine_drawing import machine
 from geneva_cli.drawings.sheet import links, points
-from geneva_cli.drawings.sheet.composed import at_scales, on_paper
-from geneva_cli.drawings.sheet.content import SheetContent, mark_items, section, shown_on_sheet
+from geneva_cli.drawings.sheet.content import (
+    SheetContent,
+    Views,
+    mark_items,
+    sheet_of,
+    shown_on_sheet,
+)
 from geneva_cli.drawings.sheet.crank import draw_arm, draw_assembly, draw_disc
 from geneva_cli.drawings.sheet.linked import (
     Begin,
@@ -43,17 +49,8 @@ def sheet(parts: FlatParts) -> Sheet:
         *links.round_parts(parts.links.joined, mechanism),
         *layout(mechanism),
     ]
-
-    def blocks(scale: float) -> Iterator[list[Block]]:
-        apart = [view.block() for view in _views(shown, parts, scale)]
-        yield from at_scales(
-            [*apart, *fixed],
-            scale,
-            lambda s: _together(shown, parts, s),
-            lambda s: section(shown, (0.0, L), s),
-        )
-
-    return on_paper(mechanism.spec, shown.rows, shown.largest, blocks, shown.area)
+    views = Views(partial(_views, shown, parts), partial(_together, shown, parts), (0.0, L))
+    return sheet_of(mechanism.spec, shown, views, fixed)
 
 
 def _views(shown: SheetContent, parts: FlatParts, scale: float) -> Iterator[View]:

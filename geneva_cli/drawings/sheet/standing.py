@@ -6,11 +6,11 @@ import math
 
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Plate, Stack
-from geneva_cli.curves.shapes import ORIGIN, Arc, Circle, Contour, Point, Shape, polygon
+from geneva_cli.curves.shapes import ORIGIN, Circle, Contour, Point, Shape, polygon
 from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, circle_of
-from geneva_cli.drawings.sheet.view import View, times
+from geneva_cli.drawings.sheet.view import View, grouped
 from geneva_cli.layout.bores import around
 from geneva_cli.layout.written import length
 
@@ -19,8 +19,7 @@ def draw_frame(
     view: View, plate: Plate, axis: Point = ORIGIN, axis_name: str = "the wheel's axis"
 ) -> None:
     """Draw the frame: its size, and diameter and position of each hole from an axis."""
-    for shape in (plate.outline, *plate.holes):
-        view.draw(shape, OUTLINE)
+    view.draw_plate(plate)
     holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
     # the axis may have no hole
     for centre, radius in {axis: holes[0].radius, **{h.centre: h.radius for h in holes}}.items():
@@ -41,17 +40,12 @@ def draw_frame(
     view.linear(corner, axis, up, length(axis[1] - box.y0))
     view.linear(corner, (box.x1, box.y0), 0.0, length(box.x1 - box.x0))
     view.linear(corner, (box.x0, box.y1), up, length(box.y1 - box.y0))
-    alike: dict[str, list[Circle]] = {}
-    for hole in holes:
-        alike.setdefault(sized.bore(view.fits, hole.radius), []).append(hole)
-    for text, some in alike.items():
+    for text, some in grouped((sized.bore(view.fits, hole.radius), hole) for hole in holes):
         u, v = axis
         places = ", ".join(f"({length(x - u)}, {length(y - v)})" for _, (x, y), _ in some)
-        view.diameter(some, times(len(some), text), f"at {places} from {axis_name}")
+        view.diameter(some, text, f"at {places} from {axis_name}")
     assert isinstance(plate.outline, Contour)
-    arcs = [piece for piece in plate.outline.segments if isinstance(piece, Arc)]
-    if arcs:
-        view.of_arcs(arcs, times(len(arcs), sized.plain(arcs[0].radius, "R ")))
+    view.radii(plate.outline.segments)
 
 
 def draw_groove(

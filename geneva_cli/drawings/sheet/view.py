@@ -5,23 +5,25 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from heapq import merge
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
 from geneva_cli.curves import marks
 from geneva_cli.curves.board import Board, chords
 from geneva_cli.curves.measure import legs, mapped
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Shape
-from geneva_cli.curves.sheet import CENTRE, LARGE, SMALL, Label, Measure, line, polar
+from geneva_cli.curves.plates import Plate
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, Shape
+from geneva_cli.curves.sheet import CENTRE, LARGE, OUTLINE, SMALL, Label, Measure, line, polar
+from geneva_cli.drawings.sheet import sized
 from geneva_cli.layout.fits import Fits
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array
 
 FIRST, NEXT = 8.0, 7.0  # mm: from the outline to the first dimension line, and between lines
 RANKS = 14  # rows of dimension lines that are tried
 OVER = 3.0  # mm: length of a centre line beyond its part
+
+T = TypeVar("T")
 
 
 class Block(NamedTuple):
@@ -93,6 +95,15 @@ class View:
         """Draw a shape on a layer."""
         self._draw(mapped(shape, self._at, self._long)._replace(layer=layer))
 
+    def draw_all(self, shapes: Iterable[Shape], layer: str = OUTLINE) -> None:
+        """Draw shapes on a layer."""
+        for shape in shapes:
+            self.draw(shape, layer)
+
+    def draw_plate(self, plate: Plate) -> None:
+        """Draw a plate's outline and holes."""
+        self.draw_all((plate.outline, *plate.holes))
+
     def cross(self, centre: Point, reach: float, turn: float = 0.0) -> None:
         """Draw both centre lines of a circle."""
         over = self._long(reach) + OVER
@@ -157,6 +168,12 @@ class View:
             for arc in arcs[:: 1 + len(arcs) // 49]
         )
         self._put(_short_first(candidates), text)
+
+    def radii(self, pieces: Iterable[Segment]) -> None:
+        """Draw the radius of the arcs among some pieces, once for each."""
+        arcs = (piece for piece in pieces if isinstance(piece, Arc))
+        for text, some in grouped((sized.plain(arc.radius, "R "), arc) for arc in arcs):
+            self.of_arcs(some, text)
 
     def note(self, tip: Point, text: str) -> None:
         """Draw a text that points at a place."""
@@ -233,6 +250,18 @@ def _short_first(rows: Iterable[Iterator[Measure]]) -> Iterator[Measure]:
     Each row is already in that order; equal lengths keep the order of rows.
     """
     return merge(*rows, key=lambda m: round(math.dist(*m.lines[0]), 6))
+
+
+def grouped(named: Iterable[tuple[str, T]]) -> Iterator[tuple[str, list[T]]]:
+    """Yield each text once, with the number of its things before it, and these things.
+
+    >>> list(grouped([("R 2", "a"), ("R 5", "b"), ("R 2", "c")]))
+    [('2× R 2', ['a', 'c']), ('R 5', ['b'])]
+    """
+    groups: dict[str, list[T]] = {}
+    for text, one in named:
+        groups.setdefault(text, []).append(one)
+    return ((times(len(some), text), some) for text, some in groups.items())
 
 
 def times(count: int, text: str) -> str:

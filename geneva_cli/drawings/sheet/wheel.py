@@ -13,11 +13,11 @@ from geneva_cli.drawings.part_drawings import pitch_lines
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, bored, circle_of, holes_of
 from geneva_cli.drawings.sheet.standing import draw_hub
-from geneva_cli.drawings.sheet.view import View, times
+from geneva_cli.drawings.sheet.view import View, grouped, times
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.held_hubs import hub_note
 from geneva_cli.layout.projection import outlines_of
-from geneva_cli.layout.written import length, number
+from geneva_cli.layout.written import degrees, length
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import HUB
@@ -167,24 +167,19 @@ def _steps(view: View, parts: Outlines, reach: float) -> None:
     """Draw the angles between slots, and from a slot to the middle of a recess."""
     assembly = parts.assembly
     deviation = assembly.mechanism.spec.tolerance.slot_angle_deg
-    begin = reach
     angles = sorted(
         angle
         for engagement, direction in assembly.slots
         for angle in _directions(parts, engagement, direction)
     )
-    steps: dict[str, list[tuple[float, float]]] = {}
-    for start, end in zip(angles, [*angles[1:], angles[0] + math.tau], strict=True):
-        shown = f"{number(math.degrees(end - start))}°" + (f" ±{deviation:g}°" if deviation else "")
-        steps.setdefault(shown, []).append((start, end))
-    for text, pairs in steps.items():
-        view.angular(pairs, begin, reach, times(len(pairs), text))
-    halves: dict[str, list[tuple[float, float]]] = {}
-    for rest in assembly.rests if parts.sizes.recess else ():
-        off = min((rest - angle) % math.tau for angle in angles)
-        halves.setdefault(f"{number(math.degrees(off))}°", []).append((rest - off, rest))
-    for text, pairs in halves.items():
-        view.angular(pairs, begin, reach, times(len(pairs), text))
+    off = f" ±{deviation:g}°" if deviation else ""
+    steps = zip(angles, [*angles[1:], angles[0] + math.tau], strict=True)
+    for text, pairs in grouped((degrees(b - a) + off, (a, b)) for a, b in steps):
+        view.angular(pairs, reach, reach, text)
+    rests = assembly.rests if parts.sizes.recess else ()
+    halves = ((min((rest - angle) % math.tau for angle in angles), rest) for rest in rests)
+    for text, pairs in grouped((degrees(half), (rest - half, rest)) for half, rest in halves):
+        view.angular(pairs, reach, reach, text)
 
 
 def _directions(parts: Outlines, engagement: Engagement, direction: float) -> Iterator[float]:

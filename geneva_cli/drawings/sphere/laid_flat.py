@@ -8,7 +8,7 @@ it has on the cone. The cone's sector is 2 pi cos(polar) wide; at 90 degrees it 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,10 +16,8 @@ from geneva_cli.curves import fit
 from geneva_cli.curves.shapes import Arc, Line, Point, Segment
 from geneva_cli.curves.sphere import SphereArc, Vector
 from geneva_cli.layout.written import length, unit
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 class Cone(NamedTuple):

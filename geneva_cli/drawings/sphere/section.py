@@ -17,7 +17,7 @@ from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.bores import around, radius_of
-from geneva_cli.layout.written import number
+from geneva_cli.layout.written import degrees
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.outlines.sphere_wheel import QUARTER
 from geneva_cli.parts.sphere.arm import CapArm
@@ -72,14 +72,14 @@ def section(parts: SphereParts, scale: float, items: Mapping[str, int]) -> View:
 def _dimension_angles(
     view: View, ball: Ball, end: float, middle: float, reach: tuple[float, ...], far: float
 ) -> None:
-    """Draw the dimensions of the angles."""
+    """Draw the dimensions of the angles; four decimals are 0.2 um on 100 mm."""
     angles = {"slot's end": end, "roller": middle, "rim": ball.rim, "shafts": ball.axes}
     angles |= {} if ball.opening_mm else {"opening": ball.inner}
     for name, angle in sorted(angles.items(), key=lambda item: item[1]):
-        view.angular([(QUARTER - angle, QUARTER)], far, far, f"{name} {degrees(angle)}")
+        view.angular([(QUARTER - angle, QUARTER)], far, far, f"{name} {degrees(angle, 4)}")
     axis = QUARTER - ball.axes
     for name, angle in zip(("sector, inside", "sector, lock"), reach, strict=False):
-        view.angular([(axis - angle, axis)], far, far, f"{name} {degrees(angle)}")
+        view.angular([(axis - angle, axis)], far, far, f"{name} {degrees(angle, 4)}")
 
 
 def _crank(parts: SphereParts) -> Iterator[tuple[str, Contour]]:
@@ -180,8 +180,3 @@ def _arc(radius: float, low: float, high: float) -> Arc:
 
 def _at(radius: float, angle: float) -> Point:
     return polar((0.0, 0.0), radius, QUARTER - angle)
-
-
-def degrees(angle: float) -> str:
-    """Return an angle in the form that the sheet shows: four decimals are 0.2 um on 100 mm."""
-    return f"{number(math.degrees(angle), 4)}°"

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from itertools import product
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,11 +17,9 @@ from geneva_cli.curves.plates import Plate, plates, steps_of
 from geneva_cli.drawings.shaft_gap import ShaftGap, ring_gap
 from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.bores import around
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.sphere.sphere_parts import ROLLER, SphereParts
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 class Sweep(NamedTuple):
@@ -45,8 +43,7 @@ class Sweep(NamedTuple):
         if not self.wide:
             return np.full_like(sphere, self.high)
         end = np.arccos(np.minimum(1.0, self.inner / sphere))
-        out: Array = np.minimum(np.arcsin(np.minimum(1.0, self.wide / sphere)), end)
-        return out
+        return np.minimum(np.arcsin(np.minimum(1.0, self.wide / sphere)), end)
 
     @property
     def grows_to(self) -> float:

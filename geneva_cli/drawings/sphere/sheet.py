@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -26,7 +25,7 @@ from geneva_cli.drawings.sheet.linked import shafted
 from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.points import COARSE, MIRRORED, point_table, polyline
 from geneva_cli.drawings.sheet.standing import draw_hub
-from geneva_cli.drawings.sheet.view import Block, View, times
+from geneva_cli.drawings.sheet.view import Block, View, grouped, times
 from geneva_cli.drawings.sphere.arm_drawing import arm_cone, arm_flat
 from geneva_cli.drawings.sphere.dimensions import dimensions
 from geneva_cli.drawings.sphere.drawings import (
@@ -37,19 +36,17 @@ from geneva_cli.drawings.sphere.drawings import (
     wheel_flat,
 )
 from geneva_cli.drawings.sphere.laid_flat import Cone
-from geneva_cli.drawings.sphere.section import degrees, section
+from geneva_cli.drawings.sphere.section import section
 from geneva_cli.kinematics.layout import Dimension
 from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.fits import Fits
 from geneva_cli.layout.held_hubs import hub_note
-from geneva_cli.layout.written import length, quantity
+from geneva_cli.layout.written import degrees, length, quantity
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_ON_SHEET
 from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.sphere.arm import CapArm
 from geneva_cli.parts.sphere.sphere_parts import ROLLER, SphereParts
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 def sheet(parts: SphereParts) -> Sheet:
@@ -111,8 +108,7 @@ def _axles(parts: SphereParts, scale: float) -> Iterator[View]:
             if hub.layer == ROLLER:
                 continue
             view = View(hub.name, scale, Fits(size.process))
-            for shape in (hub.outline, *hub.holes):
-                view.draw(shape, OUTLINE)
+            view.draw_plate(hub)
             bored(view, hub.holes, size, whose)
             draw_hub(view, hub, hub_note(size, whose) if hub.layer == HUB else "")
             view.remark(f"{length(hub.thickness)} long")
@@ -151,7 +147,7 @@ def _flat(whose: str, ball: Ball, cone: Cone, shapes: Sequence[Shape], scale: fl
     view.linear(*first, 0.0, sized.plain(math.dist(*first)), near=True)
     if near:
         legs = sorted(math.atan2(line.start[1], line.start[0]) for line in (first, after))
-        text = degrees(abs(legs[1] - legs[0]))
+        text = degrees(abs(legs[1] - legs[0]), 4)
         view.angular([(legs[0], legs[1])], far, far, times(ball.z - 1, text))
     else:
         view.linear(first.start, after.start, 0.5 * math.pi, times(ball.z - 1, sized.plain(
@@ -190,11 +186,9 @@ def flat_slot(ball: Ball, tolerance: float) -> Block:
 def _sectors(view: View, locking: list[Segment], far: float) -> None:
     """Draw the angles of the locking sectors, and from the first roller to the first."""
     arcs = [arc for arc in locking if isinstance(arc, Arc)]
-    wide: dict[str, list[tuple[float, float]]] = {}
-    for arc in arcs:
-        start = math.atan2(arc.start[1], arc.start[0])
-        wide.setdefault(degrees(arc.sweep), []).append((start, start + arc.sweep))
-    for text, pairs in wide.items():
-        view.angular(pairs, arcs[0].radius, far, times(len(pairs), text))
-    for start in sorted(pair[0] % math.tau for pairs in wide.values() for pair in pairs)[:1]:
-        view.angular([(0.0, start)], far, far, f"roller to sector {degrees(start)}")
+    starts = [math.atan2(arc.start[1], arc.start[0]) for arc in arcs]
+    wide = ((arc.sweep, (a, a + arc.sweep)) for arc, a in zip(arcs, starts, strict=True))
+    for text, pairs in grouped((degrees(sweep, 4), ends) for sweep, ends in wide):
+        view.angular(pairs, arcs[0].radius, far, text)
+    for start in sorted(a % math.tau for a in starts)[:1]:
+        view.angular([(0.0, start)], far, far, f"roller to sector {degrees(start, 4)}")

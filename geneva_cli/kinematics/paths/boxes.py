@@ -7,16 +7,13 @@ Cubics through values and slopes at the corners of a box show if it can contain 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 
 from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, joined, points
 from geneva_cli.kinematics.roller_path import RollerPath
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Mask, Number, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Number, Whole
 
 THIRD = 1.0 / 3.0
 CUBIC_ERROR = 0.1  # possible error of a quantity's cubics, as a fraction of their range in a box
@@ -29,8 +26,7 @@ class CrankInterval(NamedTuple):
     Rows of a point are crank angle, position (x, y), unit tangent (x, y), speed and turn rate.
     """
 
-    first: Array  # (7, n)
-    last: Array
+    ends: Array  # (7, 2, n)
     turn: Array  # (n,)
 
     def taken(self, where: Whole) -> CrankInterval:
@@ -38,10 +34,21 @@ class CrankInterval(NamedTuple):
         return CrankInterval._make(part.take(where, axis=-1) for part in self)
 
     @property
+    def phi(self) -> Array:
+        """Crank angles of both ends, (2, n)."""
+        return self.ends[0]
+
+    @property
     def width(self) -> Array:
         """Crank angle from the first point to the last."""
-        width: Array = self.last[0] - self.first[0]
+        first, last = self.phi
+        width: Array = last - first
         return width
+
+    @property
+    def rates(self) -> Array:
+        """Rates at which the tangent turns at both ends, (2, n)."""
+        return self.ends[6]
 
 
 class Boxes(NamedTuple):
@@ -77,50 +84,64 @@ def _against(width: Array, turn: Array, first: Array, last: Array, sense: Number
 def boxes_of(samples: PathSamples, wanted: Array) -> Boxes:
     """Boxes between adjacent samples that may contain a pair."""
     at, angle = samples.at, samples.angle
-    count, numbers = angle.shape[1] - 1, _numbers(at)
+    count = angle.shape[1] - 1
     first, last = slice(None, -1), slice(1, None)
     turn = angle[:, last] - angle[:, first]
+    numbers, to_next = _numbers(at), np.pad(turn, ((0, 0), (0, 1)))
     width = at.phi[:, last] - at.phi[:, first]
     rates = at.turn[:, first], at.turn[:, last]
     low, high = (x + angle[:, first] for x in _span(width, turn, *rates))
     whole = angle[:, -1:]  # a turn later; NaN if the linkage does not close for a full turn
-    possible = (width > 0.0) & (whole == whole)
-    per_sense = []
+    possible = (width > 0.0) & np.isfinite(low + high + whole)
+    parts = []
     for sense in (1.0, -1.0):
         use = possible & _against(width, turn, *rates, sense)
-        some = np.flatnonzero(use.any(axis=1))  # most paths turn one way only
-        use = use[some]
-        least, most = np.where(use, low[some], np.inf), np.where(use, high[some], -np.inf)
-        target = -sense * wanted[some, None]
-        # exits from the entry's own interval onwards, over a full turn
-        first_exit, last_exit = (
-            sliding_window_view(np.hstack((x, x + whole[some])), count, axis=1)[:, :count]
-            for x in (least, most)
-        )
-        near = first_exit <= (most + target)[:, :, None]
-        near &= last_exit >= (least + target)[:, :, None]
-        near[:, :, 0] = False
-        cell, ahead = np.divmod(np.flatnonzero(near), count)
-        row, entry = np.divmod(cell, count)
-        row = some[row]
-        exit_ = (entry + ahead) % count
-        corners = (
-            _interval(numbers, row * (count + 1) + of, turn[row, of]) for of in (entry, exit_)
-        )
-        may = _may_meet(*corners)
-        per_sense.append((row[may], entry[may], exit_[may], np.full(int(may.sum()), sense)))
-    row, entry, exit_, senses = joined(per_sense)
-    round_ = np.where(exit_ < entry, 1.0, 0.0)
-    start = angle[row, exit_] + whole[row, 0] * round_ - angle[row, entry]
-    one, two = (_interval(numbers, row * (count + 1) + of, turn[row, of]) for of in (entry, exit_))
-    for end in (two.first, two.last):
-        end[0] += math.tau * round_
-    return Boxes(samples.which[row], senses, one, two, start)
+        # spans of the tangent's turn against the wheel, over two turns of the crank
+        spans = [np.hstack((x, x + whole)) * -sense for x in (low, high)]
+        entry, exit_ = _turned_between(np.hstack((use, use)), *spans[:: int(-sense)], wanted)
+        row, entry = np.divmod(entry, 2 * count)
+        exit_ %= 2 * count
+        round_ = exit_ // count
+        exit_ %= count
+        start = angle[row, exit_] + whole[row, 0] * round_ - angle[row, entry]
+        one, two = (_interval(numbers, to_next, row * (count + 1) + of) for of in (entry, exit_))
+        two.phi[:] += math.tau * round_
+        every = Boxes(samples.which[row], np.full(len(row), sense), one, two, start)
+        parts.append(every.taken(np.flatnonzero(_corners(one, two).may_vanish())))
+    boxes: Boxes = joined(parts, -1)
+    return boxes
 
 
-def _interval(numbers: Array, first: Whole, turn: Array) -> CrankInterval:
+def _turned_between(use: Mask, low: Array, high: Array, wanted: Array) -> tuple[Whole, Whole]:
+    """Places of entries in the first half of the rows, and of exits in a turn after each.
+
+    Between the two a row's angle, whose spans are ``low`` to ``high``, may grow by ``wanted``.
+    """
+    place = np.flatnonzero(use)
+    row, column = np.divmod(place, use.shape[1])
+    low, high = low.ravel().take(place), high.ravel().take(place)
+    entry = np.flatnonzero(column < use.shape[1] // 2)
+    mine = row[entry]
+    least, most = low[entry] + wanted[mine], high[entry] + wanted[mine]
+    # The greatest end so far and the least start from here on rise in each row, and from row to row
+    # if each is set apart from the one before it. So a search in them bounds the exits of an entry.
+    apart = 1.0 + 2.0 * max(np.abs(low).max(initial=0.0), np.abs(high).max(initial=0.0))
+    ends = np.maximum.accumulate(high + apart * row)
+    starts = np.minimum.accumulate((low + apart * row)[::-1])[::-1]
+    error = 1e-9  # radians: more than rounding of a thousand rows
+    begin = np.searchsorted(ends, least + (apart * mine - error))
+    end = np.searchsorted(starts, most + (apart * mine + error), side="right")
+    begin = np.maximum(begin, entry + 1)
+    counts = np.maximum(np.minimum(end, entry + np.bincount(mine)[mine]) - begin, 0)
+    of = np.repeat(np.arange(len(entry)), counts)
+    exit_ = np.arange(len(of)) + np.repeat(begin - (np.cumsum(counts) - counts), counts)
+    near = np.flatnonzero((low[exit_] <= most[of]) & (high[exit_] >= least[of]))
+    return place[entry[of[near]]], place[exit_[near]]
+
+
+def _interval(numbers: Array, turn: Array, first: Whole) -> CrankInterval:
     """Intervals that begin at some of the points, and end at the next."""
-    return CrankInterval(numbers.take(first, axis=1), numbers.take(first + 1, axis=1), turn)
+    return CrankInterval(numbers.take((first, first + 1), axis=1), turn.take(first))
 
 
 def _numbers(at: PathPoints) -> Array:
@@ -129,43 +150,38 @@ def _numbers(at: PathPoints) -> Array:
     return np.stack([x.ravel() for x in rows])
 
 
-def _may_turn(boxes: Boxes, wanted: Array) -> Mask:
-    """True if both ends may turn against the wheel, and the tangent by the wanted angle."""
-    spans = []
-    good = np.ones(len(boxes.which), dtype=bool)
-    for side in (boxes.entry, boxes.exit):
-        shape = side.width, side.turn, side.first[6], side.last[6]
-        good &= _against(*shape, boxes.sense)
-        spans.append(_span(*shape))
-    (e_low, e_high), (x_low, x_high) = spans
-    target = -boxes.sense * wanted[boxes.which] - boxes.turn
-    return good & (x_low - e_high <= target) & (x_high - e_low >= target)
-
-
-def _across(one: Array, two: Array) -> tuple[Array, Array, Array]:
-    """Component of the chord across the sum of tangents, and its slopes by entry and by exit."""
-    _, px, py, tx, ty, v, w = one
-    _, qx, qy, ux, uy, v_out, w_out = two
+def _corners(entry: CrankInterval, exit_: CrankInterval) -> Corners:
+    """Component of the chord across the sum of tangents, at the corners of boxes."""
+    _, px, py, tx, ty, v, w = entry.ends[:, :, None]
+    _, qx, qy, ux, uy, v_out, w_out = exit_.ends[:, None]
     cx, cy, q = qx - px, qy - py, ux * ty - uy * tx
     by_entry = v * q + w * (cx * tx + cy * ty)
     by_exit = v_out * q + w_out * (cx * ux + cy * uy)
-    return cx * (ty + uy) - cy * (tx + ux), by_entry, by_exit
+    away = cx * (ty + uy) - cy * (tx + ux)
+    return Corners(away, by_entry * entry.width, by_exit * exit_.width)
 
 
-def _may_meet(entry: CrankInterval, exit_: CrankInterval) -> Mask:
-    """True if the chord may be parallel to the sum of the tangents in boxes of two intervals."""
-    wide, high = entry.width, exit_.width
-    least, most = np.full(wide.shape, np.inf), np.full(wide.shape, -np.inf)
-    for i, one in enumerate((entry.first, entry.last)):
-        for j, two in enumerate((exit_.first, exit_.last)):
-            away, by_entry, by_exit = _across(one, two)
-            e = by_entry * wide * (-THIRD if i else THIRD)
-            x = by_exit * high * (-THIRD if j else THIRD)
-            least = np.minimum(least, away + np.minimum(e, 0.0) + np.minimum(x, 0.0))
-            most = np.maximum(most, away + np.maximum(e, 0.0) + np.maximum(x, 0.0))
-    margin = CUBIC_ERROR * (most - least)
-    may: Mask = (least <= margin) & (most >= -margin)
-    return may
+class Corners(NamedTuple):
+    """A quantity at the corners of boxes (2, 2, n), and its slopes per width of the box.
+
+    The first index is 0 or 1 for the start or end of the entry's interval, the second for the exit.
+    """
+
+    value: Array
+    by_entry: Array
+    by_exit: Array
+
+    def may_vanish(self) -> Mask:
+        """True if the cubics through values and slopes have both signs."""
+        outward = np.array([THIRD, -THIRD])[:, None]
+        e, x = self.by_entry * outward[:, None], self.by_exit * outward
+        least, most = (
+            f(f(self.value + g(e, 0.0) + g(x, 0.0), axis=0), axis=0)
+            for f, g in ((np.min, np.minimum), (np.max, np.maximum))
+        )
+        margin = CUBIC_ERROR * (most - least)
+        may: Mask = (least <= margin) & (most >= -margin)
+        return may
 
 
 class NewtonSteps(NamedTuple):
@@ -179,49 +195,56 @@ class NewtonSteps(NamedTuple):
 def newton_steps(boxes: Boxes, wanted: Array) -> NewtonSteps:
     """Newton step from each corner of a box; if all lead to one place, the box has one pair."""
     entry, exit_ = boxes.entry, boxes.exit
-    wide, high = entry.width, exit_.width
-    over = boxes.turn + boxes.sense * wanted[boxes.which]
-    steps = []
-    for i, one in enumerate((entry.first, entry.last)):
-        for j, two in enumerate((exit_.first, exit_.last)):
-            away, by_entry, by_exit = _across(one, two)
-            rest = over + j * exit_.turn - i * entry.turn
-            turn, turn_out = one[-1], two[-1]
-            det = by_entry * turn_out + by_exit * turn
-            e = (rest * by_exit - away * turn_out) / det
-            x = -(rest * by_entry + away * turn) / det
-            steps.append((i + e / wide, j + x / high))
-    places = np.array(steps)  # indices: corner, side, box; in widths of the box
-    middle = places.mean(axis=0)
-    apart = np.abs(places - middle).max(axis=(0, 1))
+    across, ahead = _corners(entry, exit_), np.array([0.0, 1.0])[:, None]
+    rest = boxes.turn + boxes.sense * wanted[boxes.which]
+    rest = rest + ahead * exit_.turn - ahead[:, None] * entry.turn
+    turn, turn_out = entry.rates[:, None] * -entry.width, exit_.rates * exit_.width
+    det = across.by_entry * turn_out - across.by_exit * turn
+    e = (rest * across.by_exit - across.value * turn_out) / det + ahead[:, None]
+    x = (across.value * turn - rest * across.by_entry) / det + ahead
+    # Each of two sums of the quantities hardly varies with one of both angles.
+    may = np.ones(len(det[0, 0]), dtype=bool)
+    for own, other in ((turn_out, across.by_exit), (turn, across.by_entry)):
+        c, d = own.sum(axis=(0, 1)), other.sum(axis=(0, 1))
+        pairs = zip(across, (rest, turn, turn_out), strict=True)
+        may &= Corners._make(c * f - d * g for f, g in pairs).may_vanish()
+    places = np.stack((e, x))  # side, corner, box; in widths of the box
+    middle = places.mean(axis=(1, 2))
+    apart = np.abs(places - middle[:, None, None]).max(axis=(0, 1, 2))
     outside = np.abs(middle - 0.5).max(axis=0) - 0.5
-    phi = np.stack((entry.first[0] + middle[0] * wide, exit_.first[0] + middle[1] * high), axis=1)
+    phi = [x.phi[0] + of * x.width for x, of in zip((entry, exit_), middle, strict=True)]
     # the corners agree if they lead to places within a tenth of the box's width
-    return NewtonSteps(apart <= 0.1, outside <= OVERLAP, phi)
+    return NewtonSteps((apart <= 0.1) | ~may, (outside <= OVERLAP) & may, np.stack(phi, axis=1))
 
 
 def halved(path: RollerPath, boxes: Boxes, wanted: Array) -> Boxes:
     """Cut each box into four and keep those that may contain a pair."""
-    halves = []
-    for side in (boxes.entry, boxes.exit):
-        phi = 0.5 * (side.first[0] + side.last[0])
-        middle = _numbers(points(path.roughly(boxes.which), phi[:, None]))
-        halves.append((_side(side.first, middle), _side(middle, side.last)))
-    parts = []
-    for i, entry in enumerate(halves[0]):
-        for j, exit_ in enumerate(halves[1]):
-            turn = boxes.turn
-            if i:
-                turn = turn - halves[0][0].turn
-            if j:
-                turn = turn + halves[1][0].turn
-            part = Boxes(boxes.which, boxes.sense, entry, exit_, turn)
-            part = part.taken(np.flatnonzero(_may_turn(part, wanted)))
-            parts.append(part.taken(np.flatnonzero(_may_meet(part.entry, part.exit))))
-    halved: Boxes = joined(parts, -1)
-    return halved
+    count = len(boxes.which)
+    both: CrankInterval = joined([boxes.entry, boxes.exit], -1)
+    halves = _halves(path, np.tile(boxes.which, 2), both)  # first and last, of entry and exit
+    shape = halves.width, halves.turn, *halves.rates
+    low, high = _span(*shape)
+    against = _against(*shape, np.tile(boxes.sense, 4))
+    box = np.tile(np.arange(count), 4)
+    entry, exit_ = (box + 2 * count * np.repeat(of, count) for of in ((0, 0, 1, 1), (0, 1, 0, 1)))
+    exit_ += count
+    # from the first entry of a quarter to its first exit
+    turned = np.concatenate((0.0 * both.turn, halves.turn[: 2 * count]))
+    turn = boxes.turn[box] + turned[exit_] - turned[entry]
+    target = -boxes.sense[box] * wanted[boxes.which[box]] - turn
+    near = (low[exit_] - high[entry] <= target) & (high[exit_] - low[entry] >= target)
+    may = np.flatnonzero(near & against[entry] & against[exit_])
+    sides = halves.taken(entry[may]), halves.taken(exit_[may])
+    box = box[may]
+    quarters = Boxes(boxes.which[box], boxes.sense[box], *sides, turn[may])
+    return quarters.taken(np.flatnonzero(_corners(*sides).may_vanish()))
 
 
-def _side(first: Array, last: Array) -> CrankInterval:
-    (a, b), (c, d) = first[3:5], last[3:5]
-    return CrankInterval(first, last, np.arctan2(a * d - b * c, a * c + b * d))
+def _halves(path: RollerPath, which: Whole, whole: CrankInterval) -> CrankInterval:
+    """First halves of intervals, and after them the last halves."""
+    phi = 0.5 * (whole.phi[0] + whole.phi[1])
+    middle = _numbers(points(path.roughly(which), phi[:, None]))
+    first, last = whole.ends.swapaxes(0, 1)
+    ends = np.concatenate(((first, middle), (middle, last)), axis=-1).swapaxes(0, 1)
+    (a, c), (b, d) = ends[3:5]
+    return CrankInterval(ends, np.arctan2(a * d - b * c, a * c + b * d))

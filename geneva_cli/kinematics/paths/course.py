@@ -8,17 +8,15 @@ wrong sign. Otherwise the interval is sampled more closely.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.kinematics.paths.pairs import EndPairs
 from geneva_cli.kinematics.paths.samples import PathPoints, points
 from geneva_cli.kinematics.roller_path import RollerPath
+from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Which
 from geneva_cli.numerics.tolerances import ROUNDED
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Which
 
 
 class PinCourse(NamedTuple):
@@ -97,5 +95,5 @@ def _least(width: Array, value: Array, slope: Array, sign: Number) -> Array:
     third = 1.0 / 3.0
     a, c = value[:, :-1], value[:, 1:]
     b, d = a + third * width * slope[:, :-1], c - third * width * slope[:, 1:]
-    least: Array = np.minimum.reduce([sign * x for x in (a, b, c, d)])
+    least: Array = np.minimum(np.minimum(sign * a, sign * b), np.minimum(sign * c, sign * d))
     return least

@@ -22,17 +22,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.kinematics.paths.boxes import OVERLAP, Boxes, boxes_of, halved, newton_steps
 from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, joined, points
 from geneva_cli.kinematics.roller_path import RollerPath
+from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
 from geneva_cli.numerics.tolerances import ROUNDED
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
 
 # Slope of the index angle along the family of pairs: a root with less is double, or nearly so.
 DOUBLE_ROOT_SLOPE = 1e-5
@@ -126,8 +124,7 @@ def newton(ends: EndPairs, rest: Residual) -> Array:
 
 def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[EndPairs, Mask]:
     """Newton's method from places in boxes: its end points, and a mask of those in their box."""
-    low = np.stack((boxes.entry.first[0], boxes.exit.first[0]), axis=1)
-    high = np.stack((boxes.entry.last[0], boxes.exit.last[0]), axis=1)
+    low, high = np.stack((boxes.entry.phi, boxes.exit.phi), axis=2)
     width = high - low
     phi = np.clip(phi, low - OVERLAP * width, high + OVERLAP * width)
     close = np.zeros(len(phi), dtype=bool)

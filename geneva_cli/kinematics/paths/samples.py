@@ -9,15 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
+from typing import NamedTuple, TypeAlias, cast
 
 import numpy as np
 
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.numerics.arrays import Record
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Complex, Mask, Which, Whole
+from geneva_cli.numerics.arrays import Array, Complex, Mask, Record, Which, Whole
 
 Where: TypeAlias = "Which | tuple[slice | int | Whole, slice | int | Whole]"
 
@@ -91,20 +88,35 @@ def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
     # samples of 256 designs stay in the processor's cache
     base = joined([_rows(path.roughly(every[i]), phi, len(every[i])) for i in blocks(count, 256)])
     left, right = _neighbours(base)
-    turned = _turned(left, right)
-    row, column = np.nonzero(_missed(left, right, turned))
+    row, column = np.nonzero(_missed(left, right, _turned(left, right)))
     extra = _between(path, row, left.at_samples(row, column), right.at_samples(row, column))
-    more = np.bincount(extra[0], minlength=count) if extra else np.zeros(count, dtype=int)
-    plain = every[more == 0]
-    for part in _blocks(np.full(len(plain), steps)):
-        yield _samples(plain[part], base.taken(plain[part]), turned[plain[part]])
-    if extra:
-        whose, added = extra
-        crowded = np.flatnonzero(more)
-        crowded = crowded[np.argsort(more[crowded])]
-        for part in _blocks(steps + more[crowded]):
-            at = _padded(crowded[part], base, whose, added)
-            yield _samples(crowded[part], at, _turned(*_neighbours(at)))
+    whose, every_point = _merged(base, extra)
+    counts = np.bincount(whose, minlength=count)
+    starts = np.cumsum(counts) - counts
+    order = np.argsort(counts, kind="stable")
+    for part in blocks(count, 96):  # their samples and boxes stay in the processor's cache
+        which = order[part]
+        width = np.arange(counts[which].max(initial=1))
+        # After its own last sample a row repeats it.
+        place = starts[which, None] + np.minimum(width, counts[which, None] - 1)
+        at = every_point.taken(place)
+        angle = np.zeros(place.shape)
+        np.cumsum(_turned(*_neighbours(at)), axis=1, out=angle[:, 1:])
+        yield PathSamples(which, at, angle)
+
+
+def _merged(base: PathPoints, extra: tuple[Whole, PathPoints] | None) -> tuple[Whole, PathPoints]:
+    """Designs' numbers, and all samples in the order of the designs and of their crank angles."""
+    count, steps = base.phi.shape
+    whose = np.repeat(np.arange(count), steps)
+    flat = PathPoints._make(part.ravel() for part in base)
+    if extra is None:
+        return whose, flat
+    whose = np.concatenate((whose, extra[0]))
+    flat = joined([flat, extra[1]])
+    # a turn and the first step are less than 8 radians
+    order = np.argsort(8.0 * whose + flat.phi)
+    return whose[order], flat.taken(order)
 
 
 def _rows(path: RollerPath, phi: Array, count: int) -> PathPoints:
@@ -149,43 +161,6 @@ def _between(
         )
         which = np.concatenate([which[m] for m in missed])
     return joined(added) if added else None
-
-
-def _blocks(counts: Whole) -> Iterator[slice]:
-    """Slices of rows with a limited number of pairs of samples."""
-    start, most = 0, 1 << 18  # pairs that stay in the processor's cache
-    while start < len(counts):
-        rows = max(1, most // int(counts[start]) ** 2)
-        stop = min(start + rows, len(counts))
-        while stop - start > 1 and (stop - start) * int(counts[stop - 1]) ** 2 > 2 * most:
-            stop = (start + stop) // 2
-        yield slice(start, stop)
-        start = stop
-
-
-def _padded(rows: Whole, base: PathPoints, whose: Whole, added: PathPoints) -> PathPoints:
-    """Samples of some designs merged with the added ones, in order."""
-    number = np.full(int(whose.max(initial=0)) + 1, -1)
-    number[rows] = np.arange(len(rows))
-    mine = number[whose] >= 0
-    first = np.repeat(np.arange(len(rows)), base.phi.shape[1])
-    row = np.concatenate((first, number[whose[mine]]))
-    parts = [np.concatenate((a[rows].ravel(), b[mine])) for a, b in zip(base, added, strict=True)]
-    order = np.lexsort((parts[0], row))
-    row = row[order]
-    counts = np.bincount(row)
-    starts = np.cumsum(counts) - counts
-    width = int(counts.max())
-    # After its own last sample a row repeats it.
-    place = order[starts[:, None] + np.minimum(np.arange(width), counts[:, None] - 1)]
-    return PathPoints._make(part[place] for part in parts)
-
-
-def _samples(which: Whole, at: PathPoints, turned: Array) -> PathSamples:
-    """Samples with the tangent's angle, which is the sum of the turns."""
-    angle = np.zeros(at.phi.shape)
-    np.cumsum(turned, axis=1, out=angle[:, 1:])
-    return PathSamples(which, at, angle)
 
 
 def joined(parts: Sequence[Record], axis: int = 0) -> Record:

@@ -16,14 +16,12 @@ in the processor's cache between the steps. On whole arrays the steps take 1.5 t
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.numerics.angles import DEGREE
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array
 
 
 class ClassicArrays(NamedTuple):

@@ -17,21 +17,25 @@ line of centres at mid-motion, l = N/(N + 2 z) from the driver's axis.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.kinematics.engagement import Peak, Slot, SlotAxis, WheelMotion, in_wheel
+from geneva_cli.kinematics.engagement import (
+    Displacement,
+    Peak,
+    Slot,
+    SlotAxis,
+    WheelMotion,
+    in_wheel,
+)
 from geneva_cli.kinematics.path_and_slot import AnchoredPath
 from geneva_cli.kinematics.wheels.gearing import Gearing, Output, RollerPlace
 from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose, middle
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number
-from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import Z_MAX, Range
-
-if TYPE_CHECKING:
-    from geneva_cli.kinematics.engagement import Displacement
+from geneva_cli.spec.schema import Example
 
 
 class Counter(Gearing):
@@ -53,6 +57,7 @@ class Counter(Gearing):
     USUAL_LIMITS: ClassVar[dict[str, float]] = {}  # none of what has no bound
     FLAT: ClassVar[bool] = False
     PARTS: ClassVar[str] = "counter"
+    LOCK: ClassVar[str] = "locking rim"
     JUMPS: ClassVar[bool] = True
     # ISO 6336-1 and DIN 3990-1, method C: a pair of steel teeth has c' = 14 N/(mm µm), a mesh 20.
     # Method B gives 10.4 to 15.7 for counters: a force is at most 6 % too low, or 17 % too high.
@@ -89,7 +94,8 @@ class Counter(Gearing):
         """The pinion's angle; no keys give it loads with a bound."""
         keys = "a gearing whose speed does not jump; here it does, and forces have no bound"
         lacks = "alpha_rad_s2", "sliding_m_s"
-        return super().output(center_distance_mm)._replace(load_keys=keys, lacks=lacks)
+        angle = super().output(center_distance_mm)
+        return angle._replace(noun="pinion", load_keys=keys, lacks=lacks)
 
     @property
     def title(self) -> str:

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Annotated, ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
 from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.kinematics.engagement import Displacement, Slot, WheelMotion
 from geneva_cli.kinematics.layout import Dimension, Layout
 from geneva_cli.kinematics.path_and_slot import AnchoredPath
 from geneva_cli.kinematics.wheels import classic, poses
 from geneva_cli.kinematics.wheels.gearing import FollowedRate, Gearing, RollerPlace
 from geneva_cli.kinematics.wheels.poses import HalfStep
 from geneva_cli.numerics.arrays import choose
-from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import LENGTH, Range
-
-if TYPE_CHECKING:
-    from geneva_cli.kinematics.engagement import Displacement, Slot, WheelMotion
+from geneva_cli.spec.schema import Example
 
 
 class External(Gearing):

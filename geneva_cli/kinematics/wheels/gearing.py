@@ -13,9 +13,8 @@ from geneva_cli.kinematics.path_and_slot import AnchoredPath, RadialSlot, Straig
 from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose
 from geneva_cli.numerics.arrays import larger
 from geneva_cli.numerics.jet import Jet, turning
-from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
-from geneva_cli.spec.schema import SpecTable
+from geneva_cli.spec.schema import Example, SpecTable
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.engagement import (
@@ -107,6 +106,8 @@ class Gearing(SpecTable):
     PARTS: ClassVar[str] = "flat"
     # meaning of center_distance_mm
     DISTANCE: ClassVar[str] = "centre distance"
+    # what locks it in the dwell, on a crank
+    LOCK: ClassVar[str] = "locking disc"
     # True if its speed jumps at entry and exit, so that forces have no bound
     JUMPS: ClassVar[bool] = False
     # stiffness of a pair of steel teeth that drive it, over their width; 0 for a roller

@@ -9,7 +9,7 @@ from geneva_cli.kinematics.wheels import classic, poses
 from geneva_cli.kinematics.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.kinematics.wheels.poses import HalfStep
 from geneva_cli.numerics.arrays import choose
-from geneva_cli.spec.example import Example
+from geneva_cli.spec.schema import Example
 
 
 class Internal(Gearing):

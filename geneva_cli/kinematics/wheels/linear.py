@@ -18,12 +18,12 @@ from geneva_cli.kinematics.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.kinematics.wheels.gearing import FollowedRate, Gearing, Output, RollerPlace
 from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose, middle
 from geneva_cli.numerics.jet import Jet, Number
-from geneva_cli.spec.example import Example
+from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.engagement import Anchor, Displacement
     from geneva_cli.kinematics.plane_motion import PlaneMotion
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array
 
 
 class Linear(Gearing):
@@ -45,6 +45,7 @@ class Linear(Gearing):
     FLAT: ClassVar[bool] = False
     PARTS: ClassVar[str] = "rack"
     DISTANCE: ClassVar[str] = "crank radius"
+    LOCK: ClassVar[str] = "locking ring"
 
     def output(self, center_distance_mm: float) -> Output:
         """The travel, in millimetres."""

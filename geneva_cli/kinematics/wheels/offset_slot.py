@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from geneva_cli.kinematics.engagement import Anchor, Slot, SlotAxis
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, StraightSlotMotion, turned
 from geneva_cli.kinematics.wheels.skew import Skew
 from geneva_cli.numerics.arrays import are_designs, chosen, library
-from geneva_cli.numerics.jet import Jet, Number, integral, moment, piecewise, sqrt
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.jet import Array, Jet, Number, integral, moment, piecewise, sqrt
 
 
 class OffsetSlot(Slot):

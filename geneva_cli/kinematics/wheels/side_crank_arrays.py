@@ -23,14 +23,12 @@ of it).
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.numerics.angles import DEGREE
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Mask, Number, Which, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Number, Which, Whole
 
 SCAN = 10  # intervals over half the motion; 8 miss none of a million designs, 6 miss twelve
 

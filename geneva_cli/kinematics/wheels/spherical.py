@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.kinematics.engagement import Displacement, Slot
 from geneva_cli.kinematics.layout import Dimension, Layout, Pivot
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, MeridianSlot, StraightSlotMotion
 from geneva_cli.kinematics.wheels.gearing import FollowedRate, Gearing, RollerPlace
@@ -13,11 +14,8 @@ from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose
 from geneva_cli.numerics.angles import radians, sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.numerics.jet import Jet, Number, turning
-from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import Range
-
-if TYPE_CHECKING:
-    from geneva_cli.kinematics.engagement import Displacement, Slot
+from geneva_cli.spec.schema import Example
 
 
 class Spherical(Gearing):

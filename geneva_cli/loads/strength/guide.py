@@ -23,18 +23,16 @@ shortens it. So the guide locks from nu = h/(R - x0) on.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+from geneva_cli.analysis.contact import Contact
 from geneva_cli.analysis.forces import QuantityValue, guide_lever
 from geneva_cli.analysis.guide_place import guide_place
+from geneva_cli.analysis.instant import Instant
 from geneva_cli.kinematics.engagement import Peak
 from geneva_cli.loads.summaries import load_peaks
-
-if TYPE_CHECKING:
-    from geneva_cli.analysis.contact import Contact
-    from geneva_cli.analysis.instant import Instant
-    from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.numerics.jet import Jet
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.jet import Jet
 
 
 class EndForce(NamedTuple):

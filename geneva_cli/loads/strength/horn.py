@@ -20,24 +20,19 @@ higher if h < R/6, and 5 % lower to 7 % higher at R/2.
 
 from __future__ import annotations
 
-from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.contact import NEAR_CUSP
+from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.pitch_curve import pitch
 from geneva_cli.loads.strength.horn_search import HornStress, UnitStress, greatest_stress, squeezed
 from geneva_cli.machine.many import taken
-from geneva_cli.numerics.arrays import blocks, joined, parameter
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from geneva_cli.kinematics.engagement import Engagement
-    from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.numerics.arrays import Number
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Number, blocks, joined, parameter
+from geneva_cli.numerics.jet import Array
 
 STOUT = 0.5  # thickness at the mouth over the recess's radius, beyond which a horn is no beam
 SHEAR = 1.2  # of a rectangular section: energy of its shear stress over that of the mean stress
@@ -189,20 +184,6 @@ def stoutness(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> A
     every = [side.stoutness for side in horns(mechanism, half_width_mm, recess_mm)]
     most: Array = np.max(np.broadcast_arrays(*every), axis=0)
     return most
-
-
-@lru_cache(maxsize=16)
-def horn(
-    mechanism: Mechanism, half_width_mm: float, recess_mm: float, width_mm: float
-) -> HornStress | None:
-    """Greatest bending stress in a machine's horns; None without a lock, or without a load.
-
-    ``half_width_mm`` is half the slot's width, ``recess_mm`` the radius of the wheel's recesses,
-    and ``width_mm`` the wheel's thickness.
-    """
-    if not recess_mm:
-        return None
-    return horn_stresses(mechanism, half_width_mm, recess_mm, width_mm).single
 
 
 def horn_stresses(

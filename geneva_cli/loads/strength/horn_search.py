@@ -8,21 +8,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
+from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
 from geneva_cli.analysis.contact import NEAR_CUSP
+from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.loads.loads import state
 from geneva_cli.machine.many import taken
-from geneva_cli.numerics.arrays import array, parameter
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Number, Whole, array, parameter
+from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import TIE
-
-if TYPE_CHECKING:
-    from geneva_cli.kinematics.engagement import Engagement
-    from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.numerics.arrays import Number, Whole
-    from geneva_cli.numerics.jet import Array
 
 
 class HornStress(NamedTuple):

@@ -13,7 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from geneva_cli.numerics.arrays import Number, choose
 from geneva_cli.numerics.jet import Array
+from geneva_cli.spec.tables import Shaft
 
 
 class KeyDimensions(NamedTuple):
@@ -44,3 +46,20 @@ def key_stress(key: KeyDimensions, torque_Nm: Array, pressure: Array, shear: Arr
     sides, section = key.bearing * key.length, key.width * key.length
     least = np.maximum(force / (key.bearing * pressure), force / (key.width * shear))
     return KeyStress(force / sides, force / section, least)
+
+
+def shear_allowed_MPa(shaft: Shaft, keyway: bool = False) -> Number:
+    """The shear stress that shafts and keys allow: that of the spec, or of the default steel.
+
+    The ASME code of ``shafts`` allows 0.3 of the yield strength of the default steel (see
+    ``Stock``). Its other bound, 0.18 of the tensile strength, is higher. A keyway leaves three
+    quarters for the shaft. Another steel, known by its modulus, has no default: it is infinite.
+
+    >>> round(shear_allowed_MPa(Shaft()), 6), round(shear_allowed_MPa(Shaft(), keyway=True), 6)
+    (82.5, 61.875)
+    """
+    if shaft.shear_stress_max_MPa is not None:
+        return shaft.shear_stress_max_MPa
+    is_steel = shaft.shear_modulus_GPa == Shaft().shear_modulus_GPa
+    # 0.3 of 275 MPa, and three quarters of that
+    return choose(is_steel, 61.875 if keyway else 82.5, math.inf)

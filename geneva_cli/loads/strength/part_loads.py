@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import reduce
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,11 +11,9 @@ from geneva_cli.analysis.quantities import FORCE
 from geneva_cli.loads.strength.shafts import Torque, crank_forces, wheel_forces
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.machine.both_ways import every_way
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import larger, parameter
-from geneva_cli.numerics.known import Known
-
-if TYPE_CHECKING:
-    from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.latest import Known
 
 
 class PartLoads(NamedTuple):

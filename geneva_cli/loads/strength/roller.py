@@ -13,13 +13,14 @@ break. Between the cuts they are integrated to the last digits.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.contact import contact, is_straight
-from geneva_cli.analysis.forces import Forces, load_case, sliding
+from geneva_cli.analysis.contact import Contact, contact, is_straight
+from geneva_cli.analysis.forces import Forces, LoadCase, load_case, sliding
 from geneva_cli.analysis.load_functions import (
     NO_MORE,
     LoadBatch,
@@ -29,22 +30,15 @@ from geneva_cli.analysis.load_functions import (
 )
 from geneva_cli.analysis.quantities import FORCE
 from geneva_cli.analysis.stretches import refuse_noise, spans_of, to_mid_motion
+from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.loads.groups import of_groups
 from geneva_cli.machine.many import taken
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import all_true, array, only_of, parameter
+from geneva_cli.numerics.arrays import Whole, all_true, array, parameter
+from geneva_cli.numerics.jet import Array, Jet, Number
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
 from geneva_cli.numerics.search import search
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from geneva_cli.analysis.contact import Contact
-    from geneva_cli.analysis.forces import LoadCase
-    from geneva_cli.kinematics.engagement import Engagement
-    from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.numerics.arrays import Whole
-    from geneva_cli.numerics.jet import Array, Jet, Number
 
 LIFE_EXPONENT = 10.0 / 3.0  # p, of line contact
 
@@ -175,18 +169,6 @@ def rollers(mechanism: Mechanism) -> int:
     spec = mechanism.spec
     count = len(spec.wheel.steps or spec.drive.roller_angles_deg or ()) or spec.drive.rollers
     return count * len(mechanism.engagements[0].ahead_deg)
-
-
-def life(mechanism: Mechanism) -> Life | None:
-    """Life of the roller that wears out first; None if no load is known.
-
-    The rollers move the wheel in turn, so each makes a fraction of the motions.
-    """
-    if not mechanism.spec.is_loaded:
-        return None
-    force, turns, *lasts = only_of(lives(mechanism, by_roller(mechanism)))
-    assert force is not None and turns is not None
-    return Life(force, turns, *lasts)
 
 
 def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:

@@ -26,20 +26,17 @@ taken as even through the shell, at L. On a large sphere the stress is that of t
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from functools import lru_cache, partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.loads.strength.arm import torsion_MPa
 from geneva_cli.loads.strength.horn_search import HornStress, UnitStress, greatest_stress, squeezed
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from geneva_cli.kinematics.engagement import Engagement
-    from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.jet import Array
 
 
 class SphereHorn(NamedTuple):

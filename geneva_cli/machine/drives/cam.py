@@ -19,7 +19,7 @@ from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, parameter
 from geneva_cli.numerics.jet import Jet, Number
-from geneva_cli.spec.example import Example
+from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.motion import Motion

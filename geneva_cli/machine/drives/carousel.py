@@ -13,8 +13,8 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.layout import Dimension, Layout, Pivot, wheel_places
 from geneva_cli.kinematics.wheels.classic import rollers_max
 from geneva_cli.machine.drives.transmission import Direct
-from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import Range
+from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.drive import Plan

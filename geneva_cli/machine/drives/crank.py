@@ -8,13 +8,11 @@ moves as by one crank with that many rollers, and so do the loads.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
+from geneva_cli.kinematics.drive import Plan
 from geneva_cli.machine.drives.transmission import Direct
 from geneva_cli.spec.rules import Z_MAX, Range
-
-if TYPE_CHECKING:
-    from geneva_cli.kinematics.drive import Plan
 
 
 class Crank(Direct, kw_only=True):

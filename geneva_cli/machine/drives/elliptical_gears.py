@@ -22,8 +22,8 @@ from geneva_cli.machine.drives.transmission import LocalTransmission, Transmissi
 from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number, cosines_after, sine_versine_of
-from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
+from geneva_cli.spec.schema import Example
 
 
 class EllipticalGears(Transmission, kw_only=True):

@@ -17,8 +17,8 @@ from geneva_cli.kinematics.roller_path import PointDisplacement, rounded
 from geneva_cli.machine.drives.linkage import Linkage, Moving, RodPath, refuse_proportions
 from geneva_cli.numerics.arrays import larger, smaller
 from geneva_cli.numerics.jet import Jet, sqrt, turned_at
-from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
+from geneva_cli.spec.schema import Example
 
 
 class FourBar(Linkage, kw_only=True):

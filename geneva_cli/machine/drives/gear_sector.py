@@ -26,13 +26,13 @@ from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, library, parameter, size
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import POSITIVE, Range, Words
+from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.motion import Motion
     from geneva_cli.kinematics.wheels.gearing import Gearing
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array
 
 
 class GearSector(PinPath, kw_only=True):

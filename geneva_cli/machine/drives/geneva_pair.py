@@ -8,7 +8,7 @@ times tan b. There is none if both motions begin together, as with four slots on
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.kinematics.drive import FirstWheel, Plan
 from geneva_cli.kinematics.engagement import Path, Vector
@@ -19,12 +19,17 @@ from geneva_cli.machine.drives.pushed import PushedCrank
 from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.numerics.angles import of_each, radians, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, choose_record, library
-from geneva_cli.numerics.jet import Jet, Number, atan2, sin_cos, sine_versine, sine_versine_of
-from geneva_cli.spec.example import Example
+from geneva_cli.numerics.jet import (
+    Array,
+    Jet,
+    Number,
+    atan2,
+    sin_cos,
+    sine_versine,
+    sine_versine_of,
+)
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.spec.schema import Example
 
 
 class GenevaPair(Transmission, kw_only=True):

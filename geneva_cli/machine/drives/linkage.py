@@ -20,8 +20,7 @@ from geneva_cli import linkage
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Plan
 from geneva_cli.kinematics.layout import Dimension, Joint, Layout, Link, Pivot
-from geneva_cli.kinematics.link import LinkReactions
-from geneva_cli.kinematics.roller_path import RollerPath, rounded
+from geneva_cli.kinematics.roller_path import LinkReactions, RollerPath, rounded
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import DEGREE, radians
@@ -33,8 +32,7 @@ from geneva_cli.spec.tables import DISTANCE_MM
 if TYPE_CHECKING:
     from geneva_cli.kinematics.motion import Motion
     from geneva_cli.kinematics.wheels.gearing import Gearing
-    from geneva_cli.numerics.arrays import Long
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array, Long
 
 Place = TypeVar("Place", float, "Array")
 Moving: TypeAlias = "tuple[Array, Array]"  # x and y at input angles

@@ -24,9 +24,8 @@ from geneva_cli.machine.drives.transmission import LocalTransmission, Transmissi
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number, sine_versine_of
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import POSITIVE, Csv, Range
-from geneva_cli.spec.schema import Points
+from geneva_cli.spec.schema import Example, Points
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.spline import Doubt, PiecewisePolynomial

@@ -6,8 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 
 from geneva_cli.kinematics.engagement import Path, Vector, cross
-from geneva_cli.numerics.arrays import library
-from geneva_cli.numerics.batchable import Batchable
+from geneva_cli.numerics.arrays import Batchable, library
 from geneva_cli.numerics.jet import Jet, Number, turning
 
 

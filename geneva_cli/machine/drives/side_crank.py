@@ -7,7 +7,7 @@ of the Maltese cross mechanism with a side-crank drive".
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import Annotated, ClassVar
 
 from geneva_cli.kinematics.drive import Plan
 from geneva_cli.kinematics.engagement import (
@@ -23,11 +23,9 @@ from geneva_cli.machine.drives.pushed import PushedCrank
 from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library
-from geneva_cli.spec.example import Example
+from geneva_cli.numerics.jet import Array
 from geneva_cli.spec.rules import POSITIVE, Range
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.spec.schema import Example
 
 
 class SideCrank(Transmission, kw_only=True):

@@ -15,8 +15,8 @@ from geneva_cli.kinematics.layout import Dimension, Joint, Layout, Link
 from geneva_cli.kinematics.roller_path import PointDisplacement, rounded
 from geneva_cli.machine.drives.linkage import Linkage, Moving, RodPath, refuse_proportions
 from geneva_cli.numerics.jet import Jet, sqrt
-from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
+from geneva_cli.spec.schema import Example
 
 
 class SliderCrank(Linkage, kw_only=True):

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,12 +19,10 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.plain_sizes import Sizes
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.outlines.walls.joint import WallPlace, joint, points_at, runs
 from geneva_cli.outlines.walls.ways import Wall, walls
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 class WallPiece(NamedTuple):
@@ -77,8 +75,7 @@ class _Rim:
 
     def depth(self, points: Array) -> Array:
         """Return how far points lie inside the wheel."""
-        out: Array = self.sign * (self.radius - np.hypot(points[..., 0], points[..., 1]))
-        return out
+        return self.sign * (self.radius - np.hypot(points[..., 0], points[..., 1]))
 
     def crossings(self, wall: Wall) -> Iterator[tuple[WallPlace, float]]:
         """Yield where a wall enters the wheel: its first sample inside, and the parameter."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import math
-from typing import TYPE_CHECKING
 
 from geneva_cli.curves import fit
 from geneva_cli.curves.shapes import Contour, Cubic, Point, Segment, about, joined
@@ -12,11 +11,9 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.plain_sizes import Sizes
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.outlines.walls.chain import WallPiece, chain
 from geneva_cli.outlines.walls.joint import points_at
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 # A wall ends at an intersection, whose last bits differ between processors, and many bits where two
 # walls nearly touch. Ends are rounded: of curves in degrees of input, of arcs in radians. That is

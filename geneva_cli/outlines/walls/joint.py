@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from geneva_cli.numerics.arrays import Whole
 from geneva_cli.outlines.walls.ways import Wall
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 REACH = 3  # samples within which two walls meet
 
@@ -89,11 +87,10 @@ def _polylines_cross(last: WallPlace, following: WallPlace) -> tuple[WallPlace, 
     return last._replace(i=int(one[i[best]])), following._replace(i=int(two[j[best]]))
 
 
-def _window(place: WallPlace, behind: int, ahead: int) -> NDArray[np.intp]:
+def _window(place: WallPlace, behind: int, ahead: int) -> Whole:
     """Return the indices of samples around one, in the direction of travel."""
     indices = place.i + place.sense * np.arange(behind, ahead + 1)
-    out: NDArray[np.intp] = indices[(indices >= 0) & (indices < len(place.wall.t))]
-    return out
+    return indices[(indices >= 0) & (indices < len(place.wall.t))]
 
 
 def _within(place: WallPlace, t: float) -> float:
@@ -104,8 +101,7 @@ def _within(place: WallPlace, t: float) -> float:
 
 def points_at(wall: Wall, *t: float) -> list[list[float]]:
     """Return the points of a wall at some parameters."""
-    out: list[list[float]] = wall.curve(np.array(t))[0].tolist()
-    return out
+    return wall.curve(np.array(t))[0].tolist()
 
 
 def _course(place: WallPlace, t: float) -> tuple[list[float], list[float], float]:

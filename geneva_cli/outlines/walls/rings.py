@@ -18,7 +18,7 @@ import numpy as np
 
 from geneva_cli.curves.moments import Moments
 from geneva_cli.layout.roller_paths import rest
-from geneva_cli.numerics.arrays import array
+from geneva_cli.numerics.arrays import Array, array
 from geneva_cli.numerics.quadrature import rule
 
 if TYPE_CHECKING:
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from geneva_cli.kinematics.engagement import Engagement
     from geneva_cli.layout.assembly import Assembly
     from geneva_cli.layout.plain_sizes import Sizes
-    from geneva_cli.numerics.jet import Array
 
     Complex: TypeAlias = NDArray[np.complex128]
 
@@ -81,8 +80,7 @@ def _sum(of: Callable[[Array, Array], Array]) -> Array:
         whole = np.concatenate((left[open_], right[open_]))
         if not len(low):
             break
-    out: Array = total + whole.sum(axis=0)
-    return out
+    return total + whole.sum(axis=0)
 
 
 def _places(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> tuple[Array, Array]:
@@ -130,8 +128,7 @@ def _before(
     z = axis + (start - axis) * np.exp(1j * turn)
     outside = assembly.sign * (abs(z) - sizes.rim) > sizes.half_width
     count = int(np.argmax(outside)) + 1 if outside.any() else len(z)
-    path: Complex = z[:count]
-    return path
+    return z[:count]
 
 
 def _covered(r: Array, rho: Array, theta: Array, w: float) -> tuple[Array, Array]:
@@ -158,5 +155,4 @@ def _most(s: Array, values: Array) -> Array:
         slope = first - bend * ahead
         gain = -slope * slope / (4.0 * bend)
     inner = np.isfinite(gain) & (bend < 0.0) & (here == top)
-    out: Array = top + np.where(inner, gain, 0.0)
-    return out
+    return top + np.where(inner, gain, 0.0)

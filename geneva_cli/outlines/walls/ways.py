@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -19,13 +19,8 @@ from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.roller_paths import rest
 from geneva_cli.layout.slot_profile import heading_at, pitch_at
 from geneva_cli.layout.slot_sampling import nodes
-from geneva_cli.numerics.arrays import array
+from geneva_cli.numerics.arrays import Array, Mask, array
 from geneva_cli.numerics.roots import boundary_by_sections
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from geneva_cli.numerics.jet import Array
 
 Curve: TypeAlias = "Callable[[Array], tuple[Array, Array]]"  # parameters -> points and tangents
 
@@ -42,7 +37,7 @@ class Wall(NamedTuple):
     t: Array
     points: Array
     tangents: Array
-    free: NDArray[np.bool_]  # samples that no other position of the roller covers
+    free: Mask  # samples that no other position of the roller covers
     centre: tuple[float, float] | None = None  # where the wall is an arc, by its angle
     radius: float = 0.0
 
@@ -176,8 +171,7 @@ def _unfolded(curve: Curve, t: Array, at: Pitch, L: float, side: float) -> Array
     centre = L * np.array((array(at.x)[order[0]], array(at.y)[order[0]]))
 
     def outside(x: Array) -> Array:
-        out: Array = np.hypot(*(curve(x)[0] - centre).T) - abs(side)
-        return out
+        return np.hypot(*(curve(x)[0] - centre).T) - abs(side)
 
     while first < len(t) - 1 and not outside(t[order[first : first + 1]])[0] > 0.0:
         first += 1
@@ -197,7 +191,7 @@ def _tangent_in(engagement: Engagement) -> tuple[float, float]:
     return float(array(at.tangent_x)[0]), float(array(at.tangent_y)[0])
 
 
-def _free(points: Array, path: Array, least: float) -> NDArray[np.bool_]:
+def _free(points: Array, path: Array, least: float) -> Mask:
     """Return a mask of the points that no position of the roller covers.
 
     A block of neighbouring points is compared only with the part of the path near its bounding

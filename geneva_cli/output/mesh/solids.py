@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,14 +14,12 @@ from geneva_cli.curves.plates import Group, Member, Part, Shell, Solid, Stack
 from geneva_cli.curves.shapes import Point
 from geneva_cli.curves.stacks import Run, Side, levels, outline_of, sides
 from geneva_cli.errors import GenevaError
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.mesh.plates import plate_mesh
 from geneva_cli.output.mesh.polygons import Triangle, chord_points, triangles
 from geneva_cli.output.mesh.shells import shell_mesh
 from geneva_cli.output.mesh.surface import Surface, rounded, surface
 from geneva_cli.output.solid_part import plate_contours, solid_part
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 class Place(NamedTuple):

@@ -11,12 +11,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geneva_cli.curves.drawing import Drawing
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.mesh.solids import bodies
 
 if TYPE_CHECKING:
     import numpy.typing as npt
-
-    from geneva_cli.numerics.jet import Array
 
 
 def data(drawing: Drawing, units: str) -> Iterator[bytes]:
@@ -53,5 +52,4 @@ def _normals(corners: Array) -> Array:
     p, q, r = (corners[:, k] for k in range(3))
     out = np.cross(q - p, r - p)
     length = np.sqrt((out * out).sum(axis=1, keepdims=True))
-    normals: Array = out / np.where(length > 0.0, length, 1.0)
-    return normals
+    return out / np.where(length > 0.0, length, 1.0)

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.mesh.polygons import DECIMALS, Triangle
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
     from geneva_cli.curves.sphere import Vector
-    from geneva_cli.numerics.jet import Array
 
 
 class Surface(NamedTuple):
@@ -33,5 +33,4 @@ def surface(corners: Sequence[Vector], triangles: Sequence[Triangle]) -> Surface
 
 def rounded(corners: Array) -> Array:
     """Return corners with DECIMALS, and without negative zeros."""
-    values: Array = np.round(corners, DECIMALS) + 0.0
-    return values
+    return np.round(corners, DECIMALS) + 0.0

@@ -16,15 +16,13 @@ import numpy as np
 
 from geneva_cli.collisions.pairs import Bounds, Intervals, Pair, raised
 from geneva_cli.curves.sphere_extents import Circle, FromCircle, farthest, short_arcs
+from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.outlines.sphere_wheel import POLE, QUARTER
 from geneva_cli.parts.sphere.stops import about, polar
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from geneva_cli.collisions.pairs import Window
     from geneva_cli.curves.sphere import Region
-    from geneva_cli.numerics.jet import Array
     from geneva_cli.parts.sphere.gaps import BallGaps
 
 STEP = math.radians(1.0)  # of the sectors' arcs: pieces that are tested for being in the wheel
@@ -68,13 +66,11 @@ class Roller:
 
     def gap(self, on: Intervals) -> Array:
         """Return the gap to the wheel in the middle of intervals, mm."""
-        gap: Array = self.gaps.rollers(self.gaps.pose(on.middle))[:, self.number]
-        return gap
+        return self.gaps.rollers(self.gaps.pose(on.middle))[:, self.number]
 
     def travel(self, on: Intervals) -> Array:
         """Return how far the centre moves on the fixed sphere from the middle, radians."""
-        out: Array = math.sin(self.ball.arm) * on.crank
-        return out
+        return math.sin(self.ball.arm) * on.crank
 
     def along(self, path: FromCircle, centre: Array, half: Array, gap: Array) -> Array:
         """Return the gap of a roller whose centre moves along a circle, mm.
@@ -116,7 +112,7 @@ class FreeRoller(Roller):
         moved = self.travel(on) + np.sin(away) * on.wheel
         least = gap - ball.radius_mm * moved
 
-        def on_circle(which: NDArray[np.intp]) -> Array:
+        def on_circle(which: Whole) -> Array:
             return self.along(self.path, centre[which], on.crank[which], gap[which])
 
         return Bounds(gap, raised(least, self.rests & (least < self.pairs.target), on_circle))
@@ -160,7 +156,7 @@ class Lock:
         # no point of a sphere moves farther than it turns
         least = gap - R * (on.wheel + self._travel(on))
 
-        def in_recess(which: NDArray[np.intp]) -> Array:
+        def in_recess(which: Whole) -> Array:
             return self._in_recess(on.at(which), pose.wheel[which], pose.crank[which])
 
         least = raised(least, least < pairs.target, in_recess)
@@ -168,8 +164,7 @@ class Lock:
 
     def _travel(self, on: Intervals) -> Array:
         """Return how far points of the sectors move, and points as near to them, radians."""
-        out: Array = math.sin(min(self.ball.lock + self.pairs.apart, QUARTER)) * on.crank
-        return out
+        return math.sin(min(self.ball.lock + self.pairs.apart, QUARTER)) * on.crank
 
     def _in_recess(self, on: Intervals, wheel: Array, crank: Array) -> Array:
         """Return how far the sectors stay within the cap of the nearer recess, mm."""
@@ -182,15 +177,13 @@ class Lock:
         offset = gaps.in_crank(about(middle, wheel), crank)
         far = np.where(self._within_rim(on, crank), farthest(self.pieces, offset), 0.0)
         moved = math.sin(ball.axes) * on.wheel + np.hypot(*offset[:, :2].T) * on.crank
-        out: Array = ball.radius_mm * (free - far.max(axis=1) - moved)
-        return out
+        return ball.radius_mm * (free - far.max(axis=1) - moved)
 
-    def _within_rim(self, on: Intervals, crank: Array) -> NDArray[np.bool_]:
+    def _within_rim(self, on: Intervals, crank: Array) -> Mask:
         """Return a mask (n, k) of the pieces of the sectors that may come within the rim."""
         pole = np.tile(POLE, (len(crank), 1))
         height = self.gaps.in_crank(pole, crank) @ self.pieces.middle.T
         beyond = np.arccos(np.clip(height, -1.0, 1.0)) - self.pieces.size - self.ball.rim
         # an angle computed from its cosine is wrong by up to 1e-7 radians
         moved = self._travel(on)[:, None] + self.pairs.apart + 1e-7
-        out: NDArray[np.bool_] = beyond <= moved
-        return out
+        return beyond <= moved

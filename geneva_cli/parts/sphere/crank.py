@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,12 +15,10 @@ from geneva_cli.curves.sphere import Region, Rotation, SphereArc, cross, opposit
 from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.sphere_sizes import PartDoesNotFit
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.outlines.locking_rings import widest
 from geneva_cli.outlines.sphere_wheel import POLE, QUARTER, edge_points
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 def sectors(ball: Ball) -> list[Region]:

@@ -6,8 +6,6 @@ centre; they are returned as arc lengths on the sphere, mm.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from geneva_cli.collisions.machine_parts import Pose, Stop
@@ -16,15 +14,11 @@ from geneva_cli.curves.sphere import Region, opposite, place
 from geneva_cli.curves.sphere_arcs import SphereArcs
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.ball import Ball
+from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.outlines.sphere_wheel import edge
 from geneva_cli.parts.sphere.crank import at_mid_motion
 from geneva_cli.parts.sphere.stops import WheelCaps, about, caps, polar, round_cap
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from geneva_cli.numerics.jet import Array
 
 # Fractions of an arc at which it is sampled: its start and middle, and points next to its corners.
 # A corner itself may lie on an edge where all else overlaps.
@@ -78,8 +72,7 @@ class BallGaps:
         for i in range(pose.pins.shape[1]):
             away, _ = self.to_wheel(about(pose.pins[:, i], -(pose.wheel + lead)))
             columns.append(self.ball.radius_mm * (away - self.ball.roller))
-        out: Array = np.minimum(np.column_stack(columns), near)
-        return out
+        return np.minimum(np.column_stack(columns), near)
 
     def repeats(self, count: int) -> bool:
         """Return True if the parts coincide with themselves after one slot and 1/``count`` turn."""
@@ -101,7 +94,7 @@ class BallGaps:
         if self._sides:
             axes = [self._out(axis, pose.crank) for axis in self._sides.axis]
 
-            def on_crank(points: Array, n: NDArray[np.intp]) -> Array:
+            def on_crank(points: Array, n: Whole) -> Array:
                 return self.in_crank(points, pose.crank[n])
 
             axis = np.stack(axes, axis=1)
@@ -120,7 +113,7 @@ class BallGaps:
         far = np.arccos(np.clip(axis @ self.wheel.middle.T, -1.0, 1.0)) - self.wheel.size
         # an angle computed from its cosine is wrong by up to 1e-7 radians
         owner, piece = np.nonzero(far <= self.ball.lock + least[0] + 1e-7)
-        owners: list[NDArray[np.intp]] = []
+        owners: list[Whole] = []
         points: list[Array] = []
         for fraction in ARC_SAMPLES:
             owners.append(owner)
@@ -167,13 +160,12 @@ class BallGaps:
         ``of_crank`` is one direction or n of them. The crank turns clockwise about its axis where
         the wheel turns counterclockwise.
         """
-        out: Array = about(np.broadcast_to(of_crank, (len(turn), 3)), -turn) @ self.crank_frame
-        return out
+        return about(np.broadcast_to(of_crank, (len(turn), 3)), -turn) @ self.crank_frame
 
     def in_crank(self, points: Array, turn: Array) -> Array:
         """Return directions in the crank's frame at crank angles."""
         return about(points @ self.crank_frame.T, turn)
 
 
-def _same(points: Array, _: NDArray[np.intp]) -> Array:
+def _same(points: Array, _: Whole) -> Array:
     return points

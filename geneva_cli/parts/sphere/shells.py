@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.sphere_sizes import PartDoesNotFit, ball
 from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -21,9 +22,6 @@ from geneva_cli.outlines.outlines import CONTACT
 from geneva_cli.parts.sphere.bounds import SpherePairs
 from geneva_cli.parts.sphere.crank import sectors
 from geneva_cli.parts.sphere.gaps import BallGaps
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 def fitted(mechanism: Mechanism, advice: bool = True) -> tuple[Ball, list[Region]]:
@@ -102,14 +100,12 @@ class Shells(NamedTuple):
 
         It is an array (n, 3).
         """
-        out: Array = self.ball.radius_mm * self.gaps.in_wheel(motion, at)
-        return out
+        return self.ball.radius_mm * self.gaps.in_wheel(motion, at)
 
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
         polar = np.arccos(np.clip(self.gaps.in_wheel(motion, at)[:, 2], -1.0, 1.0))
-        past: Array = self.ball.radius_mm * (self.ball.mouth - polar)
-        return past
+        return self.ball.radius_mm * (self.ball.mouth - polar)
 
 
 def shells(mechanism: Mechanism, advice: bool = True) -> Shells:

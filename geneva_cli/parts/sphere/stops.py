@@ -10,18 +10,14 @@ triangle of known sides.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.collisions.touch import SLACK, WAYS, Touch, triangles, within
 from geneva_cli.curves.sphere_arcs import SphereArcs
+from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from geneva_cli.numerics.jet import Array
 
 ALL_ROUND = 7.0  # radians, more than a whole turn: the sweep of an edge without ends
 
@@ -35,13 +31,12 @@ class Caps(NamedTuple):
     y: Array  # (k, 3), normal to both, onwards along the edge
     sweep: Array  # length of the edge, radians about the axis
 
-    def edge(self, which: NDArray[np.intp], points: Array) -> NDArray[np.bool_]:
+    def edge(self, which: Whole, points: Array) -> Mask:
         """Return True where points (n, 3) on the rims of caps lie on their edges."""
         along = (points * self.x[which]).sum(axis=1)
         across = (points * self.y[which]).sum(axis=1)
         turn = np.remainder(np.arctan2(across, along) + SLACK, 2.0 * np.pi)
-        out: NDArray[np.bool_] = turn <= self.sweep[which] + 2.0 * SLACK
-        return out
+        return turn <= self.sweep[which] + 2.0 * SLACK
 
 
 def caps(boundaries: Sequence[SphereArcs]) -> Caps:
@@ -72,7 +67,7 @@ class WheelCaps:
         self,
         others: Caps,
         axis: Array,
-        own: Callable[[Array, NDArray[np.intp]], Array],
+        own: Callable[[Array, Whole], Array],
         wheel: Array,
         most: float,
         close: float,
@@ -108,14 +103,12 @@ class WheelCaps:
 
 def polar(points: Array) -> Array:
     """Return the angles of directions (..., 3) from z."""
-    out: Array = np.arctan2(np.hypot(points[..., 0], points[..., 1]), points[..., 2])
-    return out
+    return np.arctan2(np.hypot(points[..., 0], points[..., 1]), points[..., 2])
 
 
 def _azimuth(points: Array) -> Array:
     """Return the angles of directions (..., 3) about z, from x."""
-    out: Array = np.arctan2(points[..., 1], points[..., 0])
-    return out
+    return np.arctan2(points[..., 1], points[..., 0])
 
 
 def about(points: Array, angle: Array) -> Array:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from contextlib import suppress
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,20 +12,22 @@ from geneva_cli.curves.shapes import Circle, Contour, Line, Shape, polygon
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.gear_curves import gears_table
-from geneva_cli.scene import Body, Track
+from geneva_cli.numerics.arrays import Array
+from geneva_cli.scene import Body
+from geneva_cli.study.animation.counter import stations
 from geneva_cli.study.animation.rack import rack
 from geneva_cli.study.animation.teeth import DrawnTeeth, round_gears
 from geneva_cli.study.animation.tracks import still
 from geneva_cli.study.animation.turn import MachineTurn
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 WHEEL = "WHEEL"  # layer
 
 
 def bodies(design: Design, turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Body]:
     """Wheel, crank with its arm, the cam's groove and gears, as far as the machine has them."""
+    if design.spec.wheel.pinions:
+        yield from stations(turn, *(_shapes(design, p) for p in ("wheel", "crank", "number-wheel")))
+        return
     L = turn.L
     # parts of a sphere are drawn laid flat: these outlines do not turn about the shaft
     shapes = () if design.spec.wheel.SHELLS else _hollow(_shapes(design, "wheel"))
@@ -35,7 +36,6 @@ def bodies(design: Design, turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Bod
         yield from _wheels(shapes, turn)
     else:
         yield rack(shapes, turn)
-    yield from _number_wheel(design, turn)
     if flat:
         carried = (*_shapes(design, "arm"), *_shapes(design, "crank"))
         carried = tuple(shape for shape in carried if shape.layer != "ROLLER")
@@ -56,19 +56,6 @@ def _wheels(shapes: tuple[Shape, ...], turn: MachineTurn) -> Iterator[Body]:
     for place in turn.mechanism.wheel_places:
         name = f"wheel {place.number}" if place.number > 1 else "wheel"
         yield Body(name, wheel, place.at, turn.wheel(place))
-
-
-def _number_wheel(design: Design, turn: MachineTurn) -> Iterator[Body]:
-    """The number wheel that a counter's first pinion turns, about the driver's axis."""
-    if not turn.mechanism.spec.wheel.pinions:
-        return
-    pinion = turn.wheel(turn.mechanism.wheel_places[0])
-    # it moves with the driver, as the driver moves the pinion by the ratio
-    back = -1.0 / turn.passages[0].engagement.motion.jump
-    values = tuple(math.pi + back * x for x in pinion.value)
-    slopes = tuple(back * x for x in pinion.slope)
-    angle = Track(pinion.at, values, slopes, back * pinion.gain)
-    yield Body("number wheel", _shapes(design, "number-wheel"), (turn.L, 0.0), angle)
 
 
 def _shapes(design: Design, part: str) -> tuple[Shape, ...]:

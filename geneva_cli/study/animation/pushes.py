@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.loads.cycle import Cycle
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.scene import Push
 from geneva_cli.study.animation.carrier import moved_push
 from geneva_cli.study.animation.turn import MachineTurn, RollerPassage
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
@@ -65,7 +62,4 @@ def _normals(one: RollerPassage, local: Array, turn: MachineTurn) -> Array:
         )
     else:
         direction = turn.pin(one, one.mid + local)
-    out: Array = (
-        np.column_stack((-direction[:, 1], direction[:, 0])) / np.hypot(*direction.T)[:, None]
-    )
-    return out
+    return np.column_stack((-direction[:, 1], direction[:, 0])) / np.hypot(*direction.T)[:, None]

@@ -15,7 +15,6 @@ from geneva_cli.curves.shapes import Circle, Shape
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.link_positions import links_at
-from geneva_cli.outlines.rack import rack_sizes
 from geneva_cli.outlines.stop import wheel_stop
 from geneva_cli.scene import Bar, Body, Box, CarriedShapes, Phase, Place, Rotation, Scene, pose
 from geneva_cli.specfile.writer import quoted, spec_lines
@@ -103,6 +102,12 @@ def _remark(design: Design, bars: tuple[Bar, ...], teeth: DrawnTeeth) -> str:
     """A remark on simplifications in the picture."""
     if design.spec.wheel.SHELLS:
         return " Seen along the wheel's shaft."
+    if design.spec.wheel.pinions > 1:
+        return (
+            " Each pinion is shown with the two teeth that move it and the number wheel that it "
+            "moves. In the machine all lie above each other, on two shafts. In the first turn all "
+            "number wheels go to 0."
+        )
     out = " Gears are shown by their pitch circles." if any(bar.radius for bar in bars) else ""
     if teeth.why:
         out += f" Their teeth are not drawn: {teeth.why}."
@@ -116,7 +121,11 @@ def _remark(design: Design, bars: tuple[Bar, ...], teeth: DrawnTeeth) -> str:
 
 def _figure(design: Design) -> Figure:
     loads = ("pin_force_N", "input_torque_Nm") if design.cycle.is_loaded else ()
-    return design.figure(("velocity", "acceleration", *loads))
+    figure, noun = design.figure(("velocity", "acceleration", *loads)), design.spec.output.noun
+    axes = (panel.y for panel in figure.panels)
+    named = [axis._replace(label=axis.label.replace("the wheel", f"the {noun}")) for axis in axes]
+    panels = tuple(p._replace(y=y) for p, y in zip(figure.panels, named, strict=True))
+    return figure._replace(panels=panels)
 
 
 def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
@@ -124,6 +133,7 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
     if design.spec.drive.wheels_on_carrier > 1:
         yield from _wheels_in_turn(design, turn)
         return
+    pinions = design.spec.wheel.pinions
     last, cranks = turn.passages[-1], len(design.mechanism.crank_places)
     for one, after in zip(turn.passages, (*turn.passages[1:], None), strict=True):
         which = f"roller {one.roller}" if len(turn.passages) > 1 else "the roller"
@@ -131,10 +141,11 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
             which = f"crank {turn.on_crank(one.roller - 1).number}"
         if not turn.rollers():
             which = "the driver"
-        noun = design.mechanism.output.noun
+        noun = f"{'first ' if pinions > 1 else ''}{design.mechanism.output.noun}"
         a, b = one.entry - turn.start, one.exit - turn.start
         if not one.engagement.paired:
-            yield Phase(a, b, True, f"{which} moves the {noun}")
+            also = "; at a carry number wheels move the others" if pinions > 1 else ""
+            yield Phase(a, b, True, f"{which} moves the {noun}{also}")
         else:
             c, d = (one.mid + x - turn.start for x in one.engagement.motion.breaks_deg[1:-1:2])
             yield Phase(a, c, True, "the first roller starts the wheel")
@@ -157,15 +168,12 @@ def _wheels_in_turn(design: Design, turn: MachineTurn) -> Iterator[Phase]:
 
 def _rest(design: Design) -> str:
     """A phrase that names what holds the wheel at rest."""
-    by, output = design.spec.wheel.held_by, design.mechanism.output
-    rests, lock = f"the {output.noun} rests", "disc" if output.turns else "ring"
-    if by:
-        return f"{rests}, held by a {by}"
-    try:
-        sizes = design.parts.sizes if output.turns else rack_sizes(design.mechanism)
-    except GenevaError:
-        return rests
-    return f"{rests}, locked by the {lock}" if sizes.lock > 0.0 else f"{rests}; nothing holds it"
+    spec = design.spec
+    rests = f"the {spec.output.noun} rests"
+    if spec.wheel.held_by:
+        return f"{rests}, held by a {spec.wheel.held_by}"
+    lock = spec.dwell_holder
+    return f"{rests}, locked by the {lock.split()[-1]}" if lock else f"{rests}; nothing holds it"
 
 
 def _swept(parts: tuple[Body, ...], frame: Rotation) -> Box:

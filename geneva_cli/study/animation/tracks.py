@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.scene import Track
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 # value and slope by the input in degrees, at input angles in degrees
 Moving: TypeAlias = "Callable[[Array], tuple[Array, Array]]"
@@ -85,9 +83,8 @@ def _knots(a: float, b: float, moving: Moving, error: float) -> tuple[Array, Arr
 def _hermite(u: float, h: Array, v: Array, s: Array) -> Array:
     """The cubics between knots, at the fraction ``u`` of each step."""
     w = 1.0 - u
-    out: Array = (
+    return (
         w * w * (1.0 + 2.0 * u) * v[:-1]
         + u * u * (1.0 + 2.0 * w) * v[1:]
         + u * w * h * (w * s[:-1] - u * s[1:])
     )
-    return out

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,13 +17,11 @@ from geneva_cli.kinematics.plane_motion import turned_points
 from geneva_cli.layout.groove import roller_in_groove
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Array
+from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.scene import Bar, CarriedShapes, Place, Track
 from geneva_cli.study.animation.tracks import Moving, cut, resting, sampled, track
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
-    from geneva_cli.outlines.outlines import Outlines
 
 ANGLE_ERROR = 1e-7  # rad, of wheel and crank: a tenth of the page's own error
 
@@ -111,8 +109,7 @@ class MachineTurn:
         def angle(x: Array) -> Array:
             at = (x - one.mid + 180.0) % 360.0 - 180.0
             ahead = (one.engagement.own_deg(at) - at + 180.0) % 360.0 - 180.0
-            out: Array = sense * np.radians(x - one.mid + ahead)
-            return out
+            return sense * np.radians(x - one.mid + ahead)
 
         return self._sampled(angle, ANGLE_ERROR, sense * math.tau * turns)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from geneva_cli.design import Design
 from geneva_cli.document import Document, Prose
 from geneva_cli.study.document import answers, inputs, pictures, verdict
-from geneva_cli.study.document.rest import RemainingValues
+from geneva_cli.study.document.facts import RemainingValues
 from geneva_cli.study.document.verdict import key_figures
 from geneva_cli.study.summary.titles import title_of
 

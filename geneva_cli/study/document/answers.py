@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from geneva_cli.design import Design
 from geneva_cli.document import Block, Facts, Grid, Heading, Row, TextList
+from geneva_cli.kinematics.wheels.gearing import Output
 from geneva_cli.loads.figures import AXIS_BY_NAME
 from geneva_cli.loads.summary import QuantitySummary
-from geneva_cli.study.document.facts import capital, fact, facts
-from geneva_cli.study.document.rest import RemainingValues, grid
+from geneva_cli.study.document.facts import RemainingValues, capital, fact, facts, grid
 from geneva_cli.table import Table
-
-if TYPE_CHECKING:
-    from geneva_cli.kinematics.wheels.gearing import Output
 
 
 def timing(left: RemainingValues, n_rpm: float, output: Output) -> Iterator[Block]:

@@ -9,8 +9,7 @@ from geneva_cli.document import BAD, Block, Grid, Heading, Prose, Row, TextList
 from geneva_cli.loads.summary import missing
 from geneva_cli.machine.spec import Spec
 from geneva_cli.manual.explained import entries
-from geneva_cli.study.document.facts import capital
-from geneva_cli.study.document.rest import RemainingValues
+from geneva_cli.study.document.facts import RemainingValues, capital
 from geneva_cli.study.summary import report
 from geneva_cli.verdict.headline import headline
 from geneva_cli.verdict.strength import OF_LIFE

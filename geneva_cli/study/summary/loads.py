@@ -7,14 +7,13 @@ from typing import Any
 
 from geneva_cli.design import Design
 from geneva_cli.document import WARNS, Answer, Summary, SummaryLine
+from geneva_cli.loads.makers_form import RecommendedMotor, recommended_motor
 from geneva_cli.loads.summary import QuantitySummary, no_load
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.study.fields import pick
 from geneva_cli.study.summary.titles import counted, title_of
-from geneva_cli.verdict.headline import warning
-from geneva_cli.verdict.measured import bare, measured
-from geneva_cli.verdict.motor import RecommendedMotor, recommended_motor
+from geneva_cli.verdict.headline import bare, measured, warning
 
 NO_BOUND = "without bound: see the warnings"
 

@@ -15,10 +15,10 @@ from geneva_cli.verdict.headline import (
     failure_lines,
     headline,
     input_lines,
+    measured,
     tightest,
     warning_lines,
 )
-from geneva_cli.verdict.measured import measured
 
 
 def of_report(design: Design) -> Answer:

@@ -11,7 +11,7 @@ from geneva_cli.errors import is_warning
 from geneva_cli.names import spoken
 from geneva_cli.study.summary.titles import record_answer
 from geneva_cli.table import Table
-from geneva_cli.verdict.measured import bare, measured
+from geneva_cli.verdict.headline import bare, measured
 
 
 def of_tolerance(design: Design, record: Table) -> Answer:

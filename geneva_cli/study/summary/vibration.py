@@ -10,7 +10,7 @@ from geneva_cli.document import Answer, SummaryLine
 from geneva_cli.errors import is_warning
 from geneva_cli.study.summary.titles import record_answer
 from geneva_cli.table import Table
-from geneva_cli.verdict.measured import measured
+from geneva_cli.verdict.headline import measured
 
 
 def of_vibration(design: Design, record: Table) -> Answer:

@@ -11,8 +11,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.many import Many, many, may_vary
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
+from geneva_cli.study.batches import columns
 from geneva_cli.study.fields import Cell
-from geneva_cli.study.sweep.columns import columns
 from geneva_cli.study.sweep.values import Value
 
 

@@ -9,9 +9,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.fields import Cell
-from geneva_cli.study.goals import Objective
 from geneva_cli.study.sweep.best_search import Row, SweepSearch
-from geneva_cli.study.sweep.constraints import Constraint, Nearness, is_number
+from geneva_cli.study.sweep.constraints import Constraint, Nearness, Objective, is_number
 from geneva_cli.study.sweep.places import BestPlaces, closer
 from geneva_cli.study.sweep.run import Sweep
 

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
+from geneva_cli.numerics.jet import Array
 from geneva_cli.study.fields import Cell
-from geneva_cli.study.goals import Objective
-from geneva_cli.study.sweep.constraints import Constraint, is_number
+from geneva_cli.study.sweep.constraints import Constraint, Objective, is_number
 from geneva_cli.study.sweep.run import Sweep
 from geneva_cli.study.sweep.values import Value
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 Row: TypeAlias = Sequence[Cell]
 

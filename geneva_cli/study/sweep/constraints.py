@@ -1,4 +1,4 @@
-"""Bounds on quantities, such as ``dwell_s >= 0.8``: which rows keep them, and which bind."""
+"""Bounds such as ``dwell_s >= 0.8``, and goals such as ``min:acceleration.max``."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def constraint(text: str) -> Constraint:
     try:
         bound = float(match[3])
     except ValueError:
-        raise GenevaError(f"{option}: {cut(match[3])!r} is no number") from None
+        raise GenevaError(f'{option}: "{cut(match[3])}" is no number') from None
     if not math.isfinite(bound):
         raise GenevaError(f"{option}: the bound must be a finite number")
     return Constraint(match[1], match[2], bound)
@@ -125,3 +125,33 @@ def refuse_contradictions(constraints: Sequence[Constraint]) -> None:
             apart = low.sign == ">=" and high.sign == "<=" and low.bound > high.bound
             if apart and low.name == high.name:
                 raise GenevaError(f"--subject-to: nothing is both {low} and {high}")
+
+
+class Objective(NamedTuple):
+    """A quantity to minimise (sign 1) or to maximise (-1)."""
+
+    sign: float
+    name: str
+
+    def __str__(self) -> str:
+        return f"{'least' if self.sign > 0.0 else 'greatest'} {self.name}"
+
+
+def objective(text: str, option: str) -> Objective:
+    """Return the objective of ``min:acceleration.max``. Raises GenevaError for another text."""
+    sense, _, name = text.strip().partition(":")
+    sign = {"min": 1.0, "max": -1.0}.get(sense)
+    if sign is None or not name:
+        raise GenevaError(
+            f"{option} {cut(text.strip())}: it must be min:FIELD or max:FIELD, as "
+            "min:acceleration.max"
+        )
+    return Objective(sign, name)
+
+
+def refuse_opposites(objectives: Sequence[Objective]) -> None:
+    """Raise GenevaError for a quantity that is both minimised and maximised."""
+    names = [o.name for o in dict.fromkeys(objectives)]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice:
+        raise GenevaError(f"--pareto {twice}: it cannot be both min and max; keep one of them")

@@ -6,8 +6,7 @@ import heapq
 from collections.abc import Iterator, Sequence
 
 from geneva_cli.study.fields import Cell
-from geneva_cli.study.goals import Objective
-from geneva_cli.study.sweep.constraints import is_number
+from geneva_cli.study.sweep.constraints import Objective, is_number
 from geneva_cli.study.sweep.request import SweepRequest
 from geneva_cli.table import Table, rows_table
 

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from geneva_cli.numerics.arrays import Array, Mask
 from geneva_cli.study.sweep.constraints import is_number
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Mask
 
 
 def front(

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.numerics.jet import Array
 from geneva_cli.study.sweep.values import POINTS_MAX, Value, VariedKey
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 BLOCK = 4096  # designs of a batch; a power of two, which keeps a Sobol sequence balanced
 

@@ -10,11 +10,13 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.specfile.points import digest
 from geneva_cli.specfile.reader import Text, read
 from geneva_cli.study.fields import Cell
-from geneva_cli.study.goals import Objective, objective, refuse_opposites
 from geneva_cli.study.sweep.constraints import (
     Constraint,
+    Objective,
     constraint,
+    objective,
     refuse_contradictions,
+    refuse_opposites,
     refuse_words,
 )
 from geneva_cli.study.sweep.plan import WHOLE, plan

@@ -14,7 +14,7 @@ from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.numerics.known import KEPT
+from geneva_cli.numerics.latest import KEPT
 from geneva_cli.specfile.reader import Text
 from geneva_cli.specfile.settings import Setting, setting
 from geneva_cli.study.fields import Cell, Pick, pick

@@ -9,7 +9,7 @@ from decimal import Decimal, InvalidOperation
 from typing import NamedTuple, TypeAlias, overload
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.spec.ranges import RangeText, range_text
+from geneva_cli.spec.rules import RangeText, range_text
 from geneva_cli.spec.units import in_unit_of, unit_key
 from geneva_cli.specfile.keys import is_whole
 from geneva_cli.specfile.settings import Setting, read_value
@@ -154,7 +154,10 @@ def _decimal(text: str, option: str) -> Decimal:
     try:
         value = Decimal(text.strip())
     except InvalidOperation:
-        raise GenevaError(f"{option}: {cut(text)!r} is no number") from None
+        raise GenevaError(
+            f'{option}: "{cut(text)}" is no number; '
+            "a range is LOW..HIGH or LOW..HIGH:STEP, as 3..12 or 0..0.9:0.1"
+        ) from None
     if not math.isfinite(float(value)):
         raise GenevaError(f"{option}: {cut(text)} is no finite number")
     return value

@@ -20,7 +20,7 @@ from geneva_cli.study.target import Target
 from geneva_cli.synthesis.families import closed
 from geneva_cli.synthesis.families import limit as limits
 from geneva_cli.synthesis.families.curved import cam, curved, more_rollers, standard
-from geneva_cli.synthesis.families.family import OPEN_END, Family, natural_deg, only, rollers
+from geneva_cli.synthesis.families.family import Family, longest_deg, natural_deg, only, rollers
 from geneva_cli.synthesis.families.straight import (
     driven,
     gears,
@@ -115,7 +115,7 @@ def _lines(
             reached.append(cost.acceleration * step / whole**2)
 
     def motion(m: int) -> float:
-        return max(least, min(natural, 360.0 / m * (1.0 - OPEN_END)))
+        return max(least, min(natural, longest_deg(m)))
 
     def slower(m: int) -> float:
         parallel = inside and fast >= PARALLEL * math.radians(motion(m))

@@ -15,14 +15,12 @@ which is no solution; the other one is the solution.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Whole
 from geneva_cli.numerics.jet import Jet, atan2, sin_cos, sqrt
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Whole
 
 
 class FourBarLinks(NamedTuple):

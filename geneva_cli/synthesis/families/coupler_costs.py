@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.peak_search import ORDERS
 from geneva_cli.analysis.timing import Timing, timing
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.target import Target
 from geneva_cli.verdict.quantities.groups import RATES
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array
 
 # by a quantity in the unit of a time, the power of the speed that it has
 SPEED_POWERS = {f"{at}_rad{end}": n for n, _, end in RATES.values() for at in ("max", "entry")}

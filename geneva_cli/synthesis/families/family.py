@@ -152,11 +152,16 @@ def allows(motion: AllowedSpan, natural: float) -> bool:
     return motion.low - slack <= natural <= motion.high + slack
 
 
+def longest_deg(m: float) -> float:
+    """The motion that leaves ``OPEN_END`` of a turn over m to the dwell."""
+    return (1.0 - OPEN_END) * (360.0 / m)
+
+
 def closed_span(motion: AllowedSpan, m: int) -> AllowedSpan | None:
     """The range with open ends replaced by values near their limits; None if it is empty."""
     whole = 360.0 / m
     low = motion.low if motion.low > 0.0 else OPEN_END * whole
-    high = motion.high if motion.high < whole else (1.0 - OPEN_END) * whole
+    high = motion.high if motion.high < whole else longest_deg(m)
     if motion.low >= whole or motion.high <= 0.0 or motion.empty:
         return None
     return AllowedSpan(min(low, high), high) if not motion.exact else motion

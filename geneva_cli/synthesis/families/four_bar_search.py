@@ -7,11 +7,12 @@ cube, equal in every run. The next ones are ever closer to the best.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from geneva_cli.kinematics.wheels.gearing import Gearing
+from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.target import Target
@@ -22,9 +23,6 @@ from geneva_cli.synthesis.families.coupler import (
     driven_wheels,
 )
 from geneva_cli.synthesis.families.coupler_costs import Costs, order
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Whole
 
 SAMPLES = (256, 2048)  # least and most four-bars that are sampled for one wheel
 SAMPLINGS = (14, 60)  # least and most closer samplings for one wheel

@@ -26,9 +26,9 @@ from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.many import many
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import Array, Whole
-from geneva_cli.study.goals import Objective
+from geneva_cli.study.batches import columns
 from geneva_cli.study.spans import AllowedSpan
-from geneva_cli.study.sweep.columns import columns
+from geneva_cli.study.sweep.constraints import Objective
 from geneva_cli.study.target import Target
 from geneva_cli.synthesis.bounds import known_bounds, known_sort
 from geneva_cli.synthesis.families import closed

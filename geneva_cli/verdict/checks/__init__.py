@@ -17,9 +17,9 @@ from geneva_cli.verdict.checks.check import refused, worst
 from geneva_cli.verdict.checks.registry import (
     LIMITS,
     MOTION,
+    PROOFS,
+    applicable,
     check_named,
-    motion_checks,
-    proof_checks,
     standing,
     standing_checks,
     turn_checks,
@@ -50,9 +50,9 @@ def checks(
 def _one_way(
     mechanism: Mechanism, model: PartsModel | None, parts: bool, turned: bool
 ) -> list[Check]:
-    motion = list(motion_checks(MOTION, mechanism))
+    motion = list(applicable(MOTION, mechanism))
     shown = list(_parts(mechanism, model, turned)) if parts else []
-    return [*motion, *shown, *motion_checks(LIMITS, mechanism)]
+    return [*motion, *shown, *applicable(LIMITS, mechanism)]
 
 
 def checks_at_rest(mechanism: Mechanism, model: PartsModel | None) -> Iterator[Check]:
@@ -60,8 +60,8 @@ def checks_at_rest(mechanism: Mechanism, model: PartsModel | None) -> Iterator[C
 
     Raises GenevaError if wheel or crank cannot be built.
     """
-    yield from motion_checks(MOTION, mechanism)
-    yield from motion_checks(LIMITS, mechanism)
+    yield from applicable(MOTION, mechanism)
+    yield from applicable(LIMITS, mechanism)
     if model is not None and mechanism.spec.has_parts:
         yield from standing_checks(model.built)
 
@@ -72,7 +72,7 @@ def proofs(model: PartsModel, to_mm: float | None = None) -> list[Check]:
     ``to_mm`` is the tolerance of the proof, by default ``certificate.tolerance_mm``.
     """
     try:
-        return list(proof_checks(model, to_mm))
+        return list(applicable(PROOFS, model, to_mm))
     except GenevaError:
         return []  # the checks of the parts report the error
 

@@ -1,13 +1,16 @@
-"""Checks of a crank arm whose keys the spec sets: its walls, and its gap to the wheel's hub."""
+"""Crank arm and links: their walls, and their clearance to parts that pass through their planes."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bores import has_shape
 from geneva_cli.parts.arm import CrankArm, walls
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.verdict.checks.check import Check, at_least
+from geneva_cli.parts.links import link_wall
+from geneva_cli.parts.planes import planes
+from geneva_cli.verdict.checks.check import Check, at_least, compared
 
 
 def arm_wall(name: str, parts: FlatParts) -> Check | None:
@@ -37,3 +40,47 @@ def _arm_check(
     if not (has_shape(size, "crank") or any(vars(size)[key] for key in keys)):
         return None
     return at_least(name, lambda: measure(parts.arm) if parts.arm else None, limit)
+
+
+def wall(name: str, parts: FlatParts) -> Check | None:
+    """The least wall around the links' holes, if the spec sets one of their keys."""
+    size = vars(parts.mechanism.spec.size)
+    keys = ("link_pin_mm", "link_bore_mm", "link_width_mm", "press_fit_mm", "pin_mm")
+    if not any(size[key] for key in keys):
+        return None
+    return at_least(
+        name,
+        lambda: min(map(link_wall, parts.links.plates), default=None),
+        parts.outlines.sizes.wall_min,
+    )
+
+
+def gap(name: str, parts: FlatParts) -> Check | None:
+    """The gap in a whole turn between links and hub, shaft and pins through their planes."""
+    try:
+        spacers = parts.spacers if parts.mechanism.spec.drive_before else ()
+        clearance = planes(parts.outlines, parts.links, spacers)
+    except GenevaError as error:
+        return Check(name, None, "at least", 0.0, False, str(error))
+    mechanism = parts.mechanism
+    if clearance.way_out is not None:
+        one = clearance.way_out
+        return Check(
+            name,
+            one.gap,
+            "at least",
+            0.0,
+            False,
+            f"{one.passing} meets the {one.link}: it needs an eccentric in a hollow input shaft, "
+            "or another path to its bearings",
+            mechanism.shown_deg(one.input_deg),
+        )
+    if clearance.nearest is None:
+        return None
+    return compared(
+        name,
+        clearance.nearest.gap,
+        "at least",
+        0.0,
+        mechanism.shown_deg(clearance.nearest.input_deg),
+    )

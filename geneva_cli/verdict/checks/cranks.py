@@ -1,4 +1,4 @@
-"""Cranks about one wheel: the gap between two of them over a whole turn, proved.
+"""Gaps between cranks about one wheel, and between adjacent wheels on a carrier.
 
 All cranks turn at one rate. So seen from one of them, another one does not turn: it moves on a
 circle, whose radius is the distance of their axes. Both are taken as their convex hulls, seen along
@@ -9,18 +9,17 @@ from __future__ import annotations
 
 import math
 from itertools import combinations
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geneva_cli.analysis.carried import farthest_mm
 from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.plates import Member
 from geneva_cli.layout.roller_paths import roller_centres
+from geneva_cli.numerics.jet import Array
+from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.verdict.checks.check import Check, compared
-
-if TYPE_CHECKING:
-    from geneva_cli.curves.plates import Member
-    from geneva_cli.numerics.jet import Array
 
 
 def cranks_apart(name: str, parts: FlatParts) -> Check | None:
@@ -71,3 +70,18 @@ def _support(edge: tuple[Array, Array], around: Array) -> Array:
     along = np.outer(np.cos(around), points.real) + np.outer(np.sin(around), points.imag)
     out: Array = (along + reach).max(axis=1)
     return out
+
+
+def wheels_apart(name: str, parts: FlatParts) -> Check | None:
+    """The gap between the circles of adjacent wheels, each with all that it carries."""
+    wheels = parts.mechanism.spec.drive.wheels_on_carrier
+    if wheels < 2:
+        return None
+    between = 2.0 * parts.mechanism.center_distance_mm * math.sin(math.pi / wheels)
+    return compared(name, between - 2.0 * reach_mm(parts.outlines), "at least", 0.0)
+
+
+def reach_mm(outlines: Outlines) -> float:
+    """Radius of the circle about a wheel's axis that contains it and its masses."""
+    sizes = outlines.sizes
+    return max(sizes.rim, sizes.outer, farthest_mm(outlines.assembly.mechanism.spec))

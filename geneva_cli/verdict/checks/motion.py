@@ -1,10 +1,11 @@
-"""The wheel's motion: the dwell between two steps, its direction, and the gears in front of it."""
+"""The wheel's motion, the gears in front of it, and the slots or the groove that a law needs."""
 
 from __future__ import annotations
 
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.verdict.checks.check import Check, compared
-from geneva_cli.verdict.motion_warnings import turns_back
+from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT, turns_back
 
 
 def shortest_dwell(name: str, mechanism: Mechanism) -> Check:
@@ -30,3 +31,55 @@ def gear_convexity(name: str, mechanism: Mechanism) -> Check | None:
 
     least = convexity(gears)._asdict()[name.removesuffix("_gear_convexity")]
     return compared(name, least, "above", 0.0)
+
+
+def curved_slot_pressure(name: str, mechanism: Mechanism) -> Check | None:
+    """The pressure angle of curved slots, below 90 degrees if the spec sets no limit."""
+    has_limit = mechanism.spec.limits.pressure_angle_max_deg is not None
+    if has_limit or not mechanism.engagements[0].slot.curved:
+        return None
+    return _greatest(name, mechanism, 90.0)
+
+
+def limited_pressure(name: str, mechanism: Mechanism) -> Check | None:
+    """The pressure angle of any slots, with the spec's limit."""
+    limit = mechanism.spec.limits.pressure_angle_max_deg
+    return None if limit is None else _greatest(name, mechanism, limit)
+
+
+def _greatest(name: str, mechanism: Mechanism, limit: float) -> Check:
+    from geneva_cli.loads import loads
+
+    peak = loads.greatest_pressure(mechanism)
+    # At 90 degrees nothing turns the wheel, whatever the limit.
+    passes = keeps(peak.max, "at most", limit) and peak.max < 90.0
+    return Check(name, peak.max, "at most", limit, passes, at_deg=peak.at_deg)
+
+
+def undercut_depth(name: str, mechanism: Mechanism) -> Check | None:
+    """The depth of the undercut, mm; 0 if there is none."""
+    if not mechanism.engagements[0].slot.curved:
+        return None
+    from geneva_cli.analysis.undercut import undercut
+
+    place = undercut(mechanism)
+    depth, at_deg = (place.depth_mm, place.at_deg) if place else (0.0, None)
+    return compared(name, depth, "at most", SHOWN_UNDERCUT, at_deg)
+
+
+# A steeper groove wedges its roller; the limit is that of a roller that enters a slot.
+GROOVE_MAX_DEG = 60.0
+
+
+def groove_pressure(name: str, mechanism: Mechanism) -> Check | None:
+    """The greatest pressure angle in the groove."""
+    groove = mechanism.engagements[0].groove
+    if groove is None:
+        return None
+    from geneva_cli.layout.groove import greatest_pressure
+
+    value, at_deg = greatest_pressure(groove)
+    own_limit = mechanism.spec.limits.pressure_angle_max_deg
+    limit = GROOVE_MAX_DEG if own_limit is None else own_limit
+    input_deg = mechanism.spec.input_deg(at_deg)  # the groove is cut by the crank's angle
+    return compared(name, value, "at most", limit, mechanism.shown_deg(input_deg))

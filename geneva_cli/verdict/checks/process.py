@@ -1,16 +1,18 @@
-"""Limits of the process that ``[size] process`` names, for plates and shells that it cuts."""
+"""Whether every part can be built, and whether the process can cut it."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from geneva_cli.curves.plates import plates
+from geneva_cli.errors import GenevaError
 from geneva_cli.layout.plain_sizes import drawn_thicknesses
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.spec.workshops import workshop
-from geneva_cli.verdict.checks.check import Check, compared
+from geneva_cli.verdict.checks.check import Check, compared, refused
 
 if TYPE_CHECKING:
     from geneva_cli.parts.counter_parts import CounterParts
@@ -76,3 +78,21 @@ def _thickness(name: str, mechanism: Mechanism, thick: float) -> Check | None:
 def _width(name: str, mechanism: Mechanism, wide: float, thick: float) -> Check | None:
     least = workshop(mechanism.spec.size.process).hole
     return compared(name, wide, "at least", least * thick) if least else None
+
+
+def plates_built(name: str, parts: FlatParts | RackParts | CounterParts) -> Check | None:
+    """The check that fails if a plate of a machine cannot be built; else None."""
+    return _refusal(name, parts.require)
+
+
+def solids_built(name: str, parts: SphereParts) -> Check | None:
+    """The check that fails if a solid of a spherical machine cannot be built; else None."""
+    return _refusal(name, lambda: parts.members)
+
+
+def _refusal(name: str, build: Callable[[], object]) -> Check | None:
+    try:
+        build()
+    except GenevaError as error:
+        return refused(name, error)
+    return None

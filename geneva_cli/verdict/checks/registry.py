@@ -15,7 +15,6 @@ from geneva_cli.verdict.checks.check import Check
 if TYPE_CHECKING:
     from geneva_cli.collisions.full_turn import FullTurn
     from geneva_cli.collisions.machine_parts import MachineParts
-    from geneva_cli.drawings.model import PartsModel
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.parts.parts_of_machine import PartsOfMachine
 
@@ -27,12 +26,12 @@ MOTION: Checks = {
     "driver_gear_convexity": "motion:gear_convexity",
     "driven_gear_convexity": "motion:gear_convexity",
     "velocity_min": "motion:least_velocity",
-    "groove_pressure_deg": "groove:groove_pressure",
-    "pressure_angle_deg": "pressure:curved_slot_pressure",
-    "undercut_mm": "undercut:undercut_depth",
+    "groove_pressure_deg": "motion:groove_pressure",
+    "pressure_angle_deg": "motion:curved_slot_pressure",
+    "undercut_mm": "motion:undercut_depth",
     "entry_shock_N": "shocks:entry_shock",
     "reversal_shock_N": "shocks:reversal_shock",
-    "stopping_torque_Nm": "arrival:stopping_torque",
+    "stopping_torque_Nm": "shocks:stopping_torque",
     "rack_horn_mm": "rack:rack_horn",
     "guide_locks": "rack:guide_locks",
     "counter_free_deg": "counter:free",
@@ -47,7 +46,7 @@ LIMITS: Checks = {
     "jerk_max": "limits:limited_peak",
     "pin_force_max_N": "limits:limited_load",
     "input_torque_max_Nm": "limits:limited_load",
-    "pressure_angle_deg": "pressure:limited_pressure",
+    "pressure_angle_deg": "motion:limited_pressure",
     "contact_stress_max_MPa": "limits:limited_load",
     "pv_max_W_m2": "strength:strength_limit",
     "roller_life_min_h": "strength:strength_limit",
@@ -62,8 +61,8 @@ LIMITS: Checks = {
     "arm_stress_MPa": "strength:strength_limit",
     "wheel_key_pressure_MPa": "strength:strength_limit",
     "crank_key_pressure_MPa": "strength:strength_limit",
-    "product_acceleration_max_m_s2": "product:acceleration",
-    "product_slip": "product:slipping",
+    "product_acceleration_max_m_s2": "limits:acceleration",
+    "product_slip": "limits:slipping",
 }
 # Checks of flat parts at rest.
 STATIC: Checks = {
@@ -72,9 +71,9 @@ STATIC: Checks = {
     "rollers_apart_mm": "walls:rollers_apart",
     "wheel_bore_wall_mm": "walls:wheel_bore",
     "outer_wall_mm": "walls:outside",
-    "wheel_clamp_Nm": "clamps:held_torque",
-    "crank_clamp_Nm": "clamps:held_torque",
-    "dial_wall_mm": "dial:wall",
+    "wheel_clamp_Nm": "shafts:held_torque",
+    "crank_clamp_Nm": "shafts:held_torque",
+    "dial_wall_mm": "walls:dial",
     "crank_bore_wall_mm": "walls:crank_bore",
     "crank_shaft_mm": "shafts:crank_shaft",
     "crank_hub_mm": "shafts:crank_hub",
@@ -83,22 +82,22 @@ STATIC: Checks = {
     "gear_gap_mm": "shafts:passing_gears",
     "arm_wall_mm": "arm:arm_wall",
     "arm_to_hub_mm": "arm:arm_to_hub",
-    "link_wall_mm": "links:wall",
-    "link_gap_mm": "links:gap",
-    "first_pin_stress_MPa": "first_pair:first_stress",
-    "first_horn_stress_MPa": "first_pair:first_stress",
-    "first_crank_shaft_stress_MPa": "first_pair:first_stress",
-    "first_arm_stress_MPa": "first_pair:first_stress",
-    "branches_apart_mm": "branches:apart",
-    "branches_crossed_mm": "branches:crossed",
-    "wheels_apart_mm": "carrier:wheels_apart",
+    "link_wall_mm": "arm:wall",
+    "link_gap_mm": "arm:gap",
+    "first_pin_stress_MPa": "strength:first_stress",
+    "first_horn_stress_MPa": "strength:first_stress",
+    "first_crank_shaft_stress_MPa": "strength:first_stress",
+    "first_arm_stress_MPa": "strength:first_stress",
+    "branches_apart_mm": "walls:branches_apart",
+    "branches_crossed_mm": "walls:branches_crossed",
+    "wheels_apart_mm": "cranks:wheels_apart",
     "cranks_apart_mm": "cranks:cranks_apart",
     "stop_turns": "stop:turns",
     "stop_overlap_mm": "stop:overlap",
     "stop_stress_max_MPa": "stop:stress",
     "cut_plate_mm": "process:thickest_plate",
     "cut_slot_mm": "process:slot_width",
-    "parts": "buildable:plates",
+    "parts": "process:plates_built",
 }
 # Checks of the shells of a sphere at rest.
 SPHERE: Checks = {
@@ -106,21 +105,21 @@ SPHERE: Checks = {
     "horn_mm": "sphere:horn",
     "wheel_bore_wall_mm": "sphere:wheel_bore",
     "crank_shaft_mm": "sphere:crank_shaft",
-    "wheel_clamp_Nm": "clamps:held_torque",
-    "crank_clamp_Nm": "clamps:held_torque",
+    "wheel_clamp_Nm": "shafts:held_torque",
+    "crank_clamp_Nm": "shafts:held_torque",
     "dial_wall_mm": "sphere:dial",
     "beside_shafts_mm": "sphere:passing_parts",
     "arm_wall_mm": "sphere:arm_wall",
     "cut_plate_mm": "process:thickest_shell",
     "cut_slot_mm": "process:width_in_shell",
-    "parts": "buildable:solids",
+    "parts": "process:solids_built",
 }
 # Checks of a rack's machine at rest.
 RACK: Checks = {
     "gear_gap_mm": "shafts:passing_rack_gears",
     "cut_plate_mm": "process:thickest_of_rack",
     "cut_slot_mm": "process:width_in_rack",
-    "parts": "buildable:plates",
+    "parts": "process:plates_built",
 }
 # The checks of parts at rest, by ``Gearing.PARTS``; those of a counter's teeth are in MOTION.
 STANDING = {
@@ -129,7 +128,7 @@ STANDING = {
     "rack": RACK,
     "counter": {
         "cut_plate_mm": "process:thickest_of_counter",
-        "parts": "buildable:plates",
+        "parts": "process:plates_built",
     },
 }
 # Checks of plates or shells in a whole turn.
@@ -162,11 +161,6 @@ def checks_of_turn() -> tuple[str, ...]:
     return ("full_turn", *TURNING)
 
 
-def motion_checks(among: Checks, mechanism: Mechanism) -> Iterator[Check]:
-    """The checks of MOTION or LIMITS that apply to a machine."""
-    yield from _applicable(among, mechanism)
-
-
 def standing(mechanism: Mechanism) -> Checks:
     """The checks of the parts of a machine at rest."""
     return STANDING.get(mechanism.spec.wheel.PARTS, {})
@@ -174,17 +168,12 @@ def standing(mechanism: Mechanism) -> Checks:
 
 def standing_checks(parts: PartsOfMachine) -> Iterator[Check]:
     """The checks of parts at rest: walls, shafts, branches of a slot."""
-    yield from _applicable(standing(parts.mechanism), parts)
+    yield from applicable(standing(parts.mechanism), parts)
 
 
 def turn_checks(parts: MachineParts, turn: FullTurn) -> Iterator[Check]:
     """The checks of a whole turn: no parts overlap, and lock and slots leave little play."""
-    yield from _applicable(TURNING, parts, turn)
-
-
-def proof_checks(model: PartsModel, to_mm: float | None) -> Iterator[Check]:
-    """The proof that no parts collide, to a tolerance in mm or to the default one."""
-    yield from _applicable(PROOFS, model, to_mm)
+    yield from applicable(TURNING, parts, turn)
 
 
 def import_checks() -> None:
@@ -202,8 +191,8 @@ def check_named(among: Checks, name: str, *of: object) -> Check | None:
     return check
 
 
-def _applicable(among: Checks, *of: object) -> Iterator[Check]:
-    """The checks that apply; of those that fail for one reason, the first only."""
+def applicable(among: Checks, *of: object) -> Iterator[Check]:
+    """The checks of a list that apply to ``of``; of those that fail for one reason, the first."""
     reasons = set()
     for name in among:
         check = check_named(among, name, *of)

@@ -1,13 +1,19 @@
-"""Clearance of shafts and hubs to passing parts."""
+"""Gaps at shafts and hubs, and the torques that slit hubs hold by friction."""
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from geneva_cli.drawings.shaft_gap import gear_gap, rack_gear_gap, shaft_gap
+from geneva_cli.layout.clamps import clamp_of
 from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.outlines.crank import is_whole
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.rack_parts import RackParts
 from geneva_cli.verdict.checks.check import Check, compared, gap
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.sphere.sphere_parts import SphereParts
 
 
 def crank_shaft(name: str, parts: FlatParts) -> Check | None:
@@ -74,3 +80,16 @@ def passing_rack_gears(name: str, parts: RackParts) -> Check | None:
 
 def _shaft(size: Sizes) -> float:
     return max(size.crank_bore, size.crank_hub if size.crank_bore else 0.0)
+
+
+def held_torque(name: str, parts: FlatParts | SphereParts) -> Check | None:
+    """The torque that a clamp holds; None without a clamp or without a load."""
+    spec = parts.mechanism.spec
+    part = name.partition("_")[0]
+    clamp = clamp_of(spec.size, part, *parts.hub_radii(part))
+    if clamp is None or not spec.is_loaded:
+        return None
+    from geneva_cli.loads.strength.part_loads import single_loads  # without a load none is needed
+
+    torque = getattr(single_loads(parts.mechanism), f"{part}_Nm")
+    return compared(name, clamp.torque_Nm, "at least", spec.shaft.torsion_factor * torque)

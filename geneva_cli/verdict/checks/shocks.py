@@ -1,4 +1,4 @@
-"""The forces of shocks with the worst of the tolerances."""
+"""The forces of shocks with the worst of the tolerances, and the torque that stops the wheel."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ def entry_shock(name: str, mechanism: Mechanism) -> Check | None:
     tolerance = mechanism.spec.tolerance
     if not (tolerance.crank_radius_mm or tolerance.center_distance_mm):
         return None
-    from geneva_cli.analysis.impacts import entry_impact
+    from geneva_cli.analysis.impacts import entry_impacts
 
-    impact = entry_impact(mechanism)
+    impact = entry_impacts(mechanism).only
     if impact is None:
         return None
     check = _force_check(name, mechanism, impact)
@@ -35,12 +35,12 @@ def reversal_shock(name: str, mechanism: Mechanism) -> Check | None:
     """The impact where the roller changes from one wall of its slot to the other."""
     if mechanism.spec.tolerance == Tolerance(distribution=mechanism.spec.tolerance.distribution):
         return None
-    from geneva_cli.analysis.impacts import reversal_impact
+    from geneva_cli.analysis.impacts import reversal_impacts
 
     if mechanism.unbalanced:
         why = "not computed where a body off its axis moves a wheel on a carrier"
         return Check(name, None, "at most", mechanism.spec.limits.pin_force_max_N, None, why)
-    impact = reversal_impact(mechanism)
+    impact = reversal_impacts(mechanism).only
     if impact is None:
         return None
     check = _force_check(name, mechanism, impact)
@@ -85,12 +85,12 @@ def _force_check(name: str, mechanism: Mechanism, impact: Impact) -> Check:
 
 def _tolerable(mechanism: Mechanism, check: Check) -> str:
     """The fraction to which the tolerances on R and L must shrink, whose root the force follows."""
-    from geneva_cli.analysis.impacts import entry_impact
+    from geneva_cli.analysis.impacts import entry_impacts
 
     limit = check.limit or 0.0
 
     def spare(fraction: float) -> float:
-        impact = entry_impact(mechanism, fraction)
+        impact = entry_impacts(mechanism, fraction).only
         return limit - (impact.force_N or 0.0 if impact else 0.0)
 
     force = Falsi(0.0, limit, 1.0, limit - (check.value or 0.0))
@@ -110,3 +110,18 @@ def _tolerable(mechanism: Mechanism, check: Check) -> str:
         if value
     ]
     return " and ".join(names) + " in [tolerance]"
+
+
+def stopping_torque(name: str, mechanism: Mechanism) -> Check | None:
+    """The resisting torque, limited by the wheel's inertia; None for slots with two walls."""
+    if not mechanism.engagements[0].paired:
+        return None
+    from geneva_cli.analysis.arrival import arrival
+
+    stop = arrival(mechanism)
+    if stop is None:
+        return None
+    check = compared(name, stop.torque_Nm, "at most", stop.most_Nm)
+    if check.passes or stop.most_Nm > 0.0:
+        return check
+    return check._replace(why="no inertia carries the wheel on: set inertia_kgm2 in [load]")

@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.verdict.checks.check import Check, compared
+from geneva_cli.verdict.checks.registry import LIMITS, check_named
 
 if TYPE_CHECKING:
     from geneva_cli.verdict.strength import Strength
@@ -135,3 +137,20 @@ def _needed_width(of: Strength, check: Check) -> str:
         return ""
     least = width * check.value / check.limit
     return f"the contact is {width:.4g} mm wide, but this load needs {least:.4g}"
+
+
+def first_stress(name: str, parts: FlatParts) -> Check | None:
+    """A stress of the first of two wheels in series or of its crank; None without them or a load.
+
+    It is the check of a machine of one wheel, made of that first pair.
+    """
+    front = parts.front if parts.mechanism.spec.is_loaded else None
+    if front is None:
+        return None
+    check = check_named(LIMITS, name.removeprefix("first_"), front.mechanism)
+    if check is None:
+        return None
+    # its sizes are those of links; its angles are counted from another motion of the first wheel
+    why = check.why.replace("arm_thickness_mm", "link_thickness_mm")
+    why = why.replace("the crank's shaft", "the first crank's shaft")
+    return check._replace(name=name, at_deg=None, why=why)

@@ -1,14 +1,20 @@
-"""Walls of wheel and crank, each compared with ``wall_min_mm``."""
+"""Walls of wheel and crank, of the dial and of a curved slot's branches."""
 
 from __future__ import annotations
 
 import math
+from itertools import combinations
+
+import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.hole_walls import apart, beyond
 from geneva_cli.curves.measure import turned
-from geneva_cli.curves.shapes import Arc, Line, Point, Segment, backwards, closed
+from geneva_cli.curves.shapes import Arc, Circle, Line, Point, Segment, backwards, closed
+from geneva_cli.layout.bores import has_shape
 from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.outlines.crank import is_whole, rollers_gap
+from geneva_cli.outlines.wheel import wheel_circles
 from geneva_cli.outlines.wheel_hub import wheel_hub
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.verdict.checks.check import Check, compared
@@ -97,3 +103,53 @@ def crank_bore(name: str, parts: FlatParts) -> Check | None:
 
 def _wall(name: str, value: float, sizes: Sizes) -> Check:
     return compared(name, value, "at least", sizes.wall_min)
+
+
+def dial(name: str, parts: FlatParts) -> Check | None:
+    """The least wall around the bore with its keyway and around the dial's bolts."""
+    size = parts.mechanism.spec.size
+    if not (has_shape(size, "wheel") or size.dial_bolts):
+        return None
+    outlines = parts.outlines
+    inside = outlines.assembly.sign < 0.0  # the contour is that of the opening
+    edge = Polyarc([backwards(outlines.wheel) if inside else outlines.wheel])
+    holes = [s for s in wheel_circles(outlines.assembly, outlines.sizes) if s.layer == "BORE"]
+    walls = [-beyond(edge, hole) for hole in holes]
+    walls += [apart(one, two) for one, two in combinations(holes, 2)]
+    for hole in holes if inside else ():
+        assert isinstance(hole, Circle)  # an internal wheel has no bore
+        x, y = hole.centre
+        walls.append(outlines.sizes.outer - (x * x + y * y) ** 0.5 - hole.radius)
+    return compared(name, min(walls), "at least", outlines.sizes.wall_min)
+
+
+def branches_apart(name: str, parts: FlatParts) -> Check | None:
+    """The greatest distance of entry and exit branch where both are on their own sides.
+
+    If it exceeds the slot's width, an island between them falls out.
+    """
+    return _greatest(name, parts, 1.0)
+
+
+def branches_crossed(name: str, parts: FlatParts) -> Check | None:
+    """The greatest distance where the branches have crossed."""
+    return _greatest(name, parts, -1.0)
+
+
+def _greatest(name: str, parts: FlatParts, side: float) -> Check | None:
+    outlines = parts.outlines
+    engagement = outlines.assembly.slots[0][0]
+    if not engagement.slot.curved:
+        return None
+    samples = 400
+    t = engagement.entry_deg * (1.0 - np.arange(samples) / samples)
+    (x, y), (u, v) = (engagement.slot(s * t, 0) for s in (1.0, -1.0))
+    turn = np.remainder(
+        np.arctan2(y.c[0], x.c[0]) - np.arctan2(v.c[0], u.c[0]) + np.pi, 2.0 * np.pi
+    )
+    gap = 2.0 * outlines.assembly.L * np.hypot(x.c[0], y.c[0]) * np.sin(0.5 * (turn - np.pi)) * side
+    i = int(np.argmax(gap))
+    at_deg = outlines.assembly.full.shown_deg(engagement.mid_deg + float(t[i]))
+    return compared(
+        name, max(float(gap[i]), 0.0), "at most", 2.0 * outlines.sizes.half_width, at_deg
+    )

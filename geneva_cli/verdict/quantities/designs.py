@@ -11,16 +11,19 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.many import alone
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.numerics.known import Known
+from geneva_cli.numerics.latest import Known
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.forces import LoadCase
-    from geneva_cli.numerics.arrays import Number
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array, Number
+    from geneva_cli.table import Table
 
 T = TypeVar("T")
 # Values by the names of quantities, (m,) each, or one number for all designs.
 Columns: TypeAlias = "Mapping[str, Number | None]"
+Numbers: TypeAlias = dict[str, float | None]
+# Values of a single design; None is one that does not apply. All machines have the same names.
+Values: TypeAlias = "dict[str, float | str | tuple[str | float, ...] | Table | None]"
 
 
 class Designs:

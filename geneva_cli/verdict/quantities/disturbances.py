@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from geneva_cli.analysis.carried import inertia_kgm2
 from geneva_cli.analysis.change_of_sides import lasting_drag_Nm
 from geneva_cli.analysis.impacts import Impacts, entry_impacts, reversal_impacts
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Number
-    from geneva_cli.numerics.jet import Array
-    from geneva_cli.verdict.quantities.designs import Columns, Designs
+from geneva_cli.numerics.arrays import Array, Number
+from geneva_cli.verdict.quantities.designs import Columns, Designs
 
 
 def vibration(of: Designs) -> Columns:

@@ -17,8 +17,7 @@ from geneva_cli.verdict.checks.registry import PROOFS, checks_before_turn, check
 if TYPE_CHECKING:
     from geneva_cli.drawings.model import PartsModel
     from geneva_cli.numerics.arrays import Number
-    from geneva_cli.verdict.quantities.designs import Columns, Designs
-    from geneva_cli.verdict.report.values import Values
+    from geneva_cli.verdict.quantities.designs import Columns, Designs, Values
 
 INPUTS, CHECKS = "inputs.", "checks."  # beginnings of the names of a spec's keys, and of checks
 ECHOED = {  # keys that the numbers of a report depend on, besides the machine's own shape
@@ -146,14 +145,16 @@ def _group(
 
 
 MACHINE = _group(
-    "", "wheel.z wheel.gearing drive.kind drive.rollers motion.law", "quantities.single:machine"
+    "",
+    "wheel.z wheel.gearing drive.kind drive.rollers drive.before.kind motion.law",
+    "quantities.single:machine",
 )
 # Quantities of a report, in the order shown.
 REPORT = (
     QuantityGroup(
         "inputs",
         tuple(f"{table}.{key}" for table, names in ECHOED.items() for key in names),
-        "report.inputs:inputs",
+        "report.sizes:inputs",
     ),
     _group(
         "timing",
@@ -195,13 +196,13 @@ REPORT = (
     _group(
         "shock.reversal", "at_deg jump force_N moment_Nms drag_Nm", batch="disturbances:reversal"
     ),
-    _group("slot", "positively_driven", "report.slot:slot"),
+    _group("slot", "positively_driven", "report.loads:slot"),
     _group("slot", "not_driven_share branch_gap_mm branch_gap_at_deg", batch="loads:slot"),
     _group(
         "vibration",
         "none period_ratio damping_ratio natural_Hz residual_share residual_deg "
         "residual_share_worst steady_share dynamic_factor windup_deg",
-        "report.vibration:vibration",
+        "report.loads:vibration",
         "disturbances:vibration",
     )._replace(one_by_one=("none",)),
     QuantityGroup(
@@ -213,21 +214,21 @@ REPORT = (
                 "max at_deg",
             ),
         ),
-        batch="product:product",
+        batch="motion:product",
     ),
     _group(
         "carousel",
         "turn_deg velocity moving_fraction behind_deg centrifugal_N held_Nm",
-        batch="carousel:carousel",
+        batch="motion:carousel",
     ),
-    _group("", "", "report.carousel:wheels"),
-    _group("", "", "report.cranks:cranks"),
+    _group("", "", "report.stations:wheels"),
+    _group("", "", "report.stations:cranks"),
     _group(
         "counter",
         "digits number_step_deg turns_to_zero impulse_Nms energy_J force_N",
-        batch="counter:counter",
+        batch="motion:counter",
     ),
-    _group("", "", "report.counter:number_wheels"),
+    _group("", "", "report.stations:number_wheels"),
     _group(
         "sizes",
         "axes_deg sphere_radius_mm crank_arm_mm slot_mouth_polar_deg slot_bottom_polar_deg "
@@ -249,15 +250,15 @@ REPORT = (
         "report.parts:turned",
         makes_parts=True,
     ),
-    _group("carousel", "envelope_mm", "report.carousel:envelope", makes_parts=True),
+    _group("carousel", "envelope_mm", "report.parts:envelope", makes_parts=True),
     _group(
         "stop",
         "turns first_deg last_deg overlap_mm lever_mm force_N contact_stress_MPa",
-        "report.stop:stop",
+        "report.parts:stop",
         makes_parts=True,
     ),
-    _group("guide", "length_mm locks_at_friction force_N at_deg", batch="guide:guide"),
-    _group("parts_list", "", "report.parts_list:parts_list_tables", makes_parts=True),
+    _group("guide", "length_mm locks_at_friction force_N at_deg", batch="strength:guide"),
+    _group("parts_list", "", "report.parts:parts_list_tables", makes_parts=True),
     QuantityGroup(
         "tolerance",
         (
@@ -265,7 +266,7 @@ REPORT = (
             *_product("entry_jump", "mean worst mouth_worst"),
             *_product("clearances", "slot_needed_mm lock_needed_mm turns"),
         ),
-        "report.tolerances:tolerances",
+        "report.loads:tolerances",
         "disturbances:tolerances",
         (
             *_product("dwell_position", "worst_deg rss_deg p997_deg"),
@@ -325,7 +326,7 @@ REPORT = (
         "roller_life_turns roller_life_motions roller_life_h slot_wear_mm_per_million",
         batch="strength:wear",
     ),
-    _group("strength", "", "report.needs:needs"),
+    _group("strength", "", "report.loads:needs"),
     _group("", "", "report.both_ways:both_ways"),
 )
 # Further quantities, for studies.
@@ -333,9 +334,9 @@ STUDY = (
     QuantityGroup(
         "loads",
         _product(
-            "omega_rad_s alpha_rad_s2 wheel_torque_Nm rack_speed_m_s rack_acceleration_m_s2 "
-            "rack_force_N pin_force_N contact_stress_MPa sliding_m_s "
-            "input_torque_Nm power_W wheel_bearing_N crank_bearing_N pv_W_m2 guide_force_N "
+            "omega_rad_s alpha_rad_s2 wheel_torque_Nm pin_force_N contact_stress_MPa sliding_m_s "
+            "input_torque_Nm power_W wheel_bearing_N crank_bearing_N pv_W_m2 "
+            "rack_speed_m_s rack_acceleration_m_s2 rack_force_N guide_force_N "
             "wheel_near_bearing_N wheel_far_bearing_N crank_near_bearing_N crank_far_bearing_N",
             "min min_at_deg mean rms",
         ),

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from geneva_cli.analysis.peak_search import worst_peaks
@@ -12,11 +10,8 @@ from geneva_cli.analysis.quantities import REPORTED_PEAKS, sources
 from geneva_cli.loads.loads import kinetic_power_W
 from geneva_cli.loads.means import load_means
 from geneva_cli.loads.summaries import load_peaks, load_summaries
-from geneva_cli.numerics.arrays import parameter
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Number
-    from geneva_cli.verdict.quantities.designs import Columns, Designs
+from geneva_cli.numerics.arrays import Number, parameter
+from geneva_cli.verdict.quantities.designs import Columns, Designs
 
 
 def greatest(of: Designs) -> Columns:

@@ -1,24 +1,24 @@
-"""Timing and peaks of designs."""
+"""Timing and peaks of designs; motion of wheels on a carrier, of counters and of the product."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
+from collections.abc import Sequence
+from typing import cast
 
 import numpy as np
 
+from geneva_cli.analysis.carried import carried_kg
+from geneva_cli.analysis.impacts import start_impacts
 from geneva_cli.analysis.peak_search import QUANTITIES, worst_peaks
+from geneva_cli.analysis.product import ProductMotion, product_motion
 from geneva_cli.analysis.timing import timings
+from geneva_cli.kinematics.engagement import WheelMotion
+from geneva_cli.kinematics.wheels.gearing import Output
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
+from geneva_cli.numerics.arrays import Array, N, Number
+from geneva_cli.verdict.quantities.designs import Columns, Designs
 from geneva_cli.verdict.quantities.groups import RATES
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from geneva_cli.kinematics.engagement import WheelMotion
-    from geneva_cli.kinematics.wheels.gearing import Output
-    from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.numerics.arrays import Array, N, Number
-    from geneva_cli.verdict.quantities.designs import Columns, Designs
 
 
 def timing(of: Designs) -> Columns:
@@ -81,3 +81,64 @@ def _ends(machine: Mechanism, order: int) -> list[Array]:
 def _size(motion: WheelMotion, at_deg: Number, order: int) -> Array:
     inside = np.ravel(abs(motion(at_deg, order).arrays()[order]))
     return np.where(np.ravel(motion.jump) > 0.0, np.inf, inside)
+
+
+def carousel(of: Designs) -> Columns:
+    """Turn and velocity of the wheels from the ground, and their centrifugal force."""
+    machine, wheels = of.machine, of.spec.drive.wheels_on_carrier
+    if not wheels:
+        return {}
+    from geneva_cli.analysis.unbalance import centrifugal_N, held_unbalance_Nm
+
+    own = sum(2.0 * one.half_step for one in machine.engagements) * (360.0 / machine.period_deg)
+    fastest = worst_peaks(machine, ["velocity"])["velocity"].max
+    every = machine.under_load  # its period has the motions of all wheels
+    moving = sum(one.motion_deg for one in every.engagements) / every.period_deg
+    force = centrifugal_N(machine) if carried_kg(of.spec) else np.inf
+    held = held_unbalance_Nm(machine) if of.spec.unbalanced else np.inf
+    return {
+        "turn_deg": np.ravel(360.0 + machine.frame * np.degrees(own)),
+        "velocity": 1.0 + machine.frame * fastest,
+        "moving_fraction": np.ravel(moving),
+        "behind_deg": 360.0 / wheels if wheels > 1 else np.inf,
+        "centrifugal_N": np.ravel(force),
+        "held_Nm": np.ravel(held),
+    }
+
+
+def counter(of: Designs) -> Columns:
+    """Digits of a number wheel and turns until all show 0; the hardest impact, at that moment."""
+    machine, wheel = of.machine, of.spec.wheel
+    if not wheel.JUMPS:
+        return {}
+    step_deg = np.ravel(machine.engagements[0].motion_deg)
+    digits = 360.0 / step_deg
+    impact = start_impacts(machine)
+    jump = np.ravel(impact.jump) * np.ravel(omega(of.spec.drive.n_rpm))
+    return {
+        "digits": digits,
+        "number_step_deg": step_deg,
+        "turns_to_zero": digits ** np.ravel(wheel.pinions),
+        "impulse_Nms": impact.moment_Nms,
+        "energy_J": 0.5 * impact.moment_Nms * jump,
+        "force_N": impact.force_N,
+    }
+
+
+def motion_of(of: Designs) -> ProductMotion | None:
+    """The motion of the products; None if their place is not known."""
+    return product_motion(of.machine)
+
+
+def product(of: Designs) -> Columns:
+    """The product's motion; None without its place. Infinite where a design has no value."""
+    motion = of.once(motion_of)
+    if motion is None:
+        return {}
+    out: dict[str, Number | None] = {}
+    for name, value in motion._asdict().items():
+        if isinstance(value, tuple):
+            out[f"{name}.max"], out[f"{name}.at_deg"] = value
+        else:
+            out[name] = np.where(np.isnan(value), np.inf, value)
+    return out

@@ -14,9 +14,10 @@ from geneva_cli.verdict.quantities.groups import CHECKS, GROUPS, INPUTS, RATES, 
 # Quantities whose values are words, which have no order.
 WORDS = frozenset(
     {
-        *("wheel.gearing", "drive.kind", "motion.law", "sizes.clearances_from", "checks.failed"),
+        *("wheel.gearing", "drive.kind", "drive.before.kind", "motion.law", "checks.failed"),
         *("inputs.wheel.held_by", "inputs.size.process", "inputs.size.pin_held"),
-        *("inputs.load.friction_at", "vibration.none", "parts.none", "parts.relief"),
+        *("inputs.load.friction_at", "sizes.clearances_from"),
+        *("vibration.none", "parts.none", "parts.relief"),
     }
 )
 

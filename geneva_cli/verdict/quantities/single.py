@@ -13,7 +13,7 @@ from geneva_cli.verdict.checks.registry import PROOFS, checks_before_turn, check
 
 if TYPE_CHECKING:
     from geneva_cli.drawings.model import PartsModel
-    from geneva_cli.verdict.report.values import Values
+    from geneva_cli.verdict.quantities.designs import Values
 
 
 def machine(model: PartsModel) -> Values:
@@ -24,6 +24,7 @@ def machine(model: PartsModel) -> Values:
         "wheel.gearing": spec.wheel.NAME,
         "drive.kind": spec.drive.NAME,
         "drive.rollers": spec.drive.rollers,
+        "drive.before.kind": spec.drive_before.NAME if spec.drive_before else None,
         "motion.law": spec.motion.law.NAME if spec.motion else None,
     }
 

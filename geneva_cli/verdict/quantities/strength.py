@@ -1,28 +1,25 @@
-"""Strength and life of designs: pin, horn, lock, shafts, arm, keys, roller, walls of its slot."""
+"""Strength and life of designs: pin, horn, lock, shafts, arm, keys, roller, slot, and a guide."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.analysis import pin as pins
+from geneva_cli.errors import GenevaError
 from geneva_cli.loads.strength import arm as arms
 from geneva_cli.loads.strength import roller, shafts
-from geneva_cli.loads.strength.allowed import shear_allowed_MPa
-from geneva_cli.loads.strength.keys import KeyDimensions, key_stress
+from geneva_cli.loads.strength.keys import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.machine.materials import roller_material, wheel_material
-from geneva_cli.numerics.arrays import array, parameter
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.arrays import Array, Number, array, parameter
+from geneva_cli.spec.tables import Material
+from geneva_cli.spec.workshops import Stock
+from geneva_cli.verdict.quantities.designs import Columns, Designs
 from geneva_cli.verdict.quantities.under_load import under_load
-
-if TYPE_CHECKING:
-    from geneva_cli.machine.spec import Spec
-    from geneva_cli.numerics.arrays import Number
-    from geneva_cli.numerics.jet import Array
-    from geneva_cli.spec.tables import Material
-    from geneva_cli.spec.workshops import Stock
-    from geneva_cli.verdict.quantities.designs import Columns, Designs
 
 
 def margin(stress: Number, allowed: Number | None) -> Array | None:
@@ -275,3 +272,25 @@ def wear(of: Designs) -> Columns:
         if value is not None
     }
     return out | {"slot_travel_m": sum(passage.travel_m for passage in passages) / len(passages)}
+
+
+def guide(of: Designs) -> Columns:
+    """The guides of racks; none for a wheel, and for a rack that has no guide."""
+    if not of.spec.guided:
+        return {}
+    names = "length_mm", "locks_at_friction", "force_N", "at_deg"
+    rows = [_guide(one) for one in of.each]
+    return dict(zip(names, np.array(rows).T, strict=True))
+
+
+def _guide(machine: Mechanism) -> tuple[float, float, float, float]:
+    """Length, friction that locks, force and its angle; infinite for what a design lacks."""
+    from geneva_cli.loads.strength.guide import guide_force, locks_at_friction
+    from geneva_cli.outlines.rack import rack_sizes
+
+    try:
+        sizes = rack_sizes(machine)
+    except GenevaError:  # the check of the horn reports the error
+        return (math.inf,) * 4
+    force = guide_force(machine) if machine.spec.is_loaded else (math.inf, math.inf)
+    return 2.0 * sizes.guide.half, locks_at_friction(machine), *force

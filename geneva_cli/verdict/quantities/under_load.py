@@ -22,6 +22,7 @@ from geneva_cli.verdict.part_sizes import (
     design_lock_sizes,
     layouts_lock_sizes,
     part_sizes,
+    rack_horns,
     stressed_parts,
 )
 
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     from geneva_cli.loads.strength.lock import LockUnderTorque
     from geneva_cli.loads.strength.part_loads import PartLoads
     from geneva_cli.loads.strength.roller import SlotPassage
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array
     from geneva_cli.verdict.quantities.designs import Designs
 
 
@@ -81,8 +82,6 @@ class UnderLoad:
         if self.machine.spec.output.turns:
             sizes = self.lock_sizes
             return sizes and (sizes.half_width, sizes.lock.recess)
-        from geneva_cli.verdict.rack_horns import rack_horns  # wheels do not need it
-
         return rack_horns(self.designs.each)
 
     @property

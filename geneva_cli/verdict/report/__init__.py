@@ -6,18 +6,16 @@ A section is a group of quantities in ``verdict.quantities.groups``, and its fun
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import Notice
 from geneva_cli.table import Table, in_digits, record_table
 from geneva_cli.verdict.checks.check import Check, all_pass
+from geneva_cli.verdict.quantities.designs import Values
 from geneva_cli.verdict.quantities.groups import REPORT
 from geneva_cli.verdict.quantities.groups import values as values_of
 from geneva_cli.verdict.report.words import words
-
-if TYPE_CHECKING:
-    from geneva_cli.verdict.report.values import Values
 
 
 class Report(NamedTuple):

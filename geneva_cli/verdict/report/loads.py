@@ -1,4 +1,4 @@
-"""The greatest loads of a period; torque and power of the input over it, with their signs."""
+"""Loads of a period, and what disturbs the motion: vibration and tolerances."""
 
 from __future__ import annotations
 
@@ -6,12 +6,19 @@ import math
 
 from geneva_cli.analysis.carried import inertia_kgm2
 from geneva_cli.analysis.peaks import worst
+from geneva_cli.analysis.positive_drive import positive_drive
 from geneva_cli.analysis.quantities import REPORTED_PEAKS, sources
+from geneva_cli.analysis.vibration.answers import NUMBERS, values
+from geneva_cli.analysis.vibration.oscillator import required_oscillator
 from geneva_cli.drawings.model import PartsModel
+from geneva_cli.errors import GenevaError
 from geneva_cli.loads import loads
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.summary import reversals_deg, summaries
-from geneva_cli.verdict.report.values import Values
+from geneva_cli.spec.tables import Tolerance
+from geneva_cli.verdict.quantities.designs import Values
+from geneva_cli.verdict.quantities.groups import own_names
+from geneva_cli.verdict.strength import REASONS, strength
 
 
 def greatest_loads(model: PartsModel) -> Values:
@@ -39,3 +46,47 @@ def cycle(model: PartsModel) -> Values:
         values |= {f"cycle.{name}.{key}": numbers[key] for key in ("max", "min", "mean", "rms")}
     values["cycle.reversals_deg"] = tuple(reversals_deg(of)) if of.is_loaded else None
     return values
+
+
+def needs(model: PartsModel) -> Values:
+    """A line for each set of keys."""
+    return {"strength.needs": tuple(strength(model.mechanism).missing(tuple(REASONS)))}
+
+
+def slot(model: PartsModel) -> Values:
+    """False if the wall that must push is cut away; None for straight slots."""
+    drive = positive_drive(model.mechanism)
+    return {"slot.positively_driven": not drive.loose_deg if drive else None}
+
+
+def vibration(model: PartsModel) -> Values:
+    """None without a stiffness, and why where inertia is missing or its period is out of range.
+
+    Bands, stations and warnings are those of ``geneva vibration``.
+    """
+    mechanism = model.mechanism
+    out: Values = {"vibration.none": None} | dict.fromkeys(f"vibration.{n}" for n in NUMBERS)
+    if mechanism.spec.shaft.stiffness_Nm_rad is None:
+        return out
+    try:
+        results = values(mechanism, required_oscillator(mechanism))
+    except GenevaError as error:
+        return out | {"vibration.none": str(error)}
+    return out | {f"vibration.{name}": results[name] for name in NUMBERS}
+
+
+SAMPLES = 65536  # random machines
+
+
+def tolerances(model: PartsModel) -> Values:
+    """The first lines of ``geneva tolerance``, and its warnings; None without tolerances."""
+    mechanism, names = model.mechanism, (*own_names("tolerance"), "tolerance.warnings")
+    tolerance = mechanism.spec.tolerance
+    if tolerance == Tolerance(distribution=tolerance.distribution):
+        return dict.fromkeys(names)
+    from geneva_cli.verdict.tolerance.tables import tolerance_table
+
+    # micrometres need a radius
+    L = mechanism.center_distance_mm
+    answers = tolerance_table(mechanism, model, SAMPLES, 0, L).to_dict()
+    return {name: answers[name.removeprefix("tolerance.")] for name in names}

@@ -1,16 +1,17 @@
-"""Cut sizes of the parts, and results of their whole turn."""
+"""Cut sizes and list of the parts, results of their whole turn, and the stops of a crank."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from geneva_cli.drawings.model import PartsModel
+from geneva_cli.drawings.parts_list import FIRST, KINDS, parts_list
 from geneva_cli.errors import GenevaError
+from geneva_cli.outlines.stop import wheel_stop
+from geneva_cli.table import Reading, rows_table
+from geneva_cli.verdict.checks.cranks import reach_mm
+from geneva_cli.verdict.quantities.designs import Values
 from geneva_cli.verdict.quantities.groups import own_names
-
-if TYPE_CHECKING:
-    from geneva_cli.verdict.report.values import Values
 
 
 def parts(model: PartsModel) -> Values:
@@ -65,3 +66,52 @@ def cut_sizes(model: PartsModel) -> Values:
         "parts.wheel_bore_mm": 2.0 * size.wheel_bore,
         "parts.crank_bore_mm": 2.0 * size.crank_bore,
     }
+
+
+def envelope(model: PartsModel) -> Values:
+    """Radius about the fixed axis that the wheels sweep; None without a carrier or parts."""
+    values: Values = {"carousel.envelope_mm": None}
+    spec = model.mechanism.spec
+    if not (spec.drive.wheels_on_carrier and spec.is_flat):
+        return values
+    try:
+        outlines = model.outlines
+    except GenevaError:  # ``parts.none`` gives the reason
+        return values
+    return {"carousel.envelope_mm": model.mechanism.center_distance_mm + reach_mm(outlines)}
+
+
+def stop(model: PartsModel) -> Values:
+    """The stops of a crank; None without a convex face, or without parts."""
+    values: Values = dict.fromkeys(own_names("stop", "report.parts:stop"))
+    if not (model.mechanism.spec.wheel.stopped and model.mechanism.spec.is_flat):
+        return values
+    try:
+        outlines = model.outlines
+    except GenevaError:  # ``parts.none`` gives the reason
+        return values
+    stops = wheel_stop(outlines)
+    assert stops is not None  # the wheel has a convex face
+    from geneva_cli.loads.strength.lock import stop_contact
+
+    contact = stop_contact(model.mechanism, stops.lever_mm, outlines.sizes.rim)
+    named = {
+        "turns": stops.turns,
+        "first_deg": stops.first_deg,
+        "last_deg": stops.last_deg,
+        "overlap_mm": stops.overlap_mm,
+        "lever_mm": stops.lever_mm,
+        **contact._asdict(),
+    }
+    return {f"stop.{name}": value for name, value in named.items()}
+
+
+def parts_list_tables(model: PartsModel) -> Values:
+    """The three tables; None for one without rows, such as the pivots of a spherical wheel."""
+    rows = parts_list(model).to_rows()
+    values: Values = {}
+    for kind, names in KINDS.items():
+        own = [[row[name] for name in names] for row in rows if row["row"] == kind]
+        table = rows_table(names, own, mixed=True).replaced(reading=Reading(FIRST))
+        values[f"parts_list.{kind}"] = table if own else None
+    return values

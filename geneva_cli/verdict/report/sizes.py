@@ -1,19 +1,17 @@
-"""The machine's own sizes, in millimetres; for a sphere also in degrees."""
+"""The keys that the numbers depend on, and sizes in mm or, on a sphere, in degrees."""
 
 from __future__ import annotations
 
 import math
 from contextlib import suppress
-from typing import TYPE_CHECKING
 
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads import loads
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import scalar
-
-if TYPE_CHECKING:
-    from geneva_cli.verdict.report.values import Values
+from geneva_cli.verdict.quantities.designs import Values
+from geneva_cli.verdict.quantities.groups import ECHOED, INPUTS
 
 _SPHERE = [
     f"sizes.{name}"
@@ -102,3 +100,17 @@ def _sphere_sizes(mechanism: Mechanism, L: float, r: float) -> Values:
         "sizes.slot_bottom_polar_deg": math.degrees(bottom),
         "sizes.rollers_max": mechanism.rollers_max,
     }
+
+
+def inputs(model: PartsModel) -> Values:
+    """The values of these keys."""
+    spec = model.mechanism.spec
+    known = {  # if a key is left out
+        "wheel": {"held_by": spec.wheel.held_by},
+        "size": spec.size.allowances._asdict(),
+    }
+    values: Values = {}
+    for table, names in ECHOED.items():
+        keys = spec.table(table) | known.get(table, {})
+        values |= {f"{INPUTS}{table}.{key}": keys[key] for key in names}
+    return values

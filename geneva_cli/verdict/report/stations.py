@@ -1,10 +1,9 @@
-"""Timing and peaks: shared values, the greatest, and a row for each engagement."""
+"""Timing and peaks of each engagement; when each of several wheels or cranks moves."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from geneva_cli.analysis.peaks import Peaks, placed_peaks, worst
 from geneva_cli.analysis.timing import timings
@@ -13,10 +12,8 @@ from geneva_cli.loads import loads
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
 from geneva_cli.table import rows_table
+from geneva_cli.verdict.quantities.designs import Numbers, Values
 from geneva_cli.verdict.quantities.motion import peak_values
-
-if TYPE_CHECKING:
-    from geneva_cli.verdict.report.values import Numbers, Values
 
 
 def timing(model: PartsModel) -> Values:
@@ -75,3 +72,70 @@ def _peaks(mechanism: Mechanism, peaks: Peaks) -> Numbers:
         **peak_values("jerk", output, w, peaks.jerk, ends[2:]),
         **peak_values("power", output, w, peaks.power, ()),
     }
+
+
+def wheels(model: PartsModel) -> Values:
+    """A row for each of several wheels: where it stands, and when it moves.
+
+    Angles are those of the carrier from the middle of the first wheel's motion.
+    """
+    mechanism = model.mechanism
+    places = mechanism.wheel_places
+    if len(places) < 2:
+        return {"wheels": None}
+    (one,) = mechanism.engagements  # one finger, which all wheels meet alike
+    names = ("wheel", "behind_deg", "entry_deg", "exit_deg", "entry_s")
+    rows = []
+    for place in places:
+        behind = place.behind_deg
+        after_s = behind / (6.0 * mechanism.spec.drive.n_rpm)  # n rpm is 6 n degrees a second
+        rows.append((place.number, behind, behind + one.entry_deg, behind + one.exit_deg, after_s))
+    return {"wheels": rows_table(names, rows)}
+
+
+def cranks(model: PartsModel) -> Values:
+    """A row for each of several cranks; None for a single one.
+
+    Input angles are from the middle of the first crank's motion. Slots count counterclockwise from
+    that which the first crank then enters. In step n a crank enters slot k - n from place k.
+    """
+    mechanism = model.mechanism
+    places = mechanism.crank_places
+    if len(places) < 2:
+        return {"cranks": None}
+    spec = mechanism.spec
+    each = mechanism.engagements  # one of each crank, if they differ
+    every = math.gcd(len(places), spec.wheel.z)
+    names = ("crank", "place_deg", "behind_deg", "entry_deg", "exit_deg", "entry_s", "slot")
+    rows = []
+    for k, (place, step) in enumerate(zip(places, spec.drive.cranks, strict=True)):
+        number, i = divmod(k, len(each))
+        one = each[i]
+        behind = number * mechanism.period_deg + one.mid_deg - each[0].mid_deg
+        ends = behind + one.entry_deg, behind + one.exit_deg
+        # n rpm is 6 n degrees a second
+        after_s = (ends[0] - each[0].entry_deg) / (6.0 * spec.drive.n_rpm)
+        slot = (int(step) - place.number + 1) % every
+        place_deg = 360.0 * step / spec.wheel.z
+        rows.append((place.number, place_deg, behind, *ends, after_s, slot, every))
+    return {"cranks": rows_table((*names, "slot_every"), rows)}
+
+
+def number_wheels(model: PartsModel) -> Values:
+    """A row for each number wheel: turns of the input in one of its turns, and between its steps.
+
+    The first is the driver's and never rests: its steps follow each other.
+    """
+    mechanism = model.mechanism
+    pinions = mechanism.spec.wheel.pinions
+    if not pinions:
+        return {"number_wheels": None}
+    step_deg = mechanism.engagements[0].motion_deg
+    digits, turn_s = 360.0 / step_deg, 60.0 / mechanism.spec.drive.n_rpm
+    names = ("number_wheel", "turns_per_turn", "turns_per_step", "step_s", "moving_s")
+    moving_s = turn_s / digits
+    rows = [
+        (k + 1, digits**k, digits ** (k - 1), turn_s * digits ** (k - 1), moving_s)
+        for k in range(pinions + 1)
+    ]
+    return {"number_wheels": rows_table(names, rows)}

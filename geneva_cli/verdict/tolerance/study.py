@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,17 +20,16 @@ from geneva_cli.analysis.tolerance.dimensions import (
 )
 from geneva_cli.analysis.tolerance.entry_jump import entry_jumps
 from geneva_cli.analysis.tolerance.motion_error import WorstErrors, motion_errors
-from geneva_cli.analysis.tolerance.random_machines import random_machines
-from geneva_cli.analysis.tolerance.spread import Spread, spread
+from geneva_cli.analysis.tolerance.random_machines import Spread, random_machines, spread
 from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst
+from geneva_cli.curves.shapes import Arc, Contour
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.jet import Array
+from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.parts.sphere.shells import Shells
 from geneva_cli.verdict.tolerance.needed import RequiredClearances, required_clearances
-from geneva_cli.verdict.tolerance.recesses import locks, sphere_locks
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 class EntryJumps(NamedTuple):
@@ -188,3 +188,50 @@ def _single_design(errors: WorstErrors) -> tuple[float, float, float]:
 
 def _greatest(values: Array) -> float:
     return float(np.max(values))
+
+
+SAME = 1e-6  # fraction of the centre distance, or radians: nearer radii and angles are equal
+
+
+def locks(outlines: Outlines) -> list[Lock]:
+    """Each corner of a recess with each locking arc of the crank; none without a locking disc."""
+    size, assembly = outlines.sizes, outlines.assembly
+    if not outlines.crank:
+        return []
+    near = SAME * assembly.L
+    corners = {
+        round(math.hypot(*end) / near): math.hypot(*end)
+        for arc in _arcs(outlines.wheel)
+        if abs(math.hypot(*arc.centre) - assembly.L) < near and abs(arc.radius - size.recess) < near
+        for end in (arc.start, arc.end)
+    }
+    halves = {
+        round(arc.sweep / SAME): 0.5 * abs(arc.sweep)
+        for part in outlines.crank
+        for arc in _arcs(part)
+        if math.hypot(*arc.centre) < near and abs(arc.radius - size.lock) < near
+    }
+    return [
+        Lock(assembly.L, assembly.sign, size.lock, size.recess, corner, half)
+        for corner in corners.values()
+        for half in halves.values()
+        if half > SAME
+    ]
+
+
+def sphere_locks(shells: Shells) -> list[SphereLock]:
+    """A recess with each locking sector of a spherical crank; empty without one."""
+    ball = shells.ball
+    halves = {
+        round(edge.sweep / SAME): 0.5 * edge.sweep
+        for region in shells.crank
+        for edge in region.boundary[:1]  # it begins with the locking edge
+    }
+    return [
+        SphereLock(ball.radius_mm, ball.axes, ball.lock, ball.recess, ball.rim, half)
+        for half in halves.values()
+    ]
+
+
+def _arcs(contour: Contour) -> list[Arc]:
+    return [one for one in contour.segments if isinstance(one, Arc)]

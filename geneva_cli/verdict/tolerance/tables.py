@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from geneva_cli.analysis.tolerance.dimensions import Deviations, tolerances
-from geneva_cli.analysis.tolerance.spread import Spread
+from geneva_cli.analysis.tolerance.random_machines import Spread
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.machine.mechanism import Mechanism

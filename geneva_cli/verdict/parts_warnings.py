@@ -1,4 +1,4 @@
-"""Warnings about parts that the process of the spec makes badly."""
+"""Warnings about the parts: what the process makes badly, and a turn that breaks no limit."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from geneva_cli.collisions.full_turn import SAME
 from geneva_cli.curves.measure import bounds
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, Notice
@@ -13,6 +14,7 @@ from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.spec.workshops import workshop
+from geneva_cli.verdict.checks.play import motion_play_max
 
 if TYPE_CHECKING:
     from geneva_cli.curves.plates import Solid
@@ -98,3 +100,38 @@ def _narrow(mechanism: Mechanism, sizes: Sizes) -> Iterator[Notice]:
                 f"{key} = {own:g} is that of the default thickness; the wheel is "
                 f"{sizes.wheel_thickness:.4g} mm thick: set {key} to {needed:g}",
             )
+
+
+def turn_warnings(model: PartsModel) -> list[Notice]:
+    """Warnings about the parts' whole turn; none without such a turn."""
+    if not model.mechanism.spec.is_turned:
+        return []
+    try:
+        ahead, behind, limit = model.turn.ahead, model.turn.behind, motion_play_max(model.parts)
+    except GenevaError:
+        return []
+    # Play to both sides has a limit of its own.
+    free = max(ahead.deg, behind.deg)
+    if free <= limit or model.turn.motion.deg >= free * (1.0 - SAME):
+        return []
+    first = ahead.deg >= behind.deg * (1.0 - SAME)
+    side, at_deg = ("ahead", ahead.at_deg) if first else ("behind", behind.at_deg)
+    if len(model.parts.assembly.rollers) > len(model.parts.assembly.motions):
+        return [
+            Notice(
+                "driven-by-one-wall",
+                f"in its slots the wheel is free ahead by {ahead.deg:.4g} deg at "
+                f"{ahead.at_deg:.4g} deg and behind by {behind.deg:.4g} deg at "
+                f"{behind.at_deg:.4g} deg. One wall starts it and one stops it: it leaves them if "
+                "its load overruns the first roller, or stays behind the second",
+            )
+        ]
+    helps = "a load that overruns the roller" if first else "a load that holds back"
+    return [
+        Notice(
+            "driven-by-one-wall",
+            f"in its slot the wheel is free {side} by {free:.4g} deg at {at_deg:.4g} deg, where "
+            f"one wall alone drives it: {helps} meets a corner. Friction or a brake keeps it on "
+            "that wall",
+        )
+    ]
