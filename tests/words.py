@@ -9,7 +9,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics import registry
 from geneva_cli.machine import spec as given
 from geneva_cli.spec.schema import Points, fields
-from geneva_cli.specfile.points import read_pairs
+from geneva_cli.specfile.columns import read_pairs
 
 
 def Wheel(z, gearing="external", **own):

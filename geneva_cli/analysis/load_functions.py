@@ -26,17 +26,18 @@ from geneva_cli.analysis.forces import (
 )
 from geneva_cli.analysis.instant import Instant
 from geneva_cli.analysis.quantities import PV, QUANTITIES, Quantity
-from geneva_cli.analysis.spread import spread_deg
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
-from geneva_cli.numerics.arrays import all_true
-from geneva_cli.numerics.jet import Jet
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import all_true, array
+from geneva_cli.numerics.jet import Array, Jet
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.mid_motion import MidMotionValues
-    from geneva_cli.numerics.arrays import Array, Mask, Number, Whole
+    from geneva_cli.numerics.arrays import Mask, Number, Whole
     from geneva_cli.numerics.pieces import Which
     from geneva_cli.numerics.search import Stretches
+
 
 MARGINS = ("grip", "edge")  # where one of them is not above 0, a quantity is unbounded
 
@@ -342,3 +343,25 @@ def signed_instant(
         if jet is not None:
             sign(kind, jet)
     return SignedInstant(signs, jets, instant)
+
+
+def spread_deg(engagement: Engagement, case: LoadCase) -> Array:
+    """Approximate distance from mid-motion of the nearest pole of velocity and forces, degrees.
+
+    It follows from their behaviour near mid-motion: a velocity as v / (1 + x²/w²), a wall's lever
+    as l sqrt(1 + x²/w²). Where friction holds a lever that vanishes there, w is the distance from
+    mid-motion at which it no longer does.
+    """
+    # not at mid-motion itself, where a curved slot may have no slopes
+    x = 0.01 * array(engagement.exit_deg)
+    _, _, lever, offset, *_ = at = contact(engagement, x, 2, reactions=False, spins=False)
+    velocity = at.velocity
+    with np.errstate(all="ignore"):
+        # arrays, as the quotient of a jet's floats by 0 is an error
+        squares = [array(velocity.c[0]) / velocity.c[2], 0.5 * array(lever.c[0]) / lever.c[2]]
+        w = np.sqrt(np.fmin(*map(np.abs, squares))) / DEGREE
+        if case.rubs:
+            grip = np.abs(lever.c[0]) + case.friction * np.abs(offset.c[0])
+            w = np.fmin(w, array(grip) / np.abs(lever.c[1]) / DEGREE)
+    # ten half motions: samples of a function without poles are not spread
+    return np.fmin(np.where(w > 0.0, w, np.inf), 10.0 * engagement.exit_deg)

@@ -19,8 +19,7 @@ from geneva_cli.kinematics.roller_path import (
     rounded,
 )
 from geneva_cli.kinematics.wheels.poses import HalfStep
-from geneva_cli.linkage.exact_path import ExactPoint, angle, length, unit
-from geneva_cli.linkage.wheel_for_path import Fit
+from geneva_cli.linkage.wheel_for_path import ExactPoint, Fit, angle, length, unit
 from geneva_cli.linkage.wheels_for_paths import LONG_PI, Fits, long_point, polished
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import radians

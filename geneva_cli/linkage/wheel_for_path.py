@@ -10,19 +10,19 @@ from __future__ import annotations
 import cmath
 import math
 from decimal import Decimal, localcontext
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias, cast
 
 import numpy as np
 
 from geneva_cli.kinematics.paths.pairs import DOUBLE_ROOT_SLOPE
 from geneva_cli.kinematics.paths.samples import joined
-from geneva_cli.kinematics.roller_path import RollerPath
+from geneva_cli.kinematics.roller_path import RollerPath, exactly
 from geneva_cli.kinematics.wheels.poses import HalfStep
 from geneva_cli.linkage.choice import chosen
-from geneva_cli.linkage.exact_path import Exact, ExactPoint, cross, length
 from geneva_cli.linkage.wheels import PathWheels, WheelSearch, followed, wheels
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import scaled_sin_cos
+from geneva_cli.numerics.jet import Jet
 
 LAST_STEP = 1e-12  # radians: Newton's method ends after a shorter step
 
@@ -195,3 +195,47 @@ def _polished(
         first -= Decimal(move)
         last -= Decimal((by_entry * excess + one.turn * away) / det)
     return (first, last) if abs(move) < 1e-20 else None  # radians, of the last step
+
+
+Exact: TypeAlias = tuple[Decimal, Decimal]  # a vector in the plane
+
+
+class ExactPoint(NamedTuple):
+    """A point of the path in 50 digits: crank angle, position, velocity, and unit tangent."""
+
+    phi: Decimal
+    sine: Decimal
+    cosine: Decimal
+    p: Exact
+    v: Exact
+    t: Exact
+
+    @staticmethod
+    def of(path: RollerPath, phi: Decimal) -> ExactPoint:
+        """Point at a crank angle in radians."""
+        s, c = digits.sin_cos(phi)
+        sine, cosine = exactly(s), exactly(c)
+        x, y = path.place(Jet((sine, cosine)), Jet((cosine, -sine)), exact=True)
+        (px, vx), (py, vy) = cast("tuple[Exact, Exact]", (x.c, y.c))
+        return ExactPoint(phi, s, c, (px, py), (vx, vy), unit((vx, vy)))
+
+
+def length(a: Exact) -> Decimal:
+    """Length of a vector."""
+    return (a[0] * a[0] + a[1] * a[1]).sqrt()
+
+
+def unit(a: Exact) -> Exact:
+    """Unit vector in the direction of a vector."""
+    size = length(a)
+    return a[0] / size, a[1] / size
+
+
+def cross(a: Exact, b: Exact) -> Decimal:
+    """Third component of the vector product of two plane vectors."""
+    return a[0] * b[1] - a[1] * b[0]
+
+
+def angle(a: Exact, b: Exact) -> float:
+    """Angle from a to b in radians, rounded once to a double."""
+    return math.atan2(cross(a, b), a[0] * b[0] + a[1] * b[1])

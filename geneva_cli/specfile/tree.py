@@ -40,7 +40,7 @@ class _Files:
 
     def points(self, name: Any, rule: Csv, place: tuple[str, str]) -> Points:
         """Pairs in the file that a key names, relative to the spec."""
-        from geneva_cli.specfile.points import read_pairs
+        from geneva_cli.specfile.columns import read_pairs
 
         if not isinstance(name, str):
             raise GenevaError(f"{rule.key} must be text, not {shown(name)}", place)

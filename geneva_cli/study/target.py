@@ -23,6 +23,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.tables import DISTANCE_MM
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.sweep.constraints import Constraint, Objective
+from geneva_cli.verdict.quantities.names import in_batch
 
 GEARINGS = ("external", "internal", "spherical")  # wheels; racks are searched alone
 USUAL_RPM = 60.0
@@ -97,6 +98,16 @@ class Target(NamedTuple):
         """All bounds, the one on the acceleration among them."""
         most = self.acceleration_max
         return (*self.bounds, *([Constraint(PEAK, "<=", most)] if most is not None else []))
+
+    @property
+    def known_bounds(self) -> list[Constraint]:
+        """The bounds on quantities that a batch can compute."""
+        return [b for b in self.limits if in_batch([b.name])]
+
+    @property
+    def known_sort(self) -> Objective | None:
+        """The goal by which rows are sorted, if a batch can compute it."""
+        return self.sort if self.sort and in_batch([self.sort.name]) else None
 
     @property
     def by_bounds(self) -> Target:

@@ -14,6 +14,6 @@ Its steps, one file each:
     table       the rows, the first of them turned; ``shown``: for people
     written     one row as a spec file
 
-``spans`` holds ranges of a number. Many specs are computed as batches: ``batches`` builds them and
-computes quantities, ``by_law`` has those of laws, ``parts_data`` the data that ``parts`` needs.
+``study.spans`` holds ranges of a number. Many specs are computed as batches: ``study.batches``
+builds them and computes quantities, ``parts_data`` the data that ``parts`` needs.
 """

@@ -17,7 +17,6 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.study.batches import numbers
 from geneva_cli.study.sweep.constraints import Objective
 from geneva_cli.study.target import Target
-from geneva_cli.synthesis.bounds import known_bounds, known_sort
 from geneva_cli.synthesis.families.family import Family
 
 INTERVALS = 24  # intervals of a family's span that are sampled first
@@ -102,9 +101,9 @@ class FamilySearch:
     """
 
     def __init__(self, families: Sequence[Family], target: Target, patient: bool = False) -> None:
-        self.families, self.bounds = families, known_bounds(target)
+        self.families, self.bounds = families, target.known_bounds
         self.patient = patient  # also samples near places where no small step can keep the bounds
-        sort = known_sort(target)
+        sort = target.known_sort
         self.nearest = target.any_motion and not sort
         self.peak = target.peak
         self.sign, self.least = sort or Objective(1.0, self.peak)

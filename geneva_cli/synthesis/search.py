@@ -17,7 +17,6 @@ from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Constraint, is_number
 from geneva_cli.study.target import TURNS, Target
 from geneva_cli.synthesis.best import best
-from geneva_cli.synthesis.bounds import known_bounds
 from geneva_cli.synthesis.families import closed
 from geneva_cli.synthesis.families.every import Kind, families, kinds, longest_first
 from geneva_cli.synthesis.families.family import BARE, natural_deg, pieces
@@ -174,7 +173,7 @@ def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) 
     one_each, near = best(of_kind, target, how_near)
     of = {one.spec: one.family for one in reversed([*one_each, *near])}
     keeps, kept, broken = _divided(
-        known_bounds(target), [*dict.fromkeys(one.spec for one in one_each)]
+        target.known_bounds, [*dict.fromkeys(one.spec for one in one_each)]
     )
     shown = [*kept, *broken, *(one.spec for one in near)] if how_near else kept
     built_rows = [

@@ -201,9 +201,9 @@ def test_the_fastest_speed_where_the_load_is_rounding_at_rest(monkeypatch):
     """
     looks = []
 
-    def counted(engagement, x, *more):
+    def counted(engagement, x, *more, **apart):
         looks.append(np.size(x))
-        return contact(engagement, x, *more)
+        return contact(engagement, x, *more, **apart)
 
     monkeypatch.setattr(load_functions, "contact", counted)
     drive, keys = Drive("epicyclic"), Keys("epicyclic", "shockless")

@@ -98,7 +98,8 @@ def boxes_of(samples: PathSamples, wanted: Array) -> Boxes:
         use = possible & _against(width, turn, *rates, sense)
         # spans of the tangent's turn against the wheel, over two turns of the crank
         spans = [np.hstack((x, x + whole)) * -sense for x in (low, high)]
-        entry, exit_ = _turned_between(np.hstack((use, use)), *spans[:: int(-sense)], wanted)
+        least, most = spans[:: int(-sense)]
+        entry, exit_ = _turned_between(np.hstack((use, use)), least, most, wanted)
         row, entry = np.divmod(entry, 2 * count)
         exit_ %= 2 * count
         round_ = exit_ // count
@@ -222,9 +223,9 @@ def halved(path: RollerPath, boxes: Boxes, wanted: Array) -> Boxes:
     count = len(boxes.which)
     both: CrankInterval = joined([boxes.entry, boxes.exit], -1)
     halves = _halves(path, np.tile(boxes.which, 2), both)  # first and last, of entry and exit
-    shape = halves.width, halves.turn, *halves.rates
-    low, high = _span(*shape)
-    against = _against(*shape, np.tile(boxes.sense, 4))
+    width, turn, (first, last) = halves.width, halves.turn, halves.rates
+    low, high = _span(width, turn, first, last)
+    against = _against(width, turn, first, last, np.tile(boxes.sense, 4))
     box = np.tile(np.arange(count), 4)
     entry, exit_ = (box + 2 * count * np.repeat(of, count) for of in ((0, 0, 1, 1), (0, 1, 0, 1)))
     exit_ += count

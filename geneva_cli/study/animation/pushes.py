@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
 
+from geneva_cli.kinematics.layout import AxisPlace
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.scene import Push
-from geneva_cli.study.animation.carrier import moved_push
 from geneva_cli.study.animation.turn import MachineTurn, RollerPassage
 
 
@@ -63,3 +64,20 @@ def _normals(one: RollerPassage, local: Array, turn: MachineTurn) -> Array:
     else:
         direction = turn.pin(one, one.mid + local)
     return np.column_stack((-direction[:, 1], direction[:, 0])) / np.hypot(*direction.T)[:, None]
+
+
+def moved_push(push: Push, place: AxisPlace, axis: float) -> Push:
+    """The force at the first wheel or crank as that at another one, which works later.
+
+    ``axis`` is the place on the line of centres, mm, about which they stand.
+    """
+    c, s = math.cos(place.turn), math.sin(place.turn)
+
+    def turned(x: tuple[float, ...], y: tuple[float, ...], about: float) -> list[list[float]]:
+        pairs = [(u - about, v) for u, v in zip(x, y, strict=True)]
+        return [[about + c * u - s * v for u, v in pairs], [s * u + c * v for u, v in pairs]]
+
+    places = turned(push.x, push.y, axis)
+    forces = turned(push.force_x, push.force_y, 0.0)
+    later = tuple(t + place.behind_deg for t in push.at)
+    return Push(later, *map(tuple, (*places, *forces)))

@@ -15,11 +15,23 @@ from geneva_cli.curves.shapes import Circle, Shape
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.link_positions import links_at
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.angles import radians
 from geneva_cli.outlines.stop import wheel_stop
-from geneva_cli.scene import Bar, Body, Box, CarriedShapes, Phase, Place, Rotation, Scene, pose
+from geneva_cli.scene import (
+    Bar,
+    Body,
+    Box,
+    CarriedShapes,
+    Phase,
+    Place,
+    Rotation,
+    Scene,
+    Track,
+    pose,
+)
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.animation.bodies import bodies
-from geneva_cli.study.animation.carrier import frame_rotation
 from geneva_cli.study.animation.pushes import pushes
 from geneva_cli.study.animation.rack import rack_ends, view_of_rack
 from geneva_cli.study.animation.teeth import DrawnTeeth, carried_gear, drawn_teeth
@@ -229,3 +241,13 @@ def _reach(shape: Shape) -> float:
         return math.hypot(*shape.centre) + shape.radius
     ends = (at(segment, t) for segment in shape.segments for t in (0.0, 0.25, 0.5, 0.75, 1.0))
     return max(math.hypot(*point) for point in ends)
+
+
+def frame_rotation(mechanism: Mechanism, start: float, whole: float) -> Rotation | None:
+    """The carrier's rotation over ``whole`` degrees of the input from ``start``; None without."""
+    if not mechanism.frame:
+        return None
+    rate = mechanism.frame * radians(1.0)
+    ends = rate * start, rate * (start + whole)
+    angle = Track((0.0, whole), ends, (rate, rate), ends[1] - ends[0])
+    return Rotation((mechanism.center_distance_mm, 0.0), angle)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.specfile.points import digest
+from geneva_cli.specfile.columns import digest
 from geneva_cli.specfile.reader import Text, read
 from geneva_cli.study.fields import Cell
 from geneva_cli.study.sweep.constraints import (

@@ -30,7 +30,6 @@ from geneva_cli.study.batches import columns
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.sweep.constraints import Objective
 from geneva_cli.study.target import Target
-from geneva_cli.synthesis.bounds import known_bounds, known_sort
 from geneva_cli.synthesis.families import closed
 from geneva_cli.synthesis.families.family import (
     Family,
@@ -88,8 +87,8 @@ class _TwoNumberSearch:
         self.target, self.drive = target, drive
         self.wheels = [w for w, span in zip(wheels, spans, strict=True) if span]
         self.motions = [span for span in spans if span]
-        self.bounds = known_bounds(target)
-        self.sign, self.least = known_sort(target) or Objective(1.0, target.peak)
+        self.bounds = target.known_bounds
+        self.sign, self.least = target.known_sort or Objective(1.0, target.peak)
         self.nearest = target.any_motion and not target.sort
 
     def machines(self) -> Iterator[Spec]:

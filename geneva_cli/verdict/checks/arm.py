@@ -42,7 +42,7 @@ def _arm_check(
     return at_least(name, lambda: measure(parts.arm) if parts.arm else None, limit)
 
 
-def wall(name: str, parts: FlatParts) -> Check | None:
+def links_wall(name: str, parts: FlatParts) -> Check | None:
     """The least wall around the links' holes, if the spec sets one of their keys."""
     size = vars(parts.mechanism.spec.size)
     keys = ("link_pin_mm", "link_bore_mm", "link_width_mm", "press_fit_mm", "pin_mm")
@@ -55,7 +55,7 @@ def wall(name: str, parts: FlatParts) -> Check | None:
     )
 
 
-def gap(name: str, parts: FlatParts) -> Check | None:
+def links_gap(name: str, parts: FlatParts) -> Check | None:
     """The gap in a whole turn between links and hub, shaft and pins through their planes."""
     try:
         spacers = parts.spacers if parts.mechanism.spec.drive_before else ()

@@ -43,7 +43,7 @@ def limited_load(name: str, mechanism: Mechanism) -> Check | None:
     return compared(name, peak.max, "at most", limit, peak.at_deg)
 
 
-def acceleration(name: str, mechanism: Mechanism) -> Check | None:
+def product_acceleration(name: str, mechanism: Mechanism) -> Check | None:
     """The product's greatest acceleration, where ``[limits]`` bounds it."""
     limit = mechanism.spec.limits.product_acceleration_max_m_s2
     if limit is None:
@@ -52,7 +52,7 @@ def acceleration(name: str, mechanism: Mechanism) -> Check | None:
     return compared(name, most.item(), "at most", limit, at_deg.item())
 
 
-def slipping(name: str, mechanism: Mechanism) -> Check | None:
+def product_slip(name: str, mechanism: Mechanism) -> Check | None:
     """The friction coefficient that holds the product, where ``[product]`` has its own."""
     friction = mechanism.spec.product.friction
     if friction is None or mechanism.spec.support.axis != "vertical":

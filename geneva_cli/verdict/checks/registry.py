@@ -61,8 +61,8 @@ LIMITS: Checks = {
     "arm_stress_MPa": "strength:strength_limit",
     "wheel_key_pressure_MPa": "strength:strength_limit",
     "crank_key_pressure_MPa": "strength:strength_limit",
-    "product_acceleration_max_m_s2": "limits:acceleration",
-    "product_slip": "limits:slipping",
+    "product_acceleration_max_m_s2": "limits:product_acceleration",
+    "product_slip": "limits:product_slip",
 }
 # Checks of flat parts at rest.
 STATIC: Checks = {
@@ -82,8 +82,8 @@ STATIC: Checks = {
     "gear_gap_mm": "shafts:passing_gears",
     "arm_wall_mm": "arm:arm_wall",
     "arm_to_hub_mm": "arm:arm_to_hub",
-    "link_wall_mm": "arm:wall",
-    "link_gap_mm": "arm:gap",
+    "link_wall_mm": "arm:links_wall",
+    "link_gap_mm": "arm:links_gap",
     "first_pin_stress_MPa": "strength:first_stress",
     "first_horn_stress_MPa": "strength:first_stress",
     "first_crank_shaft_stress_MPa": "strength:first_stress",

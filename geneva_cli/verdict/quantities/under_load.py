@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -46,12 +45,22 @@ class UnderLoad:
     @cached_property
     def force_N(self) -> Array:
         """The greatest force on a roller."""
-        return load_peaks(self.machine, [FORCE])[FORCE].max * self.loaded
+        if self.designs.single and not np.isnan(self.loaded[0]):
+            return np.array([self.part_loads.pin_N])  # its cached loads have it
+        return self._peak(FORCE)
 
     @cached_property
     def pv_W_m2(self) -> Array:
         """The greatest contact pressure times sliding speed; it needs a face width."""
-        return load_peaks(self.machine, [PV])[PV].max * self.loaded
+        if self.designs.single and not np.isnan(self.loaded[0]):
+            return np.array([cycle_of(self.machine).extremes[PV].max])
+        return self._peak(PV)
+
+    def _peak(self, name: str) -> Array:
+        """The greatest size of a load; NaN without a load."""
+        if np.isnan(self.loaded).all():
+            return self.loaded
+        return load_peaks(self.machine, [name])[name].max * self.loaded
 
     @cached_property
     def passages(self) -> Sequence[SlotPassage]:
@@ -147,9 +156,9 @@ class UnderLoad:
     @cached_property
     def part_loads(self) -> PartLoads:
         """The greatest loads on arm, keys and shafts."""
-        from geneva_cli.loads.strength.part_loads import part_loads
+        from geneva_cli.loads.strength.part_loads import own_loads, part_loads
 
-        return part_loads(self.machine)
+        return (own_loads if self.designs.single else part_loads)(self.machine)
 
     def shaft(
         self, ends: shafts.ShaftDimensions, loaded: shafts.ShaftForces
@@ -158,53 +167,6 @@ class UnderLoad:
         return shafts.shafts_under_load(self.machine, ends, loaded)
 
 
-class SingleUnderLoad(UnderLoad):
-    """A single design, m = 1, whose loads are those of its cached cycle."""
-
-    @cached_property
-    def force_N(self) -> Array:
-        """The greatest force on a roller."""
-        if np.isnan(self.loaded[0]):
-            return self.loaded
-        return np.array([self.part_loads.pin_N])
-
-    @cached_property
-    def part_loads(self) -> PartLoads:
-        """The greatest loads on arm, keys and shafts."""
-        from geneva_cli.loads.strength.part_loads import own_loads
-
-        return own_loads(self.machine)
-
-    @cached_property
-    def pv_W_m2(self) -> Array:
-        """The greatest contact pressure times sliding speed; it needs a face width."""
-        if np.isnan(self.loaded[0]):
-            return self.loaded
-        return np.array([cycle_of(self.machine).extremes[PV].max])
-
-    @cached_property
-    def passages(self) -> Sequence[SlotPassage]:
-        """The passage of each engagement of a period."""
-        return self._bounded(roller.passages(self.machine))
-
-    @cached_property
-    def roller_passages(self) -> Sequence[SlotPassage]:
-        """The passages of each roller."""
-        return self._bounded(roller.by_roller(self.machine))
-
-    def _bounded(self, every: Sequence[SlotPassage]) -> Sequence[SlotPassage]:
-        """The passages, with infinite work and load if the force is unbounded."""
-        if not math.isinf(self.force_N[0]):
-            return every
-        return [one._replace(work=math.inf, load=math.inf) for one in every]
-
-    def shaft(
-        self, ends: shafts.ShaftDimensions, loaded: shafts.ShaftForces
-    ) -> shafts.ShaftStress | None:
-        """A shaft under its cycle; None without an overhang or a load."""
-        return shafts.shaft(self.machine, ends, loaded)
-
-
 def under_load(of: Designs) -> UnderLoad:
     """The designs under their loads."""
-    return of.once(SingleUnderLoad if of.single else UnderLoad)
+    return of.once(UnderLoad)
