@@ -269,7 +269,7 @@ def with_certificates(peaks: Table, mechanism: Mechanism, for_people: bool) -> T
     found = [certificate(mechanism, quantity) for quantity in QUANTITIES]
     rows = [_row(one) for one in found]
     table = rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
-    texts = [*(one.text for one in found), f"about {found[0].about}"]
+    texts = [*(one.text for one in found), f"holds for {found[0].about}"]
     value = tuple(texts) if for_people else table
     return peaks.replaced(names=(*peaks.names, "certificate"), columns=[*peaks.columns, (value,)])
 
@@ -284,7 +284,7 @@ def load_certificates(mechanism: Mechanism, for_people: bool) -> Table | tuple[s
     found = {name: certificate(mechanism, name) for name, why in reasons.items() if not why}
     if for_people:
         refused = [f"{name}.max not proved: {why}" for name, why in reasons.items() if why]
-        about = [f"about {DOUBLES}"] if found else []
+        about = [f"holds for {DOUBLES}"] if found else []
         return (*[one.text for one in found.values()], *refused, *about)
     names = ("quantity", "low", "high", "at_deg", "places", "proved", "intervals", "about", "open")
     none: dict[str, object] = dict.fromkeys(names) | {"places": (), "proved": False, "intervals": 0}

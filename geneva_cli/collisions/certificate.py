@@ -9,17 +9,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from geneva_cli.collisions.machine_parts import Clearances, MachineParts
 from geneva_cli.collisions.one_motion import one_motion
 from geneva_cli.collisions.pairs import Intervals, Pair, Window
 from geneva_cli.collisions.play import windows
 from geneva_cli.numerics.arrays import Array
-
-if TYPE_CHECKING:
-    from geneva_cli.collisions.machine_parts import Clearances, MachineParts
 
 MOST = 20_000  # intervals of one pair of parts: ten times what the designs take; under a second
 

@@ -23,7 +23,7 @@ from geneva_cli.numerics.arrays import Array
 if TYPE_CHECKING:
     from geneva_cli.curves.fit.path import Curve
 
-    Writer: TypeAlias = Callable[[Curve, float, float], Sequence[Segment]]
+Writer: TypeAlias = "Callable[[Curve, float, float], Sequence[Segment]]"  # fits pieces to a curve
 
 
 class Rack(NamedTuple):

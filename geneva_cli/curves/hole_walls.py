@@ -34,6 +34,11 @@ def least_wall(holes: Sequence[Shape], outline: Sequence[Shape] = ()) -> float:
     return min(least, default=math.inf)
 
 
+def plate_wall(plate: Plate) -> float:
+    """Return the least wall between the holes of a plate, and around them."""
+    return least_wall(plate.holes, [plate.outline])
+
+
 def beyond(outline: Polyarc, hole: Shape) -> float:
     """Return how far a hole's edge reaches past an outline, mm; negative inside."""
     if isinstance(hole, Circle):
@@ -73,7 +78,7 @@ def require_faces(plate: Plate) -> None:
             inset(lines_and_arcs(with_material_left(as_contour(shape), i == 0)), "", edge.size)
     except GenevaError as error:
         raise _no_edge(edge, str(error)) from None
-    wall = least_wall(plate.holes, [plate.outline])
+    wall = plate_wall(plate)
     if wall <= 2.0 * edge.size:
         says = f"the {plate.name} has a wall of {wall:.4g} mm; it must be below {0.5 * wall:.4g}"
         raise _no_edge(edge, says)

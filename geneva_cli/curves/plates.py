@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.curves.edges import Edge
+from geneva_cli.curves.shapes import Circle, Contour, Point
 
 if TYPE_CHECKING:
     from geneva_cli.curves.cross_holes import CrossHole
     from geneva_cli.curves.round_holes import RoundHole
-    from geneva_cli.curves.shapes import Circle, Contour, Point
     from geneva_cli.curves.sphere import Region, Rotation, Vector
 
 

@@ -12,13 +12,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.curves.gear_teeth import Rack, fillet, flank, right
+from geneva_cli.curves.gear_teeth import Rack, Writer, fillet, flank, right
 from geneva_cli.curves.shapes import Segment
 from geneva_cli.numerics.arrays import Array
 
 if TYPE_CHECKING:
     from geneva_cli.curves.fit.path import Curve
-    from geneva_cli.curves.gear_teeth import Writer
 
 
 def teeth_along(

@@ -7,6 +7,7 @@ corner.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from geneva_cli.curves.helvetica import width
@@ -118,6 +119,19 @@ class Sheet(NamedTuple):
     def texts(self) -> list[Label]:
         """All texts, including those of dimensions."""
         return [*self.labels, *(m.label for m in self.measures)]
+
+    @property
+    def arrows(self) -> list[Arrow]:
+        """All arrows of dimensions."""
+        return [arrow for measure in self.measures for arrow in measure.arrows]
+
+    def by_layer(self) -> Iterator[tuple[str, list[Shape]]]:
+        """Yield the shapes of each layer, including the lines of dimensions."""
+        lines = [Contour(DIMENSION, (p,), closed=False) for m in self.measures for p in m.lines]
+        for layer in WIDTHS:
+            shapes = [shape for shape in (*self.shapes, *lines) if shape.layer == layer]
+            if shapes:
+                yield layer, shapes
 
 
 def line(layer: str, *points: Point) -> Contour:

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from geneva_cli.drawings.model import kind_of
+from geneva_cli.drawings.model import PartsKind, PartsModel, kind_of
 from geneva_cli.errors import GenevaError, cut, few, nearest
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.rules import Range, require_mm
 from geneva_cli.table import Table
@@ -16,8 +17,6 @@ from geneva_cli.table import Table
 if TYPE_CHECKING:
     from geneva_cli.curves.drawing import Drawing
     from geneva_cli.curves.sheet import Sheet
-    from geneva_cli.drawings.model import PartsKind, PartsModel
-    from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.parts.parts_of_machine import PartsOfMachine
 
 

@@ -25,6 +25,7 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.arm import LAYER as ARM
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.links import LAYER as LINK
 from geneva_cli.parts.mounted_plate import LAYER as STANDING
 
@@ -103,7 +104,6 @@ def _free_direction(mechanism: Mechanism) -> float:
 
 def _link_turns(parts: Outlines) -> Iterator[Arc]:
     """Yield the sense of rotation of the link on the crank's shaft, beyond its end or the disc."""
-    from geneva_cli.parts.link_sizes import places
 
     mechanism, L = parts.assembly.full, parts.assembly.L
     for link in links_at(mechanism, np.array([-0.5, 0.0, 0.5])):

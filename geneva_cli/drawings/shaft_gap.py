@@ -23,6 +23,8 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.gear_pair import PITCH, gear_span, pitch_radii
+from geneva_cli.parts.pair_teeth import pair_teeth
 from geneva_cli.parts.rack_parts import RackParts
 
 Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere
@@ -137,8 +139,6 @@ def _noncircular(mechanism: Mechanism, drawn: Outlines | None) -> Iterator[Ring]
     pair, x = mechanism.spec.gears, mechanism.gear_shaft.x_mm
     if pair is None:
         return
-    from geneva_cli.parts.gear_pair import PITCH, gear_span, pitch_radii
-    from geneva_cli.parts.pair_teeth import pair_teeth
 
     (_, driven), (_, driver) = pitch_radii(pair)
     if teeth := pair_teeth(pair, mechanism.spec.size):

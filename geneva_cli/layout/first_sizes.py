@@ -10,27 +10,21 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import lru_cache
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics.drive import FirstWheel
 from geneva_cli.kinematics.wheels.external import External
+from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.holds import shaft_holds_both
-from geneva_cli.layout.plain_sizes import FirstSizes
+from geneva_cli.layout.plain_sizes import FirstSizes, Sizes
 from geneva_cli.layout.stressed import Stressed, stressed
-from geneva_cli.loads.strength.part_loads import single_loads
+from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.preferred import bores_from
 from geneva_cli.spec.tables import Load, Size
-
-if TYPE_CHECKING:
-    from geneva_cli.kinematics.drive import FirstWheel
-    from geneva_cli.layout.assembly import Assembly
-    from geneva_cli.layout.plain_sizes import Sizes
-    from geneva_cli.loads.strength.part_loads import PartLoads
-    from geneva_cli.machine.mechanism import Mechanism
-
 
 Sized: TypeAlias = Callable[["Mechanism", "PartLoads"], "tuple[Assembly, Sizes] | None"]
 

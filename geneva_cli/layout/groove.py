@@ -4,21 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.curves import chords
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics.engagement import Groove
 from geneva_cli.kinematics.pitch_curve import WALLED
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, Number, scalar, smaller
 from geneva_cli.numerics.roots import boundary_by_sections, greatest_at
 from geneva_cli.table import Table
-
-if TYPE_CHECKING:
-    from geneva_cli.kinematics.engagement import Groove
 
 NAMES = ("input_deg", "radius_mm", *WALLED)
 GRID = 3600  # positions all round, between which the greatest pressure angle is searched

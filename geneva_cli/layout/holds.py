@@ -13,15 +13,15 @@ from geneva_cli.loads.strength.arm import arm_stress_MPa
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.loads.strength.shafts import shear_MPa
 from geneva_cli.machine.materials import roller_material, wheel_material
+from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.preferred import rounded_from
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.spec.default_sizes import value_or
+from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
     from geneva_cli.layout.stressed import ShaftSize, Stressed
     from geneva_cli.loads.strength.part_loads import PartLoads
-    from geneva_cli.machine.spec import Spec
-    from geneva_cli.spec.tables import Size
 
 
 class PinSpace(NamedTuple):

@@ -55,7 +55,7 @@ def _peaks(path: RollerPath, wheels: PathWheels) -> Array:
     known = _Velocities(velocity.copy(), np.full(len(which), np.inf), wheels.phi.copy())
     order = np.lexsort((velocity, which))
     open_ = order[np.append(True, np.diff(which[order]) != 0)]
-    for _ in range(13):  # each round narrows to three of sixteen intervals, 5e-9 in twelve
+    for _ in range(20):  # each round narrows to three of eight intervals, 8e-9 in nineteen
         if not len(open_):
             break
         near = _velocities(path, wheels.taken(open_), known.bracket[open_])
@@ -103,7 +103,7 @@ def _block_velocities(path: RollerPath, phi: Array, between: Array) -> _Velociti
     rho = np.abs(q - p) / np.abs(t + u)
     centre = (0.5 * ((p + rho * t) + (q - rho * u)))[:, None]
     low, high = between[:, :1], between[:, 1:]
-    count = 16  # intervals
+    count = 8  # intervals
     phi = low + (high - low) * (np.arange(count + 1) / count)
     x, y = path.at(phi, 1)
     ray = x.c[0] + 1j * y.c[0] - centre

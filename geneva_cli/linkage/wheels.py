@@ -126,7 +126,7 @@ def _apart(phi: Array, others: Array) -> Array:
 
 def _followed(path: RollerPath, samples: PathSamples, ends: EndPairs, sense: Array) -> PathWheels:
     """Wheels of the pairs between which the roller stays in its slot."""
-    parts = blocks(len(sense), 256)  # the samples of 256 wheels stay in the processor's cache
+    parts = blocks(len(sense), 512)  # the samples of 512 wheels stay in the processor's cache
     return joined([_block_followed(path, samples, ends.taken(i), sense[i]) for i in parts])
 
 

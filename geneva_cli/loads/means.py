@@ -23,7 +23,7 @@ from geneva_cli.analysis.stretches import mirror_images, spans_of
 from geneva_cli.loads.groups import of_groups
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Mask, Whole, array
+from geneva_cli.numerics.arrays import Mask, Whole, array, matrix_product
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.pieces import gathered, spread
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
@@ -159,7 +159,7 @@ def sums(load: LoadFunctions, pieces: Stretches, bounded: Mask, n: int, plain: b
             for end in (engagement.entry_deg, engagement.exit_deg):
                 near = np.broadcast_to(np.reshape(NEAR_CUSP * end, (-1, 1)), (n, 1))
                 near_values = powers(load, load.at(near * places, np.arange(n), 0), None, plain)
-                total += (near_values @ weights) * np.abs(near[:, 0])
+                total += matrix_product(near_values, weights) * np.abs(near[:, 0])
         total[~np.tile(bounded, (2 if plain else 1, 1))] = np.inf
     return total * DEGREE
 

@@ -236,7 +236,11 @@ class Spec:
 
     @property
     def has_lock(self) -> bool:
-        """True if the crank has a part that locks the wheel in the dwell."""
+        """True if the crank has a part that locks the wheel in the dwell.
+
+        >>> Spec(External(6)).has_lock, Spec(External(6), size=Size(lock_radius_mm=0.0)).has_lock
+        (True, False)
+        """
         return self.drive.LOCKS and self.size.lock_radius_mm != 0.0
 
     @property

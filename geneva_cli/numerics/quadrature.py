@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array, Mask, Whole, joined, read_only
+from geneva_cli.numerics.arrays import Array, Mask, Whole, joined, matrix_product, read_only
 
 NODES = 20  # nodes of a rule that suffice for most loads between two cuts
 NARROW_NODES = 12  # nodes for a span that is narrow compared with its design's widest
@@ -85,9 +85,9 @@ class Integrands(NamedTuple):
             rate = rate * (6.0 * t * (1.0 - t))
             t = t * t * (3.0 - 2.0 * t)
         value = self.functions(self.a[of, None] + width * t, of) * rate
-        sums = value @ terms
+        sums = matrix_product(value, terms)
         last = np.abs(sums[..., 1:]).max(axis=-1)
-        return sums[..., 0], last, np.abs(value) @ terms[:, 0]
+        return sums[..., 0], last, matrix_product(np.abs(value), terms[:, 0])
 
 
 def span_integrals(

@@ -11,21 +11,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.collisions.gaps import Gaps
-from geneva_cli.collisions.pairs import Bounds, Intervals, Pair, raised
+from geneva_cli.collisions.pairs import Bounds, Intervals, Pair, Window, raised
 from geneva_cli.curves.extents import farthest, from_segments, near_segments, short_pieces
+from geneva_cli.curves.shapes import Contour
+from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.plane_motion import turned_points
 from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.outlines.travel import Travel, path_travel, slot_travel
-
-if TYPE_CHECKING:
-    from geneva_cli.collisions.pairs import Window
-    from geneva_cli.curves.shapes import Contour
-    from geneva_cli.kinematics.engagement import Engagement
 
 AXIS = np.zeros((1, 2))
 

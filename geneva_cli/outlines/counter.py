@@ -19,20 +19,18 @@ number wheels are in a plane without a rim, and have the whole teeth.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.curves.gear_teeth import Rack, RoundTeeth, circle, fillet, involute
+from geneva_cli.curves.gear_teeth import Rack, RoundTeeth, Writer, circle, fillet, involute
 from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import ORIGIN, Arc, Contour, Segment, about, closed
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.gear_mesh import GearMesh, ToothedGear
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.roots import boundary
-
-if TYPE_CHECKING:
-    from geneva_cli.curves.gear_teeth import Writer
 
 WHEEL, CRANK = "WHEEL", "CRANK"
 
@@ -76,6 +74,24 @@ def counter_sizes(mechanism: Mechanism) -> CounterSizes:
     return CounterSizes(
         driver, number, pinion, L, mesh.shifts, mesh.pressure_angle, mesh.contact_ratio, touch, rim
     )
+
+
+def counter_mesh(sizes: CounterSizes) -> GearMesh:
+    """Return driver, pinion and number wheel; of the driver's teeth two are left.
+
+    The driver's teeth lie to either side of the x axis, and so does a space of the number wheel. A
+    wide tooth of the pinion is on the x axis.
+    """
+    driver, pinion = sizes.driver, sizes.pinion
+    count, half = round(math.tau / driver.step), sizes.half_space
+    ahead = tuple(half + k * driver.step for k in range(count))
+    around = tuple(k * pinion.step for k in range(round(math.tau / pinion.step)))
+    gears = {
+        "driver": ToothedGear(driver, count, sizes.shifts[0], ((-half, half),)),
+        "pinion": ToothedGear(pinion, len(around), sizes.shifts[1], (around,)),
+        "number wheel": ToothedGear(sizes.number, count, sizes.shifts[0], (ahead,)),
+    }
+    return GearMesh(gears, sizes.pressure_angle, sizes.contact_ratio)
 
 
 class _Meshing(NamedTuple):

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from itertools import combinations
-from typing import TYPE_CHECKING
 
 from geneva_cli.curves.shapes import (
     Circle,
@@ -27,10 +26,7 @@ from geneva_cli.layout.reliefs import Relief, followed, keyway_direction, merged
 from geneva_cli.layout.reliefs import is_whole as is_whole
 from geneva_cli.layout.roller_paths import roller_centres as roller_centres
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.outlines.locking_rings import LAYER, polar_points, rings, towards
-
-if TYPE_CHECKING:
-    from geneva_cli.outlines.locking_rings import Swept
+from geneva_cli.outlines.locking_rings import LAYER, Swept, polar_points, rings, towards
 
 
 def crank_contours(

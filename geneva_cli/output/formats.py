@@ -51,10 +51,20 @@ def table_as(output: str, format: str) -> str:
 def drawn_as(output: str, format: str) -> str:
     """The format of a drawing, or of a table of it. Raises GenevaError for an unknown one."""
     formats = {**DRAWN, **FORMATS}
+    if _named(output, format) == "pdf":
+        option = f"--format {format}" if format else f'-o "{cut(output)}"'
+        raise GenevaError(
+            f"{option}: a pdf holds a drawing sheet: take --part sheet, or write .dxf or .svg"
+        )
     name = format or format_of(output, formats)
     if name not in formats:
         raise GenevaError(f"--format {cut(name)}: it must be one of {', '.join(formats)}")
     return name
+
+
+def _named(output: str, format: str) -> str:
+    """The format that is given, or that of a file's extension; empty for an unknown extension."""
+    return format or EXTENSIONS.get(os.path.splitext(output)[1].lower().lstrip("."), "")
 
 
 def is_drawn(output: str, format: str) -> bool:
@@ -71,9 +81,8 @@ def usual_curves(output: str, format: str) -> str:
     >>> usual_curves("wheel.stp", ""), usual_curves("-", "dxf")
     ('spline', 'arcs')
     """
-    extension = os.path.splitext(output)[1].lower().lstrip(".")
     # In a solid, a wall is one face as a spline, and a hundred faces as arcs.
-    return "spline" if (format or EXTENSIONS.get(extension)) == "step" else "arcs"
+    return "spline" if _named(output, format) == "step" else "arcs"
 
 
 def usual_tolerance(output: str, format: str) -> float:
@@ -95,8 +104,7 @@ def of_curves(tolerance_mm: float, output: str, format: str) -> float:
 
 
 def _is_mesh(output: str, format: str) -> bool:
-    extension = os.path.splitext(output)[1].lower().lstrip(".")
-    return (format or EXTENSIONS.get(extension)) in MESHES
+    return _named(output, format) in MESHES
 
 
 def sheet_as(output: str, format: str) -> str:
@@ -153,8 +161,7 @@ def format_of(output: str, formats: Collection[str] = FORMATS) -> str:
     """
     if output == "-":
         return "table"
-    extension = os.path.splitext(output)[1].lower().lstrip(".")
-    name = EXTENSIONS.get(extension, "")
+    name = _named(output, "")
     if name not in formats:
         known = ", ".join(f".{e}" for e, name in EXTENSIONS.items() if name in formats)
         if name:

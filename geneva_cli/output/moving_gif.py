@@ -7,20 +7,16 @@ from __future__ import annotations
 
 import io
 import math
+from collections.abc import Callable
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from geneva_cli.curves.measure import at
 from geneva_cli.curves.shapes import Circle, Line, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.inks import INKS
 from geneva_cli.progress import tracked
-from geneva_cli.scene import body_pose, place_at, pose, value_at
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from geneva_cli.scene import Bar, Scene
+from geneva_cli.scene import Bar, Scene, body_pose, place_at, pose, value_at
 
 WIDE = 400  # px
 FRAMES = 60  # pictures of a turn

@@ -5,15 +5,12 @@ from __future__ import annotations
 import base64
 from collections.abc import Iterable
 from html import escape
-from typing import TYPE_CHECKING
 
+from geneva_cli.curves.drawing import Drawing
 from geneva_cli.errors import clean
+from geneva_cli.figure import Figure
 from geneva_cli.output import plot_svg, svg
-
-if TYPE_CHECKING:
-    from geneva_cli.curves.drawing import Drawing
-    from geneva_cli.figure import Figure
-    from geneva_cli.table import Table
+from geneva_cli.table import Table
 
 
 def design_html(report: Table, verdict: str, drawing: Drawing | None, figure: Figure) -> str:

@@ -4,16 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 from xml.sax.saxutils import escape
 
 from geneva_cli.errors import clean
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.svg_paths import element
-from geneva_cli.scene import body_pose, place_at, pose, value_at
-
-if TYPE_CHECKING:
-    from geneva_cli.scene import Bar, Body, Place, Scene
+from geneva_cli.scene import Bar, Body, Place, Scene, body_pose, place_at, pose, value_at
 
 GREY, BROWN = "#757575", "#a56752"
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING
 
+from geneva_cli.curves.gear_teeth import Writer
 from geneva_cli.curves.hole_walls import require_faces
 from geneva_cli.curves.plates import Group, Member, Plate, plates
 from geneva_cli.curves.shapes import Contour, Point, Shape
@@ -19,18 +19,15 @@ from geneva_cli.layout.gear_mesh import GearMesh
 from geneva_cli.layout.missing import NamedParts
 from geneva_cli.outlines.counter import (
     CounterSizes,
+    counter_mesh,
     counter_sizes,
     driver_rim,
     driver_teeth,
     number_teeth,
     pinion_teeth,
 )
-from geneva_cli.outlines.counter_mesh import counter_mesh
 from geneva_cli.parts.counter_frame import Heights, bore, heights, shafts_and_frame
 from geneva_cli.parts.edged_parts import EdgedParts, FrameAndShafts
-
-if TYPE_CHECKING:
-    from geneva_cli.curves.gear_teeth import Writer
 
 
 class CounterParts(EdgedParts):

@@ -26,6 +26,7 @@ from geneva_cli.outlines.wheel import wheel_contour
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
 from geneva_cli.parts.edged_parts import EdgedParts, FrameAndShafts
 from geneva_cli.parts.frame import framed
+from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.links import Links, drawn_links
 from geneva_cli.parts.plates import arm_plate, locking_plates, roller_plates, wheel_part
 from geneva_cli.parts.shafts import crank_hub
@@ -137,7 +138,6 @@ class FlatParts(EdgedParts):
 
     def _on_links(self) -> tuple[Point, ...]:
         """Return the centres of rollers on links in the plane below the wheel."""
-        from geneva_cli.parts.link_sizes import places
 
         return tuple(
             (float(joint[0].real), float(joint[0].imag))

@@ -8,9 +8,10 @@ percent. A gear that stands still is screwed to the frame.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from geneva_cli.curves.hole_walls import least_wall
+from geneva_cli.curves.gear_teeth import Writer
+from geneva_cli.curves.hole_walls import plate_wall
 from geneva_cli.curves.measure import turned
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import (
@@ -29,9 +30,6 @@ from geneva_cli.layout.bolt_holes import bolt_circle
 from geneva_cli.layout.gear_mesh import ToothedGear
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.link_sizes import LinkSizes
-
-if TYPE_CHECKING:
-    from geneva_cli.curves.gear_teeth import Writer
 
 PITCH, HOLES, RIM = "PITCH", "BORE", "LINK"
 
@@ -123,7 +121,7 @@ def link_gear(
         # the first at 45 degrees, off the line on which the shafts lie
         holes += bolt_circle(size, "gear", L, (inner, outer), 0.25 * math.pi).holes
     plate = Plate(link.name, PITCH, outline, tuple(holes), low, high)
-    _refuse(link.name, gear_wall(plate), "bolts" if teeth.fixed else "bore", shaft)
+    _refuse(link.name, plate_wall(plate), "bolts" if teeth.fixed else "bore", shaft)
     return Gear(at, link.radius_mm, hole, teeth, plate, cut)
 
 
@@ -166,11 +164,6 @@ def sectors(radius: float, hub: float, teeth: Teeth) -> Contour:
         first = pieces[-1].end if pieces else about(ORIGIN, hub, start, 1.0).start
         pieces += [Line(first, rim.start), rim, Line(rim.end, back.start), back]
     return closed(PITCH, pieces)
-
-
-def gear_wall(plate: Plate) -> float:
-    """Return the least wall between a gear's holes, and from them to its pitch circle or rim."""
-    return least_wall(plate.holes, [plate.outline])
 
 
 def _bored_by(at: Point, L: float) -> str:

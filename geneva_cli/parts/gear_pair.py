@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geneva_cli.curves.gear_teeth import Writer
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Point, closed
 from geneva_cli.errors import GenevaError
@@ -30,7 +31,6 @@ from geneva_cli.parts.shaft import Ends, Seat, Shaft, shaft_ends
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geneva_cli.curves.gear_teeth import Writer
 
 PITCH, BORE, CUT = "PITCH", "BORE", "LINK"
 NAMES = "driven gear", "driver gear"

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.curves.hole_walls import apart, least_wall
+from geneva_cli.curves.hole_walls import apart, plate_wall
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour, Point, Shape
@@ -26,11 +26,11 @@ from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.link_axes import LinkAxis
+from geneva_cli.parts.link_sizes import SLOT_MARGIN, LinkSizes, link_sizes, places, refuse_hexagon
 
 if TYPE_CHECKING:
     from geneva_cli.layout.gear_mesh import GearMesh
     from geneva_cli.parts.gear_blanks import Gear
-    from geneva_cli.parts.link_sizes import LinkSizes
 
 LAYER, HOLES, SHAFT = "LINK", "BORE", Joint.SHAFT
 
@@ -98,7 +98,6 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
         return Links()
     from geneva_cli.parts.link_axes import axes as axes_of
     from geneva_cli.parts.link_pins import pins, rollers
-    from geneva_cli.parts.link_sizes import link_sizes
 
     sizes = link_sizes(mechanism, links, parts)
     L = mechanism.center_distance_mm
@@ -140,7 +139,6 @@ def _known(axis: LinkAxis, sizes: LinkSizes, parts: Outlines | None, L: float) -
 
     Raises GenevaError for a hexagonal one.
     """
-    from geneva_cli.parts.link_sizes import refuse_hexagon
 
     if same(axis.at, (L, 0.0), L):
         return sizes.crank_shaft or 0.0
@@ -225,7 +223,6 @@ def _gears(
 
 def _axis(link: Link) -> Point:
     """Return the axis of a gear at input angle 0."""
-    from geneva_cli.parts.link_sizes import places
 
     (path,) = places(link)
     z = complex(path[len(path) // 2])
@@ -234,7 +231,6 @@ def _axis(link: Link) -> Point:
 
 def _bar(link: Link, sizes: LinkSizes, L: float) -> _UnboredLink:
     """Return a link without bores for shafts, and the blocks that slide along it."""
-    from geneva_cli.parts.link_sizes import SLOT_MARGIN, places
 
     middle = len(link.joints[0][0]) // 2  # input angle 0
     joints = places(link)
@@ -320,15 +316,10 @@ def _slot(along: complex, ends: tuple[float, float], half: float) -> Contour:
 
 def _refuse(plate: Plate) -> None:
     """Raise GenevaError where holes leave no plate between or around them."""
-    wall = link_wall(plate)
+    wall = plate_wall(plate)
     if wall <= 0.0:
         raise GenevaError(
             f"--part links: no plate is left around the holes of the {plate.name}: it lacks "
             f"{-wall:.4g} mm; reduce link_pin_mm, link_bore_mm or pin_mm, or move joints apart",
             ("size", "link_pin_mm"),
         )
-
-
-def link_wall(plate: Plate) -> float:
-    """Return the least wall between the holes of a link, and around them."""
-    return least_wall(plate.holes, [plate.outline])

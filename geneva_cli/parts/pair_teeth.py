@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.curves.gear_teeth import Rack
+from geneva_cli.curves.gear_teeth import Rack, Writer
 from geneva_cli.curves.rolling_teeth import curvatures, teeth_along, thinnest_tip
 from geneva_cli.curves.shapes import Segment
 from geneva_cli.errors import GenevaError
@@ -23,7 +23,6 @@ from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
     from geneva_cli.curves.fit.path import Curve
-    from geneva_cli.curves.gear_teeth import Writer
 
 
 class PairTeeth(NamedTuple):

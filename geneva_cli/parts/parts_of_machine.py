@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Self
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from geneva_cli.curves.plates import Member
     from geneva_cli.layout.missing import NamedParts
     from geneva_cli.machine.mechanism import Mechanism

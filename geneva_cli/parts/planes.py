@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -26,11 +26,9 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import wheel_hub_length
 from geneva_cli.parts.arm import has_arm
+from geneva_cli.parts.link_sizes import LinkSizes, places
 from geneva_cli.parts.links import Links
 from geneva_cli.parts.shafts import wheel_shaft_ends, wheel_shaft_radius
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.link_sizes import LinkSizes
 
 LOOKS = 1440  # input angles in a turn: the error of a gap is quadratic in their distance
 
@@ -98,7 +96,6 @@ def _gears(parts: Outlines, bars: Links, links: tuple[Link, ...], turn: Array) -
 
     A first wheel is no gear: ``shaft_gap`` computes its gap.
     """
-    from geneva_cli.parts.link_sizes import places
 
     assert bars.sizes is not None
     if parts.assembly.full.spec.drive.IN_SERIES:
@@ -197,7 +194,6 @@ class _Shaft:
         outlines: dict[str, Contour],
         bars: Links,
     ) -> None:
-        from geneva_cli.parts.link_sizes import places
 
         L, sizes = parts.assembly.L, bars.sizes
         assert sizes is not None
@@ -250,7 +246,6 @@ class _Shaft:
 
 
 def _meeting(link: Link, outline: Contour, one: Round, turn: Array) -> Meeting:
-    from geneva_cli.parts.link_sizes import places
 
     joints = places(link)
     ahead = joints[1] - joints[0]

@@ -33,9 +33,9 @@ def wheel_body(mechanism: Mechanism) -> MassProperties | None:
     if spec.size.wheel_thickness_mm is None and spec.size.face_width_mm is None:
         return None
     if spec.wheel.SHELLS:
-        from geneva_cli.parts.sphere.body import wheel_body as of_shell  # only on a sphere
+        from geneva_cli.parts.sphere.sphere_parts import shell_body  # only on a sphere
 
-        return of_shell(mechanism)
+        return shell_body(mechanism)
     from geneva_cli.curves.mass import added, face_properties, mass_properties
     from geneva_cli.curves.moments import moments, total
     from geneva_cli.outlines.wheel_hub import wheel_hub

@@ -89,6 +89,12 @@ def template(kind: str, schema: bool = True, whole: bool = True) -> str:
     GenevaError for an unknown kind.
     """
     if kind not in KINDS:
+        from geneva_cli.specfile.designs import titles  # only for messages
+
+        if kind in titles():
+            raise GenevaError(
+                f'"{kind}" is a design, not a KIND; use `geneva new --from-design {kind}`'
+            )
         raise GenevaError(
             f'unknown KIND "{cut(kind)}"{nearest(kind, KINDS)}; it must be one of '
             f"{few(kind, KINDS)}; `geneva new --list` has all"

@@ -10,7 +10,7 @@ from geneva_cli.design import load
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.progress import tracked
 from geneva_cli.study.pool import cores, mapped
-from geneva_cli.table import Table, record_table, rows_table
+from geneva_cli.table import Reading, Table, record_table, rows_table
 from geneva_cli.verdict.checks import Check, all_pass
 
 NAMES = (
@@ -86,7 +86,9 @@ def _checks(verdicts: Sequence[Verdict], directed: bool) -> Table:
         for v in verdicts
         for c in v.checks
     ]
-    return rows_table(names, rows)
+    # a narrow window shows the limit rather than the angle, which is not known for most checks
+    first = ("spec", "check", "value", "must_be", "limit", "passes", "nearest", "at_deg", "why")
+    return rows_table(names, rows).replaced(reading=Reading(first))
 
 
 def checks_record(verdicts: Sequence[Verdict]) -> Table:

@@ -69,7 +69,6 @@ class _KindRows(NamedTuple):
     rows: list[MachineRow]
     requested: list[Cells | None]  # of each row, from ``batch_cells``
     keeps: bool
-    reached: list[float]
     errors: list[str]
 
 
@@ -84,15 +83,15 @@ def search(target: Target, meanwhile: Callable[[], None] | None = None) -> Ranki
     narrowed = target.with_times()
     narrowed.refuse_contradictions()
     by_kind = _all_kinds(narrowed, request.names, meanwhile=meanwhile)
-    if not any(kind.keeps for kind in by_kind):  # the error message says how near they come
+    # the error message says how near they come
+    if target.acceleration_max is None and not any(kind.keeps for kind in by_kind):
         by_kind = _all_kinds(target, request.names, how_near=True)
     errors = [error for kind in by_kind for error in kind.errors]
     every = [row for kind in by_kind for row in kind.rows]
     if not every:
-        reached = [peak for kind in by_kind for peak in kind.reached]
-        if target.acceleration_max is not None and not reached:
+        if target.acceleration_max is not None:
             return search(target.by_bounds)  # its message says how near they come
-        raise GenevaError(_out_of_reach(target, reached, errors))
+        raise GenevaError(_out_of_reach(target, errors))
     together = [cells for kind in by_kind for cells in kind.requested]
     ranked = _ranked(target, request, every, together)
     if frame_limits(target) and narrowed.motion_for(1) and any(map(breaks_limit, ranked)):
@@ -165,9 +164,8 @@ def _all_kinds(
 
 def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) -> _KindRows:
     kind, target = task
-    reached: list[float] = []
     errors: list[str] = []
-    of_kind = [*families(kind, target, reached)]
+    of_kind = [*families(kind, target)]
     if not _is_batched(target):
         of_kind = pieces(of_kind, 120)  # the quantities of each piece's best are computed singly
     one_each, near = best(of_kind, target, how_near)
@@ -181,7 +179,7 @@ def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) 
         for spec, row in zip(shown, rows(target, shown, errors), strict=True)
         if row
     ]
-    return _KindRows(built_rows, batch_cells(names, built_rows), keeps, reached, errors)
+    return _KindRows(built_rows, batch_cells(names, built_rows), keeps, errors)
 
 
 def _requested(target: Target) -> QuantityRequest:
@@ -282,16 +280,10 @@ def _first(request: QuantityRequest, row: MachineRow) -> float:
     return request.sort.sign * float(value) if is_number(value) else math.nan
 
 
-def _out_of_reach(target: Target, reached: list[float], errors: list[str]) -> str:
+def _out_of_reach(target: Target, errors: list[str]) -> str:
     """The error message if no machine was found: what would be within reach."""
     counts = target.counts
     m = target.rollers or next((int(m) for m in counts if m >= 1.0), 1)
-    if target.only_acceleration and reached:
-        (limit,) = target.limits
-        return (
-            f"--subject-to {limit}: out of reach; with these wheels the limit "
-            f"must be above {min(reached):.6g}, and more slots allow a lower one"
-        )
     motion = target.motion_for(m)
     most = max(
         rollers_max(natural_deg(target.wheel(g, z))) for z in target.z for g in target.gearings

@@ -9,14 +9,15 @@ from typing import Any, NamedTuple
 from geneva_cli.output.text import cell
 from geneva_cli.table import Reading, Table
 
-# Columns and their short names, the least important last; empty ones are left out.
+# Columns and their short names, the least important last; empty ones are left out. Rows are sorted
+# by the peak acceleration, and --write takes their number: a narrow window keeps both.
 HEADS = {
     "no": "no",
+    "machine": "machine",
+    "acceleration_max": "accel_max",
     "z": "z",
     "gearing": "wheel",
-    "machine": "machine",
     "parts": "parts",
-    "acceleration_max": "accel_max",
     "n_rpm": "rpm",
     "extra": "",
     "rollers": "rollers",
@@ -171,13 +172,13 @@ def _fitting(columns: list[SynthesisColumn]) -> list[SynthesisColumn]:
 def _ranks(columns: list[SynthesisColumn]) -> dict[str, float]:
     """The rank of each column in importance.
 
-    The number of rollers comes before the parts if rows differ in nothing else that names them.
+    The number of rollers comes before the wheel if rows differ in nothing else that names them.
     """
     rank: dict[str, float] = {source: i for i, source in enumerate(HEADS)}
-    named = [c.cells for c in columns if rank[c.source] <= rank["machine"] and c.source != "no"]
+    named = [c.cells for c in columns if c.source in ("z", "gearing", "machine")]
     names = [*zip(*named, strict=True)]
     if len({*names}) < len(names):
-        rank["rollers"] = rank["machine"] + 0.5
+        rank["rollers"] = rank["z"] + 0.5
     peak = "acceleration_max"
     for rate in ("acceleration_max_rad_s2", "acceleration_max_m_s2"):
         if rate in {c.source for c in columns}:  # rows are sorted by it

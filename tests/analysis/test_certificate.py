@@ -132,7 +132,7 @@ def test_other_machines_stay_with_doubles_and_say_so():
     for name in some(("four-bar-z4", "gear-sector", "table-law"), ("four-bar-z4",)):
         assert design(name).certificate("velocity").about == "the spec's numbers as doubles"
     said = design("four-bar-z4").certified_page.to_dict()["certificate"]
-    assert said[-1] == "about the spec's numbers as doubles"
+    assert said[-1] == "holds for the spec's numbers as doubles"
 
 
 def test_an_end_elsewhere_is_not_taken(monkeypatch):

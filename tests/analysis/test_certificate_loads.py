@@ -192,4 +192,4 @@ def test_the_command(tmp_path):
     assert "(" not in rows
     said = CliRunner().invoke(app, ["loads", str(file), "--certify"]).stdout
     assert "pin_force_N.max not proved: the slot is curved" in said
-    assert "about the spec's numbers as doubles" in said
+    assert "holds for the spec's numbers as doubles" in said

@@ -1,7 +1,14 @@
 """`geneva check`: a headline that counts warnings, what to change, and one list of warnings."""
 
+import fcntl
 import json
+import os
+import pty
+import re
+import struct
+import subprocess
 import sys
+import termios
 from pathlib import Path
 from typing import Any
 
@@ -151,3 +158,31 @@ def test_standard_input_is_read_once() -> None:
     twice = CliRunner().invoke(app, ["check", "-", PLAIN, "-"], input="[wheel]\nz = 6\n")
     assert twice.exit_code == 2 and not twice.stdout
     assert twice.stderr == "<stdin>: given twice, but it can be read only once; name it once\n"
+
+
+@pytest.mark.parametrize(
+    ("command", "names"),
+    [
+        (["check", PLAIN, "-v"], ["check", "value", "must be", "limit"]),
+        (
+            ["synth", "--motion-deg", "120", "--z", "6"],
+            ["no", "rollers", "machine", "acceleration"],
+        ),
+    ],
+)
+def test_a_narrow_table_keeps_the_column_that_decides(command: list[str], names: list[str]) -> None:
+    """In 60 columns a limit stands beside its value, and the number by which rows are sorted."""
+    master, slave = pty.openpty()
+    fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 50, 60, 0, 0))
+    env = {key: value for key, value in os.environ.items() if key not in ("COLUMNS", "LINES")}
+    with subprocess.Popen(
+        [repo.GENEVA, *command],
+        stdout=slave,
+        stderr=subprocess.DEVNULL,
+        env=env | {"NO_COLOR": "1"},
+    ):
+        os.close(slave)
+        shown = repo.read_terminal(master).decode().splitlines()
+    (heading,) = (line for line in shown if line.startswith(names[0]))
+    assert re.split(r"\s{2,}", heading.strip()) == names
+    assert all(len(line.rstrip()) <= 60 for line in shown)

@@ -8,6 +8,7 @@ import pytest
 from scipy.optimize import root
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics.paths.boxes import _turned_between
 from geneva_cli.linkage.wheels import wheels
 from geneva_cli.machine.drives.four_bar import FourBar
 
@@ -130,3 +131,28 @@ def compared(keys, z):
 def test_no_wheel_is_missed(seed):
     counts = [compared(keys, z) for keys, z in four_bars(3, seed)]
     assert sum(expected for expected, _ in counts) > 2
+
+
+@pytest.mark.parametrize("turns", [1.0, 0.0, -1.0])
+def test_exits_are_those_of_a_comparison_of_all_pairs(turns):
+    """Of angles that rise, swing or fall over a turn, with some intervals left out."""
+    random = np.random.default_rng(3)
+    rows, count = 5, 40
+    along = np.arange(count) / count
+    angle = math.tau * turns * along + random.uniform(-2.0, 2.0, (rows, count))
+    low = np.hstack((angle, angle + math.tau * turns))
+    high = low + np.tile(random.uniform(0.0, 0.4, (rows, count)), 2)
+    use = np.tile(random.random((rows, count)) < 0.7, 2)
+    wanted = random.uniform(1.0, 2.5, rows)
+    expected = {
+        (row * 2 * count + i, row * 2 * count + j)
+        for row in range(rows)
+        for i in np.flatnonzero(use[row, :count])
+        for j in range(i + 1, i + count)
+        if use[row, j]
+        and low[row, j] <= high[row, i] + wanted[row]
+        and high[row, j] >= low[row, i] + wanted[row]
+    }
+    found = list(zip(*(x.tolist() for x in _turned_between(use, low, high, wanted)), strict=True))
+    assert len(found) == len(set(found)) > 20
+    assert set(found) == expected

@@ -17,7 +17,7 @@ from geneva_cli.curves.sheet import WIDTHS, Label
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import draw_sheet, pdf_file
-from geneva_cli.output.formats import DXF_VERSIONS, sheet_as
+from geneva_cli.output.formats import DXF_VERSIONS, is_drawn, sheet_as
 from geneva_cli.output.sheets import dxf, pdf, svg
 from geneva_cli.spec.tables import Size
 
@@ -176,6 +176,10 @@ def test_a_label_turned_up_has_a_box_turned_up():
 def test_refusals(sheet, tmp_path):
     with pytest.raises(GenevaError, match="of a drawing sheet it must be one of dxf, svg, pdf"):
         sheet_as("-", "csv")
+    with pytest.raises(GenevaError, match=r'-o "wheel.pdf": a pdf holds a drawing sheet'):
+        is_drawn("wheel.pdf", "")
+    with pytest.raises(GenevaError, match=r"--format pdf: a pdf holds a drawing sheet"):
+        is_drawn("-", "pdf")
     with pytest.raises(GenevaError, match=r"must end in .dxf, .svg, .pdf"):
         sheet_as("a.step", "")
     with pytest.raises(GenevaError, match=r"give -o FILE.pdf, or --format pdf"):

@@ -14,13 +14,14 @@ from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli import load
 from geneva_cli.app import app
+from geneva_cli.curves.hole_walls import plate_wall
 from geneva_cli.curves.mass import mass_properties
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint
 from geneva_cli.layout.link_positions import links_at
-from geneva_cli.parts.links import drawn_links, link_wall
+from geneva_cli.parts.links import drawn_links
 from geneva_cli.spec.tables import Shaft, Size
 
 # rounding of a few sines of lengths of some hundred mm
@@ -62,7 +63,7 @@ def test_every_link_is_cut(made):
     for plate in links.plates:
         # a wall all round, which the defaults leave: at least a quarter of a hole's radius
         least = min(hole.radius for hole in plate.holes if isinstance(hole, Circle))
-        assert link_wall(plate) > 0.25 * least
+        assert plate_wall(plate) > 0.25 * least
 
 
 def test_holes_are_where_the_joints_are(made):

@@ -73,3 +73,9 @@ def test_a_new_spec_names_the_schema_that_stands_beside_it_alone(tmp_path):
     assert written.exit_code == 0
     assert new("external", "-o", tmp_path / "spec.toml").exit_code == 0
     assert (tmp_path / "spec.toml").read_text(encoding="utf-8").splitlines()[0] == first
+
+
+def test_a_design_in_place_of_a_kind_is_answered_with_its_option():
+    refused = new("projector")
+    assert refused.exit_code == 2
+    assert "is a design, not a KIND; use `geneva new --from-design projector`" in refused.stderr

@@ -130,7 +130,7 @@ def test_families_go_to_other_processes(options):
     target = read_target(**options)
     seen = 0
     for kind, own in every.kinds(target):
-        for family in every.families(kind, own, []):
+        for family in every.families(kind, own):
             if family.is_free:
                 there = pickle.loads(pickle.dumps(family))
                 for x in (family.low, 0.3 * family.low + 0.7 * family.high, family.high):

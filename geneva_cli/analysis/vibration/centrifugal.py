@@ -35,7 +35,7 @@ from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Complex, Whole
+from geneva_cli.numerics.arrays import Array, Complex, Whole, matrix_product
 from geneva_cli.numerics.jet import Jet, sin_cos
 from geneva_cli.numerics.quadrature import rule
 
@@ -96,7 +96,7 @@ def pull(mechanism: Mechanism, engagement: Engagement) -> Pull | None:
     node, weight = rule(64)  # exact for a motion without knots
     span = motion.exit_deg - motion.entry_deg
     angles = np.atleast_2d(motion(motion.entry_deg + span * (0.5 + 0.5 * node), 0).c[0])
-    moving = stiffness(angles) @ (0.5 * weight)
+    moving = matrix_product(stiffness(angles), 0.5 * weight)
     resting = np.ravel(stiffness(np.atleast_2d(engagement.half_step)))
     return Pull(motion_shapes(motion, mechanism.designs, torque), moving, resting)
 

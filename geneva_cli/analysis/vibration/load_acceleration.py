@@ -6,14 +6,16 @@ import numpy as np
 
 from geneva_cli.analysis.vibration.panels import NODES, SERIES, Panels, X
 from geneva_cli.analysis.vibration.swing import Swing
-from geneva_cli.numerics.arrays import Array, Complex, Whole
+from geneva_cli.numerics.arrays import Array, Complex, Whole, matrix_product
 
 legendre = np.polynomial.legendre
 # values at the nodes -> integrals from -1 to each node, and to 1
 _ENDS = np.append(X, 1.0)
-_INTEGRALS = (
-    np.array([legendre.legval(_ENDS, legendre.legint(unit, lbnd=-1.0)) for unit in np.eye(NODES)]).T
-    @ SERIES
+_INTEGRALS = matrix_product(
+    np.array(
+        [legendre.legval(_ENDS, legendre.legint(unit, lbnd=-1.0)) for unit in np.eye(NODES)]
+    ).T,
+    SERIES,
 )
 
 
@@ -45,7 +47,7 @@ def greatest_accelerations(panels: Panels, motion: Whole, swing: Swing) -> Array
         bent = legendre.legval(u, series, tensor=False)
         # z' = p z - s'': contribution of a piece, seen from its left end
         back = np.exp(-(rate * half)[:, None] * (1.0 + X))
-        added = -half[:, None] * ((bent * back) @ _INTEGRALS.T)
+        added = -half[:, None] * matrix_product(bent * back, _INTEGRALS.T)
         ahead = np.exp((rate * half)[:, None] * (1.0 + _ENDS))
         own, whole = np.zeros((2, *there.shape), dtype=complex)
         whole += 1.0
@@ -88,7 +90,7 @@ def _take_most(most: Array, load: Array, of: Whole) -> None:
     np.maximum.at(most, of, size.max(axis=1))
     # a sample may be 2 % below its piece's maximum
     near = np.flatnonzero(size.max(axis=1) >= most[of] * (1.0 - 0.02))
-    series = (load[near, :NODES] @ SERIES.T).T
+    series = matrix_product(load[near, :NODES], SERIES.T).T
     slope = legendre.legder(series)
     bend = legendre.legder(slope)
     x = X[size[near, :NODES].argmax(axis=1)]

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.vibration.panels import Panels
-from geneva_cli.numerics.arrays import Array, Whole, joined
+from geneva_cli.numerics.arrays import Array, Whole, joined, matrix_product
 
 _chebyshev = np.polynomial.chebyshev
 
@@ -50,8 +50,8 @@ def lobes(share_at: Callable[[Whole, Array], Array], low: Array, high: Array) ->
     places = middle[:, None] + reach[:, None] * nodes
     square = share_at(np.repeat(which, len(nodes)), places.ravel()).reshape(places.shape) ** 2
     # at Chebyshev's nodes his coefficients are sums over them
-    vander = _chebyshev.chebvander(nodes, degree)
-    series = (square @ vander * (2.0 / (degree + 1))).T
+    vander: Array = _chebyshev.chebvander(nodes, degree).astype(float)
+    series = (matrix_product(square, vander) * (2.0 / (degree + 1))).T
     series[0] *= 0.5
     slope = _chebyshev.chebder(series)
     bend = _chebyshev.chebder(slope)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array, Mask, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Whole, matrix_product
 
 if TYPE_CHECKING:
     Derivatives = Callable[[Array, Whole, int], Array]
@@ -103,7 +103,7 @@ def panels_of(derivatives: Derivatives, breaks: Array) -> Panels:
     values = np.concatenate([part.values for part in parts], axis=1)
     order_ = np.lexsort((edges[:, 0], motion))
     motion, (left, right), values = motion[order_], edges[order_].T, values[:, order_]
-    series = values @ SERIES.T
+    series = matrix_product(values, SERIES.T)
     greatest = np.zeros((HIGHEST, m))
     for row, size in zip(greatest, np.abs(values).max(axis=2), strict=True):
         np.maximum.at(row, motion, size)
@@ -139,7 +139,7 @@ def _refined(
         for row, values in zip(greatest, np.abs(rates).max(axis=2), strict=True):
             np.maximum.at(row, motion, values)
         # the last six terms show whether the series has ended
-        tail = np.abs(rates @ SERIES[TERMS - 6 :].T).max(axis=2)
+        tail = np.abs(matrix_product(rates, SERIES[TERMS - 6 :].T)).max(axis=2)
         size = greatest[:, motion]
         rounding = (tail < 1e-6 * size) & _stays(tail, before)  # larger terms are of the motion
         # 1e-13 is some hundred roundings; panels narrower than 1e-12 of the motion are not halved

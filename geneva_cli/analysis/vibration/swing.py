@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.vibration.panels import TERMS, Panels
+from geneva_cli.numerics.arrays import matrix_product
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -145,7 +146,7 @@ def _by_powers(reduced: Array | Complex, unit: complex, series: Array) -> Comple
     """Integrals of f e^(q (x - 1)) by powers of q, with the oscillators' q and the panels' f."""
     q: Complex = np.multiply(reduced, unit, dtype=complex)
     total: Complex = q * 0.0 * series[:, 0]
-    for c in (series @ _MOMENTS).T[::-1]:
+    for c in matrix_product(series, _MOMENTS).T[::-1]:
         total *= q
         total += c
     return total

@@ -9,15 +9,11 @@ where the tangent is the limit.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
 
 from geneva_cli.curves.fit.arcs import fitted_arcs
 from geneva_cli.curves.fit.cubics import fitted_cubics
-from geneva_cli.curves.fit.path import CurvePath
-
-if TYPE_CHECKING:
-    from geneva_cli.curves.fit.path import Curve
-    from geneva_cli.curves.shapes import Arc, Cubic, Line, Segment
+from geneva_cli.curves.fit.path import Curve, CurvePath
+from geneva_cli.curves.shapes import Arc, Cubic, Line, Segment
 
 
 def arcs(curve: Curve, a: float, b: float, tolerance: float) -> list[Arc | Line]:

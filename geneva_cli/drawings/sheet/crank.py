@@ -126,7 +126,7 @@ def draw_roller(view: View, mechanism: Mechanism) -> None:
     if pin:
         own = sized.bore if loose else sized.roller_bore
         view.diameter(circles[1:], own(view.fits, pin + loose))
-        view.remark(f"turns on its pin {sized.pin(view.fits, pin)}, which is pressed in")
+        view.remark(f"turns on its pin {sized.shaft(view.fits, pin)}, which is pressed in")
 
 
 def draw_assembly(view: View, parts: Outlines, shapes: tuple[Shape, ...]) -> None:

@@ -16,6 +16,7 @@ from geneva_cli.layout.projection import outlines_of
 from geneva_cli.layout.written import length
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.pair_teeth import pair_teeth
 from geneva_cli.parts.rack_parts import RackParts
 
 Begin: TypeAlias = Callable[..., View]
@@ -57,8 +58,6 @@ def linked(begin: Begin, parts: FlatParts) -> Iterator[View]:
 def geared(begin: Begin, parts: FlatParts | RackParts) -> Iterator[View]:
     """Yield the view of noncircular gears in mesh, if there are any."""
     if parts.gear_pair:
-        from geneva_cli.parts.pair_teeth import pair_teeth
-
         view = begin(*(member.part.name for member in parts.gear_pair))
         driven, driver = parts.gear_pair
         teeth = pair_teeth(parts.mechanism.spec.gears, parts.mechanism.spec.size)

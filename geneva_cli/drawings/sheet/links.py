@@ -19,6 +19,7 @@ from geneva_cli.layout.link_positions import links_at, same
 from geneva_cli.layout.written import degrees, length
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
+from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.links import Links, placed_holes
 
 UP = 0.5 * math.pi
@@ -65,7 +66,6 @@ def _base(view: View, plate: Plate, holes: list[Circle]) -> Point:
 
 def _pressed(mechanism: Mechanism) -> list[Point]:
     """Return the centres of rollers' pins at input angle 0, in a link or in its block."""
-    from geneva_cli.parts.link_sizes import places
 
     centres = []
     for link in links_at(mechanism, np.zeros(1)):
@@ -139,7 +139,7 @@ def _rows(members: Sequence[Member], mechanism: Mechanism) -> Iterator[tuple[str
         rolls = plate.layer == "ROLLER"
         outside = sized.plain(2.0 * outer, "Ø ")
         if not bores:
-            outside = sized.pin(fits, outer)
+            outside = sized.shaft(fits, outer)
         elif rolls:
             outside = sized.roller(fits, mechanism, outer)
         inside = "".join(sized.roller_bore(fits, bore.radius) for bore in bores)

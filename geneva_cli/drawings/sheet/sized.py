@@ -48,11 +48,6 @@ def recess(fits: Fits, mechanism: Mechanism, radius: float) -> str:
     return fitted(fits, 2.0 * radius, "Ø ", "H7", 2.0 * mechanism.spec.tolerance.recess_radius_mm)
 
 
-def pin(fits: Fits, radius: float) -> str:
-    """Return the diameter of the pin: it is pressed into a P7 hole, and an F7 bore turns on it."""
-    return fitted(fits.turned, 2.0 * radius, "Ø ", "h6")
-
-
 def pin_hole(fits: Fits, mechanism: Mechanism, radius: float) -> str:
     """Return the diameter of the pin's hole: P7, or H7 if ``press_fit_mm`` makes it smaller."""
     smaller = mechanism.spec.size.allowances.press_fit_mm
@@ -70,7 +65,7 @@ def bore(fits: Fits, radius: float) -> str:
 
 
 def shaft(fits: Fits, radius: float) -> str:
-    """Return the diameter of a shaft that fits into a bore."""
+    """Return the diameter of a shaft that fits into a bore, or of a pin in its hole and roller."""
     return fitted(fits.turned, 2.0 * radius, "Ø ", "h6")
 
 

@@ -6,11 +6,11 @@ import math
 
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Plate, Stack
-from geneva_cli.curves.shapes import ORIGIN, Circle, Contour, Point, Shape, polygon
+from geneva_cli.curves.shapes import ORIGIN, Arc, Circle, Contour, Point, Shape, polygon
 from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, circle_of
-from geneva_cli.drawings.sheet.view import View, grouped
+from geneva_cli.drawings.sheet.view import View, grouped, times
 from geneva_cli.layout.bores import around
 from geneva_cli.layout.written import length
 
@@ -45,7 +45,9 @@ def draw_frame(
         places = ", ".join(f"({length(x - u)}, {length(y - v)})" for _, (x, y), _ in some)
         view.diameter(some, text, f"at {places} from {axis_name}")
     assert isinstance(plate.outline, Contour)
-    view.radii(plate.outline.segments)
+    arcs = [piece for piece in plate.outline.segments if isinstance(piece, Arc)]
+    if arcs:  # of one radius but for rounding, which may show in the last decimal
+        view.of_arcs(arcs, times(len(arcs), sized.plain(arcs[0].radius, "R ")))
 
 
 def draw_groove(

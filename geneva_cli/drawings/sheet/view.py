@@ -95,10 +95,10 @@ class View:
         """Draw a shape on a layer."""
         self._draw(mapped(shape, self._at, self._long)._replace(layer=layer))
 
-    def draw_all(self, shapes: Iterable[Shape], layer: str = OUTLINE) -> None:
-        """Draw shapes on a layer."""
+    def draw_all(self, shapes: Iterable[Shape]) -> None:
+        """Draw shapes as outlines."""
         for shape in shapes:
-            self.draw(shape, layer)
+            self.draw(shape, OUTLINE)
 
     def draw_plate(self, plate: Plate) -> None:
         """Draw a plate's outline and holes."""

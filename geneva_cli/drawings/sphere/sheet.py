@@ -92,7 +92,7 @@ def _arm(parts: SphereParts, arm: CapArm, flat: list[Contour], scale: float) -> 
     view.fits = Fits(parts.mechanism.spec.size.process)
     hole, pin = arm.pins[0].radius, ball.pin_mm
     text = f"{sized.pin_hole(view.fits, parts.mechanism, hole)} through, to the sphere's centre"
-    view.remark(f"pins: {times(len(arm.pins), text)}; pin {sized.pin(view.fits, pin)}")
+    view.remark(f"pins: {times(len(arm.pins), text)}; pin {sized.shaft(view.fits, pin)}")
     view.remark(f"hub: {sized.plain(2.0 * arm.hub, 'Ø ')} through, about the crank's axis")
     if arm.bolts:
         text = f"{sized.bore(view.fits, arm.bolts[0].radius)} through, to the sphere's centre"

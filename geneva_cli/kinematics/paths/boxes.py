@@ -36,7 +36,8 @@ class CrankInterval(NamedTuple):
     @property
     def phi(self) -> Array:
         """Crank angles of both ends, (2, n)."""
-        return self.ends[0]
+        phi: Array = self.ends[0]
+        return phi
 
     @property
     def width(self) -> Array:
@@ -48,7 +49,8 @@ class CrankInterval(NamedTuple):
     @property
     def rates(self) -> Array:
         """Rates at which the tangent turns at both ends, (2, n)."""
-        return self.ends[6]
+        rates: Array = self.ends[6]
+        return rates
 
 
 class Boxes(NamedTuple):
@@ -97,8 +99,8 @@ def boxes_of(samples: PathSamples, wanted: Array) -> Boxes:
     for sense in (1.0, -1.0):
         use = possible & _against(width, turn, *rates, sense)
         # spans of the tangent's turn against the wheel, over two turns of the crank
-        spans = [np.hstack((x, x + whole)) * -sense for x in (low, high)]
-        least, most = spans[:: int(-sense)]
+        spans = (-high, -low) if sense > 0.0 else (low, high)
+        least, most = (np.hstack((x, x - sense * whole)) for x in spans)
         entry, exit_ = _turned_between(np.hstack((use, use)), least, most, wanted)
         row, entry = np.divmod(entry, 2 * count)
         exit_ %= 2 * count
@@ -173,7 +175,7 @@ class Corners(NamedTuple):
     by_exit: Array
 
     def may_vanish(self) -> Mask:
-        """True if the cubics through values and slopes have both signs."""
+        """True if the quantity may be 0 in the box, by cubics through values and slopes."""
         outward = np.array([THIRD, -THIRD])[:, None]
         e, x = self.by_entry * outward[:, None], self.by_exit * outward
         least, most = (
@@ -203,7 +205,7 @@ def newton_steps(boxes: Boxes, wanted: Array) -> NewtonSteps:
     det = across.by_entry * turn_out - across.by_exit * turn
     e = (rest * across.by_exit - across.value * turn_out) / det + ahead[:, None]
     x = (across.value * turn - rest * across.by_entry) / det + ahead
-    # Each of two sums of the quantities hardly varies with one of both angles.
+    # A sum of both quantities that hardly varies with one of the angles bounds the other one.
     may = np.ones(len(det[0, 0]), dtype=bool)
     for own, other in ((turn_out, across.by_exit), (turn, across.by_entry)):
         c, d = own.sum(axis=(0, 1)), other.sum(axis=(0, 1))
@@ -223,9 +225,9 @@ def halved(path: RollerPath, boxes: Boxes, wanted: Array) -> Boxes:
     count = len(boxes.which)
     both: CrankInterval = joined([boxes.entry, boxes.exit], -1)
     halves = _halves(path, np.tile(boxes.which, 2), both)  # first and last, of entry and exit
-    width, turn, (first, last) = halves.width, halves.turn, halves.rates
-    low, high = _span(width, turn, first, last)
-    against = _against(width, turn, first, last, np.tile(boxes.sense, 4))
+    start, end = halves.rates
+    low, high = _span(halves.width, halves.turn, start, end)
+    against = _against(halves.width, halves.turn, start, end, np.tile(boxes.sense, 4))
     box = np.tile(np.arange(count), 4)
     entry, exit_ = (box + 2 * count * np.repeat(of, count) for of in ((0, 0, 1, 1), (0, 1, 0, 1)))
     exit_ += count

@@ -90,33 +90,23 @@ def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
     left, right = _neighbours(base)
     row, column = np.nonzero(_missed(left, right, _turned(left, right)))
     extra = _between(path, row, left.at_samples(row, column), right.at_samples(row, column))
-    whose, every_point = _merged(base, extra)
+    whose, flat = np.repeat(every, steps + 1), PathPoints._make(x.ravel() for x in base)
+    if extra:
+        whose, flat = joined([(whose, flat), extra])
+    # by designs and crank angles: a turn and the first step are less than 8 radians
+    place = np.argsort(8.0 * whose + flat.phi)
     counts = np.bincount(whose, minlength=count)
     starts = np.cumsum(counts) - counts
     order = np.argsort(counts, kind="stable")
-    for part in blocks(count, 96):  # their samples and boxes stay in the processor's cache
+    for part in blocks(count, 128):  # their samples and boxes stay in the processor's cache
         which = order[part]
         width = np.arange(counts[which].max(initial=1))
         # After its own last sample a row repeats it.
-        place = starts[which, None] + np.minimum(width, counts[which, None] - 1)
-        at = every_point.taken(place)
-        angle = np.zeros(place.shape)
+        columns = np.minimum(width, counts[which, None] - 1)
+        at = flat.taken(place[starts[which, None] + columns])
+        angle = np.zeros(at.phi.shape)
         np.cumsum(_turned(*_neighbours(at)), axis=1, out=angle[:, 1:])
         yield PathSamples(which, at, angle)
-
-
-def _merged(base: PathPoints, extra: tuple[Whole, PathPoints] | None) -> tuple[Whole, PathPoints]:
-    """Designs' numbers, and all samples in the order of the designs and of their crank angles."""
-    count, steps = base.phi.shape
-    whose = np.repeat(np.arange(count), steps)
-    flat = PathPoints._make(part.ravel() for part in base)
-    if extra is None:
-        return whose, flat
-    whose = np.concatenate((whose, extra[0]))
-    flat = joined([flat, extra[1]])
-    # a turn and the first step are less than 8 radians
-    order = np.argsort(8.0 * whose + flat.phi)
-    return whose[order], flat.taken(order)
 
 
 def _rows(path: RollerPath, phi: Array, count: int) -> PathPoints:

@@ -17,6 +17,8 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.curves.moments import Moments
+from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.roller_paths import rest
 from geneva_cli.numerics.arrays import Array, array
 from geneva_cli.numerics.quadrature import rule
@@ -24,8 +26,6 @@ from geneva_cli.numerics.quadrature import rule
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geneva_cli.kinematics.engagement import Engagement
-    from geneva_cli.layout.assembly import Assembly
     from geneva_cli.layout.plain_sizes import Sizes
 
     Complex: TypeAlias = NDArray[np.complex128]

@@ -10,12 +10,12 @@ from html import escape
 from typing import TYPE_CHECKING, Any
 
 from geneva_cli.errors import clean
+from geneva_cli.figure import Curve, Panel
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.svg_paths import element
 from geneva_cli.output.ticks import labels, ticks
 
 if TYPE_CHECKING:
-    from geneva_cli.figure import Curve, Panel
     from geneva_cli.scene import Bar, Body, Push, Scene, Track
 
 

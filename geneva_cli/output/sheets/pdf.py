@@ -8,7 +8,6 @@ from geneva_cli.curves.helvetica import CAPITALS
 from geneva_cli.curves.sheet import DASHED, WIDTHS, Arrow, Label, Sheet
 from geneva_cli.output import pdf_file
 from geneva_cli.output.pdf_file import POINT, Page, number, outline, point
-from geneva_cli.output.sheets.parts import arrows, by_layer
 
 
 def chunks(sheet: Sheet) -> Iterator[str]:
@@ -20,11 +19,11 @@ def chunks(sheet: Sheet) -> Iterator[str]:
 def _content(sheet: Sheet) -> Iterator[str]:
     """The page's operators, in millimetres."""
     yield f"{POINT:.9f} 0 0 {POINT:.9f} 0 0 cm\n1 J 1 j\n"
-    for layer, shapes in by_layer(sheet):
+    for layer, shapes in sheet.by_layer():
         dashes = " ".join(map(number, DASHED.get(layer, ())))
         yield f"{number(WIDTHS[layer])} w [{dashes}] 0 d\n"
         yield from (f"{outline(shape)}S\n" for shape in shapes)
-    yield from map(_arrow, arrows(sheet))
+    yield from map(_arrow, sheet.arrows)
     for label in sheet.texts:
         yield _text(label)
 

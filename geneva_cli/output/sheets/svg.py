@@ -9,7 +9,6 @@ from xml.sax.saxutils import escape
 from geneva_cli.curves.helvetica import CAPITALS
 from geneva_cli.curves.sheet import DASHED, WIDTHS, Arrow, Label, Sheet
 from geneva_cli.errors import clean
-from geneva_cli.output.sheets.parts import arrows, by_layer
 from geneva_cli.output.svg_paths import element, number, place, point
 
 STYLE = """<style>
@@ -37,7 +36,7 @@ def chunks(sheet: Sheet) -> Iterator[str]:
         f'<rect class="paper" y="{number(-sheet.height)}" width="{w}" height="{h}"/>\n'
         f'<g class="ink" font-family="Helvetica, Arial, \'Liberation Sans\', sans-serif">\n'
     )
-    for layer, shapes in by_layer(sheet):
+    for layer, shapes in sheet.by_layer():
         dashes = ""
         if layer in DASHED:
             dashes = f' stroke-dasharray="{" ".join(map(str, DASHED[layer]))}"'
@@ -45,7 +44,7 @@ def chunks(sheet: Sheet) -> Iterator[str]:
         yield from map(element, shapes)
         yield "</g>\n"
     yield '<g id="ARROWS" class="full">\n'
-    yield from map(_arrow, arrows(sheet))
+    yield from map(_arrow, sheet.arrows)
     yield '</g>\n<g id="TEXTS">\n'
     yield from map(_text, sheet.texts)
     yield "</g>\n</g>\n</svg>\n"

@@ -14,15 +14,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.collisions.pairs import Bounds, Intervals, Pair, raised
+from geneva_cli.collisions.pairs import Bounds, Intervals, Pair, Window, raised
+from geneva_cli.curves.sphere import Region
 from geneva_cli.curves.sphere_extents import Circle, FromCircle, farthest, short_arcs
 from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.outlines.sphere_wheel import POLE, QUARTER
 from geneva_cli.parts.sphere.stops import about, polar
 
 if TYPE_CHECKING:
-    from geneva_cli.collisions.pairs import Window
-    from geneva_cli.curves.sphere import Region
     from geneva_cli.parts.sphere.gaps import BallGaps
 
 STEP = math.radians(1.0)  # of the sectors' arcs: pieces that are tested for being in the wheel

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 from geneva_cli.curves.round_holes import RoundHole, least_wall
 from geneva_cli.curves.sphere import place
@@ -12,9 +11,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.bolt_holes import bolt_circle
 from geneva_cli.outlines.sphere_wheel import POLE, web_angle
-
-if TYPE_CHECKING:
-    from geneva_cli.spec.tables import Size
+from geneva_cli.spec.tables import Size
 
 
 def dial_holes(size: Size, ball: Ball) -> tuple[RoundHole, ...]:

@@ -11,10 +11,11 @@ from collections.abc import Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from geneva_cli.curves.mass import MM, MassProperties, added, mass_properties
 from geneva_cli.curves.plates import Group, Member, Plate, Shell, inwards
 from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.curves.shapes import ORIGIN, Circle, Shape
-from geneva_cli.curves.sphere import axis_frame, place
+from geneva_cli.curves.sphere import Rotation, axis_frame, place
 from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.axles import crank_hub, refuse_wide
@@ -23,6 +24,9 @@ from geneva_cli.layout.bearings import shoulder_length
 from geneva_cli.layout.bores import bore_of, has_shape
 from geneva_cli.layout.held_hubs import held_hub
 from geneva_cli.layout.missing import NamedParts
+from geneva_cli.layout.sphere_sizes import ball
+from geneva_cli.machine.materials import wheel_material
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.sphere_wheel import POLE, web_angle, web_region, wheel_regions
 from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.parts_of_machine import PartsOfMachine
@@ -34,7 +38,6 @@ from geneva_cli.parts.turned_shafts import turned_shaft
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
-    from geneva_cli.curves.sphere import Rotation
     from geneva_cli.parts.sphere.shells import Shells
 
 ARM, CRANK, ROLLER = "ARM", "CRANK", "ROLLER"
@@ -159,6 +162,19 @@ def _wheel_hub(size: Size, ball: Ball) -> Plate | None:
     long = inside + ball.hub_length_mm(size)
     bored = (form.shape("BORE", ball.half_step),) if ball.bore_mm else ()
     return Plate("wheel's hub", HUB, Circle(HUB, ORIGIN, ball.hub_mm), bored, inside, long)
+
+
+def shell_body(mechanism: Mechanism) -> MassProperties:
+    """Return mass and inertia of the wheel's shell and hub, in closed form.
+
+    Raises GenevaError where the sizes leave no wheel.
+    """
+    size, sizes = mechanism.spec.size, ball(mechanism)
+    density = wheel_material(mechanism.spec).density_kgm3
+    shell, hub = wheel_shell(size, sizes), wheel_hub(size, sizes)
+    mass = density * shell.volume * MM**3
+    rim = MassProperties(mass, (0.0, 0.0), density * shell.inertia(POLE) * MM**5)
+    return added(rim, mass_properties(hub, density)) if hub else rim
 
 
 def crank_group(parts: Shells, arm: CapArm | None) -> Group:

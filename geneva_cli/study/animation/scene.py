@@ -17,6 +17,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import radians
+from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.stop import wheel_stop
 from geneva_cli.scene import (
     Bar,
@@ -41,7 +42,6 @@ from geneva_cli.verdict.report.words import words
 
 if TYPE_CHECKING:
     from geneva_cli.figure import Figure
-    from geneva_cli.outlines.outlines import Outlines
 
 
 def scene(design: Design) -> Scene:

@@ -14,7 +14,7 @@ from geneva_cli.kinematics.wheels.gearing import Gearing
 from geneva_cli.machine.drives.carousel import Carousel
 from geneva_cli.machine.spec import Spec
 from geneva_cli.study.target import Target
-from geneva_cli.synthesis.families import below
+from geneva_cli.synthesis.families.below import laws_below
 from geneva_cli.synthesis.families.curved import with_laws
 from geneva_cli.synthesis.families.family import (
     Family,
@@ -31,7 +31,7 @@ from geneva_cli.synthesis.families.straight import straight
 from geneva_cli.synthesis.families.two_numbers import two_numbers
 
 
-def carousels(target: Target, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
+def carousels(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     """One wheel with any number of fingers, or several wheels with one finger.
 
     The wheels must not meet in time: each moves before the next one reaches the finger.
@@ -61,8 +61,7 @@ def _carousel(target: Target, wheel: Gearing, fingers: int, wheels: int) -> Spec
     )
 
 
-# For a limit of peak acceleration alone, the lowest peak of each drive is added to the list.
-Kind: TypeAlias = Callable[[Target, Sequence[Gearing], list[float]], Iterator[Family]]
+Kind: TypeAlias = Callable[[Target, Sequence[Gearing]], Iterator[Family]]
 
 
 def kinds(target: Target) -> list[tuple[Kind, Target]]:
@@ -70,16 +69,15 @@ def kinds(target: Target) -> list[tuple[Kind, Target]]:
 
     If the target has wheels on a carrier: the carousels of each gearing.
     """
-    first, last = (
-        (below.straight, below.with_laws) if target.only_acceleration else (_straight, _laws)
-    )
     each = [target._replace(gearings=(gearing,)) for gearing in target.gearings]
     if target.wheels:
         return [(carousels, one) for one in each]
+    alone = target.only_acceleration
+    laws = laws_below if alone else with_laws
     return [
         (_four_bars, target),
-        *((first, one) for one in each),
-        *((last, one._replace(laws=(law,))) for law in target.laws for one in each),
+        *((_straight, one.by_bounds if alone else one) for one in each),
+        *((laws, one._replace(laws=(law,))) for law in target.laws for one in each),
     ]
 
 
@@ -97,21 +95,17 @@ def longest_first(target: Target) -> list[int]:
     return [0, *curved[::wheels], *straight[:2], *others, *straight[2:]]
 
 
-def families(kind: Kind, target: Target, reached: list[float]) -> Iterator[Family]:
+def families(kind: Kind, target: Target) -> Iterator[Family]:
     """The families of one kind that may meet the requirement."""
     wheels = [target.wheel(gearing, z) for gearing in target.gearings for z in target.z]
-    yield from kind(target, wheels, reached)
+    yield from kind(target, wheels)
 
 
-def _straight(target: Target, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
+def _straight(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     for wheel in wheels:
         yield from straight(target, wheel)
     yield from two_numbers(target, wheels)
 
 
-def _four_bars(target: Target, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
+def _four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     yield from four_bars(target, wheels)
-
-
-def _laws(target: Target, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
-    yield from with_laws(target, wheels)

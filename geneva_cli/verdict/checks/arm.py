@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from geneva_cli.curves.hole_walls import plate_wall
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bores import has_shape
 from geneva_cli.parts.arm import CrankArm, walls
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.links import link_wall
 from geneva_cli.parts.planes import planes
 from geneva_cli.verdict.checks.check import Check, at_least, compared
 
@@ -50,7 +50,7 @@ def links_wall(name: str, parts: FlatParts) -> Check | None:
         return None
     return at_least(
         name,
-        lambda: min(map(link_wall, parts.links.plates), default=None),
+        lambda: min(map(plate_wall, parts.links.plates), default=None),
         parts.outlines.sizes.wall_min,
     )
 
