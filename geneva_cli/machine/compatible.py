@@ -67,10 +67,10 @@ def _shaft_of_wheels(key: str, spec: Spec) -> object:
     return not spec.output.turns and value is not None and value != getattr(Shaft(), key)
 
 
-def _set_on(before: Drive) -> list[str]:
-    """Keys of the machine's input that are set on the drive before it."""
+def _set_on(before: Drive) -> object:
+    """True if a key of the machine's input is set on the drive before it."""
     own = before.as_dict()
-    return [key.key for key in fields(Drive) if own[key.key] != key.default]
+    return reduce(or_, (own[key.key] != key.default for key in fields(Drive)))
 
 
 def _toothed(spec: Spec) -> bool:

@@ -39,6 +39,8 @@ def replacing_folder(
     is a file, a folder that this function did not write, has one of ``inputs``, or cannot be
     written.
     """
+    if not path or "\0" in path:
+        raise GenevaError(f'-o "{path}": not a folder\'s name')
     real = os.path.realpath(path)
     for source in inputs:
         if os.path.dirname(os.path.realpath(source)) == real:
@@ -75,8 +77,6 @@ def _add_list(folder: str, entries: Iterable[Entry]) -> None:
 
 def _require_own(path: str, real: str) -> None:
     """Raise GenevaError for what must not be replaced."""
-    if not path or "\0" in path:
-        raise GenevaError(f'-o "{path}": not a folder\'s name')
     shown = cut(path, 300)
     if not os.path.lexists(real):
         return

@@ -20,6 +20,7 @@ from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import marking
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.law_motion import LawMotion
+from geneva_cli.kinematics.laws.greatest import greatest
 from geneva_cli.kinematics.laws.scca import SineConstantCosine
 from geneva_cli.kinematics.laws.standard import SineGroup
 from geneva_cli.kinematics.laws.table import TableLaw
@@ -196,6 +197,16 @@ def test_greatest_values_against_the_search_over_arrays(seed):
             assert own.max == near(peak.max.item(), 1e-14), (law, name)
             # a summit is flat: its place is known to the root of a rounding
             assert own.at_deg == pytest.approx(peak.at_deg.item(), abs=1e-5), (law, name)
+
+
+@pytest.mark.parametrize("shape", [1e-9, -1e-9, 1e-7, -1e-7, 1e-6])
+def test_the_top_of_a_slightly_tilted_law(shape):
+    """Krasniqi's acceleration about u = 1/2 + d/pi is 16 lambda - 8 d: zero at d = 2 lambda.
+
+    There the velocity is greater than half-way by a rounding only.
+    """
+    at = greatest(SineGroup(lambda_=shape))["velocity"][1]
+    assert at - 0.5 == pytest.approx(2.0 * shape / pi, rel=1e-6)  # u has 16 digits
 
 
 def test_constants_to_the_digits_of_the_books():

@@ -188,6 +188,14 @@ def test_a_table_that_a_machine_refuses(tmp_path, text, vary, refused):
     assert refused in other[-1]
 
 
+@pytest.mark.parametrize("kind", ["four-bar", "slider-crank"])
+def test_a_batch_refuses_the_distance_of_a_linkage(kind):
+    """100 mm is the default, and any other distance follows from the linkage."""
+    spec = MACHINES[kind][0]
+    batch = many(spec, {"size.center_distance_mm": np.array([100.0, 50.0])})
+    assert batch.refused.tolist() == [False, True]
+
+
 def test_a_batch_knows_how_many_it_has():
     """Whatever varies in it, in parts of it, and in one of it."""
     spec, _ = MACHINES["side-crank"]

@@ -16,11 +16,13 @@ from geneva_cli.kinematics.laws.law import Law
 from geneva_cli.numerics.arrays import N
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.roots import greatest_at, root
+from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.extrema import BatchFunction
 
 Curves: TypeAlias = dict[str, tuple[float, float, float]]  # values with two derivatives
+Size: TypeAlias = tuple[float, float, bool]  # with its place, and whether the quantity turns there
 
 
 @lru_cache(maxsize=256)
@@ -39,8 +41,19 @@ def greatest(law: Law) -> dict[str, tuple[float, float]]:
     if not law.symmetric:
         after = [*(1.0 - u for u in reversed(law.breaks) if u > 0.5), 0.5]
         for name, later in _half(law.second, after).items():
-            places[name] += [(size, 1.0 - w) for size, w in reversed(later)]
-    return {name: greatest_at(sizes) for name, sizes in places.items()}
+            places[name] += [(size, 1.0 - w, turns) for size, w, turns in reversed(later)]
+    return {name: _first_top(sizes) for name, sizes in places.items()}
+
+
+def _first_top(sizes: list[Size]) -> tuple[float, float]:
+    """The greatest of some sizes, and its first place.
+
+    An end just before an equally high turn is part of its flat top, as in ``greatest_sizes``.
+    """
+    most, first = greatest_at([(size, u) for size, u, _ in sizes])
+    tops = (u for size, u, turns in sizes if turns and size >= most - TIE * most)
+    top = min(tops, default=first)
+    return most, top if 1e-12 < top - first < 1e-6 else first
 
 
 def _of_spline(law: Law) -> dict[str, tuple[float, float]]:
@@ -59,15 +72,13 @@ def _of_spline(law: Law) -> dict[str, tuple[float, float]]:
     return {name: (size.item(), u.item()) for name, (size, u) in each.items()}
 
 
-def _half(
-    half: Callable[[Number, int], Jet], ends: list[float]
-) -> dict[str, list[tuple[float, float]]]:
+def _half(half: Callable[[Number, int], Jet], ends: list[float]) -> dict[str, list[Size]]:
     """Sizes and places, in order, where each quantity of one half may be greatest."""
 
     def curves(x: float) -> Curves:
         return _curves(half(x, 5).scalars())
 
-    sizes: dict[str, list[tuple[float, float]]] = {}
+    sizes: dict[str, list[Size]] = {}
     start = 0.0
     for end in ends:
         # half a motion has a few waves of each derivative, not a dozen
@@ -91,11 +102,11 @@ def _curves(d: tuple[N, ...]) -> dict[str, tuple[N, N, N]]:
 
 def _turns(
     name: str, curves: Callable[[float], Curves], samples: list[float], each: list[Curves]
-) -> Iterator[tuple[float, float]]:
+) -> Iterator[Size]:
     """Sizes at the samples of a smooth piece, and at the stationary places between them."""
-    yield abs(each[0][name][0]), samples[0]
+    yield abs(each[0][name][0]), samples[0], False
     for (a, left), (b, right) in pairwise(zip(samples, each, strict=True)):
         if left[name][1] * right[name][1] < 0.0:
             x = root(lambda x: curves(x)[name][1:], a, b, left[name][1])
-            yield abs(curves(x)[name][0]), x
-        yield abs(right[name][0]), b
+            yield abs(curves(x)[name][0]), x, True
+        yield abs(right[name][0]), b, False

@@ -212,6 +212,7 @@ def wears_mm(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Array | None:
     if k is None or width is None:
         return None
     rate = np.ravel(1e6 * k / (width * 1000.0))
-    worn: Array = np.asarray([rate * one.work / one.travel_m for one in each])
+    with np.errstate(invalid="ignore"):  # nothing slides on a counter's teeth
+        worn: Array = np.asarray([rate * one.work / one.travel_m for one in each])
     most: Array = worn.max(axis=0)
     return most
