@@ -76,10 +76,11 @@ def whole_name(name: str, option: str = "--pick") -> str:
 
 def _readings(typed: str) -> Iterator[list[str]]:
     """The possible meanings of a name that is not a whole name, the nearest first."""
-    # columns and keys that neither a whole name nor its end spells
+    # columns and keys that no whole name or end spells, or the ends of two do
     synonyms = {
         "acceleration_max_deg": "acceleration.at_deg",
         "drive": "drive.kind",
+        "kind": "drive.kind",
         "n_rpm": "inputs.drive.n_rpm",
     }
     yield [synonyms[typed]] if typed in synonyms else []
