@@ -5,7 +5,16 @@ import numpy as np
 import pytest
 from impact_witness import contact_of, force_of, impacts_in
 
-from geneva_cli import Design, External, Internal, Load, SideCrank, Size, Spherical
+from geneva_cli import (
+    Design,
+    EllipticalGears,
+    External,
+    Internal,
+    Load,
+    SideCrank,
+    Size,
+    Spherical,
+)
 from geneva_cli.analysis import change_of_sides
 from geneva_cli.analysis.shock_force import impulse_Nms
 from geneva_cli.kinematics.laws.standard import Cycloidal
@@ -60,22 +69,28 @@ def test_first_contact_by_the_law_of_sines(gearing, sign, z, crank, center):
     near(found.jump, jump, 1e-12 if crank - center > 1e-6 else 1e-7)  # crank - center is rounded
 
 
-def test_of_a_side_crank():
+@pytest.mark.parametrize("e", [0.0, 0.2])
+def test_of_a_side_crank(e):
+    """Alone, and behind elliptical gears of eccentricity e: Kepler's angle turns its shaft."""
     A, z, eps = mp.mpf("0.6"), 6, mp.mpf("1e-3")
     b = mp.pi / z
     l = mp.sin(b) * (1 + eps)
 
     def crank(phi):
-        return mp.atan2(mp.sin(phi), A + mp.cos(phi))
+        shaft = phi - 2 * mp.arg(1 + mp.mpf(e) * mp.expj(phi))
+        return mp.atan2(mp.sin(shaft), A + mp.cos(shaft))
 
     def wheel(phi):
         f = crank(phi)
         return mp.atan2(l * mp.sin(f), 1 - l * mp.cos(f))
 
-    at = mp.findroot(lambda phi: wheel(phi) + b, mp.radians(-94.5))
-    found = contact_of(of(External(6), SideCrank(A=0.6)), 1e-3)
+    gears = EllipticalGears(eccentricity=e, gear_distance_mm=50.0) if e else None
+    design = Design(External(6), SideCrank(A=0.6), drive_before=gears)
+    found = contact_of(design.mechanism.engagements[0], 1e-3)
+    at = mp.findroot(lambda phi: wheel(phi) + b, mp.radians(found.at_deg))
     near(found.at_deg, deg(at))
     near(found.jump, mp.diff(wheel, at), 1e-12)
+    assert found.jump < 0.0  # struck backwards: the first of the axis' two crossings
 
 
 @pytest.mark.parametrize("offset", [10.0, -10.0])
