@@ -40,7 +40,7 @@ def printed(line: str, seconds_a_reading: int) -> str:
     return result.stdout
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("line", "shown"),
     [

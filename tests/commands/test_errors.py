@@ -311,6 +311,7 @@ def test_endless_file():
     refused(run("peaks", "/dev/zero"), "larger than", place="/dev/zero: ")
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("options", [(), ("-o", "cycle.csv")], ids=["printed", "written"])
 def test_no_rows_of_a_cycle_whose_loads_are_refused(options):
     """Every row has finite loads. The means are refused, as the cranks' ratio is nearly endless."""

@@ -212,7 +212,7 @@ def test_no_proof_is_of_nothing():
     assert {(group, name) for group, some in PROOFS.items() for name in some} == named
 
 
-@pytest.mark.sampled(24)
+@pytest.mark.sampled(48)
 @pytest.mark.parametrize("entry", WARNINGS, ids=lambda e: e.names[0])
 def test_a_warning_shows_in_its_bad_example_and_not_in_the_good_one(
     entry: Entry, tmp_path, monkeypatch
@@ -223,7 +223,7 @@ def test_a_warning_shows_in_its_bad_example_and_not_in_the_good_one(
     assert [name in warned(example) for example in (entry.bad, entry.good)] == [True, False]
 
 
-@pytest.mark.sampled(24)
+@pytest.mark.sampled(48)
 @pytest.mark.parametrize("entry", CHECKED, ids=lambda e: e.names[0])
 def test_a_check_fails_in_its_bad_example_and_passes_in_the_good_one(entry: Entry):
     good = passes(entry.good)

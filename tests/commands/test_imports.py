@@ -232,7 +232,7 @@ def test_own_modules(line):
 
 
 @pytest.mark.parametrize("line", MOST)
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 def test_few_own_modules(line):
     for text, most in zip((STRAIGHT, CURVED), MOST[line], strict=True):
         modules = own(loaded(line.split(), input=text, stdout=subprocess.DEVNULL))

@@ -179,6 +179,7 @@ def test_what_a_counter_refuses():
         Counter(4, driver_teeth=5)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("command", ["check", "peaks", "motion", "loads", "report", "vibration"])
 def test_commands(command, tmp_path):
     """Each answers, and says of acceleration and forces that they have no bound."""

@@ -6,6 +6,7 @@ import json
 import os
 
 import pytest
+from sampling import some
 
 from geneva_cli import GenevaError, load
 from geneva_cli.study.compare import compare, differing
@@ -35,10 +36,10 @@ def test_the_papers_ratios():
 def test_what_has_no_ratio_has_none():
     """Over 0 and over nothing; 0 over a number is 0, and words stay."""
     fields = ["acceleration.entry", "jerk.at_deg", "wheel.gearing", "not_driven_share"]
-    some = [path("press-345.toml"), path("press-straight.toml")]
-    found = by_quantity(compare(some, picks=fields, ratio=True))
+    both = [path("press-345.toml"), path("press-straight.toml")]
+    found = by_quantity(compare(both, picks=fields, ratio=True))
     assert [row["press-straight"] for row in found.values()] == [None, 0.0, "external", None]
-    swapped = by_quantity(compare(some[::-1], picks=fields, ratio=True))
+    swapped = by_quantity(compare(both[::-1], picks=fields, ratio=True))
     assert [row["press-345"] for row in swapped.values()] == [0.0, None, "external", None]
 
 
@@ -89,10 +90,10 @@ def test_a_single_design_differs_from_none():
 
 
 def test_every_machine_has_the_same_rows():
-    """A third of the designs at once; what a machine does not have is None."""
-    some = NAMES[::3]
-    table = compare([path(n) for n in some])
-    assert len(table.names) == len(some) + 2
+    """Several designs at once; what a machine does not have is None."""
+    names = some(NAMES[::3], NAMES[::9])
+    table = compare([path(n) for n in names])
+    assert len(table.names) == len(names) + 2
     assert by_quantity(table).keys() >= {"timing.dwell_s", "acceleration.max", "sizes.ratio"}
 
 

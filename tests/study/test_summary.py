@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 import repo
+from sampling import some
 from typer.testing import CliRunner
 
 from geneva_cli.app import app
@@ -177,7 +178,7 @@ def test_an_ascii_terminal_gets_ascii() -> None:
 def test_a_warning_stands_once_on_both_streams(command: str) -> None:
     spec = str(repo.DESIGNS / ("tuned-dial.toml" if command == "vibration" else "press-345.toml"))
     given = ["--set", "tolerance.slot_angle_deg=0.01"] if command == "tolerance" else []
-    for format in ("table", "md", "json", "csv"):
+    for format in some(("table", "md", "json", "csv"), ("table", "json")):
         found: Any = CliRunner().invoke(app, [command, spec, *given, "--format", format])
         both = " ".join(f"{found.stdout} {found.stderr}".split())
         names = re.findall(r"not positively driven from", both)

@@ -87,15 +87,10 @@ def test_a_sound_design_passes_both(tmp_path: Path) -> None:
 
 
 def test_a_program_finds_the_same_names_for_every_machine() -> None:
-    """Spherical, toothed, a linkage, two unlike engagements, and a plain one."""
+    """Toothed, two unlike engagements and a plain one; `make stress`: a sphere, a linkage."""
     trees = {}
-    for name in (
-        "spherical-z6",
-        "gear-sector",
-        "four-bar-z4",
-        "two-rollers-side-crank",
-        "projector",
-    ):
+    few = ("gear-sector", "two-rollers-side-crank", "projector")
+    for name in some((*few, "spherical-z6", "four-bar-z4"), few):
         found = run("report", str(DESIGNS / f"{name}.toml"), "--format", "json")
         assert found.exit_code == 0
         trees[name] = json.loads(found.stdout)
