@@ -535,11 +535,11 @@ def texts():
                     yield pytest.param(words, option.opts[0], id=f"{name} {said}")
 
 
-@pytest.mark.parametrize(("arguments", "option"), [*texts()])
-def test_an_option_that_is_empty_is_not_one_that_is_not_given(arguments, option):
+def test_an_option_that_is_empty_is_not_one_that_is_not_given():
     """A script has it of a variable without a value; what it is to ask for would be passed over."""
-    write("spec.toml", WHEEL)
-    refused(run(*arguments), "give it a value", place=f'{option} "": ')
+    for arguments, option in texts():
+        write("spec.toml", WHEEL)
+        refused(run(*arguments), "give it a value", place=f'{option} "": ')
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 import repo
+from sampling import some
 
 from geneva_cli import Design, SideCrank, load
 from geneva_cli.curves.distance import Polyarc
@@ -48,7 +49,7 @@ def test_teeth_mesh_through_the_turn(name, sets):
     assert not any(bar.radius for bar in shown.bars)
     assert "pitch circles" not in shown.caption
     least = math.inf
-    for t in np.linspace(0.0, 360.0, 25):
+    for t in np.linspace(0.0, 360.0, some(25, 9)):
         both = list(toothed(shown, float(t)))
         (one, here), (other, there) = both[::-1] if ring else both
         seen = points(one[0]) * np.exp(1j * here[2]) + complex(*here[:2])

@@ -82,6 +82,7 @@ def test_where_designs_are_worked_out_one_by_one_no_clouds_are():
     assert asked.sweep.is_batched and closer(search, rows) == rows
 
 
+@pytest.mark.long
 def test_it_is_no_worse_than_any_of_a_fine_grid(tmp_path):
     """Two bounds at once, of which one binds."""
     bounds = ["motion_deg <= 150", "velocity.max <= 0.8"]

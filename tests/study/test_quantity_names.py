@@ -37,6 +37,7 @@ def geneva(*words: str) -> str:
     return result.stdout
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["tolerances", "press-curved", "unequal-steps", "spherical-z6"])
 def test_every_group_has_the_names_that_are_listed(name):
     proof = load(str(repo.DESIGNS / f"{name}.toml")).parts_model
