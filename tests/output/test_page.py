@@ -436,7 +436,7 @@ def test_gears_move_a_rack_on_a_page_too():
 )
 def test_teeth_of_gears_mesh_on_a_page(name, module):
     """With backlash they never touch in a turn, and are nearer than it; without, they touch."""
-    for backlash in (0.1, 0.0):
+    for backlash in some((0.1, 0.0), (0.1,)):
         keys = [f"size.gear_module_mm={module}", f"size.gear_backlash_mm={backlash}"]
         driver, driven = (
             body

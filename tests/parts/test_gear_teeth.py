@@ -7,6 +7,7 @@ import mpmath
 import numpy as np
 import pytest
 import shapely
+from sampling import some
 from shapely.affinity import rotate, translate
 
 from geneva_cli import (
@@ -355,7 +356,7 @@ def test_noncircular_gears_mesh(kind):
     sense = math.copysign(1.0, float(np.diff(where.crank(np.array([0.0, 1.0])))[0]))
     C = drive.gear_distance_mm
     assert at_driver[0] - at_driven[0] == pytest.approx(C)
-    for degrees in (0.0, 3.1, 64.0, 181.7, 300.0):
+    for degrees in some((0.0, 3.1, 64.0, 181.7, 300.0), (3.1, 181.7)):
         phi = math.radians(degrees)
         turn = drive.gears.advance(np.array([phi]), 1)
         crank = math.atan2(float(turn[0].c[0][0]), 1.0 - float(turn[1].c[0][0]))

@@ -3,6 +3,7 @@
 import pickle
 
 import pytest
+from sampling import some
 from typer.testing import CliRunner
 
 from geneva_cli.app import app
@@ -37,7 +38,7 @@ def test_beside_a_row_that_cannot_be_built_is_the_best_that_may_be(z):
     assert other.candidate.parts == "maybe"
     # a 4096th of the range is how near the search goes
     found = other.candidate.motion_deg + 100.0 / 4096.0
-    natural, steps = 180.0 - 360.0 / z, 300
+    natural, steps = 180.0 - 360.0 / z, some(300, 60)
     for k in range(steps + 1):
         alpha0 = natural - (found + (200.0 - found) * k / steps)
         spec = other.spec.replace(motion=Motion(ModifiedSine(), alpha0_deg=alpha0, ratio="matched"))

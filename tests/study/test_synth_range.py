@@ -327,6 +327,7 @@ def test_without_a_wish_for_a_motion_the_nearest_to_the_plain_crank_keeps_the_bo
     assert pytest.approx(0.25, rel=1e-7) == ours["side-crank"].candidate.A
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("limit", [12.0, 1.2, 0.3])
 @pytest.mark.parametrize("gearing", ["external", "internal"])
 def test_a_limit_of_acceleration_alone_gives_what_general_bounds_give(gearing, limit):
