@@ -165,7 +165,7 @@ def test_standard_input_is_read_once() -> None:
     [
         (["check", PLAIN, "-v"], ["check", "value", "must be", "limit"]),
         (
-            ["synth", "--motion-deg", "120", "--z", "6"],
+            ["synth", "--motion-deg", "120", "--z", "6", "--check", "0"],
             ["no", "rollers", "machine", "acceleration"],
         ),
     ],

@@ -82,13 +82,12 @@ def test_long_tables_of_other_numbers_are_the_same(rows, monkeypatch):
         assert np.allclose(np.array(column, dtype=float), expected, rtol=1e-12, equal_nan=True)
 
 
-@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("command", "text"),
     [
         ("motion", "[wheel]\nz = 6\n"),
-        ("motion", CURVED),
-        ("profile", CURVED),
+        pytest.param("motion", CURVED, marks=pytest.mark.long),
+        pytest.param("profile", CURVED, marks=pytest.mark.long),
         pytest.param("vibration --period-ratio 5", "[wheel]\nz = 6\n", marks=pytest.mark.long),
     ],
     ids=["straight", "curved", "slot", "spectrum"],
