@@ -38,13 +38,13 @@ HUGE = [
 ]
 
 
-@pytest.mark.parametrize("key", HUGE)
 @pytest.mark.parametrize("gearing", ["external", "internal", "spherical"])
-def test_a_huge_size_is_refused(key: str, gearing: str) -> None:
-    spec = Spec(Wheel(6, gearing), size=Size(**{key: 1e9}))
-    with pytest.raises(GenevaError, match=rf"{key} = 1e\+09: it must be below") as caught:
-        build(spec)
-    assert caught.value.key == ("size", key)
+def test_a_huge_size_is_refused(gearing: str) -> None:
+    for key in HUGE:
+        spec = Spec(Wheel(6, gearing), size=Size(**{key: 1e9}))
+        with pytest.raises(GenevaError, match=rf"{key} = 1e\+09: it must be below") as caught:
+            build(spec)
+        assert caught.value.key == ("size", key)
 
 
 @pytest.mark.parametrize("command", ["profile", "report", "check", "motion", "peaks"])
