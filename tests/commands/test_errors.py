@@ -531,14 +531,13 @@ def texts():
             numeric = {int, float} & {kind, *get_args(kind)}
             if option.param_type_name == "option" and not (option.is_flag or numeric):
                 for said in option.opts:
-                    words = [name, *spec, said, ""]
-                    yield pytest.param(words, option.opts[0], id=f"{name} {said}")
+                    yield [name, *spec, said, ""], option.opts[0]
 
 
 def test_an_option_that_is_empty_is_not_one_that_is_not_given():
     """A script has it of a variable without a value; what it is to ask for would be passed over."""
+    write("spec.toml", WHEEL)
     for arguments, option in texts():
-        write("spec.toml", WHEEL)
         refused(run(*arguments), "give it a value", place=f'{option} "": ')
 
 
