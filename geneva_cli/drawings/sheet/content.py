@@ -1,4 +1,7 @@
-"""The content of a sheet, independent of its scale: rows of the list, items, cut faces."""
+"""The content of a flat machine's sheet, independent of its scale, and the sheet of its views.
+
+The content is rows of the list, items and cut faces.
+"""
 
 from __future__ import annotations
 
