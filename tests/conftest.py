@@ -11,7 +11,6 @@ import pkgutil
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
-from _pytest.runner import runtestprotocol
 from hypothesis import settings
 from sampling import left_out, some
 from words import Drive, Keys, Motion, Spec, Wheel
@@ -43,7 +42,7 @@ def pytest_configure(config):
 
 
 class Worker:
-    """One process of several: shares the compiling of tests, and sends short reports."""
+    """One process of several, which share the compiling of a new checkout's tests."""
 
     def __init__(self, name):
         self.backwards = int(name.removeprefix("gw")) % 2
@@ -55,15 +54,6 @@ class Worker:
         if self.backwards and isinstance(collector, pytest.Directory):
             report.result.reverse()
         return report
-
-    @pytest.hookimpl(tryfirst=True)
-    def pytest_runtest_protocol(self, item, nextitem):
-        """Send the report of the call alone, where set-up and end pass: a third of the messages."""
-        for report in runtestprotocol(item, nextitem=nextitem, log=False):
-            if report.when == "call" or not report.passed:
-                item.ihook.pytest_runtest_logreport(report=report)
-        item.ihook.pytest_runtest_logfinish(nodeid=item.nodeid, location=item.location)
-        return True
 
 
 def pytest_collection_modifyitems(config, items):

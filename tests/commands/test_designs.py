@@ -54,8 +54,11 @@ def test_every_command_on_every_design(design: Path, command: str) -> None:
 
 def run(design: Path, command: str, format: str) -> None:
     """Run a command and find numbers alone in what it prints."""
-    column = load(str(design)).spec.output.column  # a rack has another one
+    spec = load(str(design)).spec
+    column = spec.output.column  # a rack has another one
     words = [word.replace("wheel_deg", column) for word in COMMANDS[command]]
+    if command == "profile" and spec.wheel.toothed:  # it has no slot
+        words += ["--part", "wheel"]
     arguments = [command, str(design), "--format", format, *words]
     result = CliRunner().invoke(app, arguments)
     assert result.exit_code == 0, result.output
