@@ -227,6 +227,9 @@ def angle(p, d, i, one, folder):
             math.sin(th) * math.sin(math.radians(x)),
             math.sin(S) * math.cos(th) - math.cos(S) * math.sin(th) * math.cos(math.radians(x)),
         )
+    if d["wheel"] == "counter":  # in mesh all the time
+        ratio = d["driver: reference diameter"] / d["pinion: reference diameter"]
+        return lambda x: ratio * math.radians(x)
     if "sector's angle" in d:
         return in_gear(d)
     place, e = roller(p, d, i), d.get("slots' axes offset from the wheel's", 0.0)
@@ -262,11 +265,11 @@ def in_gear(d):
 def test_a_machine_is_rebuilt_from_what_is_printed(path):
     _, pivots, d = printed(path)
     machine = load(str(path)).mechanism
-    many = len(machine.engagements) > 1
+    many, turned = len(machine.engagements) > 1, machine.output.noun
     for i, engagement in enumerate(machine.engagements, 1):
         name = f"engagement {i}: " if many else ""
         one = {
-            "step": math.radians(d[f"{name}wheel's step"])
+            "step": math.radians(d[f"{name}{turned}'s step"])
             if machine.output.turns
             else d["rack's step"] / d["crank radius"],
             "mid": d[f"{name}input at mid-motion"],
