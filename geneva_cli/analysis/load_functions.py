@@ -1,7 +1,7 @@
 """Loads of a batch of one engagement, as functions for searches and sums.
 
 The formulas are in ``contact``, ``forces`` and ``instant``. This file defines the wanted
-quantities, and the signs that matter.
+quantities, the signs that matter, and how widely samples are spread about mid-motion.
 """
 
 from __future__ import annotations
@@ -29,12 +29,11 @@ from geneva_cli.analysis.quantities import PV, QUANTITIES, Quantity
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import all_true, array
+from geneva_cli.numerics.arrays import Mask, Number, Whole, all_true, array
 from geneva_cli.numerics.jet import Array, Jet
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.mid_motion import MidMotionValues
-    from geneva_cli.numerics.arrays import Mask, Number, Whole
     from geneva_cli.numerics.pieces import Which
     from geneva_cli.numerics.search import Stretches
 
