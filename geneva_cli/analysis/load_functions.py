@@ -121,8 +121,8 @@ class LoadFunctions:
 
     @cached_property
     def spread(self) -> Array:
-        """Width of the loads' features about mid-motion, from ``spread_deg``: (n, 1)."""
-        return np.broadcast_to(spread_deg(self.engagement, self.batch.case), (self.n, 1))
+        """Width of the loads' features about mid-motion, from ``_spread_deg``: (n, 1)."""
+        return np.broadcast_to(_spread_deg(self.engagement, self.batch.case), (self.n, 1))
 
     @property
     def repeats(self) -> bool:
@@ -344,7 +344,7 @@ def signed_instant(
     return SignedInstant(signs, jets, instant)
 
 
-def spread_deg(engagement: Engagement, case: LoadCase) -> Array:
+def _spread_deg(engagement: Engagement, case: LoadCase) -> Array:
     """Approximate distance from mid-motion of the nearest pole of velocity and forces, degrees.
 
     It follows from their behaviour near mid-motion: a velocity as v / (1 + x²/w²), a wall's lever
