@@ -177,7 +177,9 @@ def _locks(
     if not mechanism.spec.is_turned:
         return []
     try:
-        return locks(model.outlines) if mechanism.spec.wheel.FLAT else sphere_locks(model.shells)
+        return (
+            flat_locks(model.outlines) if mechanism.spec.wheel.FLAT else sphere_locks(model.shells)
+        )
     except GenevaError as error:
         warnings.append(Notice("not-known", f"no parts: {error}"))
         return []
@@ -192,7 +194,7 @@ def _greatest(values: Array) -> float:
     return float(np.max(values))
 
 
-def locks(outlines: Outlines) -> list[Lock]:
+def flat_locks(outlines: Outlines) -> list[Lock]:
     """Each corner of a recess with each locking arc of the crank; none without a locking disc."""
     size, assembly = outlines.sizes, outlines.assembly
     if not outlines.crank:
