@@ -1,7 +1,7 @@
 """Loads of a batch of one engagement, as functions for searches and sums.
 
 The formulas are in ``contact``, ``forces`` and ``instant``. This file defines the wanted
-quantities, and the signs that matter.
+quantities, the signs that matter, and how widely samples are spread about mid-motion.
 """
 
 from __future__ import annotations
@@ -29,12 +29,11 @@ from geneva_cli.analysis.quantities import PV, QUANTITIES, Quantity
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import all_true, array
+from geneva_cli.numerics.arrays import Mask, Number, Whole, all_true, array
 from geneva_cli.numerics.jet import Array, Jet
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.mid_motion import MidMotionValues
-    from geneva_cli.numerics.arrays import Mask, Number, Whole
     from geneva_cli.numerics.pieces import Which
     from geneva_cli.numerics.search import Stretches
 
@@ -122,8 +121,8 @@ class LoadFunctions:
 
     @cached_property
     def spread(self) -> Array:
-        """Width of the loads' features about mid-motion, from ``spread_deg``: (n, 1)."""
-        return np.broadcast_to(spread_deg(self.engagement, self.batch.case), (self.n, 1))
+        """Width of the loads' features about mid-motion, from ``_spread_deg``: (n, 1)."""
+        return np.broadcast_to(_spread_deg(self.engagement, self.batch.case), (self.n, 1))
 
     @property
     def repeats(self) -> bool:
@@ -345,7 +344,7 @@ def signed_instant(
     return SignedInstant(signs, jets, instant)
 
 
-def spread_deg(engagement: Engagement, case: LoadCase) -> Array:
+def _spread_deg(engagement: Engagement, case: LoadCase) -> Array:
     """Approximate distance from mid-motion of the nearest pole of velocity and forces, degrees.
 
     It follows from their behaviour near mid-motion: a velocity as v / (1 + x²/w²), a wall's lever

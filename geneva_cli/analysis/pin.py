@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple, cast
 
-from geneva_cli.numerics.arrays import choose, parameter
+from geneva_cli.numerics.arrays import Number, choose, parameter
 from geneva_cli.numerics.preferred import rounded_below
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.numerics.arrays import Number
     from geneva_cli.spec.tables import Size
 
 

@@ -1,4 +1,4 @@
-"""Pairs of parts, whose gaps are bounded on intervals of the input angle."""
+"""Pairs of parts: their positions, and bounds of their gaps on intervals of the input angle."""
 
 from __future__ import annotations
 

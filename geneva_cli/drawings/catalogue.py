@@ -101,7 +101,7 @@ def require_drawn(mechanism: Mechanism, part: str) -> None:
     known = [name for name in PARTS if _is_of(kind, name)]
     if part not in known:
         raise GenevaError(
-            f"--part {part}: this machine has none, only {', '.join(known)}",
+            f"--part {part}: a machine of this kind has none; it may have {', '.join(known)}",
             ("wheel", "gearing"),
         )
 

@@ -104,7 +104,6 @@ def _free_direction(mechanism: Mechanism) -> float:
 
 def _link_turns(parts: Outlines) -> Iterator[Arc]:
     """Yield the sense of rotation of the link on the crank's shaft, beyond its end or the disc."""
-
     mechanism, L = parts.assembly.full, parts.assembly.L
     for link in links_at(mechanism, np.array([-0.5, 0.0, 0.5])):
         first, *others = places(link)

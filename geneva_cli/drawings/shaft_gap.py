@@ -139,7 +139,6 @@ def _noncircular(mechanism: Mechanism, drawn: Outlines | None) -> Iterator[Ring]
     pair, x = mechanism.spec.gears, mechanism.gear_shaft.x_mm
     if pair is None:
         return
-
     (_, driven), (_, driver) = pitch_radii(pair)
     if teeth := pair_teeth(pair, mechanism.spec.size):
         driven, driver = driven + teeth.tips[0], driver + teeth.tips[1]

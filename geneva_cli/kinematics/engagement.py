@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, Protocol, TypeA
 
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import (
+    Array,
     Batchable,
     all_true,
     array,
@@ -27,7 +28,6 @@ from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.laws.law import Law
-    from geneva_cli.numerics.arrays import Array
 
 K = TypeVar("K", float, "Array")
 

@@ -26,7 +26,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.preferred import bores_from
 from geneva_cli.spec.tables import Load, Size
 
-Sized: TypeAlias = Callable[["Mechanism", "PartLoads"], "tuple[Assembly, Sizes] | None"]
+Sized: TypeAlias = Callable[[Mechanism, PartLoads], tuple[Assembly, Sizes] | None]
 
 
 def first_spec(mechanism: Mechanism, first: FirstWheel) -> Spec:

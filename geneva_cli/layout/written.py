@@ -1,4 +1,4 @@
-"""Lengths as texts on a drawing sheet, in millimetres or in inches."""
+"""Lengths, in millimetres or inches, and angles as texts on a drawing sheet."""
 
 from __future__ import annotations
 

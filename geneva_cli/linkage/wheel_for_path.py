@@ -25,6 +25,48 @@ from geneva_cli.numerics.angles import scaled_sin_cos
 from geneva_cli.numerics.jet import Jet
 
 LAST_STEP = 1e-12  # radians: Newton's method ends after a shorter step
+Exact: TypeAlias = tuple[Decimal, Decimal]  # a vector in the plane
+
+
+class ExactPoint(NamedTuple):
+    """A point of the path in 50 digits: crank angle, position, velocity, and unit tangent."""
+
+    phi: Decimal
+    sine: Decimal
+    cosine: Decimal
+    p: Exact
+    v: Exact
+    t: Exact
+
+    @staticmethod
+    def of(path: RollerPath, phi: Decimal) -> ExactPoint:
+        """Point at a crank angle in radians."""
+        s, c = digits.sin_cos(phi)
+        sine, cosine = exactly(s), exactly(c)
+        x, y = path.place(Jet((sine, cosine)), Jet((cosine, -sine)), exact=True)
+        (px, vx), (py, vy) = cast("tuple[Exact, Exact]", (x.c, y.c))
+        return ExactPoint(phi, s, c, (px, py), (vx, vy), unit((vx, vy)))
+
+
+def length(a: Exact) -> Decimal:
+    """Length of a vector."""
+    return (a[0] * a[0] + a[1] * a[1]).sqrt()
+
+
+def unit(a: Exact) -> Exact:
+    """Unit vector in the direction of a vector."""
+    size = length(a)
+    return a[0] / size, a[1] / size
+
+
+def cross(a: Exact, b: Exact) -> Decimal:
+    """Third component of the vector product of two plane vectors."""
+    return a[0] * b[1] - a[1] * b[0]
+
+
+def angle(a: Exact, b: Exact) -> float:
+    """Angle from a to b in radians, rounded once to a double."""
+    return math.atan2(cross(a, b), a[0] * b[0] + a[1] * b[1])
 
 
 class Pair(NamedTuple):
@@ -120,9 +162,9 @@ def _on_family(path: RollerPath, b: float, entry: float, exit_: float) -> Pair |
     else:
         return None
     by_entry = (-one.v * both.conjugate() + chord * (1j * one.turn * one.t).conjugate()).imag
-    angle = cmath.phase(-two.t * one.t.conjugate())
-    slope = math.copysign(1.0, angle) * (-two.turn * by_entry / by_exit - one.turn)
-    return Pair(entry, exit_, abs(angle) - 2.0 * b, slope)
+    between = cmath.phase(-two.t * one.t.conjugate())
+    slope = math.copysign(1.0, between) * (-two.turn * by_entry / by_exit - one.turn)
+    return Pair(entry, exit_, abs(between) - 2.0 * b, slope)
 
 
 def _refined(path: RollerPath, b: float, pair: Pair) -> tuple[float, float] | None:
@@ -195,47 +237,3 @@ def _polished(
         first -= Decimal(move)
         last -= Decimal((by_entry * excess + one.turn * away) / det)
     return (first, last) if abs(move) < 1e-20 else None  # radians, of the last step
-
-
-Exact: TypeAlias = tuple[Decimal, Decimal]  # a vector in the plane
-
-
-class ExactPoint(NamedTuple):
-    """A point of the path in 50 digits: crank angle, position, velocity, and unit tangent."""
-
-    phi: Decimal
-    sine: Decimal
-    cosine: Decimal
-    p: Exact
-    v: Exact
-    t: Exact
-
-    @staticmethod
-    def of(path: RollerPath, phi: Decimal) -> ExactPoint:
-        """Point at a crank angle in radians."""
-        s, c = digits.sin_cos(phi)
-        sine, cosine = exactly(s), exactly(c)
-        x, y = path.place(Jet((sine, cosine)), Jet((cosine, -sine)), exact=True)
-        (px, vx), (py, vy) = cast("tuple[Exact, Exact]", (x.c, y.c))
-        return ExactPoint(phi, s, c, (px, py), (vx, vy), unit((vx, vy)))
-
-
-def length(a: Exact) -> Decimal:
-    """Length of a vector."""
-    return (a[0] * a[0] + a[1] * a[1]).sqrt()
-
-
-def unit(a: Exact) -> Exact:
-    """Unit vector in the direction of a vector."""
-    size = length(a)
-    return a[0] / size, a[1] / size
-
-
-def cross(a: Exact, b: Exact) -> Decimal:
-    """Third component of the vector product of two plane vectors."""
-    return a[0] * b[1] - a[1] * b[0]
-
-
-def angle(a: Exact, b: Exact) -> float:
-    """Angle from a to b in radians, rounded once to a double."""
-    return math.atan2(cross(a, b), a[0] * b[0] + a[1] * b[1])

@@ -54,7 +54,10 @@ class WheelSearch(NamedTuple):
 
 
 def wheels(path: RollerPath, b: Array) -> WheelSearch:
-    """All wheels of designs with half index angles b, (n, 1)."""
+    """All wheels of designs with half index angles b, (n, 1).
+
+    Those with entry or exit in a bend within 1e-5 radians of the crank may be missed.
+    """
     kept = []
     with np.errstate(all="ignore"):
         every = list(sampled(path, len(b)))

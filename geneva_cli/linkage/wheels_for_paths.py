@@ -21,14 +21,12 @@ from geneva_cli.kinematics.wheels.poses import HalfStep
 from geneva_cli.linkage.choice import chosen
 from geneva_cli.linkage.wheel_for_path import fit
 from geneva_cli.linkage.wheels import WheelSearch, wheels
-from geneva_cli.numerics.arrays import rising
+from geneva_cli.numerics.arrays import Array, Long, rising
 from geneva_cli.numerics.digits import PI
 from geneva_cli.numerics.jet import Jet
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-    from geneva_cli.numerics.arrays import Array, Long
 
     LongComplex: TypeAlias = NDArray[np.clongdouble]
 

@@ -13,7 +13,7 @@ array([26.8019, 28.3356])
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias, cast
 
@@ -30,13 +30,10 @@ from geneva_cli.loads.makers_form import MakersForm, ShaftLoad, makers_form
 from geneva_cli.loads.summaries import LoadSummary, load_summaries
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import choose_record, larger, library, parameter
+from geneva_cli.numerics.arrays import Array, N, Number, choose_record, larger, library, parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from geneva_cli.loads.cycle import Cycle
-    from geneva_cli.numerics.arrays import Array, N, Number
     from geneva_cli.spec.tables import Motor
 
 Peaks: TypeAlias = "tuple[float, ...]"  # of one engagement, in the order of ``FORM_PEAKS``

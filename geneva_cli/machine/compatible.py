@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING, NamedTuple
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Drive, Needs
 from geneva_cli.spec.rules import is_array
-from geneva_cli.spec.schema import fields
+from geneva_cli.spec.schema import SpecTable, fields
 from geneva_cli.spec.tables import Shaft
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
-    from geneva_cli.spec.schema import SpecTable
 
 
 class Conflict(NamedTuple):

@@ -16,7 +16,7 @@ from functools import partial
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 from geneva_cli.kinematics.anchors import cuts
-from geneva_cli.kinematics.drive import Plan
+from geneva_cli.kinematics.drive import Drive, Plan
 from geneva_cli.kinematics.engagement import (
     Anchor,
     Carrier,
@@ -32,15 +32,13 @@ from geneva_cli.kinematics.engagement import (
 )
 from geneva_cli.machine.driven_shaft import DrivenShaft, ShaftPath
 from geneva_cli.numerics.angles import DEGREE, radians
-from geneva_cli.numerics.arrays import Batchable, array, library, narrowed
+from geneva_cli.numerics.arrays import Array, Batchable, array, library, narrowed
 from geneva_cli.numerics.jet import Jet, Number, atan2, composed, piecewise
 from geneva_cli.numerics.latest import Latest
 
 if TYPE_CHECKING:
-    from geneva_cli.kinematics.drive import Drive
     from geneva_cli.machine.drives.transmission import Transmission
     from geneva_cli.machine.spec import Spec
-    from geneva_cli.numerics.arrays import Array
 
 
 def retimed(plan: Plan, spec: Spec, in_front: Drive) -> Plan:

@@ -1,4 +1,4 @@
-"""Numbers that are floats or arrays, and helpers for formulas that serve both.
+"""Numbers that are floats or arrays, helpers for formulas that serve both, and arrays' memory.
 
 One convention for arrays holds in the whole program. The numbers of a machine (its ratio, its
 offset) are floats, or arrays (n, 1) along a design axis. Input angles are floats, or arrays (k,) or

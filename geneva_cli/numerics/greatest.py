@@ -1,7 +1,8 @@
 """The greatest values of functions of many designs and their places, updated as values arrive.
 
 Of several equal extremes the first is reported. Searches of several functions and of one function
-reach the same extremes by different steps, so their last digits differ. All use these tolerances.
+reach the same extremes by different steps, so their last digits differ. All use the tolerances of
+``bar``.
 """
 
 from __future__ import annotations
@@ -86,8 +87,8 @@ class GreatestValues:
         out = np.full(np.shape(low), False)
         for side, sense in enumerate(self.senses):
             reach = np.maximum(high, -low) if self.sized else high if sense > 0.0 else -low
-            bar = self.least(side)[number, design]
-            out |= ~(reach < bar) & (bar < np.inf)
+            least = self.least(side)[number, design]
+            out |= ~(reach < least) & (least < np.inf)
         return out
 
     def places(self) -> Array:

@@ -15,15 +15,23 @@ from itertools import pairwise
 from math import factorial
 from typing import TYPE_CHECKING, TypeVar, cast
 
-from geneva_cli.numerics.arrays import SINGLE, Enclosed, library, minus, piece_of, plus, size
+from geneva_cli.numerics.arrays import (
+    SINGLE,
+    Enclosed,
+    Mask,
+    Whole,
+    library,
+    minus,
+    piece_of,
+    plus,
+    size,
+)
 from geneva_cli.numerics.arrays import Array as Array
 from geneva_cli.numerics.arrays import Number as Number
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
-
-    from geneva_cli.numerics.arrays import Mask, Whole
 
 
 class Jet:

@@ -9,13 +9,12 @@ import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
-from geneva_cli.numerics.arrays import all_true, choose
+from geneva_cli.numerics.arrays import Array, Truth, all_true, choose
 from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
     from decimal import Decimal
 
-    from geneva_cli.numerics.arrays import Array, Truth
 
 Real = TypeVar("Real", float, "Decimal")
 

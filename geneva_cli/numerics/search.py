@@ -15,7 +15,16 @@ import numpy as np
 
 from geneva_cli.numerics import chebyshev
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import blocks, columns_taken, joined, rows_joined, rows_taken
+from geneva_cli.numerics.arrays import (
+    Array,
+    Mask,
+    Whole,
+    blocks,
+    columns_taken,
+    joined,
+    rows_joined,
+    rows_taken,
+)
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
 from geneva_cli.numerics.greatest import GreatestValues
 from geneva_cli.numerics.pieces import (
@@ -30,7 +39,6 @@ from geneva_cli.numerics.pieces import (
 from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Mask, Whole
     from geneva_cli.numerics.pieces import Some, Which
 
 BLOCK = 2048  # rows sampled at a time: that many fit in the processor's cache

@@ -1,8 +1,8 @@
-"""The driver and the pinion of a counter: their teeth, the locking rim, and their outlines.
+"""The gears of a counter: their teeth, their mesh, the locking rim, and their outlines.
 
-Both have involute teeth of one rack. The driver keeps two of its N. The pinion has 2 z, and every
-second one is wide: it also lies in the plane of the driver's rim. At input angle 0 a wide tooth is
-on the line of centres, between the driver's two.
+Driver and pinion have involute teeth of one rack. The driver keeps two of its N. The pinion has
+2 z, and every second one is wide: it also lies in the plane of the driver's rim. At input angle 0 a
+wide tooth is on the line of centres, between the driver's two.
 
 Profile shifts keep both from undercut, x = max(0, 1 - z sin² 20°) of the pinion, and more where a
 backlash thins the teeth. Where their sum is above 0, the gears work at a larger pressure angle w,

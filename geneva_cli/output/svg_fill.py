@@ -48,21 +48,24 @@ def opacity(layer: str) -> float:
     return 0.55 if layer == "ROLLER" else 0.16
 
 
-def rings(solid: Part, unit: float = 1.0) -> list[tuple[str, list[Contour]]]:
+def rings(solid: Part, unit: float = 1.0) -> list[tuple[str, tuple[Contour, ...]]]:
     """The outline and holes of each plate, with its layer; the lowest plate first.
 
-    Of plates with one outline above each other, such as a counter's wheels, only the highest is
-    there: their tints would add up.
+    Of plates of one shape above each other, such as a counter's wheels, only the highest is there:
+    their tints would add up.
     """
     every = sorted(_placed(solid, lambda shape: shape), key=lambda p: (p[0].high, p[0].low))
-    highest: dict[tuple[str, Contour], list[Contour]] = {}
-    for plate, move in every:
-        contours = [
-            as_contour(mapped(move(s), _divided(unit), lambda radius: radius / unit))
-            for s in (plate.outline, *plate.holes)
-        ]
-        highest[plate.layer, contours[0]] = contours
-    return [(layer, contours) for (layer, _), contours in highest.items()]
+    drawn = [
+        (
+            plate.layer,
+            tuple(
+                as_contour(mapped(move(s), _divided(unit), lambda radius: radius / unit))
+                for s in (plate.outline, *plate.holes)
+            ),
+        )
+        for plate, move in every
+    ]
+    return list(dict.fromkeys(reversed(drawn)))[::-1]
 
 
 def _placed(part: Part, move: Move) -> Iterator[tuple[Plate, Move]]:

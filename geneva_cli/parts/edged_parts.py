@@ -1,4 +1,4 @@
-"""The base of parts that are plates with the spec's edges: of wheels, racks and counters."""
+"""The base of parts of wheels, racks and counters: plates with the spec's edges, frame, shafts."""
 
 from __future__ import annotations
 

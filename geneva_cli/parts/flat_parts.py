@@ -138,7 +138,6 @@ class FlatParts(EdgedParts):
 
     def _on_links(self) -> tuple[Point, ...]:
         """Return the centres of rollers on links in the plane below the wheel."""
-
         return tuple(
             (float(joint[0].real), float(joint[0].imag))
             for link in links_at(self.mechanism, np.zeros(1))

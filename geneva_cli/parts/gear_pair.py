@@ -31,7 +31,6 @@ from geneva_cli.parts.shaft import Ends, Seat, Shaft, shaft_ends
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-
 PITCH, BORE, CUT = "PITCH", "BORE", "LINK"
 NAMES = "driven gear", "driver gear"
 THIN = 1e-6  # of the axes' distance: a pitch curve nearer to its axis encloses no shaft

@@ -139,7 +139,6 @@ def _known(axis: LinkAxis, sizes: LinkSizes, parts: Outlines | None, L: float) -
 
     Raises GenevaError for a hexagonal one.
     """
-
     if same(axis.at, (L, 0.0), L):
         return sizes.crank_shaft or 0.0
     if parts is None or not same(axis.at, (0.0, 0.0), L):
@@ -223,7 +222,6 @@ def _gears(
 
 def _axis(link: Link) -> Point:
     """Return the axis of a gear at input angle 0."""
-
     (path,) = places(link)
     z = complex(path[len(path) // 2])
     return z.real, z.imag
@@ -231,7 +229,6 @@ def _axis(link: Link) -> Point:
 
 def _bar(link: Link, sizes: LinkSizes, L: float) -> _UnboredLink:
     """Return a link without bores for shafts, and the blocks that slide along it."""
-
     middle = len(link.joints[0][0]) // 2  # input angle 0
     joints = places(link)
     at = [complex(joint[middle]) for joint in joints]

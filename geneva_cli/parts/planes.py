@@ -96,7 +96,6 @@ def _gears(parts: Outlines, bars: Links, links: tuple[Link, ...], turn: Array) -
 
     A first wheel is no gear: ``shaft_gap`` computes its gap.
     """
-
     assert bars.sizes is not None
     if parts.assembly.full.spec.drive.IN_SERIES:
         return
@@ -194,7 +193,6 @@ class _Shaft:
         outlines: dict[str, Contour],
         bars: Links,
     ) -> None:
-
         L, sizes = parts.assembly.L, bars.sizes
         assert sizes is not None
         self.links, self.outlines = links, outlines
@@ -246,7 +244,6 @@ class _Shaft:
 
 
 def _meeting(link: Link, outline: Contour, one: Round, turn: Array) -> Meeting:
-
     joints = places(link)
     ahead = joints[1] - joints[0]
     size = np.abs(ahead)

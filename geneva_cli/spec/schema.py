@@ -456,7 +456,7 @@ def _whole(value: float) -> str:
 
 
 class Example(NamedTuple):
-    """An example spec: its title, and its keys by table."""
+    """An example spec for ``geneva new``: its title, and its keys by table."""
 
     about: str
     tables: dict[str, dict[str, object]]

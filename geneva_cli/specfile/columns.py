@@ -1,6 +1,6 @@
 """Readers of CSV files: of number pairs that a spec names, and of columns as a sweep writes them.
 
-Errors name the file and the line.
+Errors name the file and the line. A sweep that resumes compares a digest of its files.
 """
 
 from __future__ import annotations

@@ -107,14 +107,10 @@ def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array]
 def known_columns(machine: Mechanism, names: Sequence[str]) -> dict[str, Number]:
     """The quantities among ``names`` that a batch computes: (m,), or one number."""
     designs, out = Designs(machine, names), {}
-    for name in filter(_is_batched, names):
+    for name in (name for name in names if in_batch([name])):
         group = group_of()[name]
         own_columns, own = group.columns(designs), name.removeprefix(f"{group.table}.")
         if own in own_columns:
             value = own_columns[own]
             out[name] = np.inf if value is None else value
     return out
-
-
-def _is_batched(name: str) -> bool:
-    return in_batch([name])

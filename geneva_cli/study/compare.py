@@ -64,11 +64,11 @@ def compare(
 
 def _shape(spec: Spec) -> dict[str, Cell]:
     """The keys of wheel, drives and motion by table.key, but those that are lists."""
-    values: dict[str, Cell] = {}
+    shape: dict[str, Cell] = {}
     for table, keys in keys_in(spec).items():
         for own in values_of(spec, table) if table not in PLAIN else ():
-            values |= {f"{table}.{key.key}": own[key.key] for key in keys}
-    return {key: value for key, value in values.items() if isinstance(value, (str, float, int))}
+            shape |= {f"{table}.{key.key}": own[key.key] for key in keys}
+    return {key: value for key, value in shape.items() if isinstance(value, (str, float, int))}
 
 
 def differing(table: Table) -> Table:

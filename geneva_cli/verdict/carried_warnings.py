@@ -161,7 +161,7 @@ def _keys_without_effect(spec: Spec) -> list[Notice]:
 
 
 def unlikely_warnings(mechanism: Mechanism) -> list[Notice]:
-    """The warnings, of a wheel that turns."""
+    """Warnings about an inertia or a speed that may be in another unit; none for a rack."""
     return [*_heavy(mechanism), *_fast(mechanism)] if mechanism.output.turns else []
 
 

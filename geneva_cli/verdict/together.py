@@ -24,7 +24,7 @@ def share(batch: Mechanism, machines: Sequence[Mechanism]) -> None:
     """Let the machines of a batch's designs take from it what their checks need.
 
     The batch is searched when the first of them needs a value. A value that the batch lacks is
-    computed for the design alone. There are at most ``known.KEPT`` machines.
+    computed for the design alone. There are at most ``latest.KEPT`` machines.
     """
     designs = Designs(batch, each=machines)
     own = _unless_refused(lambda: under_load(designs).part_loads)

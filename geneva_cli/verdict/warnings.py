@@ -1,4 +1,7 @@
-"""All warnings about a design: one list, which every command and format shows."""
+"""All warnings about a design in one list, and those about a machine that differs backwards.
+
+Every command and format shows this list.
+"""
 
 from __future__ import annotations
 

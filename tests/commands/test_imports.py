@@ -134,7 +134,7 @@ OWN = {
     # no spec, no registry of kinds, no record of either: of the wheels their closed forms alone
     "table --z 6": "app errors progress streams table commands commands.completion "
     "commands.options commands.table kinematics kinematics.wheels kinematics.wheels.classic output "
-    "output.finite output.formats output.text spec.ranges study study.survey analysis "
+    "output.finite output.formats output.text study study.survey analysis "
     "analysis.cam_factors analysis.timing numerics numerics.angles numerics.arrays spec "
     "spec.rules",
 }

@@ -9,6 +9,8 @@ from scipy.optimize import root
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.paths.boxes import _turned_between
+from geneva_cli.kinematics.paths.pairs import pairs
+from geneva_cli.kinematics.paths.samples import PathSamples, points
 from geneva_cli.linkage.wheels import wheels
 from geneva_cli.machine.drives.four_bar import FourBar
 
@@ -131,6 +133,19 @@ def compared(keys, z):
 def test_no_wheel_is_missed(seed):
     counts = [compared(keys, z) for keys, z in four_bars(3, seed)]
     assert sum(expected for expected, _ in counts) > 2
+
+
+def test_a_pair_is_found_though_newton_leads_out_of_its_box():
+    """At a sharp bend the steps from all corners agree on a place outside the box, by chance."""
+    lengths = {"crank_mm": 45.96, "ground_mm": 96.14, "coupler_mm": 68.15, "rocker_mm": 101.98}
+    path = FourBar(**lengths, point_mm=125.54, point_deg=-35.44).roller_path
+    b, count = math.pi / 12, 768
+    at = points(path, (np.arange(count + 1)[None] + 0.3) * (math.tau / count))
+    samples = PathSamples(np.array([0]), at, np.unwrap(np.angle(at.t)))
+    ends = np.radians([33.93, 186.36])
+    phi = pairs(path, [samples], np.array([[b]])).pairs.at.phi
+    (near,) = {tuple(pair) for pair in phi.round(9).tolist() if np.abs(pair - ends).max() < 0.01}
+    assert drives(path, b, 1.0, *near)
 
 
 @pytest.mark.parametrize("turns", [1.0, 0.0, -1.0])

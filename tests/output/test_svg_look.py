@@ -118,6 +118,13 @@ def test_wheels_in_a_row_are_filled_once():
     assert counts == {"CRANK": 3, "WHEEL": 2, "FRAME": 1}
 
 
+def test_the_floor_of_a_groove_is_filled():
+    """A cam's base has the outline of the ring on it, and is seen through the groove."""
+    cam = load(str(repo.DESIGNS / "cam-geneva.toml")).drawing("assembly", 0.01)
+    fills = [path.get("fill") for path in groups(root(cam))["FILL"]]
+    assert fills.count(INKS["FRAME"].rgb) == 4  # of frame, base, ring and island
+
+
 def test_fills(assembly):
     assert "FILL" not in groups(root(assembly, fill="none"))
     hatched = root(assembly, fill="hatch")

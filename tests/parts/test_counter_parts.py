@@ -345,7 +345,7 @@ def test_what_does_not_fit_is_refused_with_its_key():
         design = Design(spec, size=size)
         (check,) = [one for one in design.checks if one.name == "parts"]
         assert check.passes is False and text in check.why, text
-    with pytest.raises(GenevaError, match="this machine has none, only wheel, crank, "):
+    with pytest.raises(GenevaError, match="of this kind has none; it may have wheel, crank, "):
         Design(Counter(4)).drawing("links")
 
 

@@ -167,9 +167,9 @@ def test_parts_are_written(name, tmp_path):
 
 
 def test_other_parts_are_refused_with_those_that_there_are():
-    with pytest.raises(GenevaError, match="only slot, wheel, crank, arm, frame, guide, parts"):
+    with pytest.raises(GenevaError, match="have slot, wheel, crank, arm, frame, guide, parts"):
         design().drawing("links")
-    with pytest.raises(GenevaError, match="guide: this machine has none, only slot, "):
+    with pytest.raises(GenevaError, match=r"guide: .* has none; it may have slot, "):
         Design(External(6)).drawing("guide")
 
 

@@ -16,9 +16,10 @@ from shapely.geometry import LineString, Polygon
 from sheet_witness import assert_as_listed, assert_measured, beyond, crossings, overlaps
 from words import Drive, Keys, Motion, Spec, Wheel
 
-from geneva_cli import load
+from geneva_cli import EllipticalGears, Linear, load
 from geneva_cli.curves import marks
 from geneva_cli.curves.board import Board
+from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.shapes import Contour, Line
 from geneva_cli.curves.sheet import Label
 from geneva_cli.curves.sphere import place
@@ -411,6 +412,15 @@ def test_dimensions_stay_clear_of_each_other_in_a_narrow_bore(sheets):
     texts = {m.label.text for m in found.measures}
     assert {"250", "141.729"} <= texts
     assert crossings(found) == []
+
+
+def test_a_distance_that_has_no_place_says_what_it_is():
+    """A rack of 24 slots is drawn at 1:10: texts of shorter distances are in the way of others."""
+    design = Design(Linear(24), EllipticalGears(eccentricity=0.3))
+    notes = {label.text for label in design.sheet(TOLERANCE).labels}
+    box = bounds(design.drawing("frame", TOLERANCE).shapes[0])
+    assert f"{box.x1 - box.x0:g} wide" in notes
+    assert f"{100.0 - box.x0:g} from the left edge to the crank's axis" in notes
 
 
 def test_a_leader_is_not_drawn_along_an_edge():

@@ -29,7 +29,7 @@ from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.laws.standard import Cycloidal
 from geneva_cli.kinematics.motion import Motion
-from geneva_cli.verdict.tolerance.study import locks, sphere_locks
+from geneva_cli.verdict.tolerance.study import flat_locks, sphere_locks
 from tests.repo import ROOT
 
 pytestmark = pytest.mark.usefixtures("made_once")
@@ -69,7 +69,7 @@ def told(design, samples=4096, **more):
 def test_play_of_the_lock_is_that_of_a_whole_turn(name):
     """Found there from the outlines, in steps, without knowing what stops the wheel."""
     design = load(str(ROOT / "designs" / f"{name}.toml")).with_("size.lock_clearance_mm", 0.05)
-    found = [lock(at()).angle.c[0] for lock in locks(design.parts)]
+    found = [lock(at()).angle.c[0] for lock in flat_locks(design.parts)]
     # parts that overlap by rounding, 1e-9 L, still touch there: as much more clearance
     assert math.degrees(max(found)) == pytest.approx(design.parts_model.turn.dwell.deg, rel=1e-5)
 
@@ -290,7 +290,7 @@ def test_worst_case_by_corners(design):
 
 def test_worst_and_squares_in_the_dwell():
     found = told(MACHINES[0])
-    [lock] = locks(MACHINES[0].parts)
+    [lock] = flat_locks(MACHINES[0].parts)
     worst = lock(at(center_distance_mm=0.02, lock_radius_mm=-0.015, recess_radius_mm=0.01)).angle
     assert found["dwell_position.worst_deg"] == pytest.approx(math.degrees(worst.c[0]) + 0.02)
     play = lock(at()).angle.c[0]
@@ -419,7 +419,7 @@ def test_machines_that_do_not_go_together_are_counted():
 
 def test_clearances_that_still_turn():
     found = told(MACHINES[0])
-    [lock] = locks(MACHINES[0].parts)
+    [lock] = flat_locks(MACHINES[0].parts)
     # the tightest lock gives way by so much at the mouth, cos 30 deg of 100 mm off
     yields = lock(at(center_distance_mm=-0.02, lock_radius_mm=0.015, recess_radius_mm=-0.01)).angle
     mouth = 100.0 * math.cos(math.pi / 6)

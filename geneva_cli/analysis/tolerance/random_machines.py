@@ -1,4 +1,4 @@
-"""Monte Carlo of the tolerances: machines with random deviations, block by block."""
+"""Machines with random deviations, block by block; worst case, RSS and Monte Carlo of an angle."""
 
 from __future__ import annotations
 

@@ -15,6 +15,8 @@ import numpy as np
 from geneva_cli.numerics.arrays import Array, Mask, Whole, matrix_product
 
 if TYPE_CHECKING:
+    # Places u (p, k) of the motions (p,), and the highest order -> derivatives 1, 2, ...: (n, p,
+    # k).
     Derivatives = Callable[[Array, Whole, int], Array]
 
 NODES = 32  # of Gauss's rule on a panel

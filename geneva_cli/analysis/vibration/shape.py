@@ -18,6 +18,7 @@ from geneva_cli.numerics.arrays import Array, Number, Whole, read_only
 from geneva_cli.numerics.jet import Jet
 
 if TYPE_CHECKING:
+    # The wheel's angles, and the numbers of their designs -> another value of each.
     AngleFunction = Callable[[Jet, Whole], Jet]
 
 

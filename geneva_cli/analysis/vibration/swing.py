@@ -22,12 +22,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.vibration.panels import TERMS, Panels
-from geneva_cli.numerics.arrays import matrix_product
+from geneva_cli.numerics.arrays import Array, Complex, Whole, matrix_product
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geneva_cli.numerics.arrays import Array, Complex, Whole
 
 SMALL, POWERS = 0.5, 20  # up to this |q| a power series of so many terms
 # moments of Legendre's polynomials with (x - 1)^k / k!, for e^(q (x - 1)): zero for k < n

@@ -13,7 +13,8 @@ from geneva_cli.bench.formulas import textbook
 from geneva_cli.bench.kinds import KINDS, VariedMachine, values_of
 from geneva_cli.bench.method import Method, Subject, Task, missing
 from geneva_cli.bench.scalar_loop import by_numba, motion_loop
-from geneva_cli.bench.truth import digits, motion
+from geneva_cli.bench.truth import digits
+from geneva_cli.bench.truth import motion as exact_motion
 from geneva_cli.kinematics.engagement import WheelMotion
 from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.machine.mechanism import build
@@ -22,6 +23,7 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import Array
 
 Z = 3  # the wheel that is hardest for a formula
+ORDERS = (1, 2)  # velocity and acceleration, the derivatives of every machine
 
 
 def stable(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
@@ -158,7 +160,7 @@ def _error(results: Any, input_deg: Array, orders: Sequence[int]) -> float:
 @cache
 def _exact(degrees: float) -> tuple[Any, ...]:
     mp = digits()
-    return motion(Z, "external", 0.0, mp.mpf(degrees) * mp.pi / 180)
+    return exact_motion(Z, "external", 0.0, mp.mpf(degrees) * mp.pi / 180)
 
 
 @cache
@@ -167,9 +169,6 @@ def _peak(k: int) -> float:
     half = 90.0 - 180.0 / Z
     scan = np.linspace(0.0, half, 1001) * DEGREE
     return float(np.abs(stable(math.sin(math.pi / Z), scan, (k,))[0]).max())
-
-
-ORDERS = (1, 2)
 
 
 def kind_tasks(count: int) -> list[Task]:

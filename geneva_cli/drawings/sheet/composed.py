@@ -7,7 +7,6 @@ most. The sheet is the smallest that fits. Above 1:1 the largest part is no wide
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from itertools import tee
 from typing import Any
 
 from geneva_cli.curves.sheet import Sheet
@@ -38,13 +37,13 @@ def on_paper(
     spec: Spec,
     rows: list[dict[str, Any]],
     largest: float,
-    blocks: Callable[[float], tuple[list[Block], Iterable[list[Block]]]],
+    blocks: Callable[[float], tuple[list[Block], Callable[[], Iterable[list[Block]]]]],
     area: float = 0.0,
 ) -> Sheet:
     """Return the sheet with blocks at the largest scale at which all fit on it.
 
-    ``rows`` are its list of items. ``blocks`` returns what is always on it, and alternatives of the
-    rest, the best first. An alternative is drawn when it is first tried. ``largest`` is the
+    ``rows`` are its list of items. ``blocks`` returns what is always on it, and a function that
+    yields alternatives of the rest, the best first, for each size of paper. ``largest`` is the
     greatest length that is drawn, mm. ``area``, mm², is the least area that some of it needs.
     Raises GenevaError where no scale fits.
     """
@@ -57,8 +56,7 @@ def on_paper(
         for paper in FORMATS:
             if is_overfull(parts, _inside(paper)):
                 continue
-            alternatives, own = tee(alternatives)
-            for one in own:
+            for one in alternatives():
                 sheet = _composed(spec, paper, scale, rows, [*parts, *one])
                 if sheet is not None:
                     return sheet

@@ -1,9 +1,12 @@
-"""The content of a sheet, independent of its scale: rows of the list, items, cut faces."""
+"""The content of a flat machine's sheet, independent of its scale, and the sheet of its views.
+
+The content is rows of the list, items and cut faces.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import cache
+from functools import cache, partial
 from typing import Any, NamedTuple
 
 from geneva_cli.curves.measure import bounds
@@ -84,8 +87,8 @@ def sheet_of(spec: Spec, shown: SheetContent, views: Views, fixed: Sequence[Bloc
         for of_cut, of_whole in ((scale, scale), (scale, half), (half, half)):
             yield [cut(of_cut), whole(of_whole)]
 
-    def blocks(scale: float) -> tuple[list[Block], Iterator[list[Block]]]:
-        return [*(view.block() for view in views.parts(scale)), *fixed], rest(scale)
+    def blocks(scale: float) -> tuple[list[Block], Callable[[], Iterator[list[Block]]]]:
+        return [*(view.block() for view in views.parts(scale)), *fixed], partial(rest, scale)
 
     return on_paper(spec, shown.rows, shown.largest, blocks, shown.area)
 

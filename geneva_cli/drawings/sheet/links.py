@@ -66,7 +66,6 @@ def _base(view: View, plate: Plate, holes: list[Circle]) -> Point:
 
 def _pressed(mechanism: Mechanism) -> list[Point]:
     """Return the centres of rollers' pins at input angle 0, in a link or in its block."""
-
     centres = []
     for link in links_at(mechanism, np.zeros(1)):
         for position, kind in zip(places(link), link.kinds, strict=True):

@@ -27,19 +27,19 @@ def draw_frame(
     box = bounds(plate.outline)
     up = 0.5 * math.pi
     # from the shortest to the longest, so that their lines do not cross; leaders find places later
-    for k, turn in ((0, 0.0), (1, up)):
+    for k, turn, way in ((0, 0.0, "across"), (1, up, "up")):
         away = [(abs(hole.centre[k] - axis[k]), hole.centre) for hole in holes]
         texts = {length(0.0)}
         for far, centre in sorted(away, key=lambda one: one[0]):
             text = length(far)
             if text not in texts:
                 texts.add(text)
-                view.linear(axis, centre, turn, text)
+                view.linear(axis, centre, turn, text, f"{way}, from {axis_name} to a hole")
     corner = (box.x0, box.y0)
-    view.linear(corner, axis, 0.0, length(axis[0] - box.x0))
-    view.linear(corner, axis, up, length(axis[1] - box.y0))
-    view.linear(corner, (box.x1, box.y0), 0.0, length(box.x1 - box.x0))
-    view.linear(corner, (box.x0, box.y1), up, length(box.y1 - box.y0))
+    view.linear(corner, axis, 0.0, length(axis[0] - box.x0), f"from the left edge to {axis_name}")
+    view.linear(corner, axis, up, length(axis[1] - box.y0), f"from the lower edge to {axis_name}")
+    view.linear(corner, (box.x1, box.y0), 0.0, length(box.x1 - box.x0), "wide")
+    view.linear(corner, (box.x0, box.y1), up, length(box.y1 - box.y0), "high")
     for text, some in grouped((sized.bore(view.fits, hole.radius), hole) for hole in holes):
         u, v = axis
         places = ", ".join(f"({length(x - u)}, {length(y - v)})" for _, (x, y), _ in some)

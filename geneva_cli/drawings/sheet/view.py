@@ -117,12 +117,17 @@ class View:
         a, b = self._at(start), self._at(end)
         self._draw(line(CENTRE, polar(a, -OVER, angle), polar(b, OVER, angle)))
 
-    def linear(self, p: Point, q: Point, turn: float, text: str, near: bool = False) -> None:
-        """Draw a distance in a direction; ``near`` allows a line inside the part's outline."""
+    def linear(
+        self, p: Point, q: Point, turn: float, text: str, where: str = "", near: bool = False
+    ) -> None:
+        """Draw a distance in a direction; ``near`` allows a line inside the part's outline.
+
+        ``where`` is added if the distance stands as a note.
+        """
         ends = self._at(p), self._at(q)
         value = abs((q[0] - p[0]) * math.cos(turn) + (q[1] - p[1]) * math.sin(turn))
         levels = list(self._levels(turn, ends if near else ()))
-        self._put(marks.linear(ends, turn, levels, text, value), text)
+        self._put(marks.linear(ends, turn, levels, text, value), f"{text} {where}".rstrip())
 
     def angular(
         self, pairs: Iterable[tuple[float, float]], begin: float, radius: float, text: str

@@ -103,15 +103,18 @@ def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> No
     count *= len(ends)
     if len(ends) == 1:
         width = sized.slot_width(view.fits, parts.assembly.mechanism, parts.sizes.half_width)
-        view.linear(corner, walls.segments[-1].end, across, times(count, width))
+        far = walls.segments[-1].end
+        view.linear(corner, far, across, times(count, width), "slot's width")
     else:  # one wall each
-        view.linear(corner, mouth, across, times(count, sized.plain(parts.sizes.half_width)))
+        half = sized.plain(parts.sizes.half_width)
+        view.linear(corner, mouth, across, times(count, half), "from a slot's wall to its axis")
     foot = _foot(end, turn)
-    view.linear(foot, end, turn, sized.plain(math.dist(foot, end)), near=True)
-    view.linear(end, mouth, turn, times(count, sized.plain(math.dist(end, mouth))), near=True)
+    inwards, deep = sized.plain(math.dist(foot, end)), sized.plain(math.dist(end, mouth))
+    view.linear(foot, end, turn, inwards, "from the wheel's middle to a slot's end", near=True)
+    view.linear(end, mouth, turn, times(count, deep), "from a slot's end to its mouth", near=True)
     if math.hypot(*foot) > SAME_ON_SHEET:
-        normal = math.atan2(foot[1], foot[0])
-        view.linear((0.0, 0.0), foot, normal, sized.plain(math.hypot(*foot)))
+        normal, off = math.atan2(foot[1], foot[0]), sized.plain(math.hypot(*foot))
+        view.linear((0.0, 0.0), foot, normal, off, "from the wheel's axis to a slot's axis")
     rounds = [
         s
         for one, d in parts.assembly.slots

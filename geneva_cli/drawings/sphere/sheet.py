@@ -8,7 +8,7 @@ origin, if it is near.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
@@ -68,7 +68,7 @@ def sheet(parts: SphereParts) -> Sheet:
         flat_slot(ball, parts.tolerance),
     ]
 
-    def blocks(scale: float) -> tuple[list[Block], list[list[Block]]]:
+    def blocks(scale: float) -> tuple[list[Block], Callable[[], list[list[Block]]]]:
         views = [
             section(parts, scale, {str(row["name"]): i for i, row in enumerate(items, 1)}),
             _flat("wheel", ball, wheel_cone(ball), wheel, scale),
@@ -77,7 +77,7 @@ def sheet(parts: SphereParts) -> Sheet:
         if parts.arm:
             views.append(_arm(parts, parts.arm, arm, scale))
         views += _axles(parts, scale)
-        return [*(view.block() for view in views), *fixed], [[]]
+        return [*(view.block() for view in views), *fixed], lambda: [[]]
 
     spec = parts.mechanism.spec
     items = list(part_rows(spec, (one.part for one in parts.members), ball.span_mm[1]))

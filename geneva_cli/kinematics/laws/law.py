@@ -11,14 +11,13 @@ from collections.abc import Callable
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
 
-from geneva_cli.numerics.arrays import all_true, choose
+from geneva_cli.numerics.arrays import Truth, all_true, choose
 from geneva_cli.numerics.jet import Jet, Number, integral, piecewise
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.rules import is_array
 from geneva_cli.spec.schema import SpecTable, fields
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Truth
     from geneva_cli.numerics.spline import Doubt
 
 

@@ -16,7 +16,9 @@ from geneva_cli.kinematics.roller_path import RollerPath
 from geneva_cli.numerics.arrays import Array, Mask, Number, Whole
 
 THIRD = 1.0 / 3.0
-CUBIC_ERROR = 0.1  # possible error of a quantity's cubics, as a fraction of their range in a box
+# Possible error of a quantity's cubics, as a fraction of their range in a box. It is ample: of
+# 122,000 wheels of random linkages none is lost with 0, and 4 % are with -0.05.
+CUBIC_ERROR = 0.1
 OVERLAP = 0.5  # fraction of a box's width by which its pair may lie outside it
 
 
@@ -188,15 +190,19 @@ class Corners(NamedTuple):
 
 
 class NewtonSteps(NamedTuple):
-    """Newton steps from the corners of a box: agreement, nearness, and the pair they lead to."""
+    """Newton steps from the corners of a box, and the pair to which they lead."""
 
-    alike: Mask
-    near: Mask  # True if the pair is in the box or near it
+    one: Mask  # True if all of them lead to one pair, in the box or near it
+    none: Mask  # True if bounds show that the box has no pair
     phi: Array
 
 
 def newton_steps(boxes: Boxes, wanted: Array) -> NewtonSteps:
-    """Newton step from each corner of a box; if all lead to one place, the box has one pair."""
+    """Newton step from each corner of a box; if all lead to one place in it, it has one pair.
+
+    If they lead to a place outside, it may still have a pair: the steps of opposite corners of a
+    sharp bend can agree by chance.
+    """
     entry, exit_ = boxes.entry, boxes.exit
     across, ahead = _corners(entry, exit_), np.array([0.0, 1.0])[:, None]
     rest = boxes.turn + boxes.sense * wanted[boxes.which]
@@ -217,7 +223,8 @@ def newton_steps(boxes: Boxes, wanted: Array) -> NewtonSteps:
     outside = np.abs(middle - 0.5).max(axis=0) - 0.5
     phi = [x.phi[0] + of * x.width for x, of in zip((entry, exit_), middle, strict=True)]
     # the corners agree if they lead to places within a tenth of the box's width
-    return NewtonSteps((apart <= 0.1) | ~may, (outside <= OVERLAP) & may, np.stack(phi, axis=1))
+    one = (apart <= 0.1) & (outside <= OVERLAP) & may
+    return NewtonSteps(one, ~may, np.stack(phi, axis=1))
 
 
 def halved(path: RollerPath, boxes: Boxes, wanted: Array) -> Boxes:

@@ -15,7 +15,8 @@ The search uses boxes: an interval of crank angles between two samples for the e
 the exit. The cubics through the samples' values and slopes bound two quantities in a box: the turn,
 and the chord's component across t1 + t2. A box in which either has only one sign is discarded. The
 others are halved, until both quantities change so evenly that Newton's method finds the only pair
-of the box.
+of the box. The cubics are no proof: a margin allows for their error. A bend within 1e-5 radians of
+the crank counts as a cusp, and pairs in it may be missed.
 """
 
 from __future__ import annotations
@@ -78,10 +79,10 @@ def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> PairSea
     for depth in range(halvings + 1):
         steps = newton_steps(boxes, wanted)
         last = depth == halvings
-        tried = np.arange(len(steps.near)) if last else np.flatnonzero(steps.alike & steps.near)
+        tried = np.flatnonzero(steps.one | last)
         ends, close = _solved(path, boxes.taken(tried), steps.phi[tried], b)
         solved.append(ends.taken(close))
-        rest = np.concatenate((np.flatnonzero(~steps.alike), tried[~close]))
+        rest = np.concatenate((np.flatnonzero(~(steps.one | steps.none)), tried[~close]))
         if last or not len(rest):
             break
         boxes = halved(path, boxes.taken(rest), wanted)

@@ -1,8 +1,9 @@
 """Samples of a closed path, close enough that its direction is known between them.
 
 Between two samples the direction is the cubic of their directions and of the rates at which they
-turn. If that does not predict the turn to the next sample, the path is sampled again midway. This
-happens near a cusp.
+turn. If that does not predict the turn to the next sample, the path is sampled again midway. It is
+so too if the rates differ by much, since they may predict the turn by chance. Both happen near a
+cusp.
 """
 
 from __future__ import annotations
@@ -128,8 +129,10 @@ def _turned(left: PathPoints, right: PathPoints) -> Array:
 
 def _missed(left: PathPoints, right: PathPoints, turned: Array) -> Mask:
     """True where the rates at two samples do not predict the turn between them."""
-    half = 0.5 * (right.phi - left.phi) * (left.turn + right.turn)
-    return np.abs(turned - half) > 0.05  # radians
+    half = 0.5 * (right.phi - left.phi)
+    wrong = np.abs(turned - half * (left.turn + right.turn)) > 0.05  # radians
+    # Rates that differ this much belong to a sharp bend, whose turn they predict by chance only.
+    return wrong | (half * np.abs(right.turn - left.turn) > 0.25)  # radians
 
 
 def _between(

@@ -12,7 +12,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, ClassVar
 
-from geneva_cli.kinematics.engagement import Slot, SlotAxis
+from geneva_cli.kinematics.engagement import Anchor, Displacement, Slot, SlotAxis
 from geneva_cli.kinematics.layout import Pivot
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.kinematics.wheels.gearing import FollowedRate, Gearing, Output, RollerPlace
@@ -21,7 +21,6 @@ from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
-    from geneva_cli.kinematics.engagement import Anchor, Displacement
     from geneva_cli.kinematics.plane_motion import PlaneMotion
     from geneva_cli.numerics.arrays import Array
 

@@ -1,4 +1,4 @@
-"""Parallel keys: pressure on their sides and shear, under the torque that they transmit.
+"""Parallel keys: pressure on their sides and shear; the shear that keys and shafts allow.
 
 A key of width b is as long as the bore, l. Its height h stands in the shaft by t1. The torque T
 acts on the shaft's circle, of diameter d, so the force is 2 T/d (DIN 6892, method C). The side in

@@ -1,8 +1,8 @@
-"""The lock under a torque in the dwell: force, contact, and deflection of the wheel.
+"""The lock under a torque in the dwell, and the contact at a stop of the crank.
 
 The wheel turns through its play until disc and recess touch, at an end of either or on their arcs
 (``locking``). The force passes through the axis of the disc or of the recess, at an angle phi to
-the line of centres. A torque M needs F = M / (L sin phi). The deflection has three parts.
+the line of centres. A torque M needs F = M / (L sin phi). The wheel's deflection has three parts.
 
 The play is exact: the rotation that uses up the clearance.
 

@@ -8,9 +8,9 @@ stress, with factors for shock and fatigue on both moments:
 For rotating shafts with load applied gradually, Kb = 1.5 and Kt = 1. With sudden loads and minor
 shocks they are 1.5 to 2 and 1 to 1.5, with heavy shocks 2 to 3 and 1.5 to 3. Allowable is the lower
 of 0.3 of the yield strength and 0.18 of the tensile strength, and three quarters of that at a
-keyway; without a limit in the spec that of the default steel (``keys``). M is the force on the
-shaft times its overhang and T the torque at the same moment. Their greatest combination over the
-cycle is exact.
+keyway. Without a limit in the spec it is that of the default steel (``keys``). M is the force on
+the shaft times its overhang and T the torque at the same moment. Their greatest combination over
+the cycle is exact.
 
 The axes of a spherical machine meet at the sphere's centre. Let u point at the roller, m along the
 slot away from the wheel's axis, and y across it, so that u, m, y are right-handed. The force is
@@ -46,6 +46,7 @@ from geneva_cli.numerics.jet import Array, Jet, Number, sqrt
 from geneva_cli.spec.tables import Shaft
 
 if TYPE_CHECKING:
+    # The squared bending moment of a shaft, (N m)², with an overhang in metres, and its torque.
     ShaftForces = Callable[[Instant[Jet], Contact[Jet], Number], tuple[Jet, Jet]]
 
 
@@ -113,6 +114,40 @@ def on_driven_crank(i: Instant[Jet], at: Contact[Jet], overhang: Number) -> tupl
     """
     bent, torque = on_crank(i, at, overhang)
     return bent, torque / (at.spin + at.velocity * at.arm)
+
+
+class _Axis(NamedTuple):
+    """An axis of the machine in the roller's directions: cosines along u, m and y."""
+
+    up: Jet
+    away: Jet
+    across: Jet
+
+
+def on_sphere_wheel(i: Instant[Jet], at: Contact[Jet], overhang: Number) -> tuple[Jet, Jet]:
+    """Squared bending moment of the wheel's shaft, and torque; the overhang beyond L in metres."""
+    axis = _Axis(at.arm, at.lever * -1.0, at.lever * 0.0)
+    return _bending_squared(i, axis, overhang), i.wheel_torque_Nm
+
+
+def on_sphere_crank(i: Instant[Jet], at: Contact[Jet], overhang: Number) -> tuple[Jet, Jet]:
+    """Squared bending moment of the crank's shaft, and torque; the overhang beyond L in metres."""
+    away = at.velocity * at.lever
+    spin = at.spin + at.velocity * at.arm  # of the crank about the roller's axis
+    rate = sqrt(at.along * at.along + away * away + spin * spin)
+    axis = _Axis(spin / rate * -1.0, away / rate, at.along / rate * -1.0)
+    return _bending_squared(i, axis, overhang), i.input_torque_Nm / rate
+
+
+def _bending_squared(i: Instant[Jet], axis: _Axis, overhang: Number) -> Jet:
+    """The square of the moment that bends a shaft at its bearing, (N m)²."""
+    L = i.case.L
+    b = L + overhang
+    rub = i.case.friction * i.slides
+    lever = axis.up * -b + L
+    turn = axis.away - axis.across * (i.drives * rub)
+    bent = lever * lever * (1.0 + rub * rub) + turn * turn * ((b - L) * (b + L))
+    return i.forces.force * i.forces.force * bent
 
 
 def wheel_forces(spec: Spec) -> ShaftForces:
@@ -209,37 +244,3 @@ def _turned(
         most = np.where(np.isfinite(torque_squared), np.sqrt(torque_squared), np.nan)
         twist = parameter(np.degrees(most * rate))
     return ShaftStress(parameter(moment), parameter(at_deg), stress, least, twist)
-
-
-class _Axis(NamedTuple):
-    """An axis of the machine in the roller's directions: cosines along u, m and y."""
-
-    up: Jet
-    away: Jet
-    across: Jet
-
-
-def on_sphere_wheel(i: Instant[Jet], at: Contact[Jet], overhang: Number) -> tuple[Jet, Jet]:
-    """Squared bending moment of the wheel's shaft, and torque; the overhang beyond L in metres."""
-    axis = _Axis(at.arm, at.lever * -1.0, at.lever * 0.0)
-    return _bending_squared(i, axis, overhang), i.wheel_torque_Nm
-
-
-def on_sphere_crank(i: Instant[Jet], at: Contact[Jet], overhang: Number) -> tuple[Jet, Jet]:
-    """Squared bending moment of the crank's shaft, and torque; the overhang beyond L in metres."""
-    aside = at.velocity * at.lever
-    spin = at.spin + at.velocity * at.arm  # of the crank about the roller's axis
-    rate = sqrt(at.along * at.along + aside * aside + spin * spin)
-    axis = _Axis(spin / rate * -1.0, aside / rate, at.along / rate * -1.0)
-    return _bending_squared(i, axis, overhang), i.input_torque_Nm / rate
-
-
-def _bending_squared(i: Instant[Jet], axis: _Axis, overhang: Number) -> Jet:
-    """The square of the moment that bends a shaft at its bearing, (N m)²."""
-    L = i.case.L
-    b = L + overhang
-    rub = i.case.friction * i.slides
-    lever = axis.up * -b + L
-    turn = axis.away - axis.across * (i.drives * rub)
-    bent = lever * lever * (1.0 + rub * rub) + turn * turn * ((b - L) * (b + L))
-    return i.forces.force * i.forces.force * bent

@@ -21,7 +21,7 @@ from geneva_cli.kinematics.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.kinematics.wheels.classic import gap
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import choose, library
+from geneva_cli.numerics.arrays import Array, choose, library
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, sine_versine
 from geneva_cli.spec.rules import OneOf, Range, Words
 from geneva_cli.spec.schema import Example
@@ -29,7 +29,6 @@ from geneva_cli.spec.schema import Example
 if TYPE_CHECKING:
     from geneva_cli.kinematics.motion import Motion
     from geneva_cli.kinematics.wheels.gearing import Gearing
-    from geneva_cli.numerics.arrays import Array
 
 
 class Epicyclic(PinPath, kw_only=True):

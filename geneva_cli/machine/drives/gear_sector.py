@@ -23,7 +23,7 @@ from geneva_cli.kinematics.wheels import poses
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.drives.transmission import PinTravel, same
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import larger, library, parameter, size
+from geneva_cli.numerics.arrays import Array, larger, library, parameter, size
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.rules import POSITIVE, Range, Words
@@ -32,7 +32,6 @@ from geneva_cli.spec.schema import Example
 if TYPE_CHECKING:
     from geneva_cli.kinematics.motion import Motion
     from geneva_cli.kinematics.wheels.gearing import Gearing
-    from geneva_cli.numerics.arrays import Array
 
 
 class GearSector(PinPath, kw_only=True):

@@ -24,7 +24,7 @@ from geneva_cli.kinematics.roller_path import LinkReactions, RollerPath, rounded
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import DEGREE, radians
-from geneva_cli.numerics.arrays import array, larger, library, parameter, smaller
+from geneva_cli.numerics.arrays import Array, Long, array, larger, library, parameter, smaller
 from geneva_cli.numerics.jet import Jet, sin_cos
 from geneva_cli.spec.rules import Range, is_array
 from geneva_cli.spec.tables import DISTANCE_MM
@@ -32,7 +32,6 @@ from geneva_cli.spec.tables import DISTANCE_MM
 if TYPE_CHECKING:
     from geneva_cli.kinematics.motion import Motion
     from geneva_cli.kinematics.wheels.gearing import Gearing
-    from geneva_cli.numerics.arrays import Array, Long
 
 Place = TypeVar("Place", float, "Array")
 Moving: TypeAlias = "tuple[Array, Array]"  # x and y at input angles

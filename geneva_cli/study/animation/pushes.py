@@ -39,9 +39,9 @@ def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
         columns = (at, contact[:, 0], contact[:, 1], arrow[:, 0], arrow[:, 1])
         push = Push(*(tuple(column.tolist()) for column in columns))
         place = turn.on_crank(i)
-        yield moved_push(push, place._replace(behind_deg=0.0), 0.0) if place.turn else push
+        yield _moved_push(push, place._replace(behind_deg=0.0), 0.0) if place.turn else push
         for place in turn.mechanism.wheel_places[1:]:
-            yield moved_push(push, place, turn.L)
+            yield _moved_push(push, place, turn.L)
 
 
 def _normals(one: RollerPassage, local: Array, turn: MachineTurn) -> Array:
@@ -66,7 +66,7 @@ def _normals(one: RollerPassage, local: Array, turn: MachineTurn) -> Array:
     return np.column_stack((-direction[:, 1], direction[:, 0])) / np.hypot(*direction.T)[:, None]
 
 
-def moved_push(push: Push, place: AxisPlace, axis: float) -> Push:
+def _moved_push(push: Push, place: AxisPlace, axis: float) -> Push:
     """The force at the first wheel or crank as that at another one, which works later.
 
     ``axis`` is the place on the line of centres, mm, about which they stand.

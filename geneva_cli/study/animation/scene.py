@@ -63,7 +63,7 @@ def scene(design: Design) -> Scene:
         outlines = design.parts
     bars, rollers = _bars(turn, outlines, teeth), turn.rollers()
     spec, title = design.spec, title_of(design)
-    frame = frame_rotation(mechanism, turn.start, turn.whole)
+    frame = _frame_rotation(mechanism, turn.start, turn.whole)
     moving = parts if mechanism.output.turns else parts[1:]
     box = _box(moving, bars, rollers, mechanism.roller_radius_mm, turn.whole)
     if not mechanism.output.turns:
@@ -243,7 +243,7 @@ def _reach(shape: Shape) -> float:
     return max(math.hypot(*point) for point in ends)
 
 
-def frame_rotation(mechanism: Mechanism, start: float, whole: float) -> Rotation | None:
+def _frame_rotation(mechanism: Mechanism, start: float, whole: float) -> Rotation | None:
     """The carrier's rotation over ``whole`` degrees of the input from ``start``; None without."""
     if not mechanism.frame:
         return None

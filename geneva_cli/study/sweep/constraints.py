@@ -1,4 +1,4 @@
-"""Bounds such as ``dwell_s >= 0.8``, and goals such as ``min:acceleration.max``."""
+"""Bounds such as ``dwell_s >= 0.8``, and objectives such as ``min:acceleration.max``."""
 
 from __future__ import annotations
 

@@ -75,7 +75,7 @@ def kinds(target: Target) -> list[tuple[Kind, Target]]:
     alone = target.only_acceleration
     laws = laws_below if alone else with_laws
     return [
-        (_four_bars, target),
+        (four_bars, target),
         *((_straight, one.by_bounds if alone else one) for one in each),
         *((laws, one._replace(laws=(law,))) for law in target.laws for one in each),
     ]
@@ -105,7 +105,3 @@ def _straight(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     for wheel in wheels:
         yield from straight(target, wheel)
     yield from two_numbers(target, wheels)
-
-
-def _four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
-    yield from four_bars(target, wheels)

@@ -48,7 +48,7 @@ def product_acceleration(name: str, mechanism: Mechanism) -> Check | None:
     limit = mechanism.spec.limits.product_acceleration_max_m_s2
     if limit is None:
         return None
-    most, at_deg = _motion(mechanism).acceleration_m_s2
+    most, at_deg = _product_motion(mechanism).acceleration_m_s2
     return compared(name, most.item(), "at most", limit, at_deg.item())
 
 
@@ -57,16 +57,16 @@ def product_slip(name: str, mechanism: Mechanism) -> Check | None:
     friction = mechanism.spec.product.friction
     if friction is None or mechanism.spec.support.axis != "vertical":
         return None
-    motion = _motion(mechanism)
+    motion = _product_motion(mechanism)
     at_deg = motion.acceleration_m_s2.at_deg
     return compared(name, motion.friction_needed.item(), "at most", friction, at_deg.item())
 
 
-def _motion(mechanism: Mechanism) -> ProductMotion:
+def _product_motion(mechanism: Mechanism) -> ProductMotion:
     """The product's motion, which the quantities of the same design share."""
     from geneva_cli.verdict.quantities.designs import single  # for names alone, no numbers
-    from geneva_cli.verdict.quantities.motion import motion_of
+    from geneva_cli.verdict.quantities.motion import product_motion_of
 
-    motion = single(mechanism).once(motion_of)
+    motion = single(mechanism).once(product_motion_of)
     assert motion is not None  # the spec refuses limit and friction without the product's place
     return motion

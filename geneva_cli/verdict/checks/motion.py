@@ -38,16 +38,16 @@ def curved_slot_pressure(name: str, mechanism: Mechanism) -> Check | None:
     has_limit = mechanism.spec.limits.pressure_angle_max_deg is not None
     if has_limit or not mechanism.engagements[0].slot.curved:
         return None
-    return _greatest(name, mechanism, 90.0)
+    return _greatest_pressure(name, mechanism, 90.0)
 
 
 def limited_pressure(name: str, mechanism: Mechanism) -> Check | None:
     """The pressure angle of any slots, with the spec's limit."""
     limit = mechanism.spec.limits.pressure_angle_max_deg
-    return None if limit is None else _greatest(name, mechanism, limit)
+    return None if limit is None else _greatest_pressure(name, mechanism, limit)
 
 
-def _greatest(name: str, mechanism: Mechanism, limit: float) -> Check:
+def _greatest_pressure(name: str, mechanism: Mechanism, limit: float) -> Check:
     from geneva_cli.loads import loads
 
     peak = loads.greatest_pressure(mechanism)

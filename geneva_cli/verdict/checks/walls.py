@@ -128,15 +128,16 @@ def branches_apart(name: str, parts: FlatParts) -> Check | None:
 
     If it exceeds the slot's width, an island between them falls out.
     """
-    return _greatest(name, parts, 1.0)
+    return _greatest_gap(name, parts, 1.0)
 
 
 def branches_crossed(name: str, parts: FlatParts) -> Check | None:
     """The greatest distance where the branches have crossed."""
-    return _greatest(name, parts, -1.0)
+    return _greatest_gap(name, parts, -1.0)
 
 
-def _greatest(name: str, parts: FlatParts, side: float) -> Check | None:
+def _greatest_gap(name: str, parts: FlatParts, side: float) -> Check | None:
+    """The greatest distance of the branches of a curved slot; ``side`` is -1 where they crossed."""
     outlines = parts.outlines
     engagement = outlines.assembly.slots[0][0]
     if not engagement.slot.curved:

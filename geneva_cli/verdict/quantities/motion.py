@@ -125,14 +125,14 @@ def counter(of: Designs) -> Columns:
     }
 
 
-def motion_of(of: Designs) -> ProductMotion | None:
+def product_motion_of(of: Designs) -> ProductMotion | None:
     """The motion of the products; None if their place is not known."""
     return product_motion(of.machine)
 
 
 def product(of: Designs) -> Columns:
     """The product's motion; None without its place. Infinite where a design has no value."""
-    motion = of.once(motion_of)
+    motion = of.once(product_motion_of)
     if motion is None:
         return {}
     out: dict[str, Number | None] = {}

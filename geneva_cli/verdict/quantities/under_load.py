@@ -14,7 +14,7 @@ from geneva_cli.layout.sphere_sizes import sized_ball
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.strength import lock, roller, shafts
 from geneva_cli.loads.summaries import load_peaks
-from geneva_cli.numerics.arrays import parameter
+from geneva_cli.numerics.arrays import Array, parameter
 from geneva_cli.verdict.part_sizes import (
     LockSizes,
     PartSizes,
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from geneva_cli.loads.strength.lock import LockUnderTorque
     from geneva_cli.loads.strength.part_loads import PartLoads
     from geneva_cli.loads.strength.roller import SlotPassage
-    from geneva_cli.numerics.arrays import Array
     from geneva_cli.verdict.quantities.designs import Designs
 
 

@@ -1,4 +1,4 @@
-"""Loads of a period, and what disturbs the motion: vibration and tolerances."""
+"""Loads of a period, the keys that strength needs, positive drive, vibration and tolerances."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.quantities.designs import Values
 from geneva_cli.verdict.quantities.groups import own_names
 from geneva_cli.verdict.strength import REASONS, strength
+
+SAMPLES = 65536  # random machines, as ``geneva tolerance`` draws by default
 
 
 def greatest_loads(model: PartsModel) -> Values:
@@ -47,19 +49,20 @@ def cycle(model: PartsModel) -> Values:
 
 
 def needs(model: PartsModel) -> Values:
-    """A line for each set of keys."""
+    """The keys that unknown values of strength and life need: a line for each set of keys."""
     return {"strength.needs": tuple(strength(model.mechanism).missing(tuple(REASONS)))}
 
 
 def slot(model: PartsModel) -> Values:
-    """False if the wall that must push is cut away; None for straight slots."""
+    """Whether a wall pushes throughout, which may be cut away; None for straight slots."""
     drive = positive_drive(model.mechanism)
     return {"slot.positively_driven": not drive.loose_deg if drive else None}
 
 
 def vibration(model: PartsModel) -> Values:
-    """None without a stiffness, and why where inertia is missing or its period is out of range.
+    """The load on its elastic shaft: what an index leaves swinging, and the speeds to avoid.
 
+    None without a stiffness, and why where inertia is missing or its period is out of range.
     Bands, stations and warnings are those of ``geneva vibration``.
     """
     mechanism = model.mechanism
@@ -76,9 +79,6 @@ def vibration(model: PartsModel) -> Values:
         return out | {"vibration.none": str(error)}
     named = ((f"vibration.{name}", value) for name, value in results.items())
     return out | {name: value for name, value in named if name in out}
-
-
-SAMPLES = 65536  # random machines
 
 
 def tolerances(model: PartsModel) -> Values:

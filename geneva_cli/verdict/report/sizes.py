@@ -1,4 +1,4 @@
-"""The keys that the numbers depend on, and sizes in mm or, on a sphere, in degrees."""
+"""Sizes in mm or, on a sphere, in degrees; the keys that the numbers of a report depend on."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ def _sphere_sizes(mechanism: Mechanism, L: float, r: float) -> Values:
 
 
 def inputs(model: PartsModel) -> Values:
-    """The values of these keys."""
+    """The values of the keys that the numbers of a report depend on."""
     spec = model.mechanism.spec
     known = {  # if a key is left out
         "wheel": {"held_by": spec.wheel.held_by},

@@ -1,4 +1,4 @@
-"""The effects of one machine's tolerances on its dwell, motion, entry and clearances."""
+"""The effects of one machine's tolerances on its dwell, motion, entry and clearances; its locks."""
 
 from __future__ import annotations
 
@@ -30,6 +30,8 @@ from geneva_cli.numerics.jet import Array
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.sphere.shells import Shells
 from geneva_cli.verdict.tolerance.needed import RequiredClearances, required_clearances
+
+SAME = 1e-6  # fraction of the centre distance, or radians: nearer radii and angles are equal
 
 
 class EntryJumps(NamedTuple):
@@ -175,7 +177,9 @@ def _locks(
     if not mechanism.spec.is_turned:
         return []
     try:
-        return locks(model.outlines) if mechanism.spec.wheel.FLAT else sphere_locks(model.shells)
+        return (
+            flat_locks(model.outlines) if mechanism.spec.wheel.FLAT else sphere_locks(model.shells)
+        )
     except GenevaError as error:
         warnings.append(Notice("not-known", f"no parts: {error}"))
         return []
@@ -190,16 +194,13 @@ def _greatest(values: Array) -> float:
     return float(np.max(values))
 
 
-SAME = 1e-6  # fraction of the centre distance, or radians: nearer radii and angles are equal
-
-
-def locks(outlines: Outlines) -> list[Lock]:
+def flat_locks(outlines: Outlines) -> list[Lock]:
     """Each corner of a recess with each locking arc of the crank; none without a locking disc."""
     size, assembly = outlines.sizes, outlines.assembly
     if not outlines.crank:
         return []
     near = SAME * assembly.L
-    corners = {
+    radii = {
         round(math.hypot(*end) / near): math.hypot(*end)
         for arc in _arcs(outlines.wheel)
         if abs(math.hypot(*arc.centre) - assembly.L) < near and abs(arc.radius - size.recess) < near
@@ -212,8 +213,8 @@ def locks(outlines: Outlines) -> list[Lock]:
         if math.hypot(*arc.centre) < near and abs(arc.radius - size.lock) < near
     }
     return [
-        Lock(assembly.L, assembly.sign, size.lock, size.recess, corner, half)
-        for corner in corners.values()
+        Lock(assembly.L, assembly.sign, size.lock, size.recess, radius, half)
+        for radius in radii.values()
         for half in halves.values()
         if half > SAME
     ]
