@@ -145,8 +145,8 @@ def _starts_at_speed(mechanism: Mechanism) -> list[Notice]:
     return [
         Notice(
             "speed-jumps",
-            f"at entry and exit the wheel's speed jumps by {w:.4g} rad/s, {impact.jump:.4g} of the "
-            f"input's. Acceleration and forces have no bound there: {hit}",
+            f"at entry and exit the {spec.output.noun}'s speed jumps by {w:.4g} rad/s, "
+            f"{impact.jump:.4g} of the input's. Acceleration and forces have no bound there: {hit}",
         )
     ]
 
