@@ -92,7 +92,7 @@ def main(pages):
                 if name:
                     with open(name, "a", encoding="utf-8") as file:
                         file.write(text)
-                elif not set("$>|") & set(text):
+                elif not set("$>|") & set(re.sub('"[^"]*"', "", text)):  # no shell is at hand
                     for found in screens(text):
                         wrong += 1
                         print(*found, sep="\n  ", flush=True)
