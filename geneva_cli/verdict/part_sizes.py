@@ -54,12 +54,19 @@ def number_columns(rows: Sequence[Sequence[float] | None]) -> list[float] | None
 
     They are NaN for a design without numbers.
     """
+    columns = _columns(rows)
+    if columns is None:
+        return None
+    return [parameter(column[:, None]) if len(rows) > 1 else column.item() for column in columns]
+
+
+def _columns(rows: Sequence[Sequence[float] | None]) -> Array | None:
+    """The k columns of m designs' numbers, (k, m), NaN without any; None if no design has any."""
     known = next((row for row in rows if row is not None), None)
     if known is None:
         return None
     none = [math.nan] * len(known)
-    columns = np.array([none if row is None else row for row in rows]).T[..., None]
-    return [parameter(column) if len(rows) > 1 else column.item() for column in columns]
+    return np.array([none if row is None else row for row in rows]).T
 
 
 class PartSizes(NamedTuple):
@@ -76,12 +83,9 @@ class PartSizes(NamedTuple):
 
 def part_sizes(parts: Sequence[Stressed | None]) -> PartSizes | None:
     """The dimensions of the parts of m designs; None if no design has parts."""
-    rows = [_numbers(one) if one else [] for one in parts]
-    every = [row for row in rows if row]
-    if not every:
+    columns = _columns([_numbers(one) if one else None for one in parts])
+    if columns is None:
         return None
-    none = [math.nan] * len(every[0])
-    columns = np.array([row or none for row in rows]).T
     contact, pin, *rest = columns
     arm, key = len(ArmDimensions._fields), len(KeyDimensions._fields)
     starts = np.cumsum([0, 2, 2, arm, key, key])
