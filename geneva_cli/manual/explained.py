@@ -6,8 +6,6 @@ first paragraph is the meaning. Items with a label have the fields: ``- Formula:
 for later entries too whose names begin with the same word.
 """
 
-from __future__ import annotations
-
 import os
 import re
 from functools import cache

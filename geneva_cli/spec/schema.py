@@ -4,6 +4,9 @@ A field is annotated with its type, its rule and its meaning. The reader, the wr
 and Python users all use that line:
 
     A: Annotated[float, Range(-1.0, 1.0, "()"), "base offset / crank length"]
+
+Most modules of tables do without ``from __future__ import annotations``: text that is evaluated
+when a run starts takes longer than objects.
 """
 
 from __future__ import annotations

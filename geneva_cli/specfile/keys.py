@@ -1,7 +1,5 @@
 """Every key of a spec: its unit, type, range, default, and the kinds that have it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 

@@ -1,7 +1,5 @@
 """Meanings of words: a check, a quantity, a kind, a law, a warning, a part, or a key of a spec."""
 
-from __future__ import annotations
-
 import inspect
 import textwrap
 from functools import cache

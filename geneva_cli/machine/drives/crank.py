@@ -5,8 +5,6 @@ one does. The cranks work in turn, crank j after the j-th part of a turn of the 
 moves as by one crank with that many rollers, and so do the loads.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, ClassVar, Self
 
