@@ -128,7 +128,8 @@ V = TypeVar("V", Jet, "Array")
 
 def _is_constant(c: Sequence[Number]) -> bool:
     """Return True if all coefficients but the value are the number 0, not an array."""
-    return len(c) > 1 and _are_zero(c[1:])
+    # most often the first of them says no, before any is copied
+    return len(c) > 1 and isinstance(c[1], float) and _are_zero(c[1:])
 
 
 def _are_zero(c: Sequence[Number]) -> bool:
@@ -369,12 +370,12 @@ def _by_parts(x: Array, index: Whole, pieces: Sequence[Callable[[Array], Jet]]) 
         return pieces[0](x)
     # np.unique would import numpy.ma, a sixth of a short run
     parts: dict[Callable[[Array], Jet], Mask] = {}
-    for i in np.flatnonzero(np.bincount(index.ravel())).tolist():
+    for i in np.bincount(index.ravel()).nonzero()[0].tolist():
         here, piece = index == i, pieces[i]
         parts[piece] = parts[piece] | here if piece in parts else here
     alone = len(parts) == 1  # the same array object, for which values may be cached
     jets = [(where, piece(x if alone else x[where]).c) for piece, where in parts.items()]
-    designs = np.broadcast_shapes(*[np.shape(c)[:-1] for _, jet in jets for c in jet])
+    designs = np.broadcast_shapes(*{np.shape(c)[:-1] for _, jet in jets for c in jet})
     out = [np.empty((*designs, *x.shape)) for _ in jets[0][1]]
     for where, jet in jets:
         for total, part in zip(out, jet, strict=True):
