@@ -330,11 +330,10 @@ def _are_long_and_alike(one: Number, other: Number) -> bool:
         return False
     import numpy
 
-    # a sum of shorter arrays takes less time than to compare them
-    if not isinstance(one, numpy.ndarray) or one.nbytes < 8_000:
+    if not (isinstance(one, numpy.ndarray) and isinstance(other, numpy.ndarray)):
         return False
-    both = isinstance(other, numpy.ndarray)
-    return both and one.shape == other.shape and one.dtype == other.dtype
+    # a sum of shorter arrays takes less time than to compare them
+    return one.nbytes >= 8_000 and one.shape == other.shape and one.dtype == other.dtype
 
 
 def designs_of(design: int | Whole) -> int:
