@@ -236,6 +236,39 @@ def test_force_of_a_stiff_contact_is_that_of_the_pin():
     near(force_of(design.mechanism, 0.02), 0.02 * 2 * mp.pi * mp.sqrt(k * mp.mpf("1.2")), 1e-3)
 
 
+# bending moments over the force, from the plate, a away from the roller's middle: by statics, and
+# for a fixed pin with level ends
+MOMENTS = {
+    "cantilever": lambda x, a: a - x,
+    "supported": lambda x, a: x / 2,
+    "fixed": lambda x, a: x / 2 - a / 4,
+}
+
+
+@pytest.mark.parametrize("held", MOMENTS)
+@pytest.mark.parametrize(("pin_mm", "d"), [(6.0, 6.0), (0.0, 16.4), (None, 8.0)])
+def test_force_counts_how_the_pin_is_held(held, pin_mm, d):
+    """The pin's energy in bending is the impact's; without a pin it is the roller that bends.
+
+    The default pin is half as thick as the roller, 8.2 mm, rounded to 8.
+    """
+    size = Size(
+        face_width_mm=18.0, roller_radius_mm=8.2, pin_mm=pin_mm, pin_gap_mm=1.5, pin_held=held
+    )
+    design = Design(External(6), size=size, load=Load(inertia_kgm2=1.2))
+    a, inertia = mp.mpf("10.5"), mp.pi * mp.mpf(d) ** 4 / 64
+    half = mp.quad(lambda x: MOMENTS[held](x, a) ** 2, [0, a]) / (210e3 * inertia)
+    give = half if held == "cantilever" else 2 * half  # mm/N: the other half bends alike
+    press = mp.mpf("3.84e-5") / mp.mpf(18) ** mp.mpf("0.8")  # steel on steel
+    energy = mp.mpf("1.2") * (mp.mpf("0.02") * 2 * mp.pi) ** 2 / 2 * 1000  # N mm
+
+    def left(Q):
+        pressed = press * mp.mpf("0.9") / mp.mpf("1.9") * Q ** mp.mpf("1.9")
+        return pressed + give * Q * Q / 2 - energy
+
+    near(force_of(design.mechanism, 0.02), mp.findroot(left, 500), 1e-12)
+
+
 def test_force_and_impulse_need_something_to_strike():
     bare = Design(External(6)).mechanism
     assert force_of(bare, 0.1) is None
