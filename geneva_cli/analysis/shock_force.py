@@ -8,7 +8,7 @@ force Q the roller is pressed into the wall and its pin is bent, together by
 The force is greatest where c Q^1.9 0.9 / 1.9 + Q² / (2 k) equals the energy I dw² / 2. For a spring
 only, as teeth are, it is dv sqrt(k m), for any lever. Palmgren measured c for steel on steel (Ball
 and Roller Bearing Engineering, 3rd ed., 1959). It is proportional to the 0.9th power of the
-materials' softness. The pin bends under a force in the middle of its roller (``pin.stiffness_N_mm``).
+materials' softness. The pin bends under a force in its roller's middle (``pin.stiffness_N_mm``).
 """
 
 from __future__ import annotations
