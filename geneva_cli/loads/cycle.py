@@ -16,8 +16,14 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.analysis.contact import contact, contacts
-from geneva_cli.analysis.forces import LoadCase, feeding, load_case, sliding, wheel_torque
-from geneva_cli.analysis.instant import INSTANT_QUANTITIES, Instant, bounded, values
+from geneva_cli.analysis.forces import LoadCase, load_case
+from geneva_cli.analysis.instant import (
+    INSTANT_QUANTITIES,
+    Instant,
+    bounded,
+    bounded_loads,
+    values,
+)
 from geneva_cli.analysis.load_functions import NO_MORE, LoadFunctions, load_batch
 from geneva_cli.analysis.quantities import KINETIC, known_quantities, sources
 from geneva_cli.analysis.stretches import (
@@ -106,15 +112,9 @@ class Cycle:
         """Arrays (n,) at input angles of an engagement, degrees from its own mid-motion."""
         from geneva_cli.analysis.mid_motion import at_crossing
 
-        case, at = self.case, contacts(engagement, input_deg)
-        torque = wheel_torque(case, at)
-        drives = np.copysign(1.0, torque)
-        slides = np.copysign(1.0, sliding(at, drives, case.radius))
-        feeds = np.copysign(1.0, feeding(case, at, drives, slides))
-        with np.errstate(all="ignore"):
-            moving_values = bounded(Instant(case, at, drives, slides, feeds))
+        moving_values = bounded_loads(self.case, contacts(engagement, input_deg))
         middle = input_deg == 0.0
-        limits = at_crossing(engagement, case) if middle.any() else None
+        limits = at_crossing(engagement, self.case) if middle.any() else None
         if limits is None:
             return moving_values
         every = dict[str, object](moving_values.quantities())

@@ -9,6 +9,7 @@ from functools import cache, partial
 import numpy as np
 import pytest
 from design_arrays import MACHINES, alone, drawn
+from load_states import state
 
 from geneva_cli.analysis import change_of_sides, impacts, undercut
 from geneva_cli.analysis import positive_drive as positive
@@ -21,7 +22,6 @@ from geneva_cli.analysis.vibration.answers import values
 from geneva_cli.analysis.vibration.oscillator import required_oscillator
 from geneva_cli.analysis.vibration.vibration import design_vibrations
 from geneva_cli.kinematics import registry
-from geneva_cli.loads import loads
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.sizing import SIZING_NAMES, sizing, sizings
 from geneva_cli.loads.strength import horn, lock, roller, shafts
@@ -144,11 +144,11 @@ def test_states(name):
     machine, each = designs(name)
     for number, engagement in enumerate(machine.engagements):
         x = engagement.entry_deg + engagement.motion_deg * np.linspace(0.0, 1.0, 6)
-        found, first = loads.state(machine, engagement, x), loads.state(machine, engagement, -1.0)
+        found, first = state(machine, engagement, x), state(machine, engagement, -1.0)
         for i, one in each:
             own = np.broadcast_to(x, (i + 1, 6))[i]
-            told = loads.state(one, one.engagements[number], own)
-            at = loads.state(one, one.engagements[number], -1.0)
+            told = state(one, one.engagements[number], own)
+            at = state(one, one.engagements[number], -1.0)
             for name_, rows in told._asdict().items():
                 both = (np.atleast_2d(v._asdict()[name_]) for v in (found, first))
                 here, there = (v[min(i, len(v) - 1)] for v in both)
