@@ -18,7 +18,7 @@ from geneva_cli.analysis.load_functions import (
     load_batch,
     signed_instant,
 )
-from geneva_cli.analysis.quantities import SQUARED, multiples, plain_values, square_of
+from geneva_cli.analysis.quantities import SQUARED, multiples, plain_values
 from geneva_cli.analysis.stretches import mirror_images, spans_of
 from geneva_cli.loads.groups import of_groups
 from geneva_cli.machine.mechanism import Mechanism
@@ -98,10 +98,6 @@ def means_from(
 
 def _sums_of(load: LoadFunctions, n: int, plain: bool) -> Array:
     """The integrals without a search for extremes: designs are only divided where signs change."""
-    from geneva_cli.loads.inertia_means import is_balanced, squares
-
-    if is_balanced(load) and not plain:
-        return squares(load, n)
     spans, only = spans_of(load.engagement, n), SignFunctions(load)
     pieces = search(only, spans, n, False, w=load.spread).stretches
     with np.errstate(all="ignore"):
@@ -172,7 +168,7 @@ def powers(load: LoadFunctions, state: ContactState, signs: Array | None, plain:
     out = np.empty((2 * count if plain else count, *shape[::-1])).swapaxes(1, 2)
     for i, (name, quantity) in enumerate(zip(load.names, wanted, strict=True)):
         value = array(quantity(here, at).value.c[0])
-        out[i] = square_of(value, name)
+        out[i] = value if name in SQUARED else value * value
         if plain:
             out[count + i] = plain_values(value, name)
     return out
