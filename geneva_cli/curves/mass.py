@@ -52,8 +52,6 @@ def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
 
 def solid_properties(solid: Plate | Stack, density_kgm3: float) -> MassProperties:
     """Mass, centroid and inertia of a flat or a turned part."""
-    if isinstance(solid, Plate):
-        return mass_properties(solid, density_kgm3)
     return reduce(added, (mass_properties(one, density_kgm3) for one in solid.plates))
 
 
