@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.measure import with_material_left
+from geneva_cli.curves.moments import with_material_left
 from geneva_cli.curves.shapes import Circle, Shape, as_contour
 from geneva_cli.errors import GenevaError
 

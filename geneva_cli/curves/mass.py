@@ -8,8 +8,7 @@ from functools import reduce
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.curves.hole_walls import require_faces
-from geneva_cli.curves.measure import with_material_left
-from geneva_cli.curves.moments import Moments, moments, total
+from geneva_cli.curves.moments import Moments, moments, total, with_material_left
 from geneva_cli.curves.plates import Plate, Stack
 from geneva_cli.curves.shapes import Circle, Contour, Point, Shape, as_contour
 

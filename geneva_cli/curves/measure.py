@@ -1,6 +1,6 @@
-"""Bounds, areas and lengths of shapes, and shapes moved and rotated.
+"""Bounds and lengths of shapes, and shapes moved and rotated.
 
-Lengths are in the unit of the coordinates, areas in its square. Arcs are computed from their ends
+Lengths are in the unit of the coordinates. Arcs are computed from their ends
 and bulge. The centre of a nearly straight arc is far away and inaccurate.
 """
 
@@ -19,7 +19,6 @@ from geneva_cli.curves.shapes import (
     Point,
     Segment,
     Shape,
-    backwards,
 )
 
 STRAIGHT = 1e-16  # a bulge below it moves no point of the arc by a rounding of the chord
@@ -48,25 +47,6 @@ def bounds(shape: Shape) -> Box:
         (x, y), r = shape.centre, shape.radius
         return Box(x - r, y - r, x + r, y + r)
     return _box(p for segment in shape.segments for p in _extremes(segment))
-
-
-def area(shape: Shape) -> float:
-    """Area inside, positive if the contour runs counterclockwise; in closed form.
-
-    An open contour is closed by the chord from its end to its start. Green's theorem is applied
-    about the first point, so that a shape far from the origin loses no digits.
-    """
-    if isinstance(shape, Circle):
-        return math.pi * shape.radius * shape.radius
-    if not shape.segments:
-        return 0.0
-    origin = shape.segments[0].start
-    return math.fsum(_swept(segment, origin) for segment in shape.segments)
-
-
-def with_material_left(shape: Contour, outside: bool) -> Contour:
-    """Contour that runs counterclockwise as an outline, and clockwise as a hole."""
-    return shape if (area(shape) > 0.0) is outside else backwards(shape)
 
 
 def segment_length(segment: Segment) -> float:
@@ -227,40 +207,6 @@ def _level(a: float, b: float, c: float, d: float) -> list[float]:
     roots = [root / square] if square else []
     roots += [e / root] if root else []
     return [t for t in roots if 0.0 < t < 1.0]
-
-
-def _swept(segment: Segment, origin: Point) -> float:
-    """Area that the ray from the origin to the segment's point sweeps."""
-    points = [(x - origin[0], y - origin[1]) for x, y in _points(segment)]
-    if isinstance(segment, Cubic):
-        p, q, r, s = points
-        pairs = 6.0 * (_cross(p, q) + _cross(r, s)) + 3.0 * (_cross(p, r) + _cross(q, s))
-        return 0.05 * (pairs + 3.0 * _cross(q, r) + _cross(p, s))
-    triangle = 0.5 * _cross(points[0], points[1])
-    if isinstance(segment, Line):
-        return triangle
-    return triangle + _cap(math.dist(*points), segment.sweep)
-
-
-def _cap(chord: float, sweep: float) -> float:
-    """Area between an arc and its chord: chord^2 (sweep - sin sweep) / (8 sin^2(sweep/2))."""
-    if abs(sweep) < 0.5:  # radians; the difference sweep - sin sweep would cancel
-        square = sweep * sweep
-        rest = 1.0
-        for k in (12, 10, 8, 6, 4):  # 6 (sweep - sin sweep) / sweep^3, from its far end
-            rest = 1.0 - rest * square / (k * (k + 1))
-        sinc = math.sin(0.5 * sweep) / (0.5 * sweep) if sweep else 1.0
-        return chord * chord * sweep * rest / (12.0 * sinc * sinc)
-    sine = math.sin(0.5 * sweep)
-    return chord * chord * (sweep - math.sin(sweep)) / (8.0 * sine * sine)
-
-
-def _points(segment: Segment) -> tuple[Point, ...]:
-    return tuple(segment) if isinstance(segment, Cubic) else (segment.start, segment.end)
-
-
-def _cross(p: Point, q: Point) -> float:
-    return p[0] * q[1] - p[1] * q[0]
 
 
 def _polygon(cubic: Cubic) -> float:

@@ -13,15 +13,8 @@ from scipy.integrate import quad
 from shapely.geometry import LineString, Point, Polygon
 
 from geneva_cli.curves.drawing import Drawing, extent
-from geneva_cli.curves.measure import (
-    area,
-    at,
-    bounds,
-    fraction_at,
-    halves,
-    segment_length,
-    turned,
-)
+from geneva_cli.curves.measure import at, bounds, fraction_at, halves, segment_length, turned
+from geneva_cli.curves.moments import area
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, about, closed
 from geneva_cli.errors import GenevaError
 

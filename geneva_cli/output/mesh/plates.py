@@ -14,7 +14,8 @@ from typing import NamedTuple
 
 from geneva_cli.curves.cross_holes import CrossHole, Opening
 from geneva_cli.curves.inset import away, inset, lines_and_arcs
-from geneva_cli.curves.measure import fraction_at, with_material_left
+from geneva_cli.curves.measure import fraction_at
+from geneva_cli.curves.moments import with_material_left
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, as_contour
 from geneva_cli.output.mesh.polygons import (
