@@ -20,6 +20,7 @@ from geneva_cli.curves.shapes import (
     Point,
     Segment,
     Shape,
+    as_contour,
     backwards,
 )
 
@@ -86,6 +87,12 @@ def area(shape: Shape) -> float:
 def with_material_left(shape: Contour, outside: bool) -> Contour:
     """Contour that runs counterclockwise as an outline, and clockwise as a hole."""
     return shape if (area(shape) > 0.0) is outside else backwards(shape)
+
+
+def oriented(outline: Shape, holes: Iterable[Shape]) -> list[Contour]:
+    """A face's outline and holes as contours with the material on their left."""
+    inner = [with_material_left(as_contour(hole), False) for hole in holes]
+    return [with_material_left(as_contour(outline), True), *inner]
 
 
 def total(parts: Iterable[Moments]) -> Moments:
