@@ -41,7 +41,7 @@ from geneva_cli.analysis.load_functions import LoadQuantity
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
-from geneva_cli.numerics.arrays import N, only_of, parameter
+from geneva_cli.numerics.arrays import N, parameter
 from geneva_cli.numerics.jet import Array, Jet, Number, sqrt
 from geneva_cli.spec.tables import Shaft
 
@@ -51,7 +51,7 @@ if TYPE_CHECKING:
 
 
 class ShaftStress(NamedTuple):
-    """Results for a shaft over its cycle; None for unknown values; (m,) each for m designs."""
+    """Results for the shafts of m designs over their cycles, (m,) each; None for unknown values."""
 
     moment_Nm: float  # greatest sqrt((Kb M)² + (Kt T)²)
     at_deg: float
@@ -188,23 +188,13 @@ class Torque(NamedTuple):
         return QuantityValue(torque * torque, i.grip)
 
 
-def shaft(mechanism: Mechanism, ends: ShaftDimensions, loaded: ShaftForces) -> ShaftStress | None:
-    """A shaft under the force and torque of a cycle; None without an overhang or without a load.
-
-    Moments are infinite if the force has no bound.
-    """
-    batch = shafts_under_load(mechanism, ends, loaded)
-    if batch is None:
-        return None
-    moment, at_deg, *rest = only_of(batch)
-    assert moment is not None and at_deg is not None
-    return ShaftStress(moment, at_deg, *rest)
-
-
 def shafts_under_load(
     mechanism: Mechanism, ends: ShaftDimensions, loaded: ShaftForces
 ) -> ShaftStress | None:
-    """Shafts of m designs; None if none has an overhang or a load."""
+    """Shafts of m designs under the force and torque of a cycle; infinite without a bound.
+
+    None if no design has an overhang or a load.
+    """
     if ends.overhang_mm is None or not mechanism.spec.is_loaded:
         return None
     own = _wanted(mechanism, ends, loaded)
