@@ -25,7 +25,7 @@ from geneva_cli.analysis.forces import (
     wheel_torque,
 )
 from geneva_cli.analysis.instant import Instant
-from geneva_cli.analysis.quantities import PV, QUANTITIES, Quantity
+from geneva_cli.analysis.quantities import PV, QUANTITIES
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE
@@ -42,23 +42,13 @@ MARGINS = ("grip", "edge")  # where one of them is not above 0, a quantity is un
 
 
 class LoadQuantity(Protocol):
-    """A quantity as a function of an instant and its contact.
+    """A quantity as a function of an instant of jets.
 
     The function is a tuple whose numbers may be arrays (m, 1), or holds no numbers.
     """
 
-    def __call__(self, i: Instant[Jet], at: Contact[Jet], /) -> QuantityValue[Jet]:
+    def __call__(self, i: Instant[Jet], /) -> QuantityValue[Jet]:
         """The quantity, and the margin that bounds it."""
-
-
-class NamedQuantity(NamedTuple):
-    """One of ``QUANTITIES``, which do not need the contact."""
-
-    quantity: Quantity
-
-    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
-        """The quantity, and the margin that bounds it."""
-        return self.quantity(i)
 
 
 NO_MORE: Mapping[str, LoadQuantity] = MappingProxyType({})  # no quantities besides the named ones
@@ -85,7 +75,7 @@ def load_batch(
     engagement: Engagement, case: LoadCase, names: Sequence[str], own: Mapping[str, LoadQuantity]
 ) -> LoadBatch:
     """A batch of one engagement, with quantities by name: from ``own``, or else of the cycle."""
-    wanted = [own[name] if name in own else NamedQuantity(QUANTITIES[name]) for name in names]
+    wanted = [own[name] if name in own else QUANTITIES[name] for name in names]
     return LoadBatch(engagement, case, tuple(wanted))
 
 
@@ -173,7 +163,7 @@ class LoadFunctions:
             at: Contact[Jet], drives: Number, slides: Number, feeds: Number
         ) -> list[QuantityValue[Jet]]:
             instant = Instant(case, at, drives, slides, feeds)
-            return [quantity(instant, at) for quantity in wanted]
+            return [quantity(instant) for quantity in wanted]
 
         return at_mid_motion(engagement, case, rows, n)
 
@@ -224,7 +214,7 @@ class LoadFunctions:
         for i, sign in enumerate(signed.signs):
             positive[i] = sign > 0.0
         for i, quantity in enumerate(wanted, self.signs):
-            row = quantity(signed.instant, contact)
+            row = quantity(signed.instant)
             for k in orders:
                 values[k][i] = row.value.c[k]
             if row.margin is not None:
@@ -335,7 +325,7 @@ def signed_instant(
         "leans": lambda: leaning(case, at, drives, slides),
         "edge": lambda: instant.edge,
         "along": lambda: at.along,
-        "wanted": lambda: wanted(instant, at).value if wanted else None,
+        "wanted": lambda: wanted(instant).value if wanted else None,
     }
     for kind, function in others.items():
         jet = function() if kind in kinds else None

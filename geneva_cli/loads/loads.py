@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.carried import inertia_kgm2
-from geneva_cli.analysis.contact import Contact, is_straight
+from geneva_cli.analysis.contact import is_straight
 from geneva_cli.analysis.forces import Forces, LoadCase, QuantityValue, load_case
 from geneva_cli.analysis.instant import Instant
 from geneva_cli.analysis.load_functions import LoadFunctions, LoadQuantity, load_batch
@@ -54,9 +54,9 @@ def greatest(mechanism: Mechanism, name: str) -> Peak[float]:
 class Slope(NamedTuple):
     """The square of the pressure angle's tangent, as a quantity of ``load_peaks``."""
 
-    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
+    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
         """The quantity, which is bounded where its denominator is not 0."""
-        slope = at.offset / at.lever
+        slope = i.at.offset / i.at.lever
         return QuantityValue(slope * slope)
 
 
@@ -146,11 +146,11 @@ class Slowness(NamedTuple):
     limit: float
     case: LoadCase  # at 1 rad/s
 
-    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
+    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
         """The quantity, which is unbounded where the place allows no speed."""
         unit = self.case.at_speed(0.0)._replace(resists_Nm=1.0)
-        factor = self.of(Forces(unit, at, i.drives, i.slides))
-        load = self.of(Forces(self.case._replace(resists_Nm=0.0), at, i.drives, i.slides))
+        factor = self.of(Forces(unit, i.at, i.drives, i.slides))
+        load = self.of(Forces(self.case._replace(resists_Nm=0.0), i.at, i.drives, i.slides))
         left = self.limit - factor * self.case.resists_Nm
         # Where the wheel is not driven, any speed keeps the limit. The margin is then that next to
         # it, as at rest the load's sign is rounding.

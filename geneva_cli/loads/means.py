@@ -167,7 +167,7 @@ def powers(load: LoadFunctions, state: ContactState, signs: Array | None, plain:
     count = len(load.names)
     out = np.empty((2 * count if plain else count, *shape[::-1])).swapaxes(1, 2)
     for i, (name, quantity) in enumerate(zip(load.names, wanted, strict=True)):
-        value = array(quantity(here, at).value.c[0])
+        value = array(quantity(here).value.c[0])
         out[i] = value if name in SQUARED else value * value
         if plain:
             out[count + i] = plain_values(value, name)
