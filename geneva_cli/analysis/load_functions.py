@@ -6,7 +6,7 @@ quantities, the signs that matter, and how widely samples are spread about mid-m
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple, Protocol
@@ -59,6 +59,7 @@ class LoadBatch(NamedTuple):
 
     engagement: Engagement
     case: LoadCase
+    names: tuple[str, ...]
     quantities: tuple[LoadQuantity, ...]
 
 
@@ -72,11 +73,15 @@ class ContactState(NamedTuple):
 
 
 def load_batch(
-    engagement: Engagement, case: LoadCase, names: Sequence[str], own: Mapping[str, LoadQuantity]
+    engagement: Engagement,
+    case: LoadCase,
+    names: Iterable[str],
+    own: Mapping[str, LoadQuantity] = NO_MORE,
 ) -> LoadBatch:
     """A batch of one engagement, with quantities by name: from ``own``, or else of the cycle."""
-    wanted = [own[name] if name in own else QUANTITIES[name] for name in names]
-    return LoadBatch(engagement, case, tuple(wanted))
+    every = tuple(names)
+    wanted = [own[name] if name in own else QUANTITIES[name] for name in every]
+    return LoadBatch(engagement, case, every, tuple(wanted))
 
 
 class LoadFunctions:
@@ -85,10 +90,10 @@ class LoadFunctions:
     ``kinds`` are the signs that matter: those at which quantities jump, and those in ``more``.
     """
 
-    def __init__(self, batch: LoadBatch, names: Sequence[str], more: Sequence[str] = ()) -> None:
-        self.batch, self.names, self.n = batch, names, batch.case.designs
-        self.engagement = engagement = batch.engagement
-        case = batch.case
+    def __init__(self, batch: LoadBatch, more: Sequence[str] = ()) -> None:
+        self.batch, self.n = batch, batch.case.designs
+        self.engagement, case, self.names, _ = batch
+        engagement, names = self.engagement, self.names
         # p v is 0 where the sliding is, in a notch that may be near a pole
         self.kinds = kinds(engagement, case, (*more, "slides") if PV in names else more)
         self.signs, self.wanted = len(self.kinds), len(names)
@@ -140,7 +145,7 @@ class LoadFunctions:
             self._slice, self._block, self._contacts = which, taken(self.batch, which), []
         if not self.mirrored:
             return self._state(self._block, x, order)
-        _, case, wanted = self._block
+        _, case, _, wanted = self._block
         for other, at in self._contacts if order == 0 else ():
             if np.array_equal(other, -x[:, ::-1]):
                 return ContactState(case, mirrored(at), x.shape, wanted)
@@ -154,7 +159,7 @@ class LoadFunctions:
 
     def at_mid_motion(self, n: int) -> list[MidMotionValues]:
         """The quantities of n designs at mid-motion, which no span of curved slots reaches."""
-        engagement, case, wanted = self.batch
+        engagement, case, _, wanted = self.batch
         if not engagement.slot.curved:
             return []
         from geneva_cli.analysis.mid_motion import at_mid_motion

@@ -24,7 +24,7 @@ from geneva_cli.analysis.instant import (
     bounded_loads,
     values,
 )
-from geneva_cli.analysis.load_functions import NO_MORE, LoadFunctions, load_batch
+from geneva_cli.analysis.load_functions import LoadFunctions, load_batch
 from geneva_cli.analysis.quantities import KINETIC, known_quantities, sources
 from geneva_cli.analysis.stretches import (
     Stretch,
@@ -136,8 +136,7 @@ class Cycle:
         """For each engagement, the search for the extremes of known quantities, and its cuts."""
         names, out = [*known_quantities(self.mechanism), KINETIC], []
         for engagement in self.mechanism.engagements:
-            every = load_batch(engagement, self.case, names, NO_MORE)
-            load = LoadFunctions(every, names, ("slides", "feeds"))
+            load = LoadFunctions(load_batch(engagement, self.case, names), ("slides", "feeds"))
             result = search_loads(load, 1)
             fastest = result.most[names.index("omega_rad_s"), 0] / self.case.speed_rad_s
             refuse_rounding(engagement, fastest)

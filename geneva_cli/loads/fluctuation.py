@@ -102,8 +102,7 @@ def _works(
     """Works less the mean's, J, a row for each design padded with zeros, and returned squares."""
     n = len(mean)
     own: dict[str, LoadQuantity] = {"unevenness_Nm": Unevenness(mean)}
-    names = tuple(own)
-    load = LoadFunctions(load_batch(engagement, case, names, own), names, ("feeds", "wanted"))
+    load = LoadFunctions(load_batch(engagement, case, own, own), ("feeds", "wanted"))
     spans = spans_of(engagement, n)
     result = search(SignFunctions(load), spans, n, False)
     whole = to_mid_motion(engagement, result.stretches, n)

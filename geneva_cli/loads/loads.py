@@ -176,9 +176,9 @@ def _slowness(engagement: Engagement, case: LoadCase, limits: Mapping[str, float
         most = limit * limit if name in SQUARED else limit
         for factor in factors[name]:
             own[f"slowness {len(own)}"] = Slowness(factor, most, case)
-    names, still = tuple(own), case._replace(resists_Nm=0.0)
-    result = search_loads(LoadFunctions(load_batch(engagement, still, names, own), names), 1)
-    return max(0.0, float(result.most[: len(names)].max()))
+    still = case._replace(resists_Nm=0.0)
+    result = search_loads(LoadFunctions(load_batch(engagement, still, own, own)), 1)
+    return max(0.0, float(result.most[: len(own)].max()))
 
 
 def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:

@@ -10,7 +10,6 @@ import numpy as np
 from geneva_cli.analysis.contact import NEAR_CUSP, mirrored
 from geneva_cli.analysis.forces import load_case
 from geneva_cli.analysis.load_functions import (
-    NO_MORE,
     ContactState,
     LoadBatch,
     LoadFunctions,
@@ -58,10 +57,10 @@ def load_means(
     mechanism = mechanism.under_load
     case = load_case(mechanism)
     multiple_of, sources = sources_of(mechanism, names)
-    every = [load_batch(engagement, case, sources, NO_MORE) for engagement in mechanism.engagements]
+    every = [load_batch(engagement, case, sources) for engagement in mechanism.engagements]
 
     def summed(some: LoadBatch, n: int) -> tuple[Array]:
-        return (_sums_of(LoadFunctions(some, sources), n, "mean" in requested),)
+        return (_sums_of(LoadFunctions(some), n, "mean" in requested),)
 
     sums = sum(of_groups(one, summed)[0] for one in every)
     means = means_from(mechanism, sources, np.asarray(sums), "mean" in requested)

@@ -95,7 +95,7 @@ def load_peaks(
     sought = list(dict.fromkeys(source_of.values()))
     for engagement in mechanism.engagements:
         every = load_batch(engagement, case, sought, own)
-        sizes, at_deg, _ = _engagement_extremes(mechanism, every, sought, sized=True)
+        sizes, at_deg, _ = _engagement_extremes(mechanism, every, sized=True)
         for name, most, at in zip(sought, sizes, at_deg, strict=True):
             here = PeakArray(most, at)
             best[name] = greater(best[name], here) if name in best else here
@@ -121,8 +121,8 @@ def load_summaries(
     mechanism = mechanism.under_load
     _, sources = sources_of(mechanism, names)
     case = load_case(mechanism)
-    every = [load_batch(engagement, case, sources, NO_MORE) for engagement in mechanism.engagements]
-    each = [_engagement_extremes(mechanism, one, sources, requested=requested) for one in every]
+    every = [load_batch(engagement, case, sources) for engagement in mechanism.engagements]
+    each = [_engagement_extremes(mechanism, one, requested=requested) for one in every]
     return summaries_from(mechanism, names, each, "mean" in requested)
 
 
@@ -163,14 +163,13 @@ def _ends_of(name: str, most: Array, least: Array) -> list[Array]:
 def _engagement_extremes(
     mechanism: Mechanism,
     every: LoadBatch,
-    names: Sequence[str],
     sized: bool = False,
     requested: Collection[str] = (),
 ) -> EngagementExtremes:
     """The results of one engagement of m designs, computed in groups."""
 
     def extremes(some: LoadBatch, n: int) -> Sequence[Array]:
-        load = LoadFunctions(some, names)
+        load = LoadFunctions(some)
         here = search_loads(load, n, sized)
         rows = here.most, here.x
         return (*rows, sums_of(load, here, n, "mean" in requested)) if requested else rows

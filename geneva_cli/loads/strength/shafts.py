@@ -197,20 +197,12 @@ def shafts_under_load(
     """
     if ends.overhang_mm is None or not mechanism.spec.is_loaded:
         return None
-    own = _wanted(mechanism, ends, loaded)
-    both, turned = load_peaks(mechanism, tuple(own), own).values()
-    return _turned(mechanism, ends, both.max, both.at_deg, turned.max)
-
-
-def _wanted(
-    mechanism: Mechanism, ends: ShaftDimensions, loaded: ShaftForces
-) -> dict[str, LoadQuantity]:
-    """The squares of the equivalent moment and of the torque."""
     table = mechanism.spec.shaft
-    assert ends.overhang_mm is not None
     factors = table.bending_factor, table.torsion_factor
     moment = Moment(loaded, ends.overhang_mm / 1000.0, *factors)
-    return {"moment": moment, "torque": Torque(loaded)}
+    own: dict[str, LoadQuantity] = {"moment": moment, "torque": Torque(loaded)}
+    both, turned = load_peaks(mechanism, tuple(own), own).values()
+    return _turned(mechanism, ends, both.max, both.at_deg, turned.max)
 
 
 def _turned(
