@@ -88,12 +88,10 @@ def intervals(gaps: Clearances, start: Array, end: Array) -> Intervals:
 class Certificate(NamedTuple):
     """A proved lower bound of the gap in a full turn, ``least_mm``.
 
-    It is within ``to_mm`` of the smallest gap. If an interval is ``open``, it holds elsewhere only.
-    ``between`` names the parts there.
+    If an interval is ``open``, it holds elsewhere only. ``between`` names the parts there.
     """
 
     least_mm: float
-    to_mm: float
     intervals: int
     open: Open | None = None
     between: str = ""
@@ -127,8 +125,8 @@ def certificate(parts: MachineParts, gap_mm: float, to_mm: float) -> Certificate
         if found.open:
             start, end = (parts.assembly.shown_deg(x) for x in found.open[:2])
             shown = found.open._replace(start_deg=start, end_deg=end)
-            return Certificate(least, to_mm, count, shown, between)
-    return Certificate(least, to_mm, count)
+            return Certificate(least, count, shown, between)
+    return Certificate(least, count)
 
 
 def _gaps(parts: MachineParts, target: float) -> Iterator[tuple[str, Settled]]:
