@@ -120,11 +120,11 @@ def certificate(parts: MachineParts, gap_mm: float, to_mm: float) -> Certificate
     spare = 1e-11 * parts.assembly.L
     target = max(gap_mm, 0.0) - to_mm + spare
     least, count = math.inf, 0
-    for between, found in _gaps(parts, target):
-        least, count = min(least, found.least - spare), count + found.intervals
-        if found.open:
-            start, end = (parts.assembly.shown_deg(x) for x in found.open[:2])
-            shown = found.open._replace(start_deg=start, end_deg=end)
+    for between, bound in _gaps(parts, target):
+        least, count = min(least, bound.least - spare), count + bound.intervals
+        if bound.open:
+            start, end = (parts.assembly.shown_deg(x) for x in bound.open[:2])
+            shown = bound.open._replace(start_deg=start, end_deg=end)
             return Certificate(least, count, shown, between)
     return Certificate(least, count)
 
