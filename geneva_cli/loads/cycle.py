@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from functools import cached_property, lru_cache
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
@@ -50,18 +50,6 @@ from geneva_cli.numerics.quadrature import Integrands, span_integrals
 from geneva_cli.numerics.search import SearchResult
 
 Integrand: TypeAlias = "Callable[[Instant[Array]], Array]"  # of values, at many angles
-
-
-class Extremes(NamedTuple):
-    """The greatest and least value over the motions, and their input angles as shown.
-
-    An unbounded value is infinite.
-    """
-
-    max: float
-    max_at_deg: float
-    min: float
-    min_at_deg: float
 
 
 class Cycle:
@@ -144,7 +132,7 @@ class Cycle:
         return out
 
     @cached_property
-    def known(self) -> Mapping[str, LoadSummary]:
+    def known(self) -> Mapping[str, LoadSummary[Array]]:
         """The summaries of all quantities that have a value, (1,) each."""
         searched, known = known_quantities(self.mechanism), sources(self.mechanism)
         names = [*searched, KINETIC, *known]
@@ -172,10 +160,11 @@ class Cycle:
         return out
 
     @cached_property
-    def extremes(self) -> Mapping[str, Extremes]:
-        """The extremes of all quantities that have a value."""
+    def extremes(self) -> Mapping[str, LoadSummary[float]]:
+        """The summaries of all quantities that have a value, as numbers."""
         return {
-            name: Extremes(*(float(end[0]) for end in one[:4])) for name, one in self.known.items()
+            name: LoadSummary._make(row if row is None else row.item() for row in one)
+            for name, one in self.known.items()
         }
 
     def integrals(self, *of: Integrand) -> list[float]:

@@ -19,7 +19,7 @@ from geneva_cli.analysis.quantities import sources
 from geneva_cli.errors import GenevaError, Notice, cut, few, nearest
 from geneva_cli.figure import Axis, Curve, Figure, Mark, Panel, Piece
 from geneva_cli.loads import summary
-from geneva_cli.loads.cycle import Cycle, Extremes
+from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.stages import (
     MOTION_QUANTITIES,
     Stage,
@@ -27,6 +27,7 @@ from geneva_cli.loads.stages import (
     motion_stages,
     pieces,
 )
+from geneva_cli.loads.summaries import LoadSummary
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import ROUNDED, SAME_INPUT_DEG
 
@@ -234,7 +235,9 @@ def _peak(
     return (Mark("peak", _placed(machine, peak.at_deg, window), y),)
 
 
-def _ends(machine: Mechanism, ends: Extremes, window: tuple[float, float]) -> Iterator[Mark]:
+def _ends(
+    machine: Mechanism, ends: LoadSummary[float], window: tuple[float, float]
+) -> Iterator[Mark]:
     """The greatest value of a load and, if it goes below 0, the least."""
     size = max(abs(ends.max), abs(ends.min))
     for word, value, at_deg, shown in (
@@ -252,7 +255,7 @@ def _placed(machine: Mechanism, at_deg: float, window: tuple[float, float]) -> f
     return at_deg + whole * math.ceil((window[0] - SAME_INPUT_DEG - at_deg) / whole)
 
 
-def _bounds(cycle: Cycle, ends: Mapping[str, Extremes]) -> dict[str, tuple[float, float]]:
+def _bounds(cycle: Cycle, ends: Mapping[str, LoadSummary[float]]) -> dict[str, tuple[float, float]]:
     """The visible range of each unbounded load, from its sizes half-way between cuts."""
     endless = [n for n, e in ends.items() if math.isinf(e.max) or math.isinf(e.min)]
     out = {}
