@@ -96,14 +96,14 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
         raise GenevaError(
             f"{len(cycles)} designs in one figure; at most {MACHINES_MAX} can be told apart"
         )
-    outputs = tuple(dict.fromkeys(cycle.mechanism.output.column for cycle in cycles.values()))
-    requested = tuple(dict.fromkeys(pick)) or (*outputs, *USUAL_QUANTITIES)
-    for name in requested:
+    for name in pick:
         if name not in AXIS_BY_NAME:
             raise GenevaError(
                 f"--pick {cut(name)}: no quantity of a cycle{nearest(name, AXIS_BY_NAME)}; "
                 f"it must be one of {few(name, AXIS_BY_NAME)}"
             )
+    outputs = tuple(dict.fromkeys(cycle.mechanism.output.column for cycle in cycles.values()))
+    requested = tuple(dict.fromkeys(pick)) or (*outputs, *USUAL_QUANTITIES)
     has = {design: _known(cycle) for design, cycle in cycles.items()}
     shown = [name for name in requested if any(name in known for known in has.values())]
     missing = [name for name in requested if name not in shown]
@@ -117,19 +117,13 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
         for design, cycle in cycles.items()
     }
     panels = tuple(_panel(name, drawn) for name in shown)
-    picture = Figure(
-        _title(machines),
-        Axis("input_deg", "Input angle", "deg"),
-        panels,
-        window,
-        tuple(_rests(machines, window)),
-    )
+    axis, rests = Axis("input_deg", "Input angle", "deg"), tuple(_rests(machines, window))
     left = []
     for design, cycle in cycles.items():
         names = requested if cycle.is_loaded else shown  # forces are not expected without a load
         lacking = [n for n in names if n not in has[design] and n not in outputs]
         left += [(design, line) for line in _left_out(cycle, lacking)]
-    return picture, left
+    return Figure(_title(machines), axis, panels, window, rests), left
 
 
 def _title(machines: Sequence[Mechanism]) -> str:
