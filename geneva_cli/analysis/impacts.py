@@ -66,14 +66,10 @@ def start_impacts(mechanism: Mechanism) -> Impacts:
 
     The pinions of a counter that start at once are one mass behind the first driver's tooth.
     """
-    (engagement, *_), pinions = mechanism.engagements, mechanism.spec.wheel.pinions
-    jump = parameter(np.reshape(engagement.motion.jump, (-1, 1)))
-    at_deg, size = _shown(mechanism, engagement, np.ravel(engagement.entry_deg), np.ravel(jump))
-    impulse = np.ravel(pinions * impulse_Nms(mechanism, jump))
-    force = forces_N(mechanism, np.asarray(jump * np.sqrt(pinions)))
-    force = np.full(len(impulse), np.nan) if force is None else force
-    impulse = np.where(impulse == 0.0, np.nan, impulse)
-    return Impacts(*np.broadcast_arrays(at_deg, size, force, impulse))
+    engagement, *_ = mechanism.engagements
+    at_deg, jump = np.ravel(engagement.entry_deg), np.ravel(engagement.motion.jump)
+    impacts = _shown(mechanism, engagement, at_deg, jump)
+    return _with_force(mechanism, impacts, mechanism.spec.wheel.pinions)
 
 
 def _errors(
@@ -173,11 +169,11 @@ def _harder(one: Array, other: Array) -> Array:
     return np.where(more, other, one)
 
 
-def _with_force(mechanism: Mechanism, impacts: Array) -> Impacts:
-    """Impacts with their forces and moments, from angles and jumps (2, m)."""
+def _with_force(mechanism: Mechanism, impacts: Array, wheels: float = 1) -> Impacts:
+    """Impacts with their forces and moments, from angles and jumps (2, m) of equal wheels."""
     at_deg, jump = impacts
-    moment = np.ravel(impulse_Nms(mechanism, jump[:, None]))
-    force = forces_N(mechanism, jump[:, None])
+    moment = np.ravel(wheels * impulse_Nms(mechanism, jump[:, None]))
+    force = forces_N(mechanism, jump[:, None] * np.sqrt(wheels))
     force = np.full(len(moment), np.nan) if force is None else force
     moment = np.where(moment == 0.0, np.nan, moment)
     return Impacts(*np.broadcast_arrays(at_deg, jump, force, moment))
