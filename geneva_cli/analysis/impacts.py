@@ -10,12 +10,12 @@ import numpy as np
 from geneva_cli.analysis.change_of_sides import changes, drag_over, impacts_of
 from geneva_cli.analysis.contact import contact as touching
 from geneva_cli.analysis.mouth import mouth_contacts
-from geneva_cli.analysis.shock import FirstContacts, first_contacts
+from geneva_cli.analysis.shock import FirstContacts, RestingAxis, first_contacts
 from geneva_cli.analysis.shock_force import forces_N, impulse_Nms
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import all_true, library, only_of, parameter
+from geneva_cli.numerics.arrays import all_true, choose, library, only_of, parameter
 from geneva_cli.numerics.jet import Array
 
 
@@ -75,11 +75,19 @@ def start_impacts(mechanism: Mechanism) -> Impacts:
 def _errors(
     mechanism: Mechanism, engagement: Engagement, fraction: float
 ) -> Iterator[tuple[float, float]]:
-    """Greatest relative errors of R and L that act across the slot, in both directions."""
-    spec, L = mechanism.spec, mechanism.center_distance_mm
+    """Greatest relative errors of R and L that act across the slot, in both directions.
+
+    A longer crank acts as a shorter centre distance. It acts as a longer one where the slot misses
+    the wheel's centre by so much that the crank's axis lies between both.
+    """
+    spec, L, axis = mechanism.spec, mechanism.center_distance_mm, RestingAxis.of(engagement)
+    if axis is None:  # a slot that is solved for has no contacts
+        return
     arm = arm_mm(mechanism, engagement)
     crank = fraction * spec.tolerance.crank_radius_mm / arm if spec.drive.ONE_ARM else 0.0
     center = fraction * spec.tolerance.center_distance_mm / L if spec.wheel.FLAT else 0.0
+    between = axis.hub_offset * (axis.hub_offset + axis.engagement.slot.offset) < 0.0
+    center = choose(between, -center, center)
     if not all_true((crank == 0.0) & (center == 0.0)):
         yield crank, -center
         yield -crank, center
