@@ -202,10 +202,10 @@ def shafts_under_load(
     moment = Moment(loaded, ends.overhang_mm / 1000.0, *factors)
     own: dict[str, LoadQuantity] = {"moment": moment, "torque": Torque(loaded)}
     both, turned = load_peaks(mechanism, tuple(own), own).values()
-    return _turned(mechanism, ends, both.max, both.at_deg, turned.max)
+    return _stress_of(mechanism, ends, both.max, both.at_deg, turned.max)
 
 
-def _turned(
+def _stress_of(
     mechanism: Mechanism,
     ends: ShaftDimensions,
     square: Array,
