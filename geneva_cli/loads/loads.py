@@ -1,7 +1,6 @@
-"""Loads of the motion: pin force, torque on the input shaft, contact stress, power.
+"""The greatest loads and pressure angle of a machine, and the highest speed that keeps the limits.
 
-The wheel needs the torque T = I epsilon + M_r; the formulas are in ``forces``. Lengths are in
-metres, forces in newtons.
+The formulas of loads are in ``forces``. Forces are in newtons, torques in newton metres.
 """
 
 from __future__ import annotations
