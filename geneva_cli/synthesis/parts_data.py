@@ -39,7 +39,6 @@ class PartsData(NamedTuple):
     walls: tuple[OuterWall, OuterWall] | None  # of curved slots
     # of a wheel without a lock, the roller's places at rest: along the nearest slot, and across
     back: tuple[Array, Array] | None
-    tried: dict[float, str]  # obstacles by roller radius, a cache of ``parts``
 
 
 def gap_at_rest(back: tuple[Array, Array], rim: float, half_width: float, r: float) -> float:
@@ -130,7 +129,7 @@ def _computed(specs: Sequence[Spec], machine: Mechanism) -> list[PartsData]:
         end, near, apart, radius, steep = row
         own = (walls[0].of(i), walls[1].of(i)) if walls else None
         away = (back[0][i], back[1][i]) if back else None
-        out.append(PartsData(spec, RollerPaths((end,), near), apart, radius, steep, own, away, {}))
+        out.append(PartsData(spec, RollerPaths((end,), near), apart, radius, steep, own, away))
     return out
 
 
