@@ -25,7 +25,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.outlines.outlines import CONTACT
 from geneva_cli.outlines.rack import rack_sizes
-from geneva_cli.synthesis.parts_data import PartsData, gap_at_rest, parts_data
+from geneva_cli.synthesis.parts_data import PartsData, distances_at_rest, parts_data
 from geneva_cli.verdict.checks.motion import undercut_depth
 from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT
 
@@ -197,8 +197,10 @@ def _obstacle(where: Assembly, at: PartsData, r: float) -> str:
     if lengths.lock and lengths.horn < lengths.wall_min:
         return LOCK
     w, L = lengths.half_width, where.L
-    if at.back and gap_at_rest(at.back, lengths.rim, w, lengths.roller) < -CONTACT * L:
-        return "gap"
+    if at.back:
+        gap = distances_at_rest(*at.back, lengths.rim, w).min() - lengths.roller
+        if gap < -CONTACT * L:
+            return "gap"
     bent = [wall for wall in at.walls or () if not wall.bend.max() * w <= L]
     cut = max((float(depths_mm(wall, w, L)[0]) for wall in bent), default=0.0)
     if 0.98 * SHOWN_UNDERCUT < cut <= SHOWN_UNDERCUT:  # samples rarely miss more than 2 %

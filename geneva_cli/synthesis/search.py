@@ -50,7 +50,7 @@ class Ranking(NamedTuple):
 
     def rank(self, row: MachineRow) -> tuple[object, ...]:
         """The sort key of a row."""
-        return _rank(self.target, self.requested, row)
+        return _rank(self.requested, row)
 
     def in_turn(self, row: MachineRow) -> MachineRow | None:
         """A row with the requested quantities; None if it breaks a bound on them."""
@@ -98,7 +98,7 @@ def search(target: Target, meanwhile: Callable[[], None] | None = None) -> Ranki
         which = [any(map(breaks_limit, kind.rows)) for kind in by_kind]
         within = _within_limits(narrowed, request, which)
         ranked = with_replacements(ranked, within)
-        ranked.sort(key=lambda row: _rank(target, request, row))
+        ranked.sort(key=partial(_rank, request))
     ranking = Ranking(ranked, narrowed, request)
     others = map(ranking.in_turn, replacement_rows(narrowed, ranked[:TURNED], ranked))
     ranked.extend(row for row in others if row)
@@ -116,7 +116,7 @@ def _ranked(
     if request.pick:
         machines = bounded(request, machines, together)
     machines = _worthwhile(target, request, machines)
-    machines.sort(key=lambda row: _rank(target, request, row))
+    machines.sort(key=partial(_rank, request))
     return first_of_each(machines, linkages=_is_batched(target))
 
 
@@ -221,29 +221,30 @@ def _divided(
     return keeps, kept, [spec for spec, out in zip(specs, broken, strict=True) if out]
 
 
-def _rank(target: Target, request: QuantityRequest, row: MachineRow) -> tuple[object, ...]:
+def _rank(request: QuantityRequest, row: MachineRow) -> tuple[object, ...]:
     """The sort key of a row: the goal's quantity, then peaks.
 
     Numbers that differ only by rounding are equal.
     """
     candidate = row.candidate
-    first: list[object] = []
+    first: tuple[object, ...] = ()
     if request.sort:
         value = row.extra[request.names.index(request.sort.name)]
-        first = [
-            not is_number(value),
-            float(f"{_first(request, row):.12g}") if is_number(value) else 0.0,
-            "" if is_number(value) else str(value),
-        ]
-    peaks = (candidate.peak, candidate.jerk_max)
+        # texts, and unknown values, come behind the numbers
+        first = (0, _in_12_digits(_first(request, row))) if is_number(value) else (1, str(value))
     return (
         *first,
-        *[float(f"{x:.12g}") for x in peaks],
+        _in_12_digits(candidate.peak),
+        _in_12_digits(candidate.jerk_max),
         candidate.rollers,
         candidate.z,
         candidate.gearing,
         candidate.drive,
     )
+
+
+def _in_12_digits(x: float) -> float:
+    return float(f"{x:.12g}")
 
 
 def _worthwhile(
