@@ -40,8 +40,8 @@ def to_degrees(rad):
 def doubled(exact):
     """Numbers of many digits as two arrays of doubles whose sum they are to 32 digits.
 
-    What a double lacks of one is then had without its digits, to a share of 1e-16 of the lack:
-    ``(double - high) - low``, whose first difference is exact wherever the two are near.
+    The error of a double is then ``(double - high) - low``, to 1e-16 of itself: the first
+    difference is exact wherever the two are near.
     """
     high = np.array([float(e) for e in exact])
     low = np.array([float(e - h) for e, h in zip(exact, high.tolist(), strict=True)])
@@ -104,11 +104,11 @@ class Geneva:
         return chain((mp.arg(1 - C), *wheel_derivatives(C, self.g)), f)
 
     def derivatives(self, deg):
-        """The same at a double in degrees, taken as exact."""
+        """The derivatives at a double in degrees, taken as exact."""
         return self.at(to_radians(deg))
 
     def rough(self, deg):
-        """The same in double precision on an array: to look for peaks, not to compare with."""
+        """The derivatives in double precision on an array, to search peaks; not a reference."""
         E = np.exp(1j * np.radians(deg))
         A, l, g = float(self.A), float(self.l), self.g
         f = (np.angle(A + E), *coulisse_derivatives(E, A))
@@ -146,9 +146,9 @@ class Geneva:
             for i in np.flatnonzero(slope[:-1] * slope[1:] < 0.0)
             if max(size[i], size[i + 1]) > 0.99 * size.max()
         ]
-        found = [(abs(pick(self.at(x))[0]), x) for x in [ends[0], *places, ends[1]]]
-        best = max(s for s, _ in found)
-        at = min(x for s, x in found if s > best * (1 - mp.mpf(10) ** -30))
+        sizes = [(abs(pick(self.at(x))[0]), x) for x in [ends[0], *places, ends[1]]]
+        best = max(s for s, _ in sizes)
+        at = min(x for s, x in sizes if s > best * (1 - mp.mpf(10) ** -30))
         return best, to_degrees(at)
 
 
