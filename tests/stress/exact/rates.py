@@ -1,15 +1,10 @@
-"""Derivatives up to the fifth, and angles, in mpmath."""
+"""Derivatives up to the fifth in mpmath, and variations of a drive's values."""
 
 from witness import mp
 
 DIGITS = 120  # A within 1e-12 of 1 costs a fourth derivative four times 12 of them, and more
-BESIDE = mp.mpf(10) ** -60  # of a knot: on one side of it, and at it by any digit asked for
-SIGN = {"external": 1, "internal": -1}
+BESIDE = mp.mpf(10) ** -60  # distance from a knot, on one side of it, below any digit compared
 NEAR_1 = [1.0 - t for t in (1e-3, 1e-6, 1e-9, 1e-12)]
-
-
-def radians(deg):
-    return mp.mpf(float(deg)) * mp.pi / 180
 
 
 def angle_rates(Q):
