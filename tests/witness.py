@@ -55,16 +55,23 @@ def taylor(f, x, order):
 
 
 def chain(g, f):
-    """Derivatives 0..4 of g(f(x)), from those of g by f and of f by x (Faà di Bruno)."""
-    g0, g1, g2, g3, g4 = g
-    _, f1, f2, f3, f4 = f
-    return (
-        g0,
-        g1 * f1,
-        g2 * f1**2 + g1 * f2,
-        g3 * f1**3 + 3 * g2 * f1 * f2 + g1 * f3,
-        g4 * f1**4 + 6 * g3 * f1**2 * f2 + g2 * (4 * f1 * f3 + 3 * f2**2) + g1 * f4,
+    """Derivatives of g(f(x)) up to the fifth, from those of g by f and of f by x (Faà di Bruno)."""
+    (g0, g1, g2, g3, g4, g5), (_, a, b, c, d, e) = (
+        [*rates, *[mp.mpf(0)] * (6 - len(rates))] for rates in (g, f)
     )
+    every = (
+        g0,
+        g1 * a,
+        g2 * a**2 + g1 * b,
+        g3 * a**3 + 3 * g2 * a * b + g1 * c,
+        g4 * a**4 + 6 * g3 * a**2 * b + g2 * (4 * a * c + 3 * b**2) + g1 * d,
+        g5 * a**5
+        + 10 * g4 * a**3 * b
+        + g3 * (10 * a**2 * c + 15 * a * b**2)
+        + g2 * (5 * a * d + 10 * b * c)
+        + g1 * e,
+    )
+    return every[: len(g)]
 
 
 def coulisse_derivatives(E, A):

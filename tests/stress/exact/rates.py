@@ -20,24 +20,6 @@ def angle_rates(Q):
     return (mp.arg(Q[0]), *[x.imag for x in u])
 
 
-def chain(g, f):
-    """Derivatives 0..5 of g(f(x)) (Faà di Bruno)."""
-    g0, g1, g2, g3, g4, g5 = g
-    _, a, b, c, d, e = f
-    return (
-        g0,
-        g1 * a,
-        g2 * a**2 + g1 * b,
-        g3 * a**3 + 3 * g2 * a * b + g1 * c,
-        g4 * a**4 + 6 * g3 * a**2 * b + g2 * (4 * a * c + 3 * b**2) + g1 * d,
-        g5 * a**5
-        + 10 * g4 * a**3 * b
-        + g3 * (10 * a**2 * c + 15 * a * b**2)
-        + g2 * (5 * a * d + 10 * b * c)
-        + g1 * e,
-    )
-
-
 def exactly(values):
     """Doubles as they are; whole numbers, which have no last place, stay whole."""
     return tuple(v if isinstance(v, int) else mp.mpf(v) for v in values)

@@ -3,11 +3,11 @@
 import math
 
 import numpy as np
-from witness import SIGN, mp, to_radians
+from witness import SIGN, chain, mp, to_radians
 
 from exact.compared import NAMES, PEAKS, PICK, angles, candidates, compare, compare_peaks, greatest
 from exact.fronts import FRONTS, RatioFile, ratio_cases, spec_of, textbook_wheel
-from exact.rates import BESIDE, angle_rates, chain, exactly, variations
+from exact.rates import BESIDE, angle_rates, exactly, variations
 from exact.table import strictly, ulps, unit
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
