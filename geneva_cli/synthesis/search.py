@@ -28,11 +28,10 @@ from geneva_cli.synthesis.limited import (
     with_replacements,
 )
 from geneva_cli.synthesis.quantities import (
-    Cells,
     QuantityRequest,
-    batch_cells,
     bounded,
     quantity_request,
+    with_batch_values,
 )
 from geneva_cli.synthesis.replacements import replacement_rows
 from geneva_cli.synthesis.rows import MachineRow, rows
@@ -57,8 +56,7 @@ class Ranking(NamedTuple):
         if not self.requested.pick:
             return row
         try:
-            cells = batch_cells(self.requested.names, [row])
-            return bounded(self.requested, [row], cells)[0]
+            return bounded(self.requested, with_batch_values(self.requested.names, [row]))[0]
         except GenevaError:
             return None
 
@@ -67,7 +65,6 @@ class _KindRows(NamedTuple):
     """The rows of one kind of machine, and whether one of its machines keeps the bounds."""
 
     rows: list[MachineRow]
-    requested: list[Cells | None]  # of each row, from ``batch_cells``
     keeps: bool
     errors: list[str]
 
@@ -92,8 +89,7 @@ def search(target: Target, meanwhile: Callable[[], None] | None = None) -> Ranki
         if target.acceleration_max is not None:
             return search(target.by_bounds)  # its message says how near they come
         raise GenevaError(_out_of_reach(target, errors))
-    together = [cells for kind in by_kind for cells in kind.requested]
-    ranked = _ranked(target, request, every, together)
+    ranked = _ranked(target, request, every)
     if frame_limits(target) and narrowed.motion_for(1) and any(map(breaks_limit, ranked)):
         which = [any(map(breaks_limit, kind.rows)) for kind in by_kind]
         within = _within_limits(narrowed, request, which)
@@ -107,14 +103,11 @@ def search(target: Target, meanwhile: Callable[[], None] | None = None) -> Ranki
 
 
 def _ranked(
-    target: Target,
-    request: QuantityRequest,
-    machines: list[MachineRow],
-    together: Sequence[Cells | None],
+    target: Target, request: QuantityRequest, machines: list[MachineRow]
 ) -> list[MachineRow]:
     """The rows that keep the bounds, in order."""
     if request.pick:
-        machines = bounded(request, machines, together)
+        machines = bounded(request, machines)
     machines = _worthwhile(target, request, machines)
     machines.sort(key=partial(_rank, request))
     return first_of_each(machines, linkages=_is_batched(target))
@@ -126,10 +119,9 @@ def _within_limits(
     """The rows of those kinds whose machines keep the frame's limits too."""
     strict = target._replace(bounds=(*target.bounds, *frame_limits(target)))
     by_kind = _all_kinds(strict, request.names, which=which)
-    pairs = [pair for kind in by_kind for pair in zip(kind.rows, kind.requested, strict=True)]
-    kept = [(row, cells) for row, cells in pairs if not breaks_limit(row)]
+    kept = [row for kind in by_kind for row in kind.rows if not breaks_limit(row)]
     try:
-        return _ranked(target, request, [row for row, _ in kept], [cells for _, cells in kept])
+        return _ranked(target, request, kept)
     except GenevaError:  # none keeps the bounds as well
         return []
 
@@ -179,7 +171,7 @@ def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) 
         for spec, row in zip(shown, rows(target, shown, errors), strict=True)
         if row
     ]
-    return _KindRows(built_rows, batch_cells(names, built_rows), keeps, errors)
+    return _KindRows(with_batch_values(names, built_rows), keeps, errors)
 
 
 def _requested(target: Target) -> QuantityRequest:
