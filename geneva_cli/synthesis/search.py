@@ -110,7 +110,7 @@ def _ranked(
         machines = bounded(request, machines)
     machines = _worthwhile(target, request, machines)
     machines.sort(key=partial(_rank, request))
-    return first_of_each(machines, linkages=_is_batched(target))
+    return first_of_each(machines, linkages=in_batch(target.quantities))
 
 
 def _within_limits(
@@ -124,14 +124,6 @@ def _within_limits(
         return _ranked(target, request, kept)
     except GenevaError:  # none keeps the bounds as well
         return []
-
-
-def _is_batched(target: Target) -> bool:
-    """Return True if a batch can compute the quantities of the goal and of the bounds.
-
-    If not, they are computed for several machines of each family, and the best of these is shown.
-    """
-    return in_batch(target.quantities)
 
 
 def _all_kinds(
@@ -158,8 +150,9 @@ def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) 
     kind, target = task
     errors: list[str] = []
     of_kind = [*families(kind, target)]
-    if not _is_batched(target):
-        of_kind = pieces(of_kind, 120)  # the quantities of each piece's best are computed singly
+    if not in_batch(target.quantities):
+        # the search cannot see them: they are computed for the best of several pieces of a family
+        of_kind = pieces(of_kind, 120)
     one_each, near = best(of_kind, target, how_near)
     of = {one.spec: one.family for one in reversed([*one_each, *near])}
     keeps, kept, broken = _divided(
