@@ -88,7 +88,12 @@ def parts(mechanism: Mechanism) -> Parts:
     if not spec.is_flat:
         r, why = _suiting_sphere(mechanism)
         return Parts(spec if r is None else with_roller(spec, r), why)
-    r, why = _suiting_plane(assembly(mechanism), parts_data(spec), spec.drive.rollers)
+    at, m = parts_data(spec), spec.drive.rollers
+    # the parts do not depend on the drive that turns the crank
+    if spec.drive.CRANKED and not mechanism.law:
+        r, why = _of_crank(at.spec, m)
+    else:
+        r, why = _suiting_plane(assembly(mechanism), at, m)
     return Parts(spec if r is None else with_roller(spec, r), why)
 
 
@@ -99,6 +104,11 @@ def _suiting_rack(mechanism: Mechanism) -> str:
     except GenevaError:
         return SIZES
     return ""
+
+
+@lru_cache(maxsize=1024)
+def _of_crank(spec: Spec, m: int) -> tuple[float | None, str]:
+    return _suiting_plane(assembly(build(spec)), parts_data(spec), m)
 
 
 def _suiting_plane(where: Assembly, at: PartsData, m: int) -> tuple[float | None, str]:
