@@ -23,12 +23,7 @@ from geneva_cli.numerics.tolerances import CLEARLY
 from geneva_cli.study.target import USUAL_RPM
 from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.checks.play import finds_slot
-from geneva_cli.verdict.checks.registry import (
-    check_named,
-    standing,
-    standing_checks,
-    turn_checks,
-)
+from geneva_cli.verdict.checks.registry import check_named, standing, standing_checks, turn_checks
 
 HAND_OVER_PLAY = "hand_over_play_deg"
 # Times the play that lets a roller find its slot. With this much play between lock and slot no

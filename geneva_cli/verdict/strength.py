@@ -182,15 +182,6 @@ class Strength:
         thick = (ends.diameter_mm is not None or has_shaft, f"{which}_diameter_mm in [shaft]")
         yield [(bool(met), keys) for met, keys in (placed, thick)] + [self._has_load]
 
-    def _arm(self) -> Keys:
-        yield from self._part("arm")
-
-    def _wheel_key(self) -> Keys:
-        yield from self._part("wheel_key")
-
-    def _crank_key(self) -> Keys:
-        yield from self._part("crank_key")
-
     def _part(self, name: str) -> Keys:
         """The needs of an arm or a key, which a machine may lack."""
         if self.load.parts is None or not np.isnan(getattr(self.load.parts, name)[0][0]):
@@ -232,9 +223,9 @@ REASONS: dict[str, Callable[[Strength], Keys]] = {
     "lock_horn_stress_MPa": Strength._lock,
     "wheel_shaft_stress_MPa": Strength._wheel_shaft,
     "crank_shaft_stress_MPa": Strength._crank_shaft,
-    "arm_stress_MPa": Strength._arm,
-    "wheel_key_pressure_MPa": Strength._wheel_key,
-    "crank_key_pressure_MPa": Strength._crank_key,
+    "arm_stress_MPa": lambda of: of._part("arm"),
+    "wheel_key_pressure_MPa": lambda of: of._part("wheel_key"),
+    "crank_key_pressure_MPa": lambda of: of._part("crank_key"),
     "roller_life_min_h": Strength._rated,
     "roller_life_turns": Strength._rated,
     "roller_life_motions": Strength._rated,

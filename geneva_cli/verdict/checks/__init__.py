@@ -30,10 +30,7 @@ if TYPE_CHECKING:
 
 
 def checks(
-    mechanism: Mechanism,
-    model: PartsModel | None = None,
-    parts: bool = True,
-    turned: bool = True,
+    mechanism: Mechanism, model: PartsModel | None = None, parts: bool = True, turned: bool = True
 ) -> list[Check]:
     """Every check of one design: its motion, its parts unless left out, its own ``[limits]``.
 
