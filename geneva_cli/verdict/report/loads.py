@@ -54,9 +54,9 @@ def needs(model: PartsModel) -> Values:
 
 def slot(model: PartsModel) -> Values:
     """Whether a wall pushes throughout, which may be cut away; None for straight slots."""
-    from geneva_cli.analysis.positive_drive import positive_drive
+    from geneva_cli.analysis.positive_drive import positive_drives
 
-    drive = positive_drive(model.mechanism)
+    drive = positive_drives(model.mechanism)
     return {"slot.positively_driven": not drive.loose_deg if drive else None}
 
 
