@@ -12,7 +12,7 @@ as thick.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from typing import TypeAlias
 
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate, Stack
@@ -42,13 +42,7 @@ from geneva_cli.parts.mounted_plate import (
     shaft_hole,
 )
 
-
-class Screwed(NamedTuple):
-    """A screw's hole in the frame, and the part that it fixes, with its lower face."""
-
-    hole: Circle
-    part: str
-    low: float
+Screwed: TypeAlias = tuple[Circle, Plate]  # a screw's hole in the frame, and the part that it fixes
 
 
 def framed(
@@ -72,9 +66,9 @@ def framed(
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     lows = [base.low] if base else []
     if mechanism.spec.gears:
-        from geneva_cli.parts.gear_pair import gear_span
+        from geneva_cli.parts.gear_pair import gear_seats
 
-        lows.append(gear_span(mechanism, outlines)[0])
+        lows += [seat.low for seat in gear_seats(mechanism, outlines)]
     drawn = outlines.sizes if outlines else None
     thick = drawn_thicknesses(size, L, drawn).arm
     free = min([_lowest(mechanism, outlines, bars), *lows]) - size.washer_mm
@@ -89,8 +83,9 @@ def framed(
     drilled = list(_drilled(mechanism, axles, places, top))
     require_walls(drilled, wall_min(size, L), axles)
     fixed = [*_fixed(bars), *(_mounted(base, L) if base else ())]
-    holes = [*drilled, *(one.hole for one in fixed)]
-    spacers = [_spacer(one, top) for one in fixed if one.low - top > SAME_LENGTH * L]
+    holes = [*drilled, *(hole for hole, _ in fixed)]
+    near = SAME_LENGTH * L
+    spacers = [_spacer(hole, part, top) for hole, part in fixed if part.low - top > near]
     # The frame contains every axis, drilled or not.
     within = [*holes, *(Circle(HOLES, at, 0.0) for at in ((0.0, 0.0), *places))]
     eye = corner_radius(size, L)
@@ -145,29 +140,24 @@ def _fixed(bars: Links) -> Iterator[Screwed]:
     """Yield the screws of parts that are fixed to the frame, such as a guide or a gear."""
     for member in bars.cut:
         if isinstance(member.part, Plate) and member.part.name in bars.standing:
-            yield from (_screwed(hole, member.part) for hole in placed_holes(member))
+            yield from ((hole, member.part) for hole in placed_holes(member))
     for gear in bars.gears:
         for hole in gear.bolts:
             (x, y), (u, v) = gear.at, hole.centre
-            yield _screwed(Circle(HOLES, (x + u, y + v), hole.radius), gear.plate)
+            yield Circle(HOLES, (x + u, y + v), hole.radius), gear.plate
 
 
 def _mounted(base: Plate, L: float) -> Iterator[Screwed]:
     """Yield the screws of a plate about the crank's axis."""
     holes = placed_holes(Member(base, (L, 0.0)))
-    yield from (_screwed(hole, base) for hole in holes if not same(hole.centre, (L, 0.0), L))
+    yield from ((hole, base) for hole in holes if not same(hole.centre, (L, 0.0), L))
 
 
-def _screwed(hole: Circle, plate: Plate) -> Screwed:
-    return Screwed(hole, plate.name, plate.low)
-
-
-def _spacer(one: Screwed, top: float) -> Member:
+def _spacer(screw: Circle, part: Plate, top: float) -> Member:
     """Return the ring about a screw, twice as wide, between the frame and the fixed part."""
-    r = one.hole.radius
-    outline, bore = Circle(LAYER, ORIGIN, 2.0 * r), Circle(HOLES, ORIGIN, r)
-    plate = Plate(f"spacer of the {one.part}", LAYER, outline, (bore,), top, one.low)
-    return Member(plate, one.hole.centre)
+    outline, bore = (Circle(LAYER, ORIGIN, r) for r in (2.0 * screw.radius, screw.radius))
+    plate = Plate(f"spacer of the {part.name}", LAYER, outline, (bore,), top, part.low)
+    return Member(plate, screw.centre)
 
 
 def _lowest(mechanism: Mechanism, parts: Outlines | None, bars: Links) -> float:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from geneva_cli.curves.shapes import Point
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.layout.arm_sizes import HUB, pin_hole
@@ -22,7 +23,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.parts.arm import has_arm, shaft_bore
+from geneva_cli.parts.arm import has_arm
 from geneva_cli.spec.tables import Size
 
 SLOT_MARGIN = 0.25  # distance from a block to the end of its slot, as a fraction of the pin's hole
@@ -145,7 +146,7 @@ def _crank_shaft(mechanism: Mechanism, parts: Outlines | None) -> float | None:
     """
     refuse_hexagon(mechanism.spec.size, "crank")
     if parts and has_arm(parts):
-        return shaft_bore(parts)
+        return parts.sizes.arm_bore
     if parts and parts.sizes.crank_bore:
         return parts.sizes.crank_bore
     diameter = mechanism.spec.shaft.crank_diameter_mm
@@ -156,6 +157,12 @@ def places(link: Link) -> list[Array]:
     """Return the joints of a link as complex numbers x + iy (n,), by the input angle."""
     still = 0.0 * link.joints[0][0]
     return [np.asarray(x + still + 1j * (y + still)) for x, y in link.joints]
+
+
+def point_at_zero(path: Array) -> Point:
+    """Return the point of a path at input angle 0, in the middle of its angles."""
+    z = complex(path[len(path) // 2])
+    return z.real, z.imag
 
 
 def _pin_distances(link: Link) -> Iterator[float]:

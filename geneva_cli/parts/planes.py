@@ -20,7 +20,7 @@ from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour
 from geneva_cli.kinematics.layout import Joint, Link
-from geneva_cli.layout.link_positions import gear_plane, links_at, same
+from geneva_cli.layout.link_positions import gear_plane, links_at, same, turn_deg
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
@@ -29,8 +29,6 @@ from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.link_sizes import LinkSizes, places
 from geneva_cli.parts.links import Links
 from geneva_cli.parts.shafts import wheel_shaft_ends, wheel_shaft_radius
-
-LOOKS = 1440  # input angles in a turn: the error of a gap is quadratic in their distance
 
 
 class Meeting(NamedTuple):
@@ -65,8 +63,7 @@ def planes(parts: Outlines, bars: Links, spacers: Iterable[Member] = ()) -> Plan
     its frame.
     """
     mechanism = parts.assembly.full
-    turns = mechanism.spec.turns
-    turn = np.linspace(-180.0 * turns, 180.0 * turns, LOOKS * turns + 1)
+    turn = turn_deg(mechanism)  # the error of a gap is quadratic in their distance
     links_and_gears = links_at(mechanism, turn)
     links = [link for link in links_and_gears if not link.radius_mm]
     if not links_and_gears:
@@ -118,7 +115,7 @@ def _gears(parts: Outlines, bars: Links, links: tuple[Link, ...], turn: Array) -
 def crank_stop(parts: Outlines, bars: Links) -> float | None:
     """Return the height at which a link stops the crank's shaft downwards; None if none does."""
     mechanism = parts.assembly.full
-    turn = np.linspace(-180.0, 180.0, LOOKS + 1) * mechanism.spec.turns
+    turn = turn_deg(mechanism)
     links = [link for link in links_at(mechanism, turn) if not link.radius_mm]
     if not links or bars.sizes is None:
         return None

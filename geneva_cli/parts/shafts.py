@@ -25,7 +25,7 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.crank import crank_circles, is_whole
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import HUB, about_axis, wheel_hub
-from geneva_cli.parts.arm import has_arm, shaft_bore
+from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.shaft import Seat, Shaft, shaft_ends
 
 
@@ -137,7 +137,7 @@ def _has_gear(parts: Outlines) -> bool:
 
 def crank_shaft_radius(parts: Outlines) -> float:
     """Return the radius of the shaft of arm and locking disc; 0 if it carries only links."""
-    return shaft_bore(parts) if has_arm(parts) else parts.sizes.crank_bore
+    return parts.sizes.arm_bore if has_arm(parts) else parts.sizes.crank_bore
 
 
 def crank_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
