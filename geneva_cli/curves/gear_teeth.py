@@ -153,6 +153,12 @@ class RoundTeeth(NamedTuple):
         return self.opening or self.radius - rack.module * (rack.dedendum - rack.shift)
 
     @property
+    def flank_end(self) -> float:
+        """Length of the base circle's tangent to the inner end of a gear's flank, mm."""
+        sine = math.sin(self.rack.angle)
+        return self.radius * sine - self.rack.straight / sine
+
+    @property
     def step(self) -> float:
         """Angle from tooth to tooth, radians."""
         return self.rack.pitch / self.radius

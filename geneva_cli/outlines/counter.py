@@ -27,7 +27,7 @@ from geneva_cli.curves.gear_teeth import Rack, RoundTeeth, Writer, circle, fille
 from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import ORIGIN, Arc, Contour, Segment, about, closed
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.gear_mesh import GearMesh, ToothedGear
+from geneva_cli.layout.gear_mesh import GearMesh, ToothedGear, contact_ratio, with_tips
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.roots import boundary
@@ -45,8 +45,7 @@ class CounterSizes(NamedTuple):
     shifts: tuple[float, float]  # of driver and pinion in modules, without backlash
     pressure_angle: float  # at work
     contact_ratio: float  # of number wheels and pinions
-    touch: float  # radius of the circle that touches the wide teeth at rest
-    rim: float
+    rim: float  # radius
 
     @property
     def half_space(self) -> float:
@@ -61,8 +60,7 @@ def counter_sizes(mechanism: Mechanism) -> CounterSizes:
     large = round(2 * z * mechanism.ratio / (1.0 - mechanism.ratio))
     mesh = _meshing((large, 2 * z), L, spec.size.gear_backlash_mm)
     number, pinion = mesh.number, mesh.pinion
-    touch = _touching_circle(pinion, L)
-    rim = touch - spec.size.allowances.lock_clearance_mm
+    rim = _touching_circle(pinion, L) - spec.size.allowances.lock_clearance_mm
     driver = number._replace(tip=min(number.tip, rim))
     if driver.tip <= driver.base or rim <= L - pinion.tip:
         raise GenevaError(
@@ -71,9 +69,8 @@ def counter_sizes(mechanism: Mechanism) -> CounterSizes:
             "lock_clearance_mm",
             ("wheel", "z"),
         )
-    return CounterSizes(
-        driver, number, pinion, L, mesh.shifts, mesh.pressure_angle, mesh.contact_ratio, touch, rim
-    )
+    angle, contact = mesh.pressure_angle, mesh.contact_ratio
+    return CounterSizes(driver, number, pinion, L, mesh.shifts, angle, contact, rim)
 
 
 def counter_mesh(sizes: CounterSizes) -> GearMesh:
@@ -119,29 +116,18 @@ def _meshing(counts: tuple[int, int], L: float, backlash_mm: float) -> _Meshing:
     rolled = involute(plain.angle) + 2.0 * sum(shifts) * math.tan(plain.angle) / total
     angle = boundary(lambda w: involute(w) <= rolled, plain.angle, 1.2)
     m = 2.0 * L * math.cos(angle) / (total * math.cos(plain.angle))
-    racks = [Rack(m, x - thinner) for x in shifts]
-    radii = [0.5 * m * count for count in counts]
-    # a quarter of a module from the other gear's root, and no farther than its flank reaches
-    ends = [
-        radii[k] * math.sin(r.angle) - r.straight / math.sin(r.angle) for k, r in enumerate(racks)
-    ]
-    bases, far = [r * math.cos(plain.angle) for r in radii], L * math.sin(angle)
-    tips = [
-        min(
-            L - radii[1 - k] + m * (1.0 - shifts[1 - k]),
-            math.hypot(bases[k], far - ends[1 - k]),
-        )
-        for k in (0, 1)
-    ]
+    number, pinion = (
+        RoundTeeth(Rack(m, x - thinner), 0.5 * m * count, 0.0)
+        for x, count in zip(shifts, counts, strict=True)
+    )
+    number, pinion = with_tips(number, pinion, shifts, L, angle)
     contact = 0.0
-    if all(tip > base for tip, base in zip(tips, bases, strict=True)):
-        tips = [_blunt(racks[k], radii[k], tips[k]) for k in (0, 1)]
-        both = [RoundTeeth(racks[k], radii[k], tips[k]) for k in (0, 1)]
-        path = sum(teeth.tangent(teeth.tip) for teeth in both) - far
-        contact = path / (math.pi * m * math.cos(plain.angle))
+    if number.tip > number.base and pinion.tip > pinion.base:
+        number, pinion = _blunt(number), _blunt(pinion)
+        contact = contact_ratio(number, pinion, L, angle)
     if contact < 1.0:
         raise _lost_contact(backlash_mm, counts[0], max(0.0, contact))
-    return _Meshing(both[0], both[1], shifts, angle, contact)
+    return _Meshing(number, pinion, shifts, angle, contact)
 
 
 def _lost_contact(backlash_mm: float, teeth: int, contact: float) -> GenevaError:
@@ -157,10 +143,11 @@ def _lost_contact(backlash_mm: float, teeth: int, contact: float) -> GenevaError
     )
 
 
-def _blunt(rack: Rack, radius: float, tip: float) -> float:
-    """Return the radius of tips that keep the least thickness, at most ``tip``."""
-    teeth = RoundTeeth(rack, radius, tip)
-    return boundary(lambda r: teeth.thickness(r) >= rack.least_tip, radius, tip)
+def _blunt(teeth: RoundTeeth) -> RoundTeeth:
+    """Return teeth that end where they still have the least thickness."""
+    least = teeth.rack.least_tip
+    tip = boundary(lambda r: teeth.thickness(r) >= least, teeth.radius, teeth.tip)
+    return teeth._replace(tip=tip)
 
 
 def _touching_circle(pinion: RoundTeeth, L: float) -> float:
@@ -173,9 +160,8 @@ def _touching_circle(pinion: RoundTeeth, L: float) -> float:
     """
     rack, base = pinion.rack, pinion.base
     begins = pinion.step - pinion.half_angle(base)
-    shortest = pinion.radius * math.sin(rack.angle) - rack.straight / math.sin(rack.angle)
     along = base * (math.acos(base / L) - begins)
-    along = min(max(along, shortest), pinion.tangent(pinion.tip))
+    along = min(max(along, pinion.flank_end), pinion.tangent(pinion.tip))
     r = math.hypot(base, along)
     least = math.sqrt(L * L + r * r - 2.0 * L * r * math.cos(pinion.step - pinion.half_angle(r)))
     return min(least, L - pinion.root - 0.1 * rack.module)
