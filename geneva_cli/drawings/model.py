@@ -384,5 +384,6 @@ def _before_links(model: PartsModel) -> NamedBuilds:
 
 def kind_of(mechanism: Mechanism) -> PartsKind:
     """Return the kind of a machine's parts."""
+    kinds: dict[str, type[PartsKind]]
     kinds = {"flat": Flat, "ball": Ball, "rack": Rack, "counter": Counter}
     return kinds.get(mechanism.spec.wheel.PARTS, Unbuilt)()
