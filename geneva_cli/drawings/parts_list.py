@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.curves.mass import MM, solid_properties
-from geneva_cli.curves.measure import bounds
+from geneva_cli.curves.measure import bounds_of
 from geneva_cli.curves.plates import Part, Shell, Solid
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.kinematics.layout import Dimension, Pivot
@@ -120,9 +120,8 @@ def _properties(solid: Solid, density: float, outside: float | None) -> Row:
     row: Row = {}
     if not isinstance(solid, Shell):
         low, high = solid.low, solid.high
-        boxes = [bounds(shape) for shape in outlines_of(solid)]
-        wide = max(box.x1 for box in boxes) - min(box.x0 for box in boxes)
-        deep = max(box.y1 for box in boxes) - min(box.y0 for box in boxes)
+        x0, y0, x1, y1 = bounds_of(outlines_of(solid))
+        wide, deep = x1 - x0, y1 - y0
         body = solid_properties(solid, density)
         mass, inertia = body.mass_kg, body.inertia_kgm2
         if outside is None:

@@ -24,8 +24,8 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.curves.gear_teeth import Rack, RoundTeeth, Writer, circle, fillet, involute
-from geneva_cli.curves.measure import turned
-from geneva_cli.curves.shapes import ORIGIN, Arc, Contour, Segment, about, closed
+from geneva_cli.curves.measure import turned_pieces
+from geneva_cli.curves.shapes import ORIGIN, Contour, Segment, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.gear_mesh import GearMesh, ToothedGear, contact_ratio, with_tips
 from geneva_cli.machine.mechanism import Mechanism
@@ -186,62 +186,33 @@ def half_angles(teeth: RoundTeeth, r: Array) -> Array:
 def driver_teeth(sizes: CounterSizes, write: Writer) -> Contour:
     """Return the driver's two teeth on its root circle, to either side of the x axis."""
     teeth, half = sizes.driver, sizes.half_space
-    one = Contour(CRANK, tuple(teeth.one(write)), closed=False)
-    between = Contour(CRANK, (teeth.between(),), closed=False)
-    pieces = [*turned(one, -half).segments, *turned(between, -half).segments]
-    pieces += turned(one, half).segments
-    from_middle = teeth.rack.corner[0] / teeth.radius
-    start = half + from_middle
+    one = teeth.one(write)
+    pieces = *turned_pieces([*one, teeth.between()], -half), *turned_pieces(one, half)
+    start = half + teeth.rack.corner[0] / teeth.radius
     return closed(CRANK, [*pieces, about(ORIGIN, teeth.root, start, math.tau - 2.0 * start)])
 
 
 def driver_rim(sizes: CounterSizes, write: Writer) -> Contour:
     """Return the locking rim, whose gap is the space between the driver's two teeth."""
     teeth, half = sizes.driver._replace(tip=sizes.rim), sizes.half_space
-    before, after = _sides(teeth, write)
-    between = Contour(CRANK, (teeth.between(),), closed=False)
-    pieces = [*turned(after, -half).segments, *turned(between, -half).segments]
-    pieces += turned(before, half).segments
+    before, after = teeth.sides(write)
+    pieces = *turned_pieces([*after, teeth.between()], -half), *turned_pieces(before, half)
     start = half - teeth.half_angle(sizes.rim)
     return closed(CRANK, [*pieces, about(ORIGIN, sizes.rim, start, math.tau - 2.0 * start)])
 
 
-def _sides(teeth: RoundTeeth, write: Writer) -> tuple[Contour, Contour]:
-    """Return both sides of a tooth about the x axis, without its tip."""
-    pieces = teeth.one(write)
-    (tip,) = (i for i, piece in enumerate(pieces) if _is_tip(piece, teeth.tip))
-    before, after = pieces[:tip], pieces[tip + 1 :]
-    return Contour(CRANK, tuple(before), False), Contour(CRANK, tuple(after), False)
-
-
-def _is_tip(piece: Segment, radius: float) -> bool:
-    """True for an arc about the origin at a radius."""
-    if not isinstance(piece, Arc):
-        return False
-    return all(math.isclose(math.hypot(*end), radius) for end in (piece.start, piece.end))
-
-
 def pinion_teeth(sizes: CounterSizes, wide: bool, write: Writer) -> Contour:
     """Return the pinion in the plane of its wide teeth alone, or in that of all teeth."""
-    teeth, each = sizes.pinion, 2 if wide else 1
-    one = Contour(WHEEL, tuple(teeth.one(write)), closed=False)
-    between = Contour(WHEEL, (teeth.between((each - 1) * teeth.step),), closed=False)
-    pieces: list[Segment] = []
-    for k in range(0, round(math.tau / teeth.step), each):
-        pieces += turned(one, k * teeth.step).segments
-        pieces += turned(between, k * teeth.step).segments
-    return closed(WHEEL, pieces)
+    return closed(WHEEL, _all_round(sizes.pinion, write, 0.0, 2 if wide else 1))
 
 
 def number_teeth(sizes: CounterSizes, write: Writer) -> Contour:
     """Return the gear of the number wheel, whose space is about the x axis, as the driver's."""
-    teeth = sizes.number
-    both = [
-        Contour(CRANK, tuple(teeth.one(write)), False),
-        Contour(CRANK, (teeth.between(),), False),
-    ]
-    pieces: list[Segment] = []
-    for k in range(round(math.tau / teeth.step)):
-        for one in both:
-            pieces += turned(one, sizes.half_space + k * teeth.step).segments
-    return closed(CRANK, pieces)
+    return closed(CRANK, _all_round(sizes.number, write, sizes.half_space))
+
+
+def _all_round(teeth: RoundTeeth, write: Writer, first: float, each: int = 1) -> list[Segment]:
+    """Return the outline of a gear from its first tooth on, with every ``each``-th tooth."""
+    tooth = [*teeth.one(write), teeth.between((each - 1) * teeth.step)]
+    turns = [first + k * teeth.step for k in range(0, round(math.tau / teeth.step), each)]
+    return [piece for turn in turns for piece in turned_pieces(tooth, turn)]

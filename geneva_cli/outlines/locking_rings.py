@@ -120,7 +120,7 @@ def beyond(sizes: Sizes, wheel: PolarPoints, half: float) -> bool:
     return bool((at_edge + _spare(sizes, at_edge) >= limit).any())
 
 
-def _spare(sizes: Sizes, at_edge: Array) -> Array:
+def _spare(sizes: Sizes, at_edge: Array | float) -> Array:
     """Return the distance of the edges beyond the farthest point near them."""
     return np.minimum(sizes.relief, (sizes.lock - at_edge) / 3.0)
 
@@ -145,7 +145,7 @@ def inner_arc(sizes: Sizes, half: float, wheel: PolarPoints, more: float) -> tup
     inside = np.abs(wheel.direction) < half
     radius, off = wheel.radius[inside], wheel.direction[inside]
     at_edge = float(radius[np.abs(off) > half - EDGE].max(initial=0.0))
-    spare = min(sizes.relief, (sizes.lock - at_edge) / 3.0) + more
+    spare = float(_spare(sizes, at_edge)) + more
     edge = max(at_edge + spare, 0.01 * sizes.lock)  # no sector is pointed down to the axis
     ex, ey = edge * math.cos(half), edge * math.sin(half)
     x, y = radius * np.cos(off), radius * np.sin(off)

@@ -159,8 +159,11 @@ class FlatParts(EdgedParts):
     def hub_radii(self, part: str) -> tuple[float, float]:
         """Return the radii of the bore and the hub of a part, "wheel" or "crank", mm."""
         sizes = self.outlines.sizes
-        hubs = {"wheel": sizes.wheel_hub, "crank": sizes.crank_hub}
-        return {"wheel": sizes.wheel_bore, "crank": sizes.crank_bore}[part], hubs[part]
+        radii = {
+            "wheel": (sizes.wheel_bore, sizes.wheel_hub),
+            "crank": (sizes.crank_bore, sizes.crank_hub),
+        }
+        return radii[part]
 
     @cached_property
     def crank(self) -> Member:

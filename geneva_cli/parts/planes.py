@@ -72,20 +72,17 @@ def planes(parts: Outlines, bars: Links, spacers: Iterable[Member] = ()) -> Plan
     geared = list(_gears(parts, bars, links_and_gears, turn))
     if not links:
         return Planes(min(geared, default=None), None)
-    outlines = _outlines(bars)
-    shaft = _Shaft(parts, links, outlines, bars)
+    shaft = _Shaft(parts, links, bars)
     passing = [*_passing(parts, links, bars.sizes, turn), *shaft.between()]
     passing += _standing(parts, bars, spacers, turn)
     met = [
-        _meeting(link, outlines[link.name], one, turn)
+        _meeting(link, shaft.outlines[link.name], one, turn)
         for link in links
         for one in passing
         if one.plane == link.plane
     ]
     met += geared
-    out = shaft.way_out(turn)
-    blocked = out if out is not None and out.gap < 0.0 else None
-    return Planes(min(met, default=None), blocked)
+    return Planes(min(met, default=None), None if shaft.through else shaft.blocked(turn))
 
 
 def _gears(parts: Outlines, bars: Links, links: tuple[Link, ...], turn: Array) -> Iterator[Meeting]:
@@ -119,17 +116,10 @@ def crank_stop(parts: Outlines, bars: Links) -> float | None:
     links = [link for link in links_at(mechanism, turn) if not link.radius_mm]
     if not links or bars.sizes is None:
         return None
-    shaft = _Shaft(parts, links, _outlines(bars), bars)
-    blocked = shaft.below(turn)
-    if blocked is None or blocked.gap >= 0.0:
+    shaft = _Shaft(parts, links, bars)
+    if shaft.blocked(turn) is None:
         return None
     return bars.sizes.span(max(shaft.carries))[0] if max(shaft.carries) else -bars.sizes.gap
-
-
-def _outlines(bars: Links) -> dict[str, Contour]:
-    return {
-        plate.name: plate.outline for plate in bars.plates if isinstance(plate.outline, Contour)
-    }
 
 
 def _passing(parts: Outlines, links: list[Link], sizes: LinkSizes, turn: Array) -> Iterator[Round]:
@@ -183,16 +173,13 @@ def _on_wheel(parts: Outlines, links: list[Link], sizes: LinkSizes, axis: Array)
 class _Shaft:
     """The crank's shaft: the planes in which it carries something; 0 is the wheel's plane."""
 
-    def __init__(
-        self,
-        parts: Outlines,
-        links: list[Link],
-        outlines: dict[str, Contour],
-        bars: Links,
-    ) -> None:
+    def __init__(self, parts: Outlines, links: list[Link], bars: Links) -> None:
         L, sizes = parts.assembly.L, bars.sizes
         assert sizes is not None
-        self.links, self.outlines = links, outlines
+        self.links = links
+        self.outlines = {
+            plate.name: plate.outline for plate in bars.plates if isinstance(plate.outline, Contour)
+        }
         self.way = places(links[0])[0] * 0.0 + L
         self.carries: set[int] = set()
         for link in links:
@@ -223,21 +210,15 @@ class _Shaft:
                 if plane not in self.carries:
                     yield self._in(plane)
 
-    def way_out(self, turn: Array) -> Meeting | None:
-        """Return the shaft's least gap on the way to its bearings; None if it meets nothing."""
-        return None if self.through else self.below(turn)
-
-    def below(self, turn: Array) -> Meeting | None:
-        """Return the shaft's least gap to the links below all that it carries; None without any."""
-        if not self.carries:
-            return None
-        deepest = max(self.carries)
-        met = [
+    def blocked(self, turn: Array) -> Meeting | None:
+        """Return the deepest overlap with links below all that the shaft carries; None if free."""
+        deepest = max(self.carries, default=math.inf)
+        met = (
             _meeting(link, self.outlines[link.name], self._in(link.plane), turn)
             for link in self.links
             if link.plane > deepest
-        ]
-        return min(met, default=None)
+        )
+        return min((one for one in met if one.gap < 0.0), default=None)
 
 
 def _meeting(link: Link, outline: Contour, one: Round, turn: Array) -> Meeting:
