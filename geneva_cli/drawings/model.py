@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from geneva_cli.collisions.machine_parts import MachineParts
     from geneva_cli.layout.assembly import Assembly
     from geneva_cli.layout.plain_sizes import Sizes
-    from geneva_cli.layout.roller_paths import RollerPaths
     from geneva_cli.layout.stressed import Stressed
     from geneva_cli.outlines.outlines import Outlines
     from geneva_cli.outlines.rack_outlines import RackOutlines
@@ -98,13 +97,6 @@ class PartsModel:
         from geneva_cli.layout.assembly import assembly
 
         return self.known.assembly if self.known else assembly(self.mechanism)
-
-    @cached_property
-    def paths(self) -> RollerPaths:
-        """The paths of the rollers, which do not depend on sizes."""
-        from geneva_cli.layout.roller_paths import roller_paths
-
-        return roller_paths(self.assembly)
 
     @cached_property
     def sizes(self) -> Sizes:

@@ -27,11 +27,12 @@ def wheel_regions(ball: Ball, inner: float) -> list[Region]:
     b, z = ball.half_step, ball.z
     between = [place(_end(ball), (2 * k - 1) * b) for k in range(z)]
     ends = [place(inner, (2 * k - 1) * b) for k in range(z)]
-    return [
-        _region(ball, 2 * k * b, (between[k], between[after]), (ends[k], ends[after]), inner)
-        for k in range(z)
-        for after in ((k + 1) % z,)
-    ]
+    regions = []
+    for k in range(z):
+        after = (k + 1) % z
+        sides = (between[k], between[after]), (ends[k], ends[after])
+        regions.append(_region(ball, 2 * k * b, *sides, inner))
+    return regions
 
 
 def web_angle(ball: Ball) -> float:

@@ -237,11 +237,6 @@ class FlatParts(EdgedParts):
         return tuple(one for mesh in meshes if mesh for one in mesh.layout)
 
     @cached_property
-    def round_gears(self) -> tuple[Member, ...]:
-        """Those gears in the machine."""
-        return tuple(gear.member for gear in self.toothed)
-
-    @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
         """The noncircular gears in front of a crank, with teeth or up to their pitch curves."""
         if self.mechanism.spec.gears is None:

@@ -83,7 +83,7 @@ def _sectors(view: View, gear: Gear, outline: Contour, pitch: str) -> None:
     toothed = [arc for arc in arcs if abs(arc.radius - gear.radius) < SAME_ON_SHEET]
     hub = [arc for arc in arcs if arc not in toothed]
     count = len(toothed)
-    view.of_arcs(toothed, times(count, pitch) if count > 1 else pitch, whole=True)
+    view.of_arcs(toothed, times(count, pitch), whole=True)
     view.of_arcs(hub, times(len(hub), sized.plain(hub[0].radius, "R ")))
     legs = [(math.atan2(arc.start[1], arc.start[0]), arc.sweep) for arc in toothed]
     wide = times(count, f"{number(gear.teeth.each_deg)}°")
