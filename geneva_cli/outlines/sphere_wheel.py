@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from geneva_cli.curves.sphere import Region, SphereArc, Vector, opposite, place
+from geneva_cli.curves.sphere import Region, SphereArc, Vector, combined, opposite, place
 from geneva_cli.layout.ball import Ball
 from geneva_cli.numerics.arrays import Array
 
@@ -116,6 +116,4 @@ def _recess(ball: Ball, azimuth: float, start: Vector, end: Vector) -> SphereArc
 
 def _offset(at: Vector, across: Vector, angle: float) -> Vector:
     """Return the point at an angle from ``at`` along the great circle towards ``across``."""
-    c, s = math.cos(angle), math.sin(angle)
-    x, y, z = (c * p + s * q for p, q in zip(at, across, strict=True))
-    return x, y, z
+    return combined(at, math.cos(angle), across, math.sin(angle))
