@@ -34,7 +34,7 @@ def crank_contours(
 ) -> list[Contour]:
     """Return the locking disc with one kind of relief: ``"arc"`` or ``"sector"``.
 
-    ``swept(i, every)`` are points where the wheel enters the disc in the i-th motion. Where the
+    ``swept(i)`` are points where the wheel enters the disc in the i-th motion. Where the
     wheel sweeps over the crank's axis, as an internal wheel does, only locking sectors are left.
     The crank carries them next to the wheel's plane. They keep ``spare`` mm more distance from the
     wheel.
@@ -61,7 +61,7 @@ def crank_contours(
 def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:
     """Return a relief as wide as the wheel needs: offset slots turn horns past its edges."""
     middle = 0.5 * (one.start + one.end)
-    beyond = towards(*swept(one.motion, 1), middle + math.pi, math.pi - one.half)
+    beyond = towards(*swept(one.motion), middle + math.pi, math.pi - one.half)
     off = polar_points(*beyond, middle).direction
     spare = sizes.relief / sizes.lock
     low, high = float(off.min(initial=0.0)), float(off.max(initial=0.0))

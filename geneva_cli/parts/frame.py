@@ -155,7 +155,7 @@ def _mounted(base: Plate, L: float) -> Iterator[Screwed]:
 
 def _spacer(screw: Circle, part: Plate, top: float) -> Member:
     """Return the ring about a screw, twice as wide, between the frame and the fixed part."""
-    outline, bore = (Circle(LAYER, ORIGIN, r) for r in (2.0 * screw.radius, screw.radius))
+    outline, bore = Circle(LAYER, ORIGIN, 2.0 * screw.radius), screw._replace(centre=ORIGIN)
     plate = Plate(f"spacer of the {part.name}", LAYER, outline, (bore,), top, part.low)
     return Member(plate, screw.centre)
 
