@@ -172,10 +172,10 @@ def _pitch_line(parts: FlatParts, engagement: Engagement) -> Contour:
         ends = [(float(p[0]), float(p[1])) for p in (mouth, end)]
         return Contour(PITCH, (Line(*ends),), closed=False)
     from geneva_cli.curves import fit
-    from geneva_cli.outlines.walls.ways import parallel
+    from geneva_cli.outlines.walls.path_walls import parallel
 
     pieces: list[Segment] = []
     for a, b in ((engagement.entry_deg, 0.0), (0.0, engagement.exit_deg)):
-        way = parallel(assembly, engagement, 0.0, b > 0.0)
-        pieces += fit.KINDS[parts.curves](way, a, b, fine)
+        path = parallel(assembly, engagement, 0.0, b > 0.0)
+        pieces += fit.KINDS[parts.curves](path, a, b, fine)
     return Contour(PITCH, joined(pieces), closed=False)

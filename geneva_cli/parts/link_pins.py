@@ -22,7 +22,7 @@ LAYER, ROLLER = "LINK", "ROLLER"
 class SharedJoint(NamedTuple):
     """Links that share a joint at all input angles: the joint's path, their names and planes."""
 
-    way: Array  # complex points
+    path: Array  # complex points
     names: tuple[str, ...]
     planes: tuple[int, ...]
 
@@ -48,7 +48,7 @@ def joined(links: Iterable[Link], near: float) -> list[SharedJoint]:
 def pins(links: Iterable[Link], sizes: LinkSizes, near: float) -> Iterator[Member]:
     """Yield each pin that joins links, with the washers and spacers on it."""
     for one in joined(links, near):
-        where = point_at_zero(one.way)
+        where = point_at_zero(one.path)
         spans = [sizes.span(plane) for plane in one.planes]
         origin = (0.0, 0.0)
         hole = Circle(LAYER, origin, sizes.pin)

@@ -45,7 +45,7 @@ class Round(NamedTuple):
 
     name: str
     plane: int
-    way: Array  # complex positions, one at each input angle
+    path: Array  # complex positions, one at each input angle
     radius: float
 
 
@@ -53,7 +53,7 @@ class Planes(NamedTuple):
     """The least gap of all in a whole turn, and that of the crank's shaft to its bearings."""
 
     nearest: Meeting | None
-    way_out: Meeting | None  # None where the shaft is free
+    blocked: Meeting | None  # None where the shaft is free
 
 
 def planes(parts: Outlines, bars: Links, spacers: Iterable[Member] = ()) -> Planes:
@@ -130,7 +130,7 @@ def _passing(parts: Outlines, links: list[Link], sizes: LinkSizes, turn: Array) 
         for plane in range(min(one.planes) + 1, max(one.planes)):
             if plane not in one.planes:
                 name = f"the pin of {' and '.join(one.names)}"
-                yield Round(name, plane, one.way, sizes.ring)
+                yield Round(name, plane, one.path, sizes.ring)
 
 
 def _standing(
@@ -180,7 +180,7 @@ class _Shaft:
         self.outlines = {
             plate.name: plate.outline for plate in bars.plates if isinstance(plate.outline, Contour)
         }
-        self.way = places(links[0])[0] * 0.0 + L
+        self.path = places(links[0])[0] * 0.0 + L
         self.carries: set[int] = set()
         for link in links:
             at, kind = places(link)[0], link.kinds[0]
@@ -200,7 +200,7 @@ class _Shaft:
         self.reached = {link.plane for link in links if sizes.span(link.plane)[1] > ends}
 
     def _in(self, plane: int) -> Round:
-        return Round("the crank's shaft", plane, self.way, self.radius)
+        return Round("the crank's shaft", plane, self.path, self.radius)
 
     def between(self) -> Iterator[Round]:
         """Yield the shaft in the planes that it must cross, or that the spec extends it to."""
@@ -226,7 +226,7 @@ def _meeting(link: Link, outline: Contour, one: Round, turn: Array) -> Meeting:
     ahead = joints[1] - joints[0]
     size = np.abs(ahead)
     unit = np.where(size > 0.0, ahead / np.where(size > 0.0, size, 1.0), 1.0)
-    own = (one.way - joints[0]) / unit
+    own = (one.path - joints[0]) / unit
     gaps = Polyarc([outline]).signed(np.column_stack((own.real, own.imag))) - one.radius
     least = int(np.argmin(gaps))
     return Meeting(float(gaps[least]), float(turn[least]), link.name, one.name)

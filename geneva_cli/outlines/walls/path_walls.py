@@ -52,9 +52,9 @@ def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall
     sections = [circles[0][1][::-1], _pitch(assembly, engagement, t), circles[1][1]]
     path = np.concatenate(sections)
     arcs: list[Wall] = []
-    for centre, way in circles:
-        radius = math.dist(centre, way[0])
-        angles = np.unwrap(np.arctan2(way[:, 1] - centre[1], way[:, 0] - centre[0]))
+    for centre, points in circles:
+        radius = math.dist(centre, points[0])
+        angles = np.unwrap(np.arctan2(points[:, 1] - centre[1], points[:, 0] - centre[0]))
         for side in (-w, w):
             arcs.append(_arc(path, near, centre, radius + side, np.sort(angles)))
     flanks: list[Wall] = []
