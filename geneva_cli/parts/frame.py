@@ -41,6 +41,7 @@ from geneva_cli.parts.mounted_plate import (
     require_walls,
     shaft_hole,
 )
+from geneva_cli.parts.shaft import Seat
 
 Screwed: TypeAlias = tuple[Circle, Plate]  # a screw's hole in the frame, and the part that it fixes
 
@@ -64,18 +65,12 @@ def framed(
             "parallel, so one plate cannot hold them"
         )
     size, L = mechanism.spec.size, mechanism.center_distance_mm
-    lows = [base.low] if base else []
-    if mechanism.spec.gears:
-        from geneva_cli.parts.gear_pair import gear_seats
-
-        lows += [seat.low for seat in gear_seats(mechanism, outlines)]
-    drawn = outlines.sizes if outlines else None
-    thick = drawn_thicknesses(size, L, drawn).arm
-    free = min([_lowest(mechanism, outlines, bars), *lows]) - size.washer_mm
-    top = free - shoulder_length(size, L)
-    own = list(all_shafts(mechanism, outlines, bars, top - thick, first))
     others = (*first, *([Member(base)] if base else []))
     adjacent = list(passing(mechanism, outlines, bars, others))
+    free = _lowest(mechanism, outlines, adjacent) - size.washer_mm
+    top = free - shoulder_length(size, L)
+    thick = drawn_thicknesses(size, L, outlines.sizes if outlines else None).arm
+    own = list(all_shafts(mechanism, outlines, bars, top - thick, first))
     if size.shafts == "turned" and outlines:
         adjacent += passing_arm(outlines, own)
     axles, bottom = built_shafts(size, own, adjacent, (top - thick, top, free))
@@ -86,15 +81,15 @@ def framed(
     holes = [*drilled, *(hole for hole, _ in fixed)]
     near = SAME_LENGTH * L
     spacers = [_spacer(hole, part, top) for hole, part in fixed if part.low - top > near]
-    # The frame contains every axis, drilled or not.
-    within = [*holes, *(Circle(HOLES, at, 0.0) for at in ((0.0, 0.0), *places))]
     eye = corner_radius(size, L)
     if mechanism.frame > 0.0:
         reach = max(c.radius for c in holes) + eye
         eyes = [Circle(LAYER, at, reach) for at in places]
         plate = Plate("carrier", LAYER, convex_hull(LAYER, eyes), tuple(holes), bottom, top)
-        return FrameAndShafts(plate, tuple(outside_links(axles, bars, L)))
-    plate = mounted_plate(holes, within, eye, (bottom, top))
+    else:
+        # a frame contains every axis, drilled or not
+        within = [*holes, *(Circle(HOLES, at, 0.0) for at in (ORIGIN, *places))]
+        plate = mounted_plate(holes, within, eye, (bottom, top))
     return FrameAndShafts(plate, tuple(outside_links(axles, bars, L)), tuple(spacers))
 
 
@@ -160,12 +155,9 @@ def _spacer(screw: Circle, part: Plate, top: float) -> Member:
     return Member(plate, screw.centre)
 
 
-def _lowest(mechanism: Mechanism, parts: Outlines | None, bars: Links) -> float:
-    """Return the lowest point of the moving parts, along the axis."""
-    size = mechanism.spec.size
-    under = [one.part.low for one in (*bars.cut, *bars.joined) if isinstance(one.part, Plate)]
-    under += [gear.plate.low for gear in bars.gears]
+def _lowest(mechanism: Mechanism, parts: Outlines | None, others: Sequence[Seat]) -> float:
+    """Return the lowest point, along the axis, of the wheel's hub, the arm, and other parts."""
     hub = wheel_hub(parts.assembly, parts.sizes) if parts else None
-    under += [hub.low] if hub else []
     arm = parts.sizes.arm_thickness if parts and has_arm(parts) else 0.0
-    return min([*under, -size.allowances.pin_gap_mm - arm])
+    stands = -mechanism.spec.size.allowances.pin_gap_mm
+    return min([stands - arm, *([hub.low] if hub else []), *(one.low for one in others)])

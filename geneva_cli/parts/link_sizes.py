@@ -16,7 +16,7 @@ from geneva_cli.curves.shapes import Point
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.layout.arm_sizes import HUB, pin_hole
-from geneva_cli.layout.plain_sizes import drawn_thicknesses, half_or, pin_radius
+from geneva_cli.layout.plain_sizes import drawn_thicknesses, half_or, pin_radius, plane_span
 from geneva_cli.layout.sizes import sized
 from geneva_cli.machine.least_wall import eye_about, wall_min
 from geneva_cli.machine.mechanism import Mechanism
@@ -74,10 +74,7 @@ class LinkSizes(NamedTuple):
 
     def span(self, plane: int) -> tuple[float, float]:
         """Return lower and upper end, along the axis, of links in a plane below the wheel's."""
-        high = -self.gap
-        if plane > 1:
-            high -= self.arm + self.washer + (plane - 2) * (self.thickness + self.washer)
-        return high - (self.arm if plane == 1 else self.thickness), high
+        return plane_span(plane, self.gap, self.arm, self.thickness, self.washer)
 
 
 def link_sizes(
@@ -101,25 +98,7 @@ def link_sizes(
     stands = first.pin if first else pin_radius(size, mechanism.roller_radius_mm, drawn)
     own = None if size.link_bore_mm is None else 0.5 * size.link_bore_mm
     roller = pin_hole(size, stands) if stands else 0.0
-    nearest = min((distance for link in links for distance in _pin_distances(link)), default=L)
-    # a fifth of the distance to the next joint leaves eyes and a gap between
-    pin = (
-        rounded_radius(min(L / 40.0, 0.2 * nearest))
-        if size.link_pin_mm is None
-        else size.link_pin_mm / 2
-    )
-    eye = half_or(size.link_width_mm, eye_about(pin, wall))
-    if eye <= pin:
-        raise GenevaError(
-            f"link_width_mm = {2.0 * eye:g}: it must be above {2.0 * pin:.6g}, the pins' diameter",
-            ("size", "link_width_mm"),
-        )
-    if pin <= 0.5 * size.allowances.shaft_fit_mm:
-        raise GenevaError(
-            f"shaft_fit_mm = {size.allowances.shaft_fit_mm:g}: it leaves no pin in the links' "
-            f"holes of {2.0 * pin:.6g} mm",
-            ("size", "shaft_fit_mm"),
-        )
+    pin, eye = _pin_and_eye(size, links, wall, L)
     limit = _eye_limit(mechanism, links)
     arm = thick.arm if spec.drive.ONE_ARM else thick.link
     return LinkSizes(
@@ -137,6 +116,26 @@ def link_sizes(
         washer=size.washer_mm,
         shaft_fit=size.allowances.shaft_fit_mm,
     )
+
+
+def _pin_and_eye(size: Size, links: Iterable[Link], wall: float, L: float) -> tuple[float, float]:
+    """Return the radii of the pins between links, and of the plate around them."""
+    nearest = min((distance for link in links for distance in _pin_distances(link)), default=L)
+    # a fifth of the distance to the next joint leaves eyes and a gap between
+    pin = half_or(size.link_pin_mm, rounded_radius(min(L / 40.0, 0.2 * nearest)))
+    eye = half_or(size.link_width_mm, eye_about(pin, wall))
+    if eye <= pin:
+        raise GenevaError(
+            f"link_width_mm = {2.0 * eye:g}: it must be above {2.0 * pin:.6g}, the pins' diameter",
+            ("size", "link_width_mm"),
+        )
+    if pin <= 0.5 * size.allowances.shaft_fit_mm:
+        raise GenevaError(
+            f"shaft_fit_mm = {size.allowances.shaft_fit_mm:g}: it leaves no pin in the links' "
+            f"holes of {2.0 * pin:.6g} mm",
+            ("size", "shaft_fit_mm"),
+        )
+    return pin, eye
 
 
 def _crank_shaft(mechanism: Mechanism, parts: Outlines | None) -> float | None:
