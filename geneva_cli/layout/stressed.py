@@ -139,7 +139,7 @@ def _arm(assembly: Assembly, sizes: Sizes, contact: float) -> ArmDimensions:
 
 
 def lock_of(where: Assembly, size: Sizes) -> Lock:
-    """Return the lock of parts of these sizes, in its narrowest sector."""
+    """Return the lock of parts of these sizes, in its narrowest sector between two reliefs."""
     half = min((0.5 * (end - start) for start, end in sectors(where)), default=math.nan)
     edge = where.full.spec.size.lock_edge_mm or 0.0
     return Lock(where.L, where.sign, size.lock, size.recess, size.rim, half, edge)
