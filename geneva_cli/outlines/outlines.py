@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
 from functools import cache, lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.locking import Lock
 from geneva_cli.collisions.gaps import Gaps
 from geneva_cli.collisions.pairs import Pose
 from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.shapes import Arc, Contour
-from geneva_cli.errors import GenevaError
+from geneva_cli.curves.shapes import Contour
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly, assembly
 from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.reliefs import has_arcs, without_lock
 from geneva_cli.layout.sizes import sizes
-from geneva_cli.layout.stressed import lock_of
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -116,37 +112,6 @@ def drawn(assembly: Assembly, sizes: Sizes, tolerance: float = 0.0) -> Outlines:
     if assembly.full.spec.wheel.stopped:
         wheel = wheel_contour(assembly, sizes, walls, convex=True)
     return Outlines(assembly, sizes, walls, wheel, crank, relief, gaps, close, fine)
-
-
-def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
-    """Return the lock as wheel and crank are cut: its narrowest arc, and its loosest corner.
-
-    Beyond the axis of an internal wheel's crank, and where offset slots turn their horns past a
-    relief's edges, the wheel leaves less than a sector between two reliefs. The mouths of offset
-    slots and of unequal steps end at different radii, and so do the recesses between them.
-    """
-    lock, kinds = lock_of(assembly, sizes), assembly.kinds
-    if is_whole(assembly, sizes) and len(kinds) == 1 and not kinds[0].slot.offset:
-        return lock
-    try:
-        parts = drawn(assembly, sizes)
-    except GenevaError:  # the check of the parts reports the error
-        return lock
-    near = SAME_LENGTH * assembly.L
-
-    def arcs(contours: Iterable[Contour], radius: float, away: float) -> Iterator[Arc]:
-        """Yield the arcs of a radius whose centres are at a distance from the axis."""
-        pieces = (piece for contour in contours for piece in contour.segments)
-        for arc in (piece for piece in pieces if isinstance(piece, Arc)):
-            if abs(arc.radius - radius) < near and abs(math.hypot(*arc.centre) - away) < near:
-                yield arc
-
-    half = min([lock.half, *(0.5 * abs(a.sweep) for a in arcs(parts.crank, lock.lock, 0.0))])
-    recesses = arcs([parts.wheel], lock.recess, assembly.L)
-    corners = {math.hypot(*end) for one in recesses for end in (one.start, one.end)}
-    others = sorted(r for r in corners if abs(r - lock.corner) > near)  # than the widest mouth's
-    tried = [lock._replace(half=half, corner=r) for r in (lock.corner, *others)]
-    return max(tried, key=lambda one: float(one.contact().play))
 
 
 def slot_walls(

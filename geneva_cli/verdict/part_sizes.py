@@ -25,7 +25,7 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.numerics.jet import Array
-from geneva_cli.outlines.outlines import cut_lock
+from geneva_cli.outlines.cut_lock import cut_lock
 from geneva_cli.outlines.rack import rack_sizes
 
 
