@@ -58,8 +58,8 @@ def counter_sizes(mechanism: Mechanism) -> CounterSizes:
     spec, L = mechanism.spec, mechanism.center_distance_mm
     z = spec.wheel.z
     large = round(2 * z * mechanism.ratio / (1.0 - mechanism.ratio))
-    mesh = _meshing((large, 2 * z), L, spec.size.gear_backlash_mm)
-    number, pinion = mesh.number, mesh.pinion
+    counts, backlash_mm = (large, 2 * z), spec.size.gear_backlash_mm
+    number, pinion, shifts, angle, contact = _meshing(counts, L, backlash_mm)
     rim = _touching_circle(pinion, L) - spec.size.allowances.lock_clearance_mm
     driver = number._replace(tip=min(number.tip, rim))
     if driver.tip <= driver.base or rim <= L - pinion.tip:
@@ -69,8 +69,7 @@ def counter_sizes(mechanism: Mechanism) -> CounterSizes:
             "lock_clearance_mm",
             ("wheel", "z"),
         )
-    angle, contact = mesh.pressure_angle, mesh.contact_ratio
-    return CounterSizes(driver, number, pinion, L, mesh.shifts, angle, contact, rim)
+    return CounterSizes(driver, number, pinion, L, shifts, angle, contact, rim)
 
 
 def counter_mesh(sizes: CounterSizes) -> GearMesh:
@@ -91,20 +90,13 @@ def counter_mesh(sizes: CounterSizes) -> GearMesh:
     return GearMesh(gears, sizes.pressure_angle, sizes.contact_ratio)
 
 
-class _Meshing(NamedTuple):
-    """The whole teeth of a number wheel and a pinion in mesh."""
+def _meshing(
+    counts: tuple[int, int], L: float, backlash_mm: float
+) -> tuple[RoundTeeth, RoundTeeth, tuple[float, float], float, float]:
+    """Return the teeth of number wheel and pinion by their numbers, and how they mesh.
 
-    number: RoundTeeth
-    pinion: RoundTeeth
-    shifts: tuple[float, float]  # in modules, without backlash
-    pressure_angle: float  # at work, radians
-    contact_ratio: float
-
-
-def _meshing(counts: tuple[int, int], L: float, backlash_mm: float) -> _Meshing:
-    """Return the teeth of number wheel and pinion, by their numbers.
-
-    Raises GenevaError, naming the key, for teeth that lose contact.
+    That is their shifts in modules without backlash, the pressure angle at work, radians, and the
+    contact ratio. Raises GenevaError, naming the key, for teeth that lose contact.
     """
     plain, total = Rack(1.0), sum(counts)
     # modules by which a backlash along the pitch circles at work thins both, a half each
@@ -127,7 +119,7 @@ def _meshing(counts: tuple[int, int], L: float, backlash_mm: float) -> _Meshing:
         contact = contact_ratio(number, pinion, L, angle)
     if contact < 1.0:
         raise _lost_contact(backlash_mm, counts[0], max(0.0, contact))
-    return _Meshing(number, pinion, shifts, angle, contact)
+    return number, pinion, shifts, angle, contact
 
 
 def _lost_contact(backlash_mm: float, teeth: int, contact: float) -> GenevaError:
