@@ -8,7 +8,7 @@ import pytest
 from scipy.optimize import root
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.paths.boxes import _turned_between
+from geneva_cli.kinematics.paths.boxes import _overlaps
 from geneva_cli.kinematics.paths.pairs import pairs
 from geneva_cli.kinematics.paths.samples import PathSamples, points
 from geneva_cli.linkage.wheels import wheels
@@ -154,20 +154,22 @@ def test_exits_are_those_of_a_comparison_of_all_pairs(turns):
     random = np.random.default_rng(3)
     rows, count = 5, 40
     along = np.arange(count) / count
-    angle = math.tau * turns * along + random.uniform(-2.0, 2.0, (rows, count))
-    low = np.hstack((angle, angle + math.tau * turns))
-    high = low + np.tile(random.uniform(0.0, 0.4, (rows, count)), 2)
-    use = np.tile(random.random((rows, count)) < 0.7, 2)
-    wanted = random.uniform(1.0, 2.5, rows)
+    whole = np.full((rows, 1), math.tau * turns)
+    angle = whole * along + random.uniform(-2.0, 2.0, (rows, count))
+    entries, exits = [
+        (low, low + random.uniform(0.0, 0.4, (rows, count)))
+        for low in (angle + random.uniform(1.0, 2.5, (rows, 1)), angle)
+    ]
+    use = random.random((rows, count)) < 0.7
     expected = {
-        (row * 2 * count + i, row * 2 * count + j)
+        (row, row * count + i, row * count + j % count, j // count)
         for row in range(rows)
-        for i in np.flatnonzero(use[row, :count])
+        for i in np.flatnonzero(use[row])
         for j in range(i + 1, i + count)
-        if use[row, j]
-        and low[row, j] <= high[row, i] + wanted[row]
-        and high[row, j] >= low[row, i] + wanted[row]
+        if use[row, j % count]
+        and exits[0][row, j % count] + whole[row, 0] * (j // count) <= entries[1][row, i]
+        and exits[1][row, j % count] + whole[row, 0] * (j // count) >= entries[0][row, i]
     }
-    found = list(zip(*(x.tolist() for x in _turned_between(use, low, high, wanted)), strict=True))
+    found = list(zip(*(x.tolist() for x in _overlaps(use, entries, exits, whole)), strict=True))
     assert len(found) == len(set(found)) > 20
     assert set(found) == expected

@@ -82,7 +82,7 @@ def _complex(x: Array, y: Array, shape: tuple[int, ...]) -> Complex:
 
 def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
     """Samples of all ``count`` designs, in blocks with similar numbers of samples."""
-    steps = 48  # samples of a turn that every path has
+    steps = 24  # samples of a turn that every path has
     # Samples begin after 0.3 of a step: symmetrical paths have their cusps at 0 and at pi.
     phi = np.array([(i + 0.3) * (math.tau / steps) for i in range(steps + 1)])
     every = np.arange(count)
@@ -132,7 +132,9 @@ def _missed(left: PathPoints, right: PathPoints, turned: Array) -> Mask:
     half = 0.5 * (right.phi - left.phi)
     wrong = np.abs(turned - half * (left.turn + right.turn)) > 0.05  # radians
     # Rates that differ this much belong to a sharp bend, whose turn they predict by chance only.
-    return wrong | (half * np.abs(right.turn - left.turn) > 0.25)  # radians
+    return (
+        wrong | (half * np.abs(right.turn - left.turn) > 0.25) | (np.abs(turned) > 1.0)
+    )  # radians
 
 
 def _between(
