@@ -18,10 +18,10 @@ two curves in that plane, and the pairs are the crossings of the curves.
 
 The search uses boxes: an arc of the path between two samples for the entry, and one for the exit.
 In the plane of lines an arc is a cubic through the values and slopes at its ends. A box is
-discarded if one of the cubics is on one side of the other. The rest are halved, until the directions
-of both cubics show that they cross once or not at all. Newton's method leads from the crossing to
-the pair. The cubics are no proof: a margin allows for their error. A bend within 1e-5 radians of
-the crank counts as a cusp, and pairs in it may be missed.
+discarded if one of the cubics is on one side of the other. The rest are halved, until the
+directions of both cubics show that they cross once or not at all. Newton's method leads from the
+crossing to the pair. The cubics are no proof: a margin allows for their error. A bend within 1e-5
+radians of the crank counts as a cusp, and pairs in it may be missed.
 """
 
 from __future__ import annotations
