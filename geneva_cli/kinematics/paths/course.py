@@ -82,6 +82,22 @@ def leaves_slot(
     return fails
 
 
+def peak_bounds(
+    nodes: Array, motion: Array, wheel: PlacedWheel, course: PinCourse
+) -> tuple[Array, Array]:
+    """Bounds of wheels' peak velocities, by the cubics between samples ``nodes`` since entry."""
+    width, square = np.diff(nodes, axis=1), wheel.square - course.short
+    moments = _coefficients(width, course.moment, course.moment_slope)
+    squares = _coefficients(width, square, -course.short_slope)
+    inside = nodes[:, 1:] <= motion
+    # A quotient of cubics is between the quotients of their Bernstein coefficients.
+    velocity = [
+        np.where(inside, np.where(b > 0.0, a / b, np.inf), 0.0)
+        for a, b in zip(moments, squares, strict=True)
+    ]
+    return velocity[0].max(axis=1), np.max(velocity, axis=(0, 2))
+
+
 def _open(places: Array, course: PinCourse, inside: Mask, low: Array, far: Array) -> Mask:
     """Intervals in which the cubics do not prove the conditions."""
     width = np.diff(places, axis=1)
@@ -92,8 +108,12 @@ def _open(places: Array, course: PinCourse, inside: Mask, low: Array, far: Array
 
 def _least(width: Array, value: Array, slope: Array, sign: Number) -> Array:
     """Least Bernstein coefficient of a cubic between adjacent samples."""
-    third = 1.0 / 3.0
-    a, c = value[:, :-1], value[:, 1:]
-    b, d = a + third * width * slope[:, :-1], c - third * width * slope[:, 1:]
-    least: Array = np.minimum(np.minimum(sign * a, sign * b), np.minimum(sign * c, sign * d))
+    a, b, c, d = (sign * x for x in _coefficients(width, value, slope))
+    least: Array = np.minimum(np.minimum(a, b), np.minimum(c, d))
     return least
+
+
+def _coefficients(width: Array, value: Array, slope: Array) -> tuple[Array, Array, Array, Array]:
+    """Bernstein coefficients of cubics between adjacent samples."""
+    a, d, third = value[:, :-1], value[:, 1:], width / 3.0
+    return a, a + third * slope[:, :-1], d - third * slope[:, 1:], d

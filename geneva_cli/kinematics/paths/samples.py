@@ -95,11 +95,11 @@ def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
     if extra:
         whose, flat = joined([(whose, flat), extra])
     # by designs and crank angles: a turn and the first step are less than 8 radians
-    place = np.argsort(8.0 * whose + flat.phi)
+    place = np.argsort(8.0 * whose + flat.phi, kind="stable")
     counts = np.bincount(whose, minlength=count)
     starts = np.cumsum(counts) - counts
     order = np.argsort(counts, kind="stable")
-    for part in blocks(count, 128):  # their samples and boxes stay in the processor's cache
+    for part in blocks(count, 192):  # their samples and boxes stay in the processor's cache
         which = order[part]
         width = np.arange(counts[which].max(initial=1))
         # After its own last sample a row repeats it.
