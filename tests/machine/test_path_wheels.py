@@ -11,6 +11,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.paths.boxes import _overlaps
 from geneva_cli.kinematics.paths.pairs import pairs
 from geneva_cli.kinematics.paths.samples import PathSamples, points
+from geneva_cli.linkage.choice import chosen
 from geneva_cli.linkage.wheels import wheels
 from geneva_cli.machine.drives.four_bar import FourBar
 
@@ -146,6 +147,39 @@ def test_a_pair_is_found_though_newton_leads_out_of_its_box():
     phi = pairs(path, [samples], np.array([[b]])).pairs.at.phi
     (near,) = {tuple(pair) for pair in phi.round(9).tolist() if np.abs(pair - ends).max() < 0.01}
     assert drives(path, b, 1.0, *near)
+
+
+def peak(path, wheels, i):
+    """Greatest velocity at 20,001 even angles of the i-th wheel."""
+    p, v = pin(path, wheels.phi[i])
+    t = v / abs(v)
+    centre = p[0] + ((p[1] - p[0]) / (t[0] + t[1])).real * t[0]
+    p, v = pin(path, np.linspace(*wheels.phi[i], 20_001))
+    return abs((v / (p - centre)).imag).max()
+
+
+# the last has two wheels whose peaks differ by 1 %, and one of them has two nearly equal peaks
+TWO_PEAKS = FourBar(
+    crank_mm=44.4868,
+    ground_mm=76.9857,
+    coupler_mm=118.422,
+    rocker_mm=86.0199,
+    point_mm=25.0925,
+    point_deg=104.568,
+    branch="-",
+)
+
+
+@pytest.mark.parametrize(("keys", "z"), [*four_bars(6, 5), (TWO_PEAKS, 6)])
+def test_the_chosen_wheel_has_the_least_peak(keys, z):
+    path = keys.roller_path
+    found = wheels(path, np.array([[math.pi / z]])).wheels
+    peaks = [peak(path, found, i) for i in range(len(found.which))]
+    for size, least, most in zip(peaks, found.least, found.most, strict=True):
+        assert least <= size * (1.0 + 1e-6)  # the grid may miss the peak by a step's square
+        assert size <= most
+    best = chosen(path, found)
+    assert [peaks[i] for i in best] == [min(peaks, default=0.0)][: len(peaks)]
 
 
 @pytest.mark.parametrize("turns", [1.0, 0.0, -1.0])
