@@ -152,9 +152,10 @@ def _block_followed(
     before = np.count_nonzero(samples.at.phi[row, :-1] <= entry, axis=1)
     column = before[:, None] + np.arange(count)
     turned = column >= count
-    at = samples.at.at_samples(row[:, None], column - count * turned)
-    since = at.phi - entry + math.tau * turned
-    course = wheel.course(at)
+    place = row[:, None] * (count + 1) + column - count * turned
+    phi, *motions = (x.take(place) for x in samples.at[:4])
+    since = phi - entry + math.tau * turned
+    course = wheel.course(*motions)
     inside = since < motion
     good = np.where(inside, (course.moment > 0.0) & (course.short > 0.0), course.short < 0.0)
     at_entry = (since < SAME_ENTRY) | (since > math.tau - SAME_ENTRY)
@@ -162,7 +163,7 @@ def _block_followed(
     kept = np.flatnonzero(good.all(axis=1))
     # add the ends to the samples, and the entry again a turn later
     wheel, ends, since, motion = wheel.taken(kept), ends.taken(kept), since[kept], motion[kept]
-    limits = wheel.course(ends.at)
+    limits = wheel.course(ends.at.p, ends.at.v, ends.at.a)
     limits = limits._replace(moment=0.0 * limits.moment, short=0.0 * limits.short)
     exit_ = np.count_nonzero(inside[kept], axis=1)[:, None] + 1
     node = np.arange(-1, count + 2) - (np.arange(count + 3) > exit_)
