@@ -52,9 +52,9 @@ def _peaks(path: RollerPath, wheels: PathWheels) -> Array:
     """
     known = _Velocities(wheels.least.copy(), wheels.most.copy(), wheels.phi.copy())
     open_ = _open_peaks(wheels.which, known)
-    # intervals: many of the whole motion, which may have several peaks; then 8 about the greatest,
-    # of which each round leaves three, 8e-9 of them after nineteen
-    for count in (64, *[8] * 19):
+    # Intervals: many of the whole motion, which may have several peaks; then eight about the
+    # greatest velocity, of which each round leaves three. Rounding spoils means over a millionth.
+    for count in (64, *[8] * 9):
         if not len(open_):
             break
         near = _velocities(path, wheels.taken(open_), known.bracket[open_], count)

@@ -17,10 +17,9 @@ from geneva_cli.kinematics.roller_path import RollerPath
 from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Whole
 
 # Possible error of a quantity's cubics, as a fraction of their range in a box. It is ample: of
-# a million wheels of random linkages none is lost with 0.
+# 184,000 wheels of random linkages none is lost with 0, and 9 % are with -0.05.
 CUBIC_ERROR = 0.03
 OVERLAP = 0.5  # fraction of an arc's width by which its pair may lie outside it
-
 
 Span: TypeAlias = "tuple[Array, Array]"  # least and greatest angles
 
