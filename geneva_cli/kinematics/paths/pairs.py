@@ -131,7 +131,6 @@ def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[EndPa
     low = np.stack((boxes.entry.phi, boxes.exit.phi), axis=1)
     width = np.stack((boxes.entry.width, boxes.exit.width), axis=1)
     high = low + width
-    phi = np.clip(phi, low - OVERLAP * width, high + OVERLAP * width)
     close = np.zeros(len(phi), dtype=bool)
     live = np.arange(len(phi))
     for _ in range(12):  # Newton steps

@@ -2,8 +2,8 @@
 
 Between two samples the direction is the cubic of their directions and of the rates at which they
 turn. If that does not predict the turn to the next sample, the path is sampled again midway. It is
-so too if the rates differ by much, since they may predict the turn by chance. Both happen near a
-cusp.
+so too if the turn is large or the rates differ by much, since they may predict the turn by chance.
+All this happens near a cusp.
 """
 
 from __future__ import annotations
@@ -95,7 +95,7 @@ def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
     if extra:
         whose, flat = joined([(whose, flat), extra])
     # by designs and crank angles: a turn and the first step are less than 8 radians
-    place = np.argsort(8.0 * whose + flat.phi, kind="stable")
+    place = np.argsort(8.0 * whose + flat.phi)
     counts = np.bincount(whose, minlength=count)
     starts = np.cumsum(counts) - counts
     order = np.argsort(counts, kind="stable")
@@ -130,11 +130,10 @@ def _turned(left: PathPoints, right: PathPoints) -> Array:
 def _missed(left: PathPoints, right: PathPoints, turned: Array) -> Mask:
     """True where the rates at two samples do not predict the turn between them."""
     half = 0.5 * (right.phi - left.phi)
-    wrong = np.abs(turned - half * (left.turn + right.turn)) > 0.05  # radians
+    # radians; an arc turns by less than a pair for three slots does, which is pi/3
+    wrong = (np.abs(turned - half * (left.turn + right.turn)) > 0.05) | (np.abs(turned) > 1.0)
     # Rates that differ this much belong to a sharp bend, whose turn they predict by chance only.
-    return (
-        wrong | (half * np.abs(right.turn - left.turn) > 0.25) | (np.abs(turned) > 1.0)
-    )  # radians
+    return wrong | (half * np.abs(right.turn - left.turn) > 0.25)  # radians
 
 
 def _between(
