@@ -14,6 +14,7 @@ from xml.etree import ElementTree
 import numpy as np
 from hypothesis import assume
 from hypothesis import strategies as st
+from scipy.integrate import quad
 
 from geneva_cli.curves.measure import STRAIGHT, at, mapped, segment_length
 from geneva_cli.curves.shapes import Arc, Circle, Cubic, Line, closed
@@ -331,7 +332,20 @@ def length(shape):
     """The length of the line that is drawn."""
     if isinstance(shape, Circle):
         return 2.0 * math.pi * shape.radius
-    return math.fsum(map(segment_length, shape.segments))
+    return math.fsum(map(_length, shape.segments))
+
+
+def _length(segment):
+    if not isinstance(segment, Cubic):
+        return segment_length(segment)
+    sides = 3.0 * np.diff(np.array(segment), axis=0)
+
+    def speed(t):
+        return math.hypot(
+            *(sides[0] * (1 - t) ** 2 + sides[1] * 2 * t * (1 - t) + sides[2] * t * t)
+        )
+
+    return quad(speed, 0.0, 1.0, epsabs=1e-13, epsrel=1e-13, limit=400)[0]
 
 
 def scaled(drawing, factor):

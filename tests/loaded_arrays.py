@@ -141,11 +141,11 @@ def beyond(found, places, seed, names=NAMES, ends=None):
         for i in range(0, n, BLOCK):
             part = slice(i, min(i + BLOCK, n))
             some = taken(of(engagement, load_case(machine), names, {}), part)
-            here, given, _ = some
+            here, given, *_ = some
             a, b = (np.reshape(x, (-1, 1)) for x in (here.entry_deg, here.exit_deg))
             share = (np.arange(places) + random.random((part.stop - i, places))) / places
             x = np.asfortranarray(a + (b - a) * np.clip(share, 1e-9, 1.0 - 1e-9))
-            load = LoadFunctions(some, names)
+            load = LoadFunctions(some)
             with np.errstate(all="ignore"):
                 found_ = signed_instant(
                     load.kinds, given, contact(here, x, reactions=load.reactions), None

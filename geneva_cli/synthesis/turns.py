@@ -11,9 +11,8 @@ from functools import cached_property
 from typing import NamedTuple
 
 from geneva_cli.collisions.full_turn import full_turn
-from geneva_cli.collisions.gaps import WorkLimit
 from geneva_cli.collisions.glance import gap_about, play_about
-from geneva_cli.collisions.machine_parts import MachineParts
+from geneva_cli.collisions.machine_parts import MachineParts, WorkLimit
 from geneva_cli.collisions.one_motion import one_motion
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError

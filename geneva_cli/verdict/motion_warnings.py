@@ -224,18 +224,18 @@ def _off_the_mid_condition(mechanism: Mechanism) -> Notice:
 
 
 def _not_driven(mechanism: Mechanism) -> list[Notice]:
-    from geneva_cli.analysis.positive_drive import positive_drive
+    from geneva_cli.analysis.positive_drive import positive_drives
 
-    drive = positive_drive(mechanism)
+    drive = positive_drives(mechanism)
     if drive is None or not drive.loose_deg:
         return []
     where = ", ".join(f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in drive.loose_deg)
-    percent = 100.0 * drive.fraction
+    percent, gap_mm = 100.0 * drive.fraction.item(), drive.loose_gap_mm.item()
     return [
         Notice(
             "not-positively-driven",
             f"not positively driven from {where} deg ({percent:.3g} % of the motion). "
-            f"The slot's other branch, up to {drive.loose_gap_mm:.3g} mm off, cuts away the wall "
+            f"The slot's other branch, up to {gap_mm:.3g} mm off, cuts away the wall "
             "that the torque needs there. Less torque_Nm against the inertia shortens the "
             'interval; kind = "cam" drives any law through straight slots',
         )

@@ -158,7 +158,7 @@ class Strength:
         """The needs of the lock's contact stress, which is unbounded on a sharp edge."""
         yield from self._lock()
         lock_load = self.load.lock
-        if lock_load is not None and lock_load.approach_deg is not None:
+        if lock_load is not None:
             rounds = (
                 "lock_edge_mm in [size]"
                 if lock_load.on == "corner"

@@ -120,7 +120,7 @@ def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iter
     yield from rows
     if not turned or parts is None:
         return
-    from geneva_cli.collisions.gaps import WorkLimit
+    from geneva_cli.collisions.machine_parts import WorkLimit
 
     try:
         turn = model.turn
