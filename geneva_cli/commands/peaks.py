@@ -34,7 +34,6 @@ def run(
     design = load(spec, settings or (), reverse)
     table = design.peaks_table
     if certify:
-        data = table_as(output, format) in ("json", "csv")
-        table = design.certified_table if data else design.certified_page
+        table = design.certified_peaks(table_as(output, format) not in ("json", "csv"))
     show(table, output, format, design.spec.files)
     warn(design)

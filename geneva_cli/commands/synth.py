@@ -9,7 +9,6 @@ from geneva_cli.commands.options import Format, Output, Settings, flag, option, 
 from geneva_cli.errors import GenevaError, clean, cut
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.spec import Spec
     from geneva_cli.study.target import Target
 
 EXAMPLES = (
@@ -84,7 +83,7 @@ def run(
     """Find the machines that meet all requirements; the lowest peak comes first.
     The machines tried, and the columns: `geneva help search`.
     """
-    from geneva_cli.synthesis.reading import read_target
+    from geneva_cli.synthesis.reading import read_frame, read_target
 
     if settings and not from_:
         raise GenevaError("--set goes with --from: it changes a key of that spec")
@@ -108,7 +107,7 @@ def run(
         carousel=carousel,
         rollers=rollers,
         law=law,
-        frame=_frame(from_, settings or ()) if from_ else None,
+        frame=read_frame(from_, settings or ()) if from_ else None,
         sort=sort,
         subject_to=subject_to or (),
         space=space,
@@ -117,12 +116,6 @@ def run(
         _show(target, check, buildable, output, format)
     else:
         _write(target, write, buildable, output, format)
-
-
-def _frame(path: str, settings: Sequence[str]) -> "Spec":
-    from geneva_cli.design import load
-
-    return load(path, settings).frame
 
 
 def _inputs(target: "Target") -> Sequence[str]:
