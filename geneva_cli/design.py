@@ -753,16 +753,13 @@ class Design:
         from geneva_cli.drawings.catalogue import PARTS, is_sheet
         from geneva_cli.output import draw, draw_sheet, show
         from geneva_cli.output.formats import (
+            curve_tolerance,
             is_drawn,
-            of_curves,
             sheet_as,
             usual_curves,
-            usual_tolerance,
         )
 
-        if tolerance_mm is None:
-            tolerance_mm = usual_tolerance(path, "")
-        tolerance_mm = of_curves(tolerance_mm, path, "")
+        tolerance_mm = curve_tolerance(tolerance_mm, path, "")
         stem = os.path.splitext(os.path.basename(path))[0]
         part = part or (stem if stem in PARTS else "assembly")
         sheet, files = is_sheet(part), self.spec.files

@@ -59,15 +59,14 @@ def run(
     """
     from geneva_cli.design import load
     from geneva_cli.output import show, show_answer
-    from geneva_cli.output.formats import format_of, table_as
+    from geneva_cli.output.formats import table_as
     from geneva_cli.study.summary.loads import of_loads
 
     design = load(spec, settings or (), reverse)
+    name = table_as(output, format)
     if certify:
-        people = table_as(output, format) not in ("json", "csv")
-        show(design.certified_loads(people), output, format, design.spec.files)
+        show(design.certified_loads(name not in ("json", "csv")), output, format, design.spec.files)
         return
-    name = format or format_of(output)
     by_rows = name == "csv" or (samples is not None and name != "json")
     # before any output: a cycle whose loads are refused has no rows either
     warnings = design.loads_table.to_dict()["warnings"] if by_rows or output != "-" else ()

@@ -21,11 +21,10 @@ from geneva_cli.output.formats import (
     DXF_VERSIONS,
     FILLS,
     FORMATS,
+    curve_tolerance,
     is_drawn,
-    of_curves,
     sheet_as,
     usual_curves,
-    usual_tolerance,
 )
 
 EXAMPLES = (
@@ -120,9 +119,7 @@ def run(
     from geneva_cli.design import load
 
     curves = curves or usual_curves(output, format)
-    if tolerance is None:
-        tolerance = usual_tolerance(output, format)
-    tolerance = of_curves(tolerance, output, format)
+    tolerance = curve_tolerance(tolerance, output, format)
     _require(curves, units)
     if dog_bones and cutter is None:
         raise GenevaError("--dog-bones needs the cutter's diameter: --cutter MM")

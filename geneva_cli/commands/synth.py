@@ -125,13 +125,13 @@ def _inputs(target: "Target") -> Sequence[str]:
 
 def _show(target: "Target", check: int, buildable: bool, output: str, format: str) -> None:
     from geneva_cli.output import is_seen, show
-    from geneva_cli.output.formats import format_of
+    from geneva_cli.output.formats import table_as
     from geneva_cli.synthesis.shown import for_people, for_terminal
     from geneva_cli.synthesis.table import synthesis_table
 
     if output.endswith(".toml") and not format:
         raise GenevaError(f"-o {cut(output, 300)}: a spec is one row of the table; add --write N")
-    name = format or format_of(output)
+    name = table_as(output, format)
     table = synthesis_table(target, check, buildable)
     if name == "table" and is_seen(output):
         table = for_terminal(table, max(check, 20))  # no fewer than are turned by default
