@@ -133,6 +133,22 @@ class Table(NamedTuple):
         own: dict[str, Any] = dict(zip(self._fields, self, strict=True))
         return Table(**own | fields)
 
+    def changed(self, change: Callable[[Sequence[Any]], Sequence[Any]]) -> Table:
+        """The table with columns that ``change`` makes of its own, of equal length.
+
+        A table that is computed while it is written is changed then, piece by piece.
+        """
+        first = self.columns[0] if self.columns else None
+        if not isinstance(first, Column):
+            return self.replaced(columns=change(self.columns))
+        source = first.pieces
+
+        def make(start: int, stop: int) -> Sequence[Any]:
+            return change(source.make(start, stop))
+
+        columns = pieces(source.length, len(self.columns), make, first.dtype)
+        return self.replaced(columns=columns)
+
     def to_dict(self) -> dict[str, Any]:
         """Columns by name, numbers as arrays; a record's values by name, tables in it as rows.
 

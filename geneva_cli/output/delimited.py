@@ -18,11 +18,7 @@ def chunks(table: Table) -> Iterator[str]:
         yield from _numbers(table)
         return
     for block in table.blocks():
-        if all(type(v) is float for row in block for v in row):
-            line = ",".join(["%r"] * len(table.names)) + "\n"
-            yield line * len(block) % tuple(v + 0.0 for row in block for v in row)
-        else:
-            yield "".join(map(one_line, block))
+        yield "".join(map(one_line, block))
 
 
 def one_line(row: Iterable[Any]) -> str:

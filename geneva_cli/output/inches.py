@@ -13,7 +13,7 @@ from geneva_cli.document import Block, Curves, Document, Fact, Facts, Grid
 from geneva_cli.figure import Axis, Curve, Figure, Panel
 from geneva_cli.names import UNITS, unit_of
 from geneva_cli.spec.units import ratio
-from geneva_cli.table import Column, Table, pieces
+from geneva_cli.table import Table
 
 
 @cache
@@ -89,29 +89,17 @@ def table_in_inches(table: Table) -> Table:
             values[new] = table_in_inches(value) if is_table else _over(value, size)
         return table.replaced(names=tuple(values), columns=[(v,) for v in values.values()])
     by_row = {"quantity", "check", "unit"} & set(table.names)
-    columns = _by_row(table) if by_row else _scaled(table)
+    sizes = [_named(name)[1] for name in table.names]
+    if by_row:
+        table = table.replaced(columns=_by_row(table))
+    else:
+        table = table.changed(lambda columns: list(map(_column, columns, sizes)))
     reading = table.reading
     first, in_title = (tuple(_named(n)[0] for n in x) for x in (reading.first, reading.in_title))
     return table.replaced(
         names=tuple(_named(name)[0] for name in table.names),
-        columns=columns,
         reading=reading._replace(first=first, in_title=in_title),
     )
-
-
-def _scaled(table: Table) -> Sequence[Any]:
-    """The columns, each in the other unit of its name."""
-    sizes = [_named(name)[1] for name in table.names]
-    first = table.columns[0] if table.columns else None
-    if not isinstance(first, Column):
-        return [_column(c, f) for c, f in zip(table.columns, sizes, strict=True)]
-    source = first.pieces
-
-    def make(start: int, stop: int) -> Sequence[Any]:
-        rows = source.make(start, stop)
-        return [_column(c, f) for c, f in zip(rows, sizes, strict=True)]
-
-    return pieces(source.length, len(sizes), make, first.dtype)
 
 
 def _column(column: Any, size: float) -> Any:
