@@ -9,7 +9,8 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.specfile.columns import digest
 from geneva_cli.specfile.reader import Text, read
-from geneva_cli.study.fields import Cell
+from geneva_cli.study.fields import Cell, Pick
+from geneva_cli.study.fields import pick as pick_of
 from geneva_cli.study.sweep.constraints import (
     Constraint,
     Objective,
@@ -33,6 +34,7 @@ class SweepRequest(NamedTuple):
     objectives: tuple[Objective, ...]
     jobs: int | None
     files: tuple[str, ...]  # that the spec is read from
+    of_best: Pick  # quantities that are computed for the best design of --best only
 
     @property
     def chooses(self) -> bool:
@@ -84,7 +86,7 @@ class SweepRequest(NamedTuple):
         """The best design, refined, as the lines of a spec."""
         from geneva_cli.study.sweep.best import SearchGoal, winner
 
-        goal = SearchGoal(self.objectives[0], self.constraints)
+        goal = SearchGoal(self.objectives[0], self.constraints, self.of_best)
         return winner(self.sweep, every, goal).lines(goal)
 
 
@@ -132,17 +134,18 @@ def request(
     needed = [o.name for o in goals] + [c.name for c in bounds]
     by = dict.fromkeys([c.name for c in bounds], "--subject-to")
     by |= dict.fromkeys([o.name for o in goals], "--best" if best else "--pareto")
-    every, later = (needed, names) if best else ([*needed, *names], None)
-    swept = sweep(text, plan(axes, random, seed or 0), every, check, by, later)
+    names += ["checks.passes", "checks.failed"] if check else []
+    of_best, every = (pick_of(names), needed) if best else (pick_of([]), [*needed, *names])
+    swept = sweep(text, plan(axes, random, seed or 0), every, by)
     swept = swept._replace(shard=part)
-    whole = dict(zip(every, swept.pick.requested, strict=False))
+    whole = dict(zip(every, swept.pick.requested, strict=True))
     constraints = tuple(c._replace(name=whole[c.name]) for c in bounds)
     refuse_contradictions(constraints)
     objectives = tuple(o._replace(name=whole[o.name]) for o in goals)
     refuse_opposites(objectives)
     options = {whole[a]: option for a, option in by.items()}
     refuse_words(options, "--vary or --set picks it")
-    return SweepRequest(swept, constraints, objectives, jobs, files)
+    return SweepRequest(swept, constraints, objectives, jobs, files, of_best)
 
 
 def _files(text: Text, axes: Sequence[VariedKey], error: GenevaError) -> tuple[str, ...]:

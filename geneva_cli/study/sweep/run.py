@@ -36,7 +36,6 @@ class Sweep(NamedTuple):
     plan: SweepPlan
     pick: Pick
     shard: Shard = WHOLE
-    of_best: Pick | None = None  # quantities that are computed for the best design only
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -163,25 +162,18 @@ def sweep(
     text: Text,
     plan: SweepPlan,
     picks: Sequence[str] = DEFAULT,
-    check: bool = False,
     options: Mapping[str, str] | None = None,
-    of_best: Sequence[str] | None = None,
 ) -> Sweep:
     """Return the sweep of a spec.
 
-    ``check`` adds the result of the checks; ``options`` names the option that requested a quantity,
-    if it was not --pick. ``of_best`` is for a search of the best design: these quantities, and the
-    checks, are then computed for that design only.
-
-    Raises GenevaError for an unknown quantity, and if no design of a sample can be built.
+    ``options`` names the option that requested a quantity, if it was not --pick. Raises GenevaError
+    for an unknown quantity, and if no design of a sample can be built.
     """
-    checked = ("checks.passes", "checks.failed") if check else ()
-    later = None if of_best is None else pick([*of_best, *checked])
-    picked = pick([*picks, *([] if later else checked)], options=options)
+    picked = pick(picks, options=options)
     _refuse_hopeless(text, plan)
     varied = [a.key for a in plan.axes]  # these have their columns already: no name may occur twice
     names = tuple(name for name in picked.names if name not in varied)
-    return Sweep(text, plan, picked._replace(names=names), of_best=later)
+    return Sweep(text, plan, picked._replace(names=names))
 
 
 def _refuse_hopeless(text: Text, plan: SweepPlan) -> None:
