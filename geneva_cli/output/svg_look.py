@@ -6,7 +6,7 @@ import math
 from html import escape
 
 from geneva_cli.curves.drawing import Annotations, LevelDistance
-from geneva_cli.curves.measure import Box, at, bounds, mapped
+from geneva_cli.curves.measure import Box, bounds
 from geneva_cli.curves.pieces import SUFFIX, UNITS
 from geneva_cli.curves.shapes import Arc, Contour, Point
 from geneva_cli.output.inks import inks
@@ -48,16 +48,11 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tup
     unit, text, gap, grey = UNITS[units], mm * 5.0, mm * 3.0, "#757575"
     left, right, low, high = box.x0, box.x1, box.y0, box.y1
     for turn in look.turns:
-        arc = mapped(Contour("", (turn,), closed=False), lambda p: (p[0] / unit, p[1] / unit))
-        lines.append(path(arc))
-        piece = arc.segments[0]
-        assert isinstance(piece, Arc)
-        back = 0.5 * mm * ARROW[0] / piece.radius  # the angle of the arc under the arrow's head
-        x, y = piece.centre
-        end = math.atan2(piece.end[1] - y, piece.end[0] - x)
-        sense = math.copysign(1.0, piece.bulge)
-        heads.append(_head(at(piece, 1.0), end + sense * (0.5 * math.pi - back), mm))
-        around = bounds(arc)
+        arc = Arc(*((x / unit, y / unit) for x, y in (turn.start, turn.end)), turn.bulge)
+        contour = Contour("", (arc,), closed=False)
+        lines.append(path(contour))
+        heads.append(_arc_head(arc, mm))
+        around = bounds(contour)
         left, right = min(left, around.x0), max(right, around.x1)
         low, high = min(low, around.y0), max(high, around.y1)
     for span in look.spans:
@@ -71,9 +66,8 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tup
     tick = mm * 1.5  # half a scale bar's end mark
     bar = round_length(0.2 * (box.x1 - box.x0 or box.y1 - box.y0))
     y = low - gap - max(tick, 0.5 * text)
-    marks = (left, left + bar)
-    lines.append(f"M {point((left, y))} L {point((left + bar, y))}")
-    scale = [f"M {point((x, y - tick))} L {point((x, y + tick))}" for x in marks]
+    ends = [((x, y - tick), (x, y + tick)) for x in (left, left + bar)]
+    ruler = " ".join(map(_line, [*ends, ((left, y), (left + bar, y))]))
     label = f"{bar:g} {SUFFIX[units]}"
     texts.append(((left + bar + gap, y - 0.35 * text), label))
     right = max(right, left + bar + gap + width(label) * text)
@@ -82,10 +76,8 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tup
         texts.append(((left, low - 1.2 * text), title))
         right = max(right, left + width(title) * text)
         low -= 1.5 * text
-    thin = number(mm * 0.25)
-    ruler = " ".join([*scale, lines.pop()])
     return [
-        f'<g id="NOTES" stroke="{grey}" stroke-width="{thin}">\n',
+        f'<g id="NOTES" stroke="{grey}" stroke-width="{number(mm * 0.25)}">\n',
         *(f'<path d="{d}"/>\n' for d in lines),
         f'<path id="SCALE_BAR" d="{ruler}"/>\n</g>\n',
         f'<g id="ARROWS" fill="{grey}">\n',
@@ -111,12 +103,22 @@ def span_text(span: LevelDistance, units: str) -> str:
 
 def _span(span: LevelDistance, unit: float, low: float, gap: float) -> list[str]:
     """The path of a distance's line, and of the lines from its ends down to it."""
-    (a, b) = _ends(span, unit)
-    lines = [f"M {point((a, low))} L {point((b, low))}"]
-    for x, y in (span.start, span.end):
-        here = x / unit
-        lines.append(f"M {point((here, y / unit))} L {point((here, low - 0.4 * gap))}")
-    return lines
+    a, b = _ends(span, unit)
+    sides = (((x / unit, y / unit), (x / unit, low - 0.4 * gap)) for x, y in (span.start, span.end))
+    return list(map(_line, [((a, low), (b, low)), *sides]))
+
+
+def _line(ends: tuple[Point, Point]) -> str:
+    return f"M {point(ends[0])} L {point(ends[1])}"
+
+
+def _arc_head(arc: Arc, mm: float) -> str:
+    """The head of an arrow at an arc's end."""
+    back = 0.5 * mm * ARROW[0] / arc.radius  # the angle of the arc under the head
+    x, y = arc.centre
+    end = math.atan2(arc.end[1] - y, arc.end[0] - x)
+    sense = math.copysign(1.0, arc.bulge)
+    return _head(arc.end, end + sense * (0.5 * math.pi - back), mm)
 
 
 def _head(tip: Point, angle: float, mm: float) -> str:
