@@ -45,7 +45,7 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tup
     heads: list[str] = []
     texts: list[tuple[Point, str]] = []
     # All lengths are in mm, for a drawing 250 mm wide; letters are 5 mm high.
-    unit, text, gap, grey = UNITS[units], mm * 5.0, mm * 3.0, "#757575"
+    unit, text, gap = UNITS[units], mm * 5.0, mm * 3.0
     left, right, low, high = box.x0, box.x1, box.y0, box.y1
     for turn in look.turns:
         arc = Arc(*((x / unit, y / unit) for x, y in (turn.start, turn.end)), turn.bulge)
@@ -76,6 +76,14 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tup
         texts.append(((left, low - 1.2 * text), title))
         right = max(right, left + width(title) * text)
         low -= 1.5 * text
+    return _groups(lines, ruler, heads, texts, mm), Box(left, low, right, high)
+
+
+def _groups(
+    lines: list[str], ruler: str, heads: list[str], texts: list[tuple[Point, str]], mm: float
+) -> list[str]:
+    """The elements of paths, the scale bar's path, arrows and texts of 5 mm."""
+    grey = "#757575"
     return [
         f'<g id="NOTES" stroke="{grey}" stroke-width="{number(mm * 0.25)}">\n',
         *(f'<path d="{d}"/>\n' for d in lines),
@@ -83,10 +91,10 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tup
         f'<g id="ARROWS" fill="{grey}">\n',
         *heads,
         f'</g>\n<g id="TEXT" fill="{LIGHT.text}" font-family="sans-serif"'
-        f' font-size="{number(text)}">\n',
+        f' font-size="{number(mm * 5.0)}">\n',
         *(f"<text {place(p)}>{escape(t, quote=False)}</text>\n" for p, t in texts),
         "</g>\n",
-    ], Box(left, low, right, high)
+    ]
 
 
 def _ends(span: LevelDistance, unit: float) -> tuple[float, float]:
