@@ -44,7 +44,7 @@ def rows_of(table: Table, window: Window, is_inner: bool = False) -> Iterator[st
     is_long = len(table) > layout_rows
     if is_long:
         columns = [c if c.is_text else c._replace(cells=[*c.cells, "0" * NUMBER]) for c in columns]
-    order = _order(table)
+    order = [*table.reading.first, *(n for n in table.names if n not in table.reading.first)]
     width = 1_000_000 if window.wide else window.columns  # a million letters: without a limit
     kept, sizes = fitting(columns, order, width)
     lost = [
@@ -87,11 +87,6 @@ def _other_layout(
     if len(kept) > 1:
         return []
     return [*stacked(kept[0], lost[0], window.columns), *_left_out(lost[1:], window)]
-
-
-def _order(table: Table) -> list[str]:
-    """The columns in order of importance."""
-    return [*table.reading.first, *(n for n in table.names if n not in table.reading.first)]
 
 
 def _left_out(columns: Sequence[ShownColumn], window: Window) -> Iterator[str]:

@@ -103,11 +103,7 @@ def table_in_inches(table: Table) -> Table:
 
 
 def _column(column: Any, size: float) -> Any:
-    if size == 1.0:
-        return column
-    return [
-        _over(v, size) for v in (column if isinstance(column, (list, tuple)) else column.tolist())
-    ]
+    return _over(column if isinstance(column, (list, tuple)) else column.tolist(), size)
 
 
 def _by_row(table: Table) -> Sequence[Any]:

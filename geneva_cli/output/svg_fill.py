@@ -55,14 +55,12 @@ def rings(solid: Part, unit: float = 1.0) -> list[tuple[str, tuple[Contour, ...]
     their tints would add up.
     """
     every = sorted(_placed(solid, lambda shape: shape), key=lambda p: (p[0].high, p[0].low))
+
+    def in_unit(shape: Shape) -> Contour:
+        return as_contour(mapped(shape, lambda p: (p[0] / unit, p[1] / unit), lambda r: r / unit))
+
     drawn = [
-        (
-            plate.layer,
-            tuple(
-                as_contour(mapped(move(s), _divided(unit), lambda radius: radius / unit))
-                for s in (plate.outline, *plate.holes)
-            ),
-        )
+        (plate.layer, tuple(in_unit(move(s)) for s in (plate.outline, *plate.holes)))
         for plate, move in every
     ]
     return list(dict.fromkeys(reversed(drawn)))[::-1]
@@ -83,7 +81,3 @@ def _placed(part: Part, move: Move) -> Iterator[tuple[Plate, Move]]:
             return move(mapped(turned(shape, turn), lambda p: (p[0] + at[0], p[1] + at[1])))
 
         yield from _placed(member.part, then)
-
-
-def _divided(unit: float) -> Callable[[Point], Point]:
-    return lambda p: (p[0] / unit, p[1] / unit)
