@@ -36,8 +36,8 @@ def rows_of(table: Table, window: Window, is_inner: bool = False) -> Iterator[st
     if not first:
         yield from ["no rows"] if table.names else []
         return
-    every = _columns(table, first)
-    columns, once = (every, []) if window.whole else _sorted_out(every, table)
+    all_columns = _columns(table, first)
+    columns, once = (all_columns, []) if window.whole else _sorted_out(all_columns, table)
     if once:
         yield from paragraphs(f"In every row: {'; '.join(once)}.", window)
         yield ""
@@ -94,12 +94,12 @@ def _left_out(columns: Sequence[ShownColumn], window: Window) -> Iterator[str]:
     if not columns:
         return
     one = "1 more column" if len(columns) == 1 else f"{len(columns)} more columns"
-    start, some, rest = f"{one}: --wide, or --columns ", "", [column.name for column in columns]
-    while rest and width_of(start + some + rest[0]) + len(",...") <= window.columns:
-        some += rest.pop(0) + ","
-    line = f"{start}{some}..." if rest else start + some[:-1]
+    start, names, rest = f"{one}: --wide, or --columns ", "", [column.name for column in columns]
+    while rest and width_of(start + names + rest[0]) + len(",...") <= window.columns:
+        names += rest.pop(0) + ","
+    line = f"{start}{names}..." if rest else start + names[:-1]
     yield ""
-    yield styled(line if some else f"{one}: --wide", DIM, window.styled)
+    yield styled(line if names else f"{one}: --wide", DIM, window.styled)
 
 
 def _columns(table: Table, block: list[tuple[Any, ...]]) -> list[ShownColumn]:

@@ -196,9 +196,9 @@ def _panel(panel: Panel, size_x: float) -> Panel:
 
 
 def _curve(curve: Curve, size_x: float, size_y: float) -> Curve:
-    some = tuple((_over(x, size_x), _over(y, size_y)) for x, y in curve.pieces)
+    pieces = tuple((_over(x, size_x), _over(y, size_y)) for x, y in curve.pieces)
     marks = (m._replace(x=_over(m.x, size_x), y=_over(m.y, size_y)) for m in curve.marks)
-    return curve._replace(pieces=some, marks=tuple(marks))
+    return curve._replace(pieces=pieces, marks=tuple(marks))
 
 
 def _axis(axis: Axis) -> tuple[Axis, float]:

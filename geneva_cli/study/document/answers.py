@@ -67,9 +67,9 @@ def _each(stations: Table | None) -> Iterator[Block]:
     rows = list(stations.rows())
     width = 6  # engagements that fit on a page side by side
     for start in range(0, len(rows), width):
-        some = rows[start : start + width]
-        heads = ("Of the engagement", "Unit", *(str(start + i + 1) for i in range(len(some))))
-        columns = zip(stations.names, zip(*some, strict=True), strict=True)
+        group = rows[start : start + width]
+        heads = ("Of the engagement", "Unit", *(str(start + i + 1) for i in range(len(group))))
+        columns = zip(stations.names, zip(*group, strict=True), strict=True)
         lines = [(*fact(name, None)[::2], *values) for name, values in columns]
         yield Grid("Engagement by engagement", heads, tuple(lines))
 

@@ -55,7 +55,7 @@ class Winner(NamedTuple):
         return [*notes, *([f"title = {quoted(title)}"] if title else []), *spec_lines(spec)]
 
 
-def winner(sweep: Sweep, every: Iterable[Sequence[Row]], goal: SearchGoal) -> Winner:
+def winner(sweep: Sweep, row_blocks: Iterable[Sequence[Row]], goal: SearchGoal) -> Winner:
     """Return the best design of a sweep, whose rows come in blocks and are not kept.
 
     The spec's own design is tried too, if its values are among those varied. The keys that vary in
@@ -65,7 +65,7 @@ def winner(sweep: Sweep, every: Iterable[Sequence[Row]], goal: SearchGoal) -> Wi
     """
     search = SweepSearch(sweep, goal.objective, goal.constraints)
     tally = Tally(search)
-    for rows in every:
+    for rows in row_blocks:
         tally.add(rows)
     # a random sample comes near the spec's own design, but does not contain it
     if search.free and sweep.own_values is not None:

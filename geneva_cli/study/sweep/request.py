@@ -60,11 +60,11 @@ class SweepRequest(NamedTuple):
         """All rows, in blocks; the first ``done`` rows are skipped."""
         return blocks(self.sweep, done, self.jobs)
 
-    def chosen(self, every: Iterable[list[list[Cell]]]) -> Iterator[list[list[Cell]]]:
+    def chosen(self, row_blocks: Iterable[list[list[Cell]]]) -> Iterator[list[list[Cell]]]:
         """The rows that keep all bounds and, of these, the Pareto front."""
         names = self.sweep.names
         bounds = [(names.index(c.name), c) for c in self.constraints]
-        kept = ([r for r in block if all(c.kept(r[i]) for i, c in bounds)] for block in every)
+        kept = ([r for r in block if all(c.kept(r[i]) for i, c in bounds)] for block in row_blocks)
         if not self.objectives:
             yield from (block for block in kept if block)
             return
@@ -82,12 +82,12 @@ class SweepRequest(NamedTuple):
         if rows:
             yield rows
 
-    def best(self, every: Iterable[list[list[Cell]]]) -> list[str]:
+    def best(self, row_blocks: Iterable[list[list[Cell]]]) -> list[str]:
         """The best design, refined, as the lines of a spec."""
         from geneva_cli.study.sweep.best import SearchGoal, winner
 
         goal = SearchGoal(self.objectives[0], self.constraints, self.of_best)
-        return winner(self.sweep, every, goal).lines(goal)
+        return winner(self.sweep, row_blocks, goal).lines(goal)
 
 
 def request(
@@ -135,10 +135,10 @@ def request(
     by = dict.fromkeys([c.name for c in bounds], "--subject-to")
     by |= dict.fromkeys([o.name for o in goals], "--best" if best else "--pareto")
     names += ["checks.passes", "checks.failed"] if check else []
-    of_best, every = (pick_of(names), needed) if best else (pick_of([]), [*needed, *names])
-    swept = sweep(text, plan(axes, random, seed or 0), every, by)
+    of_best, picks = (pick_of(names), needed) if best else (pick_of([]), [*needed, *names])
+    swept = sweep(text, plan(axes, random, seed or 0), picks, by)
     swept = swept._replace(shard=part)
-    whole = dict(zip(every, swept.pick.requested, strict=True))
+    whole = dict(zip(picks, swept.pick.requested, strict=True))
     constraints = tuple(c._replace(name=whole[c.name]) for c in bounds)
     refuse_contradictions(constraints)
     objectives = tuple(o._replace(name=whole[o.name]) for o in goals)
