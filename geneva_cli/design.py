@@ -64,10 +64,10 @@ P = ParamSpec("P")
 CURVES = {"arcs": "arcs", "spline": "cubics"}  # forms in which curved walls are written
 
 
-def load(path: str, given: Iterable[str] = (), reverse: bool = False) -> Design:
+def load(path: str, settings: Iterable[str] = (), reverse: bool = False) -> Design:
     """Return the design in a spec file; ``-`` is standard input.
 
-    ``given`` are keys that complete or replace those of the file, as ``["drive.A=0.6"]``. With
+    ``settings`` complete or replace keys of the file, as ``["drive.A=0.6"]``. With
     ``reverse`` it is the same machine turning the other way, as ``Design.backwards``. Raises
     GenevaError, ``FILE:LINE: what is wrong; what would be right``, for a file that cannot be read.
     Every result of the design raises it if the design cannot be built.
@@ -77,7 +77,7 @@ def load(path: str, given: Iterable[str] = (), reverse: bool = False) -> Design:
     """
     from geneva_cli.specfile.reader import read
 
-    text = read(path, given)
+    text = read(path, settings)
     design = Design.of(text.spec(), text)
     return design.backwards if reverse else design
 
