@@ -501,18 +501,6 @@ class Design:
 
         return below_summary(self._loads(for_people=True), without=("title",))
 
-    @answer
-    def load_warnings(self) -> list[Notice]:
-        """Warnings about the loads and what the wheel carries, and notes on unknown loads.
-
-        >>> Design(External(6), load=Load(torque_Nm=15)).load_warnings[0]
-        'contact_stress_MPa: needs face_width_mm in [size]'
-        """
-        from geneva_cli.loads.summary import missing
-        from geneva_cli.verdict.warnings import under_load
-
-        return [*under_load(self.mechanism), *missing(self.cycle)]
-
     @question
     def load_cycle(self, samples: int = 361) -> Table:
         """``samples`` rows of the loads over a period with dwells, evenly spaced in input angle.
