@@ -24,7 +24,7 @@ def listed(names: Callable[[], Iterable[str]]) -> Callable[[str], list[str]]:
 
     def offer(typed: str) -> list[str]:
         before, comma, begun = typed.rpartition(",")
-        offered = words(names)(begun.removeprefix("-"))
+        offered = words(names)(begun)
         return [f"{before}{comma}{name}" for name in offered if name not in before.split(",")]
 
     return offer

@@ -109,13 +109,13 @@ def search(word: str) -> list[Hit]:
     wanted = re.compile(rf"(?<![^\W\d_]){re.escape(word)}", re.IGNORECASE)
     hits: dict[tuple[str, str], Hit] = {}
     for topic in TOPICS:
-        section, is_example = "", False
+        section, fence = "", ""
         for line in page(topic).splitlines():
             if line.startswith("```"):
-                is_example = line == "```console"
-            elif is_example and not line.startswith("$ "):
+                fence = "" if fence else line
+            elif fence == "```console" and not line.startswith("$ "):
                 continue
-            elif line.startswith("#"):
+            elif not fence and line.startswith("#"):  # in code it is a comment
                 section = line.lstrip("# ")
             if wanted.search(line):
                 hits.setdefault((topic, section), Hit(topic, section, _excerpt(line, wanted)))
