@@ -48,8 +48,8 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tup
     unit, text, gap = UNITS[units], mm * 5.0, mm * 3.0
     left, right, low, high = box.x0, box.x1, box.y0, box.y1
     for turn in look.turns:
-        start, end = ((x / unit, y / unit) for x, y in (turn.start, turn.end))
-        arc = Arc(start, end, turn.bulge)
+        first, last = ((x / unit, y / unit) for x, y in (turn.start, turn.end))
+        arc = Arc(first, last, turn.bulge)
         contour = Contour("", (arc,), closed=False)
         lines.append(path(contour))
         heads.append(_arc_head(arc, mm))
