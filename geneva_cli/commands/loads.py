@@ -59,14 +59,16 @@ def run(
     """
     from geneva_cli.design import load
     from geneva_cli.output import show, show_answer
-    from geneva_cli.output.formats import table_as
+    from geneva_cli.output.formats import is_for_people, table_as
     from geneva_cli.study.summary.loads import of_loads
 
     design = load(spec, settings or (), reverse)
-    name = table_as(output, format)
     if certify:
-        show(design.certified_loads(name not in ("json", "csv")), output, format, design.spec.files)
+        show(
+            design.certified_loads(is_for_people(output, format)), output, format, design.spec.files
+        )
         return
+    name = table_as(output, format)
     by_rows = name == "csv" or (samples is not None and name != "json")
     # before any output: a cycle whose loads are refused has no rows either
     warnings = design.loads_table.to_dict()["warnings"] if by_rows or output != "-" else ()

@@ -124,18 +124,18 @@ def _inputs(target: "Target") -> Sequence[str]:
 
 
 def _show(target: "Target", check: int, buildable: bool, output: str, format: str) -> None:
-    from geneva_cli.output import is_seen, show
-    from geneva_cli.output.formats import table_as
+    from geneva_cli.output import is_watched, show
+    from geneva_cli.output.formats import is_for_people
     from geneva_cli.synthesis.shown import for_people, for_terminal
     from geneva_cli.synthesis.table import synthesis_table
 
     if output.endswith(".toml") and not format:
         raise GenevaError(f"-o {cut(output, 300)}: a spec is one row of the table; add --write N")
-    name = table_as(output, format)
+    people = is_for_people(output, format)
     table = synthesis_table(target, check, buildable)
-    if name == "table" and is_seen(output):
+    if is_watched(output, format):
         table = for_terminal(table, max(check, 20))  # no fewer than are turned by default
-    elif name in ("table", "md"):
+    elif people:
         table = for_people(table)
     show(table, output, format, _inputs(target))
 

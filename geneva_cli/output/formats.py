@@ -43,6 +43,11 @@ def table_as(output: str, format: str) -> str:
     return _chosen(output, format, FORMATS, _wrong(format))
 
 
+def is_for_people(output: str, format: str) -> bool:
+    """Return True for a table that people read, False for one for programs."""
+    return table_as(output, format) in ("table", "md")
+
+
 def drawn_as(output: str, format: str) -> str:
     """The format of a drawing, or of a table of it. Raises GenevaError for an unknown one."""
     if _named(output, format) == "pdf":
