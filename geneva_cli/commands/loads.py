@@ -64,9 +64,8 @@ def run(
 
     design = load(spec, settings or (), reverse)
     if certify:
-        show(
-            design.certified_loads(is_for_people(output, format)), output, format, design.spec.files
-        )
+        certificates = design.certified_loads(is_for_people(output, format))
+        show(certificates, output, format, design.spec.files)
         return
     name = table_as(output, format)
     by_rows = name == "csv" or (samples is not None and name != "json")
