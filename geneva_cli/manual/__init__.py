@@ -44,7 +44,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "cluster": "run a sweep on a cluster",
         "ci": "gate a CI job",
         "notebook": "use it from a notebook",
-        "browser": "a page with spec, verdict and machine; nothing to install",
+        "browser": "run it in a browser, with nothing to install",
         "published-table": "compare with a published table",
     },
     "reference": {
