@@ -63,9 +63,9 @@ def scene(design: Design) -> Scene:
         outlines = design.parts
     bars, rollers = _bars(turn, outlines, teeth), turn.rollers()
     spec, title = design.spec, title_of(design)
-    frame = _frame_rotation(mechanism, turn.start, turn.whole)
+    frame = _frame_rotation(mechanism, turn.start, turn.turn_deg)
     moving = parts if mechanism.output.turns else parts[1:]
-    box = _box(moving, bars, rollers, mechanism.roller_radius_mm, turn.whole)
+    box = _box(moving, bars, rollers, mechanism.roller_radius_mm, turn.turn_deg)
     if not mechanism.output.turns:
         box = view_of_rack(parts[0], box, turn)
     return Scene(
@@ -73,8 +73,8 @@ def scene(design: Design) -> Scene:
         words(mechanism) + _remark(design, bars, teeth),
         "\n".join((f"title = {quoted(title)}", *spec_lines(spec))),
         mechanism.shown_deg(turn.start),
-        turn.whole,
-        turn.whole / (6.0 * spec.drive.n_rpm),
+        turn.turn_deg,
+        turn.turn_deg / (6.0 * spec.drive.n_rpm),
         parts,
         bars,
         rollers,
@@ -163,7 +163,7 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
             yield Phase(a, c, True, "the first roller starts the wheel")
             yield Phase(c, d, True, "the gears turn the wheel")
             yield Phase(d, b, True, "the second roller stops the wheel")
-        end = after.entry - turn.start if after else turn.whole
+        end = after.entry - turn.start if after else turn.turn_deg
         if end > b + 1e-9:
             yield Phase(b, end, False, rest)
     assert last.exit <= turn.end + 1e-9
@@ -175,7 +175,9 @@ def _wheels_in_turn(design: Design, turn: MachineTurn) -> Iterator[Phase]:
     for place in places:
         start, end = place.behind_deg, place.behind_deg + one.engagement.motion_deg
         yield Phase(start, end, True, f"the finger turns wheel {place.number} on the carrier")
-        yield Phase(end, start + turn.whole / len(places), False, "all wheels rest on the carrier")
+        yield Phase(
+            end, start + turn.turn_deg / len(places), False, "all wheels rest on the carrier"
+        )
 
 
 def _rest(design: Design) -> str:
