@@ -69,22 +69,22 @@ def scene(design: Design) -> Scene:
     if not mechanism.output.turns:
         box = view_of_rack(parts[0], box, turn)
     return Scene(
-        title,
-        words(mechanism) + _remark(design, bars, teeth),
-        "\n".join((f"title = {quoted(title)}", *spec_lines(spec))),
-        mechanism.shown_deg(turn.start),
-        turn.turn_deg,
-        turn.turn_deg / (6.0 * spec.drive.n_rpm),
-        parts,
-        bars,
-        rollers,
-        mechanism.roller_radius_mm,
-        tuple(pushes(design.cycle, turn)),
-        tuple(_states(design, turn)),
-        _figure(design),
-        _swept(parts, frame) if frame else box,
-        _stops(outlines, turn),
-        frame,
+        title=title,
+        caption=words(mechanism) + _remark(design, bars, teeth),
+        spec="\n".join((f"title = {quoted(title)}", *spec_lines(spec))),
+        start_deg=mechanism.shown_deg(turn.start),
+        turn_deg=turn.turn_deg,
+        seconds=turn.turn_deg / (6.0 * spec.drive.n_rpm),
+        bodies=parts,
+        bars=bars,
+        rollers=rollers,
+        roller_radius=mechanism.roller_radius_mm,
+        pushes=tuple(pushes(design.cycle, turn)),
+        states=tuple(_states(design, turn)),
+        figure=_figure(design),
+        box=_swept(parts, frame) if frame else box,
+        stops=_stops(outlines, turn),
+        frame=frame,
     )
 
 
