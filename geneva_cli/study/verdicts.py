@@ -39,10 +39,14 @@ def verdict(path: str, settings: Sequence[str] = (), proof_mm: float | None = No
     try:
         design = load(path, settings)
         checks = design.checks if proof_mm is None else design.proved_to(proof_mm)
-        warnings = tuple(design.warnings)
-        files, inputs = design.spec.files, tuple(design.with_units)
-        both_ways = design.spec.drive.both_ways
-        return Verdict(design.spec.path, files, tuple(checks), warnings, inputs, "", both_ways)
+        return Verdict(
+            path=design.spec.path,
+            files=design.spec.files,
+            checks=tuple(checks),
+            warnings=tuple(design.warnings),
+            with_units=tuple(design.with_units),
+            both_ways=design.spec.drive.both_ways,
+        )
     except GenevaError as error:
         return Verdict(path, error=str(error))
 
