@@ -141,11 +141,11 @@ def figure_in_inches(figure: Figure) -> Figure:
     for axis in (figure.x, *(panel.y for panel in figure.panels)):
         title = title.replace(axis.label, _axis(axis)[0].label)
     return Figure(
-        title,
-        x,
-        tuple(_panel(panel, size) for panel in figure.panels),
-        _over(figure.window, size),
-        _over(figure.shaded, size),
+        title=title,
+        x=x,
+        panels=tuple(_panel(panel, size) for panel in figure.panels),
+        window=_over(figure.window, size),
+        shaded=_over(figure.shaded, size),
     )
 
 
