@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from geneva_cli.curves.measure import mapped, turned
-from geneva_cli.curves.plates import Group, Part, Plate, Stack
-from geneva_cli.curves.shapes import Contour, Point, Shape, as_contour
+from geneva_cli.curves.plates import Group, Member, Part, Plate, Stack
+from geneva_cli.curves.shapes import Contour, Shape, as_contour
 from geneva_cli.output.inks import INKS, inks
 from geneva_cli.output.svg_paths import number, path
 
@@ -76,8 +76,10 @@ def _placed(part: Part, move: Move) -> Iterator[tuple[Plate, Move]]:
         return
     assert isinstance(part, Group)
     for member in part.members:
+        yield from _placed(member.part, _then(member, move))
 
-        def then(shape: Shape, at: Point = member.at, turn: float = member.turn) -> Shape:
-            return move(mapped(turned(shape, turn), lambda p: (p[0] + at[0], p[1] + at[1])))
 
-        yield from _placed(member.part, then)
+def _then(member: Member, move: Move) -> Move:
+    """The transformation to a member's place in its group, and then ``move``."""
+    x, y = member.at
+    return lambda shape: move(mapped(turned(shape, member.turn), lambda p: (p[0] + x, p[1] + y)))
