@@ -28,6 +28,11 @@ def curve(file: Entities, piece: Piece, z: float) -> str:
     return _cubics(file, [(*p, z) for p in piece.poles], piece.knots)
 
 
+def is_along(piece: Piece) -> bool:
+    """Return True if a piece runs as its curve does: all but arcs that turn clockwise."""
+    return not isinstance(piece, Arc) or piece.bulge > 0.0
+
+
 def smooth_curve(file: Entities, places: Sequence[Place], slopes: Sequence[Place]) -> str:
     """The text of a curve of cubics with these ends, and slopes per cubic; closed at one place."""
     poles: list[Place] = []

@@ -15,7 +15,7 @@ from geneva_cli.curves.edges import Edge
 from geneva_cli.curves.inset import corner, corner_slope, inset, lines_and_arcs
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Contour, Line
-from geneva_cli.output.step.curves import curve, smooth_curve
+from geneva_cli.output.step.curves import curve, is_along, smooth_curve
 from geneva_cli.output.step.entities import (
     DIRECTION,
     Entities,
@@ -76,8 +76,7 @@ def edge_faces(
         own_edges = []
         for k, (piece, within, wall) in enumerate(zip(own, inner, walls, strict=True)):
             after = (k + 1) % len(own)
-            along = not isinstance(within, Arc) or within.bulge > 0.0
-            on = edge(file, ends[k], ends[after], curve(file, within, side.z), along)
+            on = edge(file, ends[k], ends[after], curve(file, within, side.z), is_along(within))
             below = wall.high if side.up > 0.0 else wall.low
             around = [(below, True), (rises[after], True), (on, False), (rises[k], False)]
             if side.up < 0.0:
@@ -86,7 +85,7 @@ def edge_faces(
                 surface, outwards = _rounding(file, piece, side), True
             else:
                 surface = _slope(file, piece, side)
-                outwards = not isinstance(piece, Arc) or piece.bulge > 0.0
+                outwards = is_along(piece)
             faces.append(face(file, [loop(file, around)], surface, outwards))
             own_edges.append(on)
         edges.append(own_edges)
