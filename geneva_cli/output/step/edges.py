@@ -15,7 +15,7 @@ from geneva_cli.curves.edges import Edge
 from geneva_cli.curves.inset import corner, corner_slope, inset, lines_and_arcs
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Contour, Line
-from geneva_cli.output.step.curves import curve, is_along, smooth_curve
+from geneva_cli.output.step.curves import curve, is_along, smooth_curve, unit_of
 from geneva_cli.output.step.entities import (
     DIRECTION,
     Entities,
@@ -95,9 +95,7 @@ def edge_faces(
 def _slope(file: Entities, piece: Line | Arc, side: Side) -> str:
     """Write the plane or the cone of a chamfer."""
     if isinstance(piece, Line):
-        (x0, y0), (x1, y1) = piece
-        long = math.dist(piece.start, piece.end)
-        x, y, tilt = (x1 - x0) / long, (y1 - y0) / long, math.sqrt(0.5)
+        (x, y), tilt = unit_of(piece), math.sqrt(0.5)
         axis = file.direction(tilt * y, -tilt * x, tilt * side.up)
         place = file.placement(piece.start, side.wall, axis, file.direction(x, y))
         return file.add(f"PLANE('',{place})")
@@ -112,9 +110,7 @@ def _rounding(file: Entities, piece: Line | Arc, side: Side) -> str:
     """Write the cylinder or the torus of a rounding; both have the material inside the tube."""
     r = abs(side.z - side.wall)
     if isinstance(piece, Line):
-        (x0, y0), (x1, y1) = piece
-        long = math.dist(piece.start, piece.end)
-        x, y = (x1 - x0) / long, (y1 - y0) / long
+        (x, y), (x0, y0) = unit_of(piece), piece.start
         middle = x0 - r * y, y0 + r * x
         place = file.placement(middle, side.wall, file.direction(x, y), file.up)
         return file.add(f"CYLINDRICAL_SURFACE('',{place},{real(r)})")
