@@ -52,7 +52,7 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tup
         arc = Arc(first, last, turn.bulge)
         contour = Contour("", (arc,), closed=False)
         lines.append(path(contour))
-        heads.append(_arc_head(arc, mm))
+        heads.append(_head(last, heading(arc, mm * ARROW[0]), mm))
         around = bounds(contour)
         left, right = min(left, around.x0), max(right, around.x1)
         low, high = min(low, around.y0), max(high, around.y1)
@@ -121,24 +121,24 @@ def _line(ends: tuple[Point, Point]) -> str:
     return f"M {point(ends[0])} L {point(ends[1])}"
 
 
-def _arc_head(arc: Arc, mm: float) -> str:
-    """The head of an arrow at an arc's end."""
-    back = 0.5 * mm * ARROW[0] / arc.radius  # the angle of the arc under the head
-    x, y = arc.centre
-    end = math.atan2(arc.end[1] - y, arc.end[0] - x)
-    sense = math.copysign(1.0, arc.bulge)
-    return _head(arc.end, end + sense * (0.5 * math.pi - back), mm)
-
-
 def _head(tip: Point, angle: float, mm: float) -> str:
     """An arrow's head."""
-    long, half = mm * ARROW[0], mm * ARROW[1]
-    c, s = math.cos(angle), math.sin(angle)
-    left, right = (
-        (tip[0] - long * c - side * half * s, tip[1] - long * s + side * half * c)
-        for side in (1.0, -1.0)
-    )
-    return f'<path d="M {point(tip)} L {point(left)} L {point(right)} Z"/>\n'
+    corners = arrow(tip, angle, (mm * ARROW[0], mm * ARROW[1]))
+    return f'<path d="M {" L ".join(map(point, corners))} Z"/>\n'
+
+
+def arrow(tip: Point, angle: float, size: tuple[float, float]) -> tuple[Point, Point, Point]:
+    """The corners of an arrow's head in a direction; ``size`` is its length and half its width."""
+    (long, half), c, s = size, math.cos(angle), math.sin(angle)
+    x, y = tip[0] - long * c, tip[1] - long * s
+    return tip, (x - half * s, y + half * c), (x + half * s, y - half * c)
+
+
+def heading(arc: Arc, long: float) -> float:
+    """The direction of an arrow of this length at an arc's end: that of the arc under its head."""
+    (x, y), (cx, cy) = arc.end, arc.centre
+    ahead = 0.5 * math.pi - 0.5 * long / arc.radius
+    return math.atan2(y - cy, x - cx) + math.copysign(ahead, arc.bulge)
 
 
 def _brighter(rgb: str) -> str:

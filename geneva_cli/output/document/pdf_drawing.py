@@ -15,7 +15,7 @@ from geneva_cli.output.document.paper import INK, LEFT, SMALL, SOFT, WIDE, Item,
 from geneva_cli.output.inks import CENTRE_LINES, inks
 from geneva_cli.output.pdf_file import number, outline, point
 from geneva_cli.output.svg_fill import opacity, rings
-from geneva_cli.output.svg_look import round_length, span_text
+from geneva_cli.output.svg_look import arrow, heading, round_length, span_text
 
 STROKE, THIN = 0.3, 0.16
 SPAN = 6.0  # from one distance to the next
@@ -87,9 +87,7 @@ def _look(look: Annotations, at: Put, placed: Move, bottom: float) -> Iterator[s
     for turn in look.turns:
         arc = Arc(at(turn.start), at(turn.end), turn.bulge)
         yield f"{outline(Contour('', (arc,), closed=False))}S\n"
-        (x, y), (cx, cy) = arc.end, arc.centre
-        side = math.copysign(0.5 * math.pi - 0.5 * ARROW[0] / arc.radius, arc.bulge)
-        yield _arrow(arc.end, math.atan2(y - cy, x - cx) + side)
+        yield _arrow(arc.end, heading(arc, ARROW[0]))
     for number_, span in enumerate(look.spans, 1):
         a, b = sorted((at(span.start), at(span.end)))
         y = bottom - number_ * SPAN + 1.5
@@ -103,11 +101,8 @@ def _look(look: Annotations, at: Put, placed: Move, bottom: float) -> Iterator[s
 
 
 def _arrow(tip: Point, angle: float) -> str:
-    long, half = ARROW
-    c, s = math.cos(angle), math.sin(angle)
-    x, y = tip[0] - long * c, tip[1] - long * s
-    b, d = (point((x - k * half * s, y + k * half * c)) for k in (1, -1))
-    return f"{SOFT} rg {point(tip)} m {b} l {d} l f\n"
+    a, b, c = map(point, arrow(tip, angle, ARROW))
+    return f"{SOFT} rg {a} m {b} l {c} l f\n"
 
 
 def _ink(rgb: str, fraction: float = 1.0) -> str:
