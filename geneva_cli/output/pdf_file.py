@@ -115,6 +115,12 @@ def _escaped(words: str) -> str:
     )
 
 
+def tint(rgb: str, fraction: float = 1.0) -> str:
+    """A colour, or a fraction of it on white, as the operands of an operator."""
+    parts = (int(rgb[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
+    return " ".join(number(1.0 - fraction * (1.0 - p)) for p in parts)
+
+
 def point(p: Point) -> str:
     """A point's coordinates."""
     return f"{number(p[0])} {number(p[1])}"

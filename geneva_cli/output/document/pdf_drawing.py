@@ -13,7 +13,7 @@ from geneva_cli.curves.pieces import SUFFIX, UNITS
 from geneva_cli.curves.shapes import Arc, Contour, Point, Shape
 from geneva_cli.output.document.paper import INK, LEFT, SMALL, SOFT, WIDE, Item, rule, wide, words
 from geneva_cli.output.inks import CENTRE_LINES, inks
-from geneva_cli.output.pdf_file import number, outline, point
+from geneva_cli.output.pdf_file import outline, point, tint
 from geneva_cli.output.svg_fill import opacity, rings
 from geneva_cli.output.svg_look import arrow, heading, round_length, span_text
 
@@ -66,14 +66,14 @@ def _fills(shown: Drawing, placed: Move) -> Iterator[str]:
     every = rings(shown.solid)
     inked = inks(tuple(dict.fromkeys(layer for layer, _ in every)))
     for layer, contours in every:
-        yield f"{_ink(inked[layer].rgb, opacity(layer))} rg\n"
+        yield f"{tint(inked[layer].rgb, opacity(layer))} rg\n"
         yield "".join(outline(placed(contour)) for contour in contours) + "f*\n"
 
 
 def _lines(shown: Drawing, placed: Move) -> Iterator[str]:
     for layer, ink in inks(shown.layers).items():
         is_thin = layer in CENTRE_LINES
-        yield f"{_ink(ink.rgb)} RG {THIN if is_thin else STROKE} w"
+        yield f"{tint(ink.rgb)} RG {THIN if is_thin else STROKE} w"
         yield f" [{'4 0.8 0.8 0.8' if is_thin else ''}] 0 d\n"
         for shape in shown.shapes:
             if shape.layer == layer:
@@ -103,9 +103,3 @@ def _look(look: Annotations, at: Put, placed: Move, bottom: float) -> Iterator[s
 def _arrow(tip: Point, angle: float) -> str:
     a, b, c = map(point, arrow(tip, angle, ARROW))
     return f"{SOFT} rg {a} m {b} l {c} l f\n"
-
-
-def _ink(rgb: str, fraction: float = 1.0) -> str:
-    """A colour, or a fraction of it on white."""
-    parts = (int(rgb[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
-    return " ".join(number(1.0 - fraction * (1.0 - p)) for p in parts)
