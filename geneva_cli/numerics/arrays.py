@@ -305,36 +305,6 @@ def size(x: N) -> N:
     return x.__abs__()
 
 
-def plus(total: Number, more: Number) -> Number:
-    """The sum of two numbers; the first, if an array, is changed in place.
-
-    That takes half the time.
-    """
-    if _are_alike(total, more):
-        total += more
-        return total
-    return total + more
-
-
-def minus(total: Number, less: Number) -> Number:
-    """The difference of two numbers; the first, if an array, is changed in place."""
-    if _are_alike(total, less):
-        total -= less
-        return total
-    return total - less
-
-
-def _are_alike(one: Number, other: Number) -> bool:
-    """Return True if both are arrays of one shape and kind."""
-    single = (*_PLAIN, Enclosed)
-    if isinstance(one, single) or isinstance(other, single):
-        return False
-    import numpy
-
-    both = isinstance(one, numpy.ndarray) and isinstance(other, numpy.ndarray)
-    return both and one.shape == other.shape and one.dtype == other.dtype
-
-
 def designs_of(design: int | Whole) -> int:
     """The number of designs in a batch, from its designs' numbers: (m, 1), or one number.
 

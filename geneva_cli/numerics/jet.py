@@ -21,9 +21,7 @@ from geneva_cli.numerics.arrays import (
     Mask,
     Whole,
     library,
-    minus,
     piece_of,
-    plus,
     size,
 )
 from geneva_cli.numerics.arrays import Array as Array
@@ -162,7 +160,7 @@ def _convolve(
     """The sum of a[i] b[k - i] from the first i on, to k or before the last."""
     total = a[first] * b[k - first]
     for i in range(first + 1, k + 1 if last is None else last):
-        total = plus(total, a[i] * b[k - i])
+        total = total + a[i] * b[k - i]
     return total
 
 
@@ -173,9 +171,9 @@ def _square(a: Sequence[Number], k: int, first: int) -> Number:
         return a[half] * a[half]
     total = a[first] * a[k - first]
     for i in range(first + 1, half):
-        total = plus(total, a[i] * a[k - i])
-    total = plus(total, total)
-    return total if k % 2 else plus(total, a[half] * a[half])
+        total = total + a[i] * a[k - i]
+    total = total + total
+    return total if k % 2 else total + a[half] * a[half]
 
 
 def sin_cos(x: Jet) -> tuple[Jet, Jet]:
@@ -288,12 +286,12 @@ def moment(x: Jet, y: Jet) -> Jet:
 
 def _moment(x: Sequence[Number], y: Sequence[Number], k: int) -> Number:
     """The sum of (k - 2 i) (x[i] y[k - i] - y[i] x[k - i]) for i below k/2."""
-    total = minus(x[0] * y[k], y[0] * x[k])
+    total = x[0] * y[k] - y[0] * x[k]
     if k > 1:
         total = total * k
     for i in range(1, (k + 1) // 2):
-        more = minus(x[i] * y[k - i], y[i] * x[k - i])
-        total = plus(total, more * (k - 2 * i) if k - 2 * i > 1 else more)
+        more = x[i] * y[k - i] - y[i] * x[k - i]
+        total = total + (more * (k - 2 * i) if k - 2 * i > 1 else more)
     return total
 
 
