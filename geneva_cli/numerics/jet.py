@@ -11,7 +11,6 @@ Evaluating Derivatives, 2nd ed., section 13.2).
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from itertools import pairwise
 from math import factorial
 from typing import TYPE_CHECKING, TypeVar, cast
 
@@ -299,8 +298,8 @@ def piecewise(x: Number, cuts: Sequence[Number], pieces: Sequence[Callable[[Numb
     """``pieces[i](x)`` for x between ``cuts[i-1]`` and ``cuts[i]``, the upper end included.
 
     For one design each piece is evaluated at its own part of an array of angles. In a batch, whose
-    cuts may differ, a piece is evaluated at the columns where it applies anywhere. So it is faster
-    to request angles that lie in one piece.
+    cuts may differ, a piece that applies anywhere is evaluated at all angles. So it is faster to
+    request angles that lie in one piece.
     """
     if isinstance(x, SINGLE) and isinstance(cuts[0], float) and isinstance(cuts[-1], float):
         return pieces[piece_of(x, cast("Sequence[float]", cuts))](x)
@@ -312,30 +311,7 @@ def piecewise(x: Number, cuts: Sequence[Number], pieces: Sequence[Callable[[Numb
         return _by_parts(angles, np.searchsorted(plain, angles), pieces)
     none = np.zeros(angles.shape, np.int8)
     index = sum(((angles > cut).astype(np.int8) for cut in cuts), none)
-    if angles.shape == index.shape and index.shape[-1] > 1:
-        return _by_columns(angles, index, pieces)
     return _by_choice(x, index, pieces)
-
-
-def _by_columns(
-    x: Array, index: NDArray[np.int8], pieces: Sequence[Callable[[Number], Jet]]
-) -> Jet:
-    """Evaluate angles (n, k) column by column; columns in one piece are not evaluated by others."""
-    import numpy as np
-
-    low, high = index.min(axis=0), index.max(axis=0)
-    new = np.flatnonzero((np.diff(low) != 0) | (np.diff(high) != 0)) + 1
-    if not len(new):
-        return _by_choice(x, index, pieces)
-    out: list[Array] = []
-    for i, j in pairwise([0, *new.tolist(), x.shape[1]]):
-        part = (slice(None), slice(i, j))
-        coefficients = _by_choice(x[part], index[part], pieces).c
-        # designs lie side by side in memory
-        out = out or [np.empty(x.shape[::-1]).T for _ in coefficients]
-        for total, some in zip(out, coefficients, strict=True):
-            total[part] = some
-    return Jet(out)
 
 
 def _by_choice(
