@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import ClassVar
 
-from geneva_cli.kinematics.anchors import anchors_of
+from geneva_cli.kinematics.anchors import Anchors
 from geneva_cli.kinematics.engagement import (
     Anchor,
     Carrier,
@@ -34,7 +34,7 @@ class AnchoredPath(Batchable):
     """
 
     def __init__(self, anchors: tuple[Anchor, ...], ahead: float = 0.0) -> None:
-        self.anchors, self.ahead = anchors_of(anchors), ahead
+        self.anchors, self.ahead = Anchors(anchors), ahead
         self._latest, self._latest_nearest = Latest(), Latest()
 
     @property

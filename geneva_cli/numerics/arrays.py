@@ -259,13 +259,8 @@ def blocks(count: int, size: int) -> list[slice]:
     return [slice(i, min(i + size, count)) for i in range(0, count, size)] or [slice(0, 0)]
 
 
-def is_plain(one: object) -> bool:
-    """Return True for a Python number."""
-    return isinstance(one, _PLAIN)
-
-
-def are_alike(records: Sequence[object], is_number: Callable[[object], bool] = is_plain) -> bool:
-    """Return True if records differ in numbers only, as ``picked`` requires.
+def are_alike(records: Sequence[object]) -> bool:
+    """Return True if records differ in Python numbers only, as ``picked`` requires.
 
     >>> are_alike(((1.0, len), (2.0, len))), are_alike(((1.0, len), (2.0, max)))
     (True, False)
@@ -274,8 +269,8 @@ def are_alike(records: Sequence[object], is_number: Callable[[object], bool] = i
     if all(one is first for one in records):
         return True
     if isinstance(first, tuple):
-        return all(are_alike(each, is_number) for each in zip(*records, strict=True))
-    return all(map(is_number, records))
+        return all(are_alike(each) for each in zip(*records, strict=True))
+    return all(isinstance(one, _PLAIN) for one in records)
 
 
 def are_designs(x: Number, *numbers: Number) -> bool:
