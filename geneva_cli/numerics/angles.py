@@ -47,32 +47,6 @@ def one_minus_sin_pi(p: int, q: int) -> float:
     return of_each(lambda p, q: (one_minus_sin_pi(p, q),), p, q)[0]
 
 
-def cos_squared_less(p: int, q: int, x: float) -> float:
-    """cos²(pi p/q) - x for an exact double x, to the last digit however near to 0 it is.
-
-    The square is rounded to 112 bits, to which its series are exact: cos² 30° is 3/4. In arrays the
-    difference is rounded once more.
-    """
-    if isinstance(p, int) and isinstance(q, int) and isinstance(x, float):
-        n, d = x.as_integer_ratio()
-        return (_cos_squared(p, q) * d - (n << 112)) / (d << 112)
-    high, low = of_each(_cos_squared_parts, p, q)
-    return (high - x) + low
-
-
-def _cos_squared(p: int, q: int) -> int:
-    """cos²(pi p/q) times 2**112."""
-    drop = 2 * 128 - 112
-    return (scaled_sin_cos(p, q)[1] ** 2 + (1 << drop - 1)) >> drop
-
-
-def _cos_squared_parts(p: int, q: int) -> tuple[float, float]:
-    """cos²(pi p/q) as a double, and the remainder."""
-    square, scale = _cos_squared(p, q), 1 << 112
-    high = square / scale
-    return high, (square - int(high * 2.0**112)) / scale
-
-
 def _whole(p: int) -> bool:
     return isinstance(p, int) or p.dtype.kind == "i"
 
