@@ -38,7 +38,7 @@ def sin_cos_pi(p: int, q: int) -> tuple[float, float]:
 def one_minus_sin_pi(p: int, q: int) -> float:
     """1 - sin(pi p/q), correctly rounded even near 0.
 
-    Arrays of designs are within 2 units in the last place unless p is a whole number.
+    Arrays of designs are within 4 units in the last place unless p is a whole number.
     """
     if isinstance(p, int) and isinstance(q, int):
         return (_ONE - scaled_sin_cos(p, q)[0]) / _ONE
@@ -85,29 +85,16 @@ def of_each(f: Callable[..., tuple[float, ...]], *numbers: float) -> list[float]
 
 
 def _sin_cos_degrees(degrees: Array) -> tuple[Array, Array]:
-    """Sine and cosine of angles in degrees: reduced exactly, converted to radians in two parts."""
+    """Sine and cosine of angles in degrees, which are reduced exactly to 45 at most."""
     import numpy as np
 
     quarters = np.rint(degrees / 90.0)
-    x = degrees - 90.0 * quarters
-    high = x * DEGREE
-    # x DEGREE - high by Dekker's product of halves
-    (a, b), (d, e) = _halves(x), _halves(DEGREE)
-    rest = 2.9486522708701687e-19  # pi/180 - DEGREE
-    low = ((a * d - high) + a * e + b * d) + b * e + x * rest
-    s, c = np.sin(high), np.cos(high)
-    s, c = s + low * c, c - low * s
+    x = (degrees - 90.0 * quarters) * DEGREE
+    s, c = np.sin(x), np.cos(x)
     odd, past = quarters % 2.0 == 1.0, quarters % 4.0
     sine, cosine = np.where(odd, c, s), np.where(odd, s, c)
     behind = (past == 1.0) | (past == 2.0)
     return np.where(past >= 2.0, -sine, sine), np.where(behind, -cosine, cosine)
-
-
-def _halves(x: N) -> tuple[N, N]:
-    """A double as a sum of two of 26 bits (Veltkamp)."""
-    big = 134217729.0 * x
-    high = big - (big - x)
-    return high, x - high
 
 
 @lru_cache(4096)
