@@ -9,7 +9,7 @@ function may exceed the known values; there the function itself is evaluated, by
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import (
     Array,
     Mask,
+    Which,
     Whole,
     blocks,
     columns_taken,
@@ -37,9 +38,6 @@ from geneva_cli.numerics.pieces import (
     SpreadPlaces,
 )
 from geneva_cli.numerics.tolerances import TIE
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.pieces import Some, Which
 
 BLOCK = 2048  # rows sampled at a time: that many fit in the processor's cache
 OVERSHOOT = 0.15  # fraction of the range of samples, by which an extreme between them may exceed it
@@ -73,7 +71,7 @@ class CandidateCurves(NamedTuple):
     value: Array  # at the Chebyshev points of that row: (m, points)
     left: Array  # the error of the series
 
-    def take(self, which: Some) -> CandidateCurves:
+    def take(self, which: Which) -> CandidateCurves:
         """Some of the curves, by a mask or their numbers."""
         number, rows, sign, part, value, left = self
         ends = columns_taken(sign, which), columns_taken(part, which)
