@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.motion import Motion
 from geneva_cli.machine.spec import BEFORE
 from geneva_cli.names import unit_of
-from geneva_cli.spec.rules import Csv, OneOf, Words
+from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import LIST, REQUIRED, Field, SpecTable, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
 from geneva_cli.specfile.writer import BEFORE_KIND, GEARING, KIND, LAW, own_fields, quoted
@@ -97,9 +97,8 @@ def words_of(name: str) -> tuple[str, ...]:
         Motion,
         *PLAIN.values(),
     ]
-    rules = [f.rule for kind in kinds if table == kind.TABLE for f in fields(kind) if f.key == key]
-    some = [rule.words for rule in rules if isinstance(rule, Words)]
-    return tuple(dict.fromkeys(word for rule in (*some, *_lists(rules)) for word in rule))
+    own = [f for kind in kinds if table == kind.TABLE for f in fields(kind) if f.key == key]
+    return tuple(dict.fromkeys(word for field in own for word in field.words))
 
 
 def is_whole(name: str) -> bool:
@@ -110,10 +109,6 @@ def is_whole(name: str) -> bool:
     """
     types = {k.type for k in all_keys() if f"{_bare(k)}.{k.key}" == name}
     return types == {TYPES[int]}
-
-
-def _lists(rules: list[Any]) -> list[OneOf]:
-    return [rule for rule in rules if isinstance(rule, OneOf)]
 
 
 def _bare(key: Key) -> str:
