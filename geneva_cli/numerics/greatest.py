@@ -74,16 +74,11 @@ class GreatestValues:
         """The least values that count as greatest: (functions, n)."""
         return bar(self.most[side], self.size)
 
-    def may_pass(self, design: Whole, low: Array, high: Array) -> Mask:
+    def may_be(self, number: Whole, design: Whole, low: Array, high: Array) -> Mask:
         """Masks of functions between ``low`` and ``high`` that may have one of the greatest values.
 
-        The shape is (functions, m). Nothing exceeds an unbounded value.
+        ``number`` are the functions' numbers. Nothing exceeds an unbounded value.
         """
-        number = np.arange(len(low))[:, None]
-        return self.may_be(number, design, low, high)
-
-    def may_be(self, number: Whole, design: Whole, low: Array, high: Array) -> Mask:
-        """Masks of functions, by number, whose range may reach their design's greatest value."""
         out = np.full(np.shape(low), False)
         for side, sense in enumerate(self.senses):
             reach = np.maximum(high, -low) if self.sized else high if sense > 0.0 else -low

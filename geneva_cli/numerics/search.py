@@ -167,7 +167,8 @@ class _ExtremeSearch:
         low, high = pieces.value.min(axis=2), pieces.value.max(axis=2)
         left = chebyshev.remainder(pieces.value)
         more = OVERSHOOT * (high - low) + UNFINISHED * left
-        may = self.greatest.may_pass(pieces.rows.design, low - more, high + more)
+        functions = np.arange(len(low))[:, None]
+        may = self.greatest.may_be(functions, pieces.rows.design, low - more, high + more)
         may &= (low != np.inf) & (high != -np.inf)  # it has a bound somewhere
         number, own = np.nonzero(may)
         each = [rows_taken(one, some) for one, some in zip(pieces.value, may, strict=True)]
