@@ -189,7 +189,7 @@ class ClassicMotion(StraightSlotMotion):
         return Peak(size, 0.0 - at_deg)
 
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
-        """Wheel angle and its derivatives in closed form, shaped as in ``Motion.derivatives``.
+        """Wheel angle and its derivatives in closed form, shaped as in ``WheelMotion.derivatives``.
 
         Near the ends, angle and velocity are computed from the end to keep their relative accuracy.
         """
