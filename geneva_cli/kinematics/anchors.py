@@ -11,9 +11,10 @@ from geneva_cli.kinematics.engagement import Anchor
 from geneva_cli.numerics.arrays import (
     SINGLE,
     Batchable,
+    Whole,
     are_alike,
     are_designs,
-    chosen,
+    array,
     picked,
 )
 from geneva_cli.numerics.jet import Jet, Number, piecewise
@@ -52,17 +53,18 @@ class Anchors(Batchable):
 
     def solved(self, input_deg: Number, solve: Solve) -> Jet:
         """Jet of ``solve(anchor, angles)``, with the anchor that serves each angle in degrees."""
-        if are_designs(input_deg, self.cuts[0], self.cuts[-1]) and self.alike:
-            return solve(chosen(input_deg, self.cuts, self.each), input_deg)
-        if not isinstance(input_deg, SINGLE) and input_deg.size and self.alike:
-            import numpy as np
-
-            # one call for the anchors that serve an angle
-            low, high = np.searchsorted(self.cuts, (input_deg.min(), input_deg.max())).tolist()
-            if low == high:
-                return solve(self.each[low], input_deg)
-            index = np.searchsorted(self.cuts, input_deg) - low
-            return solve(picked(index, self.each[low : high + 1]), input_deg)
+        of_batch = are_designs(input_deg, self.cuts[0], self.cuts[-1])
+        if (of_batch or not isinstance(input_deg, SINGLE)) and self.alike:
+            x = array(input_deg)
+            first, *others = [x > cut for cut in self.cuts]
+            index: Whole = first.astype(int)  # laid out as the angles
+            for past in others:
+                index = index + past
+            low, high = int(index.min(initial=len(self) - 1)), int(index.max(initial=0))
+            if low >= high:  # any anchor will do for no angles
+                return solve(self.each[high], input_deg)
+            designs = len(index) if index.ndim > 1 else 1
+            return solve(picked(index - low, self.each[low : high + 1], designs), input_deg)
         return piecewise(input_deg, self.cuts, [partial(solve, one) for one in self.each])
 
 

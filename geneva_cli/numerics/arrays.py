@@ -161,48 +161,34 @@ def _chosen(condition: Mask, yes: object, no: object) -> object:
     return choose(condition, cast("Number", yes), cast("Number", no))
 
 
-def chosen(x: Number, cuts: Sequence[Number], records: Sequence[Record]) -> Record:
-    """``records[i]`` for x between ``cuts[i-1]`` and ``cuts[i]``, the upper end included.
+def picked(index: Whole, records: Sequence[Record], designs: int = 1) -> Record:
+    """The record of each index, (k,) or (n, k), its numbers as arrays where they differ.
 
-    x or the cuts are arrays of designs; the record's numbers are chosen for each x.
-    """
-    out = records[0]
-    for cut, record in zip(cuts, records[1:], strict=True):
-        past = x > cut
-        if all_true(past):
-            out = record
-        elif not isinstance(past, bool) and past.any():
-            out = choose_record(past, record, out)
-        else:
-            break
-    return out
-
-
-def picked(index: Whole, records: Sequence[Record]) -> Record:
-    """The record of each index, its numbers as arrays of the index's shape where they differ.
-
-    Records are tuples of the same shape; what they hold besides numbers is the same in all.
+    Records are tuples of the same shape; what they hold besides numbers is the same in all. Numbers
+    are floats, or arrays (n, 1) of n ``designs``.
 
     >>> import numpy as np
     >>> picked(np.array([1, 0, 1]), ((1.0, 5.0), (2.0, 5.0)))
     (array([2., 1., 2.]), 5.0)
     """
-    first = records[0]
-    if all(one is first for one in records):
-        return first
-    return record_of(first, [_picked(index, members) for members in zip(*records, strict=True)])
-
-
-def _picked(index: Whole, members: Sequence[object]) -> object:
-    """One member of each index's record: a number, a record, or an object that all share."""
-    first = members[0]
-    if isinstance(first, tuple):
-        return picked(index, cast("Sequence[tuple[object, ...]]", members))
-    if all(one == first for one in members):
-        return first
     import numpy
 
-    return numpy.array(members)[index]
+    # designs lie side by side in memory
+    at = index.T if designs == 1 else index.T * designs + numpy.arange(designs)
+
+    def member(members: Sequence[object]) -> object:
+        first = members[0]
+        if isinstance(first, tuple):
+            return record_of(first, [member(one) for one in zip(*members, strict=True)])
+        if all(one is first for one in members):
+            return first
+        if all(isinstance(one, _PLAIN) for one in members):
+            same = all(one == first for one in members)
+            return first if same else numpy.array(members).take(index.T).T
+        columns = numpy.broadcast_arrays(*cast("Sequence[Array]", members))
+        return numpy.concatenate(columns).reshape(-1).take(at).T
+
+    return cast("Record", member(records))
 
 
 def record_of(like: Record, parts: Sequence[object]) -> Record:
