@@ -18,11 +18,9 @@ from geneva_cli.machine.mechanism import Mechanism
 
 if TYPE_CHECKING:
     from geneva_cli.collisions.full_turn import FullTurn
-    from geneva_cli.collisions.gaps import WorkLimit
-    from geneva_cli.collisions.machine_parts import MachineParts
+    from geneva_cli.collisions.machine_parts import MachineParts, WorkLimit
     from geneva_cli.layout.assembly import Assembly
     from geneva_cli.layout.plain_sizes import Sizes
-    from geneva_cli.layout.roller_paths import RollerPaths
     from geneva_cli.layout.stressed import Stressed
     from geneva_cli.outlines.outlines import Outlines
     from geneva_cli.outlines.rack_outlines import RackOutlines
@@ -100,13 +98,6 @@ class PartsModel:
         return self.known.assembly if self.known else assembly(self.mechanism)
 
     @cached_property
-    def paths(self) -> RollerPaths:
-        """The paths of the rollers, which do not depend on sizes."""
-        from geneva_cli.layout.roller_paths import roller_paths
-
-        return roller_paths(self.assembly)
-
-    @cached_property
     def sizes(self) -> Sizes:
         """The sizes of flat parts; raises GenevaError where those of the spec leave no wheel."""
         from geneva_cli.layout.sizes import machine_sizes
@@ -152,7 +143,7 @@ class PartsModel:
     @property
     def turn(self) -> FullTurn:
         """The full turn; raises WorkLimit where it takes too long."""
-        from geneva_cli.collisions.gaps import WorkLimit
+        from geneva_cli.collisions.machine_parts import WorkLimit
 
         if isinstance(self._turn, WorkLimit):
             raise self._turn
@@ -161,7 +152,7 @@ class PartsModel:
     @cached_property
     def _turn(self) -> FullTurn | WorkLimit:
         from geneva_cli.collisions.full_turn import full_turn
-        from geneva_cli.collisions.gaps import WorkLimit
+        from geneva_cli.collisions.machine_parts import WorkLimit
 
         # That it takes too long is remembered too.
         try:
@@ -195,8 +186,8 @@ class PartsKind(ABC):
         """Return what is turned to find collisions. Raises GenevaError where there is none."""
 
     def all_built(self, model: PartsModel) -> NamedBuilds:
-        """Return names and functions of all parts: those of links and gears are flat."""
-        return [("wheel and crank", lambda: model.built), ("all parts", lambda: model.flat)]
+        """Return names and functions of all parts."""
+        return [("all parts", lambda: model.built)]
 
     def known(self, model: PartsModel, assembly: Assembly) -> Known:
         """Return the outlines or shells of a machine of the same sizes, with its assembly."""
@@ -228,10 +219,6 @@ class Flat(PartsKind):
         """Return the outlines."""
         return model.outlines
 
-    def all_built(self, model: PartsModel) -> NamedBuilds:
-        """Return name and function of all parts."""
-        return [("all parts", lambda: model.flat)]
-
     def known(self, model: PartsModel, assembly: Assembly) -> Known:
         """Return the outlines with an assembly."""
         return model.outlines.over(assembly), None
@@ -260,6 +247,10 @@ class Ball(PartsKind):
     def turned(self, model: PartsModel) -> Shells:
         """Return the shells."""
         return model.shells
+
+    def all_built(self, model: PartsModel) -> NamedBuilds:
+        """Return names and functions of the shells, and of links and gears."""
+        return _before_links(model)
 
     def known(self, model: PartsModel, assembly: Assembly) -> Known:
         """Return the shells with an assembly."""
@@ -304,7 +295,7 @@ class Rack(PartsKind):
     def all_built(self, model: PartsModel) -> NamedBuilds:
         """Return names and functions of all parts; its frame holds its gears, but not links."""
         framed = model.mechanism.spec.has_parts
-        return [("all parts", lambda: model.built)] if framed else super().all_built(model)
+        return super().all_built(model) if framed else _before_links(model)
 
     def turned(self, model: PartsModel) -> RackOutlines:
         """Return the outlines of the rack and its crank."""
@@ -350,10 +341,6 @@ class Counter(PartsKind):
         """Raise GenevaError: the free angles of teeth are checks of their own."""
         raise GenevaError("a counter has no rollers to turn", ("wheel", "gearing"))
 
-    def all_built(self, model: PartsModel) -> NamedBuilds:
-        """Return name and function of all parts."""
-        return [("all parts", lambda: model.built)]
-
     def dimensions(self, model: PartsModel) -> Iterator[Dimension | Missing]:
         """Yield the dimensions of teeth and rim."""
 
@@ -381,12 +368,13 @@ class Unbuilt(PartsKind):
         return [("all parts", lambda: model.flat)]
 
 
+def _before_links(model: PartsModel) -> NamedBuilds:
+    """Return names and functions of all parts where those of links and gears are flat."""
+    return [("wheel and crank", lambda: model.built), ("all parts", lambda: model.flat)]
+
+
 def kind_of(mechanism: Mechanism) -> PartsKind:
     """Return the kind of a machine's parts."""
-    kinds: dict[str, type[PartsKind]] = {
-        "flat": Flat,
-        "ball": Ball,
-        "rack": Rack,
-        "counter": Counter,
-    }
+    kinds: dict[str, type[PartsKind]]
+    kinds = {"flat": Flat, "ball": Ball, "rack": Rack, "counter": Counter}
     return kinds.get(mechanism.spec.wheel.PARTS, Unbuilt)()

@@ -9,10 +9,10 @@ import repo
 from plane_stress import horn as in_plane_stress
 from words import Spec, Wheel
 
-from geneva_cli import load
+from geneva_cli import Design, Internal, load
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.loads.strength.lock import bending, lock
+from geneva_cli.loads.strength.lock import LockUnderTorque, bending, loaded_locks
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Load, Size
 from geneva_cli.verdict.strength import strength
@@ -24,7 +24,11 @@ SPEC = Spec(Wheel(8), size=SIZES, load=Load(torque_Nm=20.0))
 def answer(spec):
     mechanism = build(spec)
     s = PartsModel(mechanism).outlines.sizes
-    return lock(mechanism, s.half_width, by(s, mechanism.spec), s.wheel_thickness), s, mechanism
+    found = loaded_locks(mechanism, s.half_width, by(s, mechanism.spec), s.wheel_thickness)
+    if found is None:
+        return None, s, mechanism
+    on, *rows = found
+    return LockUnderTorque(on, *(np.asarray(row).item() for row in rows)), s, mechanism
 
 
 def by(s, spec):
@@ -58,11 +62,26 @@ def test_the_play_uses_up_the_clearance(sign, edge):
 
 @pytest.mark.parametrize(
     ("name", "on"),
-    [("turret", "corner"), ("internal-z6", "disc's end"), ("three-rollers-z4", "disc's end")],
+    [
+        *[("turret", "corner"), ("internal-z6", "disc's end"), ("three-rollers-z4", "disc's end")],
+        # recesses between mouths at different radii
+        *[("offset-slots", "corner"), ("unequal-steps", "disc's end")],
+    ],
 )
 def test_the_play_is_that_of_the_parts(name, on):
     """The parts turned against each other find it by bisection of outlines: to 3e-6 of it."""
     design = load(str(repo.DESIGNS / f"{name}.toml")).with_("size.lock_clearance_mm", 0.2)
+    plays_as_its_parts(design, on)
+
+
+@pytest.mark.parametrize(("z", "lock"), [(6, 0.25), (6, 0.3), (8, 0.2)])
+def test_the_lock_is_as_wide_as_its_sector_is_cut(z, lock):
+    """A small sector of an internal wheel's crank, of which the wheel leaves 29 of 60 degrees."""
+    size = Size(100.0, 5.0, lock_radius_mm=100.0 * lock)
+    plays_as_its_parts(Design(Internal(z), size=size).with_("size.lock_clearance_mm", 0.1))
+
+
+def plays_as_its_parts(design, on="disc's end"):
     design = design.with_("size.face_width_mm", 20.0).with_("load.dwell_torque_Nm", 5.0)
     found = strength(design.mechanism).load.lock
     assert found.on == on
@@ -120,17 +139,17 @@ def test_the_approach_is_the_integral_of_the_strains():
     assert math.radians(found.approach_deg) * lever == pytest.approx(-float(sides), rel=1e-3)
 
 
-def test_what_is_not_known_is_none():
+def test_what_is_not_known_is_nan():
     sharp, _, _ = answer(SPEC.with_("size.lock_edge_mm", None))
-    assert sharp.contact_stress_MPa is None
-    assert sharp.approach_deg is None
-    assert sharp.deflection_deg is None
+    assert math.isnan(sharp.contact_stress_MPa)
+    assert math.isnan(sharp.approach_deg)
+    assert math.isnan(sharp.deflection_deg)
     assert sharp.bending_deg > 0.0
     assert answer(SPEC.with_("load.torque_Nm", 0.0))[0] is None
     held, _, _ = answer(SPEC.with_("load.dwell_torque_Nm", 40.0))
     assert held.force_N == pytest.approx(2.0 * answer(SPEC)[0].force_N, rel=1e-15)
     fits, _, _ = answer(SPEC.with_("size.lock_clearance_mm", 0.0))
-    assert fits.contact_stress_MPa is None  # the arcs lie on each other
+    assert math.isnan(fits.contact_stress_MPa)  # the arcs lie on each other
     assert fits.play_deg == 0.0
     assert 0.0 < fits.approach_deg < answer(SPEC)[0].approach_deg
 
