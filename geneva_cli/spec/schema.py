@@ -62,6 +62,13 @@ class Field(NamedTuple):
     default: Any  # REQUIRED if there is none
     meaning: str
 
+    @property
+    def words(self) -> tuple[str, ...]:
+        """The words that its values may be; none for numbers and free text."""
+        if isinstance(self.rule, Words):
+            return self.rule.words
+        return self.rule if isinstance(self.rule, OneOf) else ()
+
 
 HASH = "_hash"  # name under which a record stores its own hash
 
@@ -385,13 +392,12 @@ def _numbers(place: tuple[str, ...], field: Field, values: Any, whole: bool) -> 
 
 
 def _word(place: tuple[str, ...], field: Field, value: str, numeric: bool) -> str:
-    words = field.rule.words if isinstance(field.rule, Words) else ()
     if isinstance(field.rule, OneOf) and value not in field.rule:
         raise GenevaError(
             f"{field.key} = {shown(value)} must be {field.rule}{nearest(value, field.rule)}", place
         )
-    if numeric and value not in words:
-        allowed = " or ".join(f'"{w}"' for w in words)
+    if numeric and value not in field.words:
+        allowed = " or ".join(f'"{w}"' for w in field.words)
         raise GenevaError(f"{field.key} must be a number or {allowed}, not {shown(value)}", place)
     return value
 

@@ -38,6 +38,11 @@ class Crank(Direct, kw_only=True):
         """The places of the spec."""
         return self.crank_steps or super().cranks
 
+    def may_vary(self, table: str, key: str) -> bool:
+        """False for the slots if several cranks turn both ways: their places change with it."""
+        placed = self.crank_steps and self.both_ways
+        return not placed or (table, key) != ("wheel", "z")
+
     def backwards(self, plan: Plan) -> Self:
         """The drive that turns the other way: its last crank works first after the first one.
 
