@@ -24,7 +24,14 @@ from geneva_cli.machine.many import designs_in, selection, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, Which, blocks, joined, parameter
-from geneva_cli.numerics.extrema import GROUP, Rough, Stationary, greatest_sizes, stationary_points
+from geneva_cli.numerics.extrema import (
+    GROUP,
+    Rough,
+    Stationary,
+    greatest_sizes,
+    smooth_pieces,
+    stationary_points,
+)
 from geneva_cli.numerics.tolerances import TIE
 
 ORDERS = {"velocity": 1, "acceleration": 2, "jerk": 3, "power": 2}  # derivatives in the quantity
@@ -129,11 +136,8 @@ def landmarks(motion: WheelMotion, quantity: str, m: int) -> Stationary:
     Between two consecutive ones it only rises or only falls.
     """
     breaks = [np.broadcast_to(np.asarray(x, dtype=float), (m, 1)) for x in motion.breaks_deg]
-    last = np.vstack(breaks[1:])
-    # a break belongs to the piece before it; the piece after begins one double later
-    inner = np.vstack(breaks[1:-1] or [last[:0]])
-    first = np.vstack((breaks[0], np.minimum(np.nextafter(inner, np.inf), last[m:])))
-
+    pieces = smooth_pieces(breaks, motion.BREAKS_TO)
+    first, last = (np.vstack(ends) for ends in zip(*pieces, strict=True))
     whole = _QuantityCurve(selection(motion), quantity)
 
     def curve(x: Array, which: Which, order: int) -> list[Array]:
@@ -168,7 +172,8 @@ def _part(
     for name in quantities:
         curve = _QuantityCurve(samples.some, name)
         rough = Rough(_RoughCurve(samples, name), some.ROUGH_TO)
-        peaks[name] = PeakArray(*greatest_sizes(curve, *edges, rough=rough))
+        sizes = greatest_sizes(curve, *edges, rough=rough, unsure=some.BREAKS_TO)
+        peaks[name] = PeakArray(*sizes)
     return peaks
 
 

@@ -155,7 +155,7 @@ def _greatest_square(engagement: Engagement, ratio: Array, frame: float) -> tupl
         return [np.broadcast_to(v * DEGREE**k, x.shape) for k, v in enumerate(out)]
 
     places = [np.broadcast_to(x, (m, 1)).astype(float) for x in engagement.motion.breaks_deg]
-    return greatest_sizes(square, *places)
+    return greatest_sizes(square, *places, unsure=engagement.motion.BREAKS_TO)
 
 
 def _swing(mechanism: Mechanism) -> Array:

@@ -19,6 +19,7 @@ from geneva_cli.analysis.forces import NEGLIGIBLE, LoadCase, wheel_torque
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.extrema import smooth_pieces
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.roots import root
 from geneva_cli.numerics.search import Stretches
@@ -30,9 +31,8 @@ def spans_of(engagement: Engagement, n: int) -> list[tuple[Array, Array]]:
         np.broadcast_to(np.asarray(x, dtype=float), (n, 1)) for x in engagement.motion.breaks_deg
     ]
     out = []
-    for i, (a, b) in enumerate(zip(places, places[1:], strict=False)):
-        start = np.nextafter(a, np.inf) if i else a
-        end = np.nextafter(b, -np.inf) if i + 2 < len(places) else b
+    pieces = smooth_pieces(places, engagement.motion.BREAKS_TO)
+    for (a, b), (start, end) in zip(pairwise(places), pieces, strict=True):
         if engagement.slot.curved:
             start = np.where(a == 0.0, NEAR_CUSP * engagement.exit_deg, start)
             end = np.where(b == 0.0, NEAR_CUSP * engagement.entry_deg, end)

@@ -201,6 +201,8 @@ class WheelMotion(Batchable, ABC):
     closed_peaks: ClosedPeaks | None = None
     # Greatest error of ``rough_rates``, as a fraction of the greatest rate; 0 for exact ones.
     ROUGH_TO: ClassVar[float] = 0.0
+    # Greatest error of the breaks within, as a fraction of the motion; 0 for exact ones.
+    BREAKS_TO: ClassVar[float] = 0.0
 
     def __init__(self, entry_deg: float, exit_deg: float, half_step: float) -> None:
         self.entry_deg = entry_deg  # from mid-motion, negative

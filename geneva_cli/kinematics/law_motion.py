@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import ClassVar
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.engagement import Peak, WheelMotion
@@ -20,6 +21,7 @@ class LawMotion(WheelMotion):
     """A law, scaled to the wheel's step and to the motion angle."""
 
     law: Law
+    BREAKS_TO: ClassVar[float] = 1e-15  # a few roundings of an angle
 
     def __init__(self, entry_deg: float, exit_deg: float, half_step: float, law: Law) -> None:
         super().__init__(entry_deg, exit_deg, half_step)

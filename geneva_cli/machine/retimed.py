@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, ClassVar, NamedTuple, cast
 
 from geneva_cli.kinematics.anchors import cuts
 from geneva_cli.kinematics.drive import Drive, Plan
@@ -186,6 +186,8 @@ class RetimedPath(Batchable):
 
 class RetimedMotion(WheelMotion):
     """The wheel's angle by the machine's input angle."""
+
+    BREAKS_TO: ClassVar[float] = 2e-14  # roundings of angles of the own shaft, which may be slower
 
     def __init__(self, own: WheelMotion, timing: Timing) -> None:
         first, _, last = (one.input_deg for one in timing.each)

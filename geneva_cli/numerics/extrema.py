@@ -9,7 +9,6 @@ design that is NaN anywhere has NaN for a result, and disturbs no other.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
@@ -66,13 +65,13 @@ class Rough(NamedTuple):
 
 
 def greatest_sizes(
-    f: BatchFunction, *places: Array, rough: Rough | None = None
+    f: BatchFunction, *places: Array, rough: Rough | None = None, unsure: float = 0.0
 ) -> tuple[Array, Array]:
     """Greatest sizes between the first and the last of some places (n, 1), and where: (n,) both.
 
-    Functions are smooth from one place to the next; a place itself belongs to the part before it.
-    Both ends are included. If sizes differ by less than a fraction of 1e-13, the first is returned.
-    ``rough`` are approximations that take less time, used to find where to search.
+    Functions are smooth between two places, which are known to a fraction ``unsure`` of the whole
+    span. Both ends are included. If sizes differ by less than a fraction of 1e-13, the first is
+    returned. ``rough`` are approximations that take less time, used to find where to search.
 
     >>> A = np.array([[1.0], [2.0]])
     >>> def waves(x, which, order):
@@ -83,17 +82,17 @@ def greatest_sizes(
     """
     with np.errstate(all="ignore"):
         groups = [
-            _greatest(f, rough, [place[part] for place in places], part.start)
+            _greatest(f, rough, [place[part] for place in places], unsure, part.start)
             for part in blocks(len(places[0]), GROUP)
         ]
     return joined(groups)
 
 
 def _greatest(
-    f: BatchFunction, rough: Rough | None, places: Sequence[Array], start: int
+    f: BatchFunction, rough: Rough | None, places: Sequence[Array], unsure: float, start: int
 ) -> tuple[Array, Array]:
     """Greatest sizes of a group of designs, the first of which has the number ``start``."""
-    pieces = _pieces(places)
+    pieces = smooth_pieces(places, unsure)
     scans = [_scanned(rough.f if rough else f, a, b, start) for a, b in pieces]
     size = np.abs(np.hstack([scan.ends for scan in scans]))
     at = np.hstack([end for piece in pieces for end in piece])
@@ -138,11 +137,19 @@ def _most(size: Array, which: Whole, value: Array) -> Array:
     return most
 
 
-def _pieces(places: Sequence[Array]) -> list[tuple[Array, Array]]:
-    """Both ends of the pieces between places: each begins one double after its place."""
-    pieces = list(pairwise(places))
-    later = [(np.minimum(np.nextafter(a, np.inf), b), b) for a, b in pieces[1:]]
-    return [*pieces[:1], *later]
+def smooth_pieces(places: Sequence[Array], unsure: float = 0.0) -> list[tuple[Array, Array]]:
+    """Both ends of the parts between ascending places (n, 1), clear of the places within.
+
+    A function may jump at the places within. They are known to a fraction ``unsure`` of the whole
+    span, but 0 is exact. The value at a place itself belongs to the part before it, so that the
+    part after it begins at least one double later.
+    """
+    blur = unsure * (places[-1] - places[0])
+    inner = [(x, np.where(x == 0.0, 0.0, blur)) for x in places[1:-1]]
+    begins = [np.maximum(np.nextafter(x, np.inf), x + clear) for x, clear in inner]
+    ends = [x - clear for x, clear in inner]
+    pairs = zip([places[0], *begins], [*ends, places[-1]], strict=True)
+    return [(np.minimum(a, places[-1]), np.maximum(a, b)) for a, b in pairs]
 
 
 def _high_turns(scan: _Scan, sampled: Array, start: int) -> _SamplePairs:

@@ -25,6 +25,7 @@ from geneva_cli import (
     Internal,
     Motion,
     NoncircularGears,
+    SCurve,
     SideCrank,
     Spherical,
 )
@@ -375,3 +376,43 @@ def test_a_batch_of_pairs_behind_a_side_crank():
     peaks = worst_peaks(batch.machine, ("velocity",))["velocity"]
     # 1e-13: 1 - l of three slots has lost a digit
     np.testing.assert_allclose(peaks.max, l / (1.0 - l) * slow, rtol=1e-13)
+
+
+@pytest.mark.parametrize("A", [0.684, 0.352, -0.31, 0.1])
+@pytest.mark.parametrize(("cruise", "ramp"), [(0.49, 0.166), (0.47, 0.0), (0.1, 0.4)])
+def test_peaks_are_seen_on_both_sides_of_a_jump_of_the_law(A, cruise, ramp):
+    """A grid over each segment, with its own polynomial up to both ends, by theory 1.8.
+
+    1e-6: a smooth peak between two of its 4001 places.
+    """
+    law = Motion(SCurve(cruise=cruise, ramp=ramp), alpha0_deg=-4.6, ratio="matched")
+    peaks = Design(External(6), Crank(), law, drive_before=SideCrank(A=A)).peaks
+    rise = 0.5 * (1.0 - cruise)
+    most = 2.0 / (1.0 + cruise) / (rise * (1.0 - ramp))
+    jerk = most / (ramp * rise) if ramp else 0.0
+    lengths = [ramp * rise, rise * (1.0 - 2.0 * ramp), ramp * rise, cruise]
+    starts = [0.0, most if not ramp else 0.0]
+    jerks = [jerk, 0.0, -jerk, 0.0, -jerk, 0.0, jerk]
+    step, whole = math.pi / 3.0, math.radians(124.6)
+    speed, gain, sizes = 0.0, starts[1], dict.fromkeys(("velocity", "acceleration", "jerk"), 0.0)
+    sizes["power"], begin = 0.0, 0.0
+    for number, length in enumerate([*lengths, *lengths[2::-1]]):
+        if number in (3, 4):  # at constant velocity, and from there without a ramp
+            gain = 0.0 if number == 3 or ramp else -most
+        x = np.linspace(0.0, length, 4001)
+        v = speed + gain * x + 0.5 * jerks[number] * x * x
+        a = gain + jerks[number] * x
+        theta = (begin + x - 0.5) * whole
+        phi = theta + np.arcsin(A * np.sin(theta))
+        W = 1.0 + 2.0 * A * np.cos(phi) + A * A
+        f1, f2 = (1.0 + A * np.cos(phi)) / W, A * (1.0 - A * A) * np.sin(phi) / W**2
+        third = (1.0 + A * A) * np.cos(phi) - 2.0 * A * np.cos(phi) ** 2 + 4.0 * A
+        f3 = A * (1.0 - A * A) * third / W**3
+        g1, g2, g3 = v * step / whole, a * step / whole**2, jerks[number] * step / whole**3
+        rates = g1 * f1, g2 * f1**2 + g1 * f2, g3 * f1**3 + 3.0 * g2 * f1 * f2 + g1 * f3
+        if length:
+            for name, row in zip(sizes, (*rates, rates[0] * rates[1]), strict=True):
+                sizes[name] = max(sizes[name], abs(row).max())
+        begin, speed, gain = begin + length, v[-1], a[-1]
+    for name, greatest in sizes.items():
+        assert getattr(peaks, name).max == pytest.approx(greatest, rel=1e-6), name
