@@ -220,7 +220,7 @@ def test_a_rack_that_rolls_leaves_these_teeth(count, shift):
 
 def test_teeth_along_a_circle_are_a_round_gears():
     """Both ways to write a gear give one outline."""
-    rack, radius, count = Rack(1.5, 0.1), 30.0, 40
+    rack, radius, count = Rack(1.5, 0.1), 15.0, 20
     teeth = RoundTeeth(rack, radius, radius + 1.65)
     along = teeth_along(circle(radius), rack, rack.pitch * np.arange(count), 1.65, WRITE["arcs"])
     one, other = polygon([*along]), polygon(whole(teeth, count))
