@@ -186,7 +186,7 @@ def test_the_gentlest_wheel_is_found_past_a_sharp_bend():
 
 
 def test_a_linkage_and_its_mirror_image_drive_the_same_wheels():
-    """All of them, of three linkages of four drawn: the samples of the image are at other places of the path.
+    """All of them, of three in four drawn linkages: the image is sampled at other places.
 
     The image's crank turns the other way, so that a wheel's exit is its entry.
     """
