@@ -29,6 +29,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint, Link, Teeth
 from geneva_cli.layout.assembly import assembly
 from geneva_cli.layout.gear_mesh import gear_mesh
+from geneva_cli.parts.gear_pair import driven_curve, driver_curve
 from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.headline import both_ways_lines
 
@@ -335,6 +336,17 @@ def pair(drive, **keys):
     design = Design(External(6), drive, size=Size(gear_module_mm=2.0, **keys))
     flat = design.parts_model.flat.within(1e-4, "arcs")
     return design, [(polygon(m.part.outline.segments, 3), m.at) for m in flat.gear_pair]
+
+
+@pytest.mark.parametrize("curve", [driven_curve, driver_curve])
+def test_tangents_of_pitch_curves_are_those_of_their_points(curve):
+    """Against differences of points: their error is h² = 1e-8 of the radius, times a few."""
+    points = curve(NoncircularGears(A=0.4, gear_distance_mm=80.0).gears, 1.0)
+    phi, h = np.array([0.3, 1.7, 3.5, 5.9]), 1e-4
+    (after, _), (before, _), (_, tangent) = points(phi + h), points(phi - h), points(phi)
+    step = after - before
+    step /= np.linalg.norm(step, axis=1)[:, None]
+    assert np.abs(step - tangent).max() < 1e-7
 
 
 @pytest.mark.sampled(2)
