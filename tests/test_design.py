@@ -554,6 +554,7 @@ def test_sizes_that_are_not_given_are_those_of_the_parts():
     assert Design(Spherical(6)).size.center_distance_mm == 100.0  # no flat parts
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_a_design_is_saved_as_the_command_writes_it(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     spec = str(repo.DESIGNS / "offset-slots.toml")
