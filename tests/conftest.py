@@ -29,7 +29,7 @@ SHARING = {"made_once", "read_once"}  # fixtures of what costs seconds
 
 
 def pytest_configure(config):
-    """Collect tests without looking for garbage; give every run the same random cases."""
+    """Collect tests without garbage collection; every run has the same random cases."""
     gc.disable()
     config.addinivalue_line("markers", "sampled(k): run one of k cases, all in `make stress`")
     config.addinivalue_line("markers", "long: run in `make stress` alone")
@@ -42,7 +42,7 @@ def pytest_configure(config):
 
 
 class Worker:
-    """One process of several, which share the compiling of a new checkout's tests."""
+    """One of several processes that share the compilation of a new checkout's tests."""
 
     def __init__(self, name):
         self.backwards = int(name.removeprefix("gw")) % 2
@@ -57,7 +57,7 @@ class Worker:
 
 
 def pytest_collection_modifyitems(config, items):
-    """Leave out what is not sampled; tests that share designs come first, to the same worker.
+    """Leave out tests that are not sampled; those that share designs come first, in one worker.
 
     The order is the same in all workers, whichever file each of them collects first.
     """
@@ -68,9 +68,9 @@ def pytest_collection_modifyitems(config, items):
 
 
 def pytest_collection_finish():
-    """What is collected, eleven thousand tests, stays to the end and is looked at no more.
+    """Exclude the collected tests, which stay to the end, from garbage collection.
 
-    Garbage in circles is looked for ten times less often than usual: that took 2 % of the time.
+    It runs ten times less often than usual, which saves 2 % of the time.
     """
     gc.freeze()
     gc.set_threshold(7_000)
@@ -79,7 +79,10 @@ def pytest_collection_finish():
 
 @pytest.fixture(scope="session")
 def machine():
-    """A function to build a mechanism; A = 0 is a plain crank, other keywords are ``[motion]``."""
+    """Return a function that builds a mechanism; A = 0 is a plain crank.
+
+    Its other keywords are keys of ``[motion]``.
+    """
 
     def make(z, gearing="external", A=0.0, rollers=1, path="", **motion):
         kind, keys = ("side-crank", Keys("side-crank", A)) if A else ("crank", None)
@@ -91,15 +94,15 @@ def machine():
 
 @pytest.fixture(scope="session")
 def engagement(machine):
-    """A function to build a mechanism and take its first engagement."""
+    """Return a function that builds a mechanism and returns its first engagement."""
     return lambda *args, **keys: machine(*args, **keys).engagements[0]
 
 
-KEPT = 256  # of the last that were made: the designs of the folder, for some tolerances
+KEPT = 256  # latest results: the designs of the folder, with some tolerances
 
 
 def kept(function, key):
-    """The function, computed once for each key; its arguments are kept, so that ids stay theirs."""
+    """The function, computed once a key; it keeps its arguments, so that their ids stay valid."""
     known = {}
 
     def once(*arguments):
@@ -113,12 +116,12 @@ def kept(function, key):
     return once
 
 
-def of_outlines(found):
-    return found.assembly.full.spec, getattr(found, "fine", 0.0)  # shells have no tolerance
+def of_outlines(parts):
+    return parts.assembly.full.spec, getattr(parts, "fine", 0.0)  # shells have no tolerance
 
 
-def of_certificate(found, gap_mm, to_mm):
-    return *of_outlines(found), gap_mm, to_mm
+def of_certificate(parts, gap_mm, to_mm):
+    return *of_outlines(parts), gap_mm, to_mm
 
 
 def of_sizes(assembly, sizes, tolerance=0.0):
@@ -138,9 +141,9 @@ MOTION_WARNINGS = kept(motion_warnings.motion_warnings, lambda mechanism: mechan
 
 @pytest.fixture(scope="module")
 def made_once():
-    """Walls, outlines, turn, its proof and warnings of a design, made once for a file: seconds.
+    """Compute walls, outlines, turn, proof and warnings of a spec once a test file; saves seconds.
 
-    The same spec has the same ones. Not for tests of how they are made, or of how long it takes.
+    Not for tests of their computation, or of its time.
     """
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(outline, "drawn", OUTLINES)
@@ -153,15 +156,15 @@ def made_once():
 
 @pytest.fixture
 def no_advice(monkeypatch):
-    """No search for advice on failing checks: seconds, for tests of what else is said of them."""
+    """Omit the search for advice on failing checks, which takes seconds."""
     monkeypatch.setattr(advice, "WORK", 0)
 
 
 @pytest.fixture(scope="module")
 def few_four_bars():
-    """Four-bars looked for at an eighth of the places, for tests that are of no one drive.
+    """Search four-bars at an eighth of the places, for tests that are not about four-bars.
 
-    What they find are four-bars all the same, if not the best; those are test_synth_four_bar's.
+    The search still returns four-bars, though not the best; test_synth_four_bar.py tests those.
     """
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(four_bar_search, "SAMPLES", (128, 256))
@@ -172,17 +175,17 @@ def few_four_bars():
 READ = functools.cache(load)
 
 
-def read(path, given=(), reverse=False):
-    """A design; what is given beside the file is kept as a tuple."""
-    return READ(path, tuple(given), reverse)
+def read(path, settings=(), reverse=False):
+    """The design of a file with settings, read once."""
+    return READ(path, tuple(settings), reverse)
 
 
 @pytest.fixture(scope="module")
 def read_once():
-    """A file's design, read once: what it has worked out for one test it has for all such files.
+    """Read each design once, so that tests share its computed values.
 
-    They name files by paths that stay the same file's. What takes ``load`` when it is imported has
-    to be imported before: else it would keep this one beyond the files' tests.
+    These tests name files by paths that do not change. Modules that import ``load`` must be
+    imported before: otherwise they would keep this one after the tests.
     """
     for module in pkgutil.iter_modules(study.__path__, "geneva_cli.study."):
         importlib.import_module(module.name)

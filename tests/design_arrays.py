@@ -1,4 +1,4 @@
-"""Machines whose numbers vary, for tests of arrays of designs: every drive, gearing and law."""
+"""Machines with varied numbers, for tests of batches: every drive, gearing and law."""
 
 import numpy as np
 from words import Motion, Spec, Wheel
@@ -23,7 +23,8 @@ def behind(spec, kind, **keys):
 POINTS = tuple((u / 11, (u / 11) ** 2 * (3.0 - 2.0 * u / 11)) for u in range(12))
 RATIO = tuple((10.0 * k, 1.0 - 0.2 * np.cos(np.pi * k / 18.0).item()) for k in range(37))
 SLOTS = ("wheel.z", 1, 16)  # whole numbers; the others are any
-# every kind of drive, gearing and law, and what varies: key, least, greatest; some of it refused
+# every kind of drive, gearing and law, with its varied keys: key, least, greatest; some values are
+# refused
 MACHINES = {
     "crank": (machine(6), [SLOTS]),
     "internal": (machine(6, gearing="internal"), [SLOTS, ("size.roller_radius_mm", -1.0, 30.0)]),
@@ -160,7 +161,7 @@ def drawn(rules, n, seed):
 
 
 def alone(spec, varied, i):
-    """The i-th design built for itself; None where it is refused."""
+    """The i-th design, built alone; None if it is refused."""
     try:
         return build(changed(spec, {key: values[i].item() for key, values in varied.items()}))
     except GenevaError:

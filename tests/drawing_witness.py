@@ -1,8 +1,8 @@
-"""Reads DXF and SVG back into pieces, by formulas of its own, and measures them against a drawing.
+"""Read DXF and SVG back into pieces, by independent formulas, and compare them with a drawing.
 
-Also polylines, lengths and larger drawings, which only tests need.
+Also polylines, lengths and scaled drawings, which only tests need.
 
-A piece is ``(start, end, point)`` where ``point(share)`` is the point at a share of the way.
+A piece is ``(start, end, point)``; ``point(t)`` is the point at a fraction t of it, from 0 to 1.
 """
 
 import io
@@ -14,11 +14,12 @@ from xml.etree import ElementTree
 import numpy as np
 from hypothesis import assume
 from hypothesis import strategies as st
+from scipy.integrate import quad
 
 from geneva_cli.curves.measure import STRAIGHT, at, mapped, segment_length
 from geneva_cli.curves.shapes import Arc, Circle, Cubic, Line, closed
 
-SHARES = (0.0, 0.07, 0.25, 0.5, 0.61, 0.83, 1.0)
+FRACTIONS = (0.0, 0.07, 0.25, 0.5, 0.61, 0.83, 1.0)
 CHAIN = 1e-9  # how near ends must be to be one point; the files' last decimals are 1e-9 and 1e-12
 NUMBER = st.floats(-100.0, 100.0).map(lambda x: round(x, 3))
 POINT = st.tuples(NUMBER, NUMBER)
@@ -32,7 +33,7 @@ BULGE = st.tuples(SWEEP, st.sampled_from([1.0, -1.0])).map(
 def contours(draw, kinds="lac"):
     """Closed contours of lines, arcs and cubics through random points at least 1 mm apart.
 
-    No point comes twice: a contour that runs over itself has doubled pieces, which are dropped.
+    All points differ: a contour that runs over itself has doubled pieces, which are dropped.
     """
     points = draw(st.lists(POINT, min_size=2, max_size=6, unique=True))
     pairs = list(zip(points, [*points[1:], points[0]], strict=True))
@@ -140,15 +141,15 @@ def dxf_shapes(text):
     """Layer -> circles ``(centre, radius)`` and chains of pieces, in the file's order."""
     shapes = {}
     for entity in dxf_document(text).modelspace():
-        found = shapes.setdefault(entity.dxf.layer, [])
+        chains = shapes.setdefault(entity.dxf.layer, [])
         if entity.dxftype() == "CIRCLE":
-            found.append((tuple(entity.dxf.center.vec2), entity.dxf.radius))
+            chains.append((tuple(entity.dxf.center.vec2), entity.dxf.radius))
             continue
         pieces = dxf_pieces(entity)
-        last = found[-1] if found and isinstance(found[-1], list) else None
+        last = chains[-1] if chains and isinstance(chains[-1], list) else None
         if last and math.dist(last[-1][1], last[0][0]) > CHAIN:
-            # an ARC runs counterclockwise whatever it stands for: the second entity, whose start
-            # is known where it is none itself, says which way the first one went
+            # an ARC always runs counterclockwise: the start of the second entity, known if that is
+            # no arc, shows the direction of the first one
             starts = [pieces[0][0], *([pieces[0][1]] if entity.dxftype() == "ARC" else [])]
             if len(last) == 1 and min(math.dist(last[0][1], start) for start in starts) > CHAIN:
                 last[0] = backwards(last[0])
@@ -158,12 +159,12 @@ def dxf_shapes(text):
             if math.dist(last[-1][1], pieces[-1][1]) < CHAIN:
                 last += [backwards(piece) for piece in reversed(pieces)]
                 continue
-        found.append(pieces)
+        chains.append(pieces)
     return shapes
 
 
 def svg_arc(p, radius, large, sweep, q):
-    """The arc by the standard's own way from ends to centre (implementation notes, F.6.5)."""
+    """The arc by the standard's conversion from ends to centre (implementation notes, F.6.5)."""
     half = 0.5 * (p[0] - q[0]), 0.5 * (p[1] - q[1])
     square = half[0] ** 2 + half[1] ** 2
     radius = max(radius, math.sqrt(square))
@@ -175,7 +176,7 @@ def svg_arc(p, radius, large, sweep, q):
 
 
 def svg_path(text):
-    """A path's pieces in the file's own coordinates; only what is expected is understood."""
+    """A path's pieces in the file's coordinates; fails on other commands than ours."""
     words = re.findall(r"[A-Za-z]|-?\d+\.?\d*", text)
     assert "".join(words) == re.sub(r"[\s,]", "", text)
     pieces, at, first, i = [], None, None, 0
@@ -224,28 +225,28 @@ def up(piece):
     return (start[0], -start[1]), (end[0], -end[1]), flipped
 
 
-BESIDE = ("FILL", "NOTES", "ARROWS", "TEXT")  # groups that are no layers
+NO_LAYERS = ("FILL", "NOTES", "ARROWS", "TEXT")  # groups
 
 
 def svg_shapes(text):
-    """As ``dxf_shapes``, with y up; notes and fills are left out."""
+    """The result of ``dxf_shapes`` for an SVG, with y up; notes and fills are left out."""
     shapes = {}
     for group in ElementTree.fromstring(text):
-        if not group.tag.endswith("}g") or group.get("id") in BESIDE:
+        if not group.tag.endswith("}g") or group.get("id") in NO_LAYERS:
             continue
         assert not group.get("transform")
-        found = shapes.setdefault(group.get("id"), [])
+        chains = shapes.setdefault(group.get("id"), [])
         for element in group:
             if element.tag.endswith("}circle"):
                 x, y, r = (float(element.get(name)) for name in ("cx", "cy", "r"))
-                found.append(((x, -y), r))
+                chains.append(((x, -y), r))
             else:
-                found.append([up(piece) for piece in svg_path(element.get("d"))])
+                chains.append([up(piece) for piece in svg_path(element.get("d"))])
     return shapes
 
 
 def drawn_shapes(drawing):
-    """The drawing itself in the same form."""
+    """The result of ``dxf_shapes`` for a drawing."""
     shapes = {}
     for shape in drawing.shapes:
         is_circle = isinstance(shape, Circle)
@@ -257,16 +258,16 @@ def drawn_shapes(drawing):
     return shapes
 
 
-def apart(found, wanted):
-    """The greatest distance between two readings; infinite where they differ in number or kind.
+def apart(read, drawn):
+    """The greatest distance between two results of ``dxf_shapes``; infinite if kinds differ.
 
-    Where ``found`` has an arc in equal parts, these stand for the wanted piece together.
+    Several equal parts of an arc in ``read`` are compared with one piece in ``drawn``.
     """
-    if found.keys() != wanted.keys() or any(len(found[k]) != len(wanted[k]) for k in wanted):
+    if read.keys() != drawn.keys() or any(len(read[k]) != len(drawn[k]) for k in drawn):
         return math.inf
     worst = 0.0
-    for layer in wanted:
-        for one, other in zip(found[layer], wanted[layer], strict=True):
+    for layer in drawn:
+        for one, other in zip(read[layer], drawn[layer], strict=True):
             if isinstance(one, tuple) != isinstance(other, tuple):
                 return math.inf
             if isinstance(one, tuple):
@@ -279,10 +280,10 @@ def apart(found, wanted):
                 part = [rest.pop(0)]
                 while math.dist(part[-1][1], end) > 1e-6 and rest:
                     part.append(rest.pop(0))
-                for share in SHARES:
-                    number = min(int(share * len(part)), len(part) - 1)
-                    where = part[number][2](share * len(part) - number)
-                    worst = max(worst, math.dist(where, point(share)))
+                for t in FRACTIONS:
+                    number = min(int(t * len(part)), len(part) - 1)
+                    where = part[number][2](t * len(part) - number)
+                    worst = max(worst, math.dist(where, point(t)))
             if rest:
                 return math.inf
     return worst
@@ -308,7 +309,7 @@ def vertices(shape, tolerance):
 
 
 def pieces(segment, tolerance):
-    """Chords that a segment needs."""
+    """Number of chords that a segment needs."""
     if isinstance(segment, Cubic):
         bends = [
             math.hypot(p[0] - 2.0 * q[0] + r[0], p[1] - 2.0 * q[1] + r[1])
@@ -322,16 +323,29 @@ def pieces(segment, tolerance):
 
 
 def chords(sweep, radius, tolerance):
-    """Chords within the tolerance of an arc: r (1 - cos(step / 2)) is how far one is off."""
+    """Number of chords within the tolerance of an arc: one misses it by r (1 - cos(step / 2))."""
     step = 4.0 * math.asin(math.sqrt(tolerance / max(2.0 * radius, tolerance)))
     return max(math.ceil(sweep / step), 1)
 
 
 def length(shape):
-    """The length of the line that is drawn."""
+    """The length of a shape's line."""
     if isinstance(shape, Circle):
         return 2.0 * math.pi * shape.radius
-    return math.fsum(map(segment_length, shape.segments))
+    return math.fsum(map(_length, shape.segments))
+
+
+def _length(segment):
+    if not isinstance(segment, Cubic):
+        return segment_length(segment)
+    sides = 3.0 * np.diff(np.array(segment), axis=0)
+
+    def speed(t):
+        return math.hypot(
+            *(sides[0] * (1 - t) ** 2 + sides[1] * 2 * t * (1 - t) + sides[2] * t * t)
+        )
+
+    return quad(speed, 0.0, 1.0, epsabs=1e-13, epsrel=1e-13, limit=400)[0]
 
 
 def scaled(drawing, factor):

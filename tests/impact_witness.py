@@ -1,4 +1,4 @@
-"""Single contacts and impacts, as the tests of impacts ask for them."""
+"""Contacts and impacts of single designs, from the functions for batches."""
 
 import numpy as np
 
@@ -8,11 +8,11 @@ from geneva_cli.analysis.shock_force import forces_N
 
 
 def contact_of(engagement, crank, center=0.0):
-    """The first contact of one engagement; None where there is none."""
-    found = first_contacts(engagement, crank, center)
-    if found is None or np.isnan(found.jump).any():
+    """The first contact of one engagement; None if there is none."""
+    contacts = first_contacts(engagement, crank, center)
+    if contacts is None or np.isnan(contacts.jump).any():
         return None
-    return FirstContacts(*(row.item() for row in found))
+    return FirstContacts(*(row.item() for row in contacts))
 
 
 def impacts_in(engagement, play, drag=0.0):
@@ -24,6 +24,6 @@ def impacts_in(engagement, play, drag=0.0):
 
 
 def force_of(mechanism, jump):
-    """The force of one design's impact; None where it is not known."""
-    found = forces_N(mechanism, np.array([[jump]]))
-    return None if found is None or np.isnan(found).any() else found.item()
+    """The force of one design's impact, N; None if it is not known."""
+    force = forces_N(mechanism, np.array([[jump]]))
+    return None if force is None or np.isnan(force).any() else force.item()

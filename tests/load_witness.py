@@ -1,9 +1,9 @@
 """Loads by Newton and Euler: every body cut free, its balance solved as a 3 x 3 system.
 
-The wheel, the body that carries the roller (its pin does not turn in that body) and whatever
-carries that body again have each two forces and a moment in balance; only the wheel has mass. From
-one body to the next the solved forces are passed on reversed, up to the torque on the input shaft.
-Work and power are used nowhere, so that they can be checked. 50 digits, lengths in units of the
+The bodies are the wheel, the body that carries the roller (its pin does not turn in that body), and
+each body that carries another. Each has two forces and a moment in balance; only the wheel has
+mass. The forces on one body act reversed on the next, up to the torque on the input shaft. Work and
+power are not used, so that they can be checked. 50 digits, lengths in units of the
 centre distance, the wheel's axis the origin, the crank's at 1. Imports nothing of the program.
 """
 
@@ -15,7 +15,7 @@ from witness import mp, to_radians
 
 
 class Chain(NamedTuple):
-    """What carries the roller: places and angles as functions of the input angle."""
+    """The bodies that carry the roller: places and angles as functions of the input angle."""
 
     body: object  # angle of the body that carries the roller
     # contact point and force on the roller, input angle -> torque on the input shaft, force on the
@@ -48,7 +48,7 @@ def rate(f, x):
 
 
 def balance(*unknown, force, at):
-    """Sizes of unknown forces (unit force, place) or couples (None, 1) that hold a known force.
+    """Sizes of unknown forces (unit force, place) or couples (None, 1) that balance a known force.
 
     All moments are about the origin.
     """
@@ -70,7 +70,7 @@ X, Y = mp.mpc(1), mp.mpc(0, 1)
 
 
 def on_shaft(pin):
-    """What the input shaft feels of a force on its pin: torque, force on it, and the guide's."""
+    """Torque and force on the input shaft, and the guide's force, from a force on its pin."""
 
     def shaft(x, contact, force):
         at, on, guide = pin(x, contact, force)
@@ -127,7 +127,7 @@ def behind(g, place, way, axis, known=True):
 
 
 def mesh(driver, driven, torque):
-    """Two wheels of these radii roll on each other: the torque on the one that holds the other."""
+    """The torque on a gear that holds another with ``torque``; their pitch radii."""
     (push,) = [torque / driven]  # along the common tangent, about the driven wheel's axis
     return push * driver
 
@@ -175,8 +175,8 @@ def rolling(g, front, mid, keys, L):
 
 def first_wheel(g, front, mid, keys, L):
     """A wheel with a crank of its own, without friction: its pin pushes across its slot."""
-    l, given = mp.sin(front.first), keys.first_distance_mm
-    distance = (given or 1) / L
+    l, distance_mm = mp.sin(front.first), keys.first_distance_mm
+    distance = (distance_mm or 1) / L
 
     def pin(x):
         return 1 + distance * (1 - l * mp.expj(g * (mid + x)))
@@ -184,11 +184,11 @@ def first_wheel(g, front, mid, keys, L):
     def way(x):
         return 1j * (pin(x) - 1) / abs(pin(x) - 1)
 
-    return behind(g, pin, way, 1 + distance, bool(given))
+    return behind(g, pin, way, 1 + distance, bool(distance_mm))
 
 
 def gears(spec, g, front, mid):
-    """The chain behind what turns the crank besides a coulisse."""
+    """The chain of a drive that turns the crank with gears or a first wheel."""
     kinds = {
         "elliptical-gears": ellipses,
         "noncircular-gears": rolling,
@@ -246,7 +246,7 @@ def in_gear(spec, deg):
 
 
 def in_gear_behind(spec, x, u, D):
-    """The same with a drive before, which pushes the crank whose gear is loaded."""
+    """The loads in gear with a drive before, which pushes the crank with the loaded gear."""
     front = Front(spec.drive_before)
     if abs(front.crank(x)) > D / 2:
         return None
@@ -258,8 +258,8 @@ def in_gear_behind(spec, x, u, D):
     chain, *_ = in_series(spec, crank(1), None, None, mp.mpf(spec.given_distance_mm))
     shaft, bearing, push = chain.shaft(x, 1 / (1 + u), -1j * force)
     size = abs(force)
-    found = Loads(torque, size, shaft * L * chain.sense, none, none, size, bearing, push)
-    return found, u * rate(front.crank, x)
+    result = Loads(torque, size, shaft * L * chain.sense, none, none, size, bearing, push)
+    return result, u * rate(front.crank, x)
 
 
 def planet(spec):
@@ -420,8 +420,8 @@ def loads(spec, chain, wheel, pin, distance_mm, deg):
     """The loads at an input angle in degrees from mid-motion; torques in N m, force in N."""
     x = to_radians(deg)
     L = distance_mm / 1000
-    given = spec.size.roller_radius_mm
-    r = (distance_mm / 20 if given is None else mp.mpf(given)) / distance_mm
+    roller_mm = spec.size.roller_radius_mm
+    r = (distance_mm / 20 if roller_mm is None else mp.mpf(roller_mm)) / distance_mm
     f = mp.mpf(spec.load.friction)
     w = mp.mpf(spec.drive.n_rpm) * mp.pi / 30
     speed = rate(wheel, x)
@@ -448,7 +448,7 @@ def loads(spec, chain, wheel, pin, distance_mm, deg):
     sped = mp.mpf(0)  # torque that turns the wheel with its carrier: test_carousel.py has its proof
     if spec.drive.NAME == "carousel":
         sped = mp.mpf(spec.load.inertia_kgm2) * w * w * bend * -chain.sense
-    found = Loads(
+    result = Loads(
         torque,
         force,
         shaft * L * chain.sense + sped,
@@ -458,19 +458,19 @@ def loads(spec, chain, wheel, pin, distance_mm, deg):
         crank_bearing,
         guide,
     )
-    return found, speed
+    return result, speed
 
 
 def on_the_sphere(spec, deg):
-    """The same in space: a conical roller that meets the slot's wall at right angles to its way.
+    """The loads in space: a conical roller that meets the slot's wall at right angles to its path.
 
     Pin and wheel on the unit sphere, the wheel's axis up, the crank's in the xz plane.
     """
     S = to_radians(spec.wheel.axes_deg)
     th = mp.asin(mp.sin(S) * mp.sin(mp.pi / spec.wheel.z))
     a, L = to_radians(deg), mp.mpf(spec.given_distance_mm) / 1000
-    given = spec.size.roller_radius_mm
-    r = mp.mpf(1) / 20 if given is None else mp.mpf(given) / 1000 / L
+    roller_mm = spec.size.roller_radius_mm
+    r = mp.mpf(1) / 20 if roller_mm is None else mp.mpf(roller_mm) / 1000 / L
 
     def place(t):
         return machine_witness.on_the_sphere(S, th, t)

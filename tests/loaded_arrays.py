@@ -1,4 +1,4 @@
-"""Machines of design_arrays.py under loads of their own, and a scan that knows no search."""
+"""Machines of design_arrays.py under random loads, and a dense scan of their loads."""
 
 import numpy as np
 from design_arrays import MACHINES, drawn
@@ -24,8 +24,8 @@ CARRIED = [
 ]
 NAMES = ("pin_force_N", "sliding_m_s", "input_torque_Nm", "contact_stress_MPa")
 BLOCK = 512  # designs scanned together
-# Designs of which a search once stepped over an extreme, as ``make stress`` found them: by machine,
-# the keys as they vary (CARRIED last), and their values.
+# Designs of which a search once missed an extreme, from ``make stress``: by machine, the values of
+# its varied keys (CARRIED last).
 MISSED = {
     # the torque changes its sign twice between two samples, of one design and of many
     "tilted law": (
@@ -81,7 +81,7 @@ MISSED = {
 
 
 def loaded(name, n, seed, **changes):
-    """Some designs of a machine, all under loads of their own."""
+    """Some designs of a machine, each under a random load."""
     spec, rules = MACHINES[name]
     spec = spec.replace(load=LOAD.replace(**changes), size=spec.size.replace(face_width_mm=10.0))
     kept = [rule for rule in CARRIED if rule[0] not in {f"load.{key}" for key in changes}]
@@ -100,7 +100,7 @@ def missed(name):
 
 
 def dense_means(cycle, name, parts=2000):
-    """Mean and root mean square of a quantity over a period, by 20 places in each of many parts."""
+    """Mean and root mean square of a quantity over a period, by Gauss's rule in many parts."""
     node, weight = np.polynomial.legendre.leggauss(20)
     edges = np.linspace(0.0, 1.0, parts + 1)
     half = 0.5 * np.diff(edges)[:, None]
@@ -127,32 +127,32 @@ def dense_means(cycle, name, parts=2000):
     return mean, np.sqrt(square)
 
 
-def beyond(found, places, seed, names=NAMES, ends=None):
-    """By what fraction of a quantity's size places of a scan pass its extremes: (designs, names).
+def beyond(batch, places, seed, names=NAMES, ends=None):
+    """The excess of a scan over a quantity's extremes, over its size: (designs, names).
 
-    ``ends`` are the extremes, by default those of all ``names`` searched for together. The scan has
-    one place anywhere in each of so many equal parts of the motion, others in each design.
+    ``ends`` are the extremes, by default those of all ``names`` computed together. The scan has one
+    random place in each of ``places`` equal parts of the motion.
     """
     random = np.random.default_rng(seed)
-    machine, n = found.machine, len(found.which)
+    machine, n = batch.machine, len(batch.which)
     together = ends or load_summaries(machine, names, requested=())
     out = np.full((n, len(names)), -np.inf)
     for engagement in machine.engagements:
         for i in range(0, n, BLOCK):
             part = slice(i, min(i + BLOCK, n))
             some = taken(of(engagement, load_case(machine), names, {}), part)
-            here, given, _ = some
+            here, case, *_ = some
             a, b = (np.reshape(x, (-1, 1)) for x in (here.entry_deg, here.exit_deg))
             share = (np.arange(places) + random.random((part.stop - i, places))) / places
             x = np.asfortranarray(a + (b - a) * np.clip(share, 1e-9, 1.0 - 1e-9))
-            load = LoadFunctions(some, names)
+            load = LoadFunctions(some)
             with np.errstate(all="ignore"):
-                found_ = signed_instant(
-                    load.kinds, given, contact(here, x, reactions=load.reactions), None
+                instant = signed_instant(
+                    load.kinds, case, contact(here, x, reactions=load.reactions), None
                 ).instant
             for k, name in enumerate(names):
                 one = LoadSummary(*[v if v is None else v[part] for v in together[name]])
-                out[part, k] = np.maximum(out[part, k], _passed(found_, name, one, x.shape))
+                out[part, k] = np.maximum(out[part, k], _passed(instant, name, one, x.shape))
     return out
 
 
@@ -166,8 +166,8 @@ def _passed(here, name, one, shape):
     most = np.where(there, value, -np.inf).max(axis=1)
     least = np.where(there, value, np.inf).min(axis=1)
     size = np.maximum(np.maximum(abs(most), abs(least)), np.finfo(float).tiny)
-    # of designs that have no such value anywhere; or a great one where no place of the scan is
+    # designs without such a value have infinite ones
     with np.errstate(invalid="ignore", over="ignore"):
         over = np.maximum(most - one.max, one.min - least) / size
-    over = np.where(np.isnan(over), np.inf, over)  # an extreme that is no number is missed, too
+    over = np.where(np.isnan(over), np.inf, over)  # an extreme that is NaN is missed, too
     return np.where(there.any(axis=1), over, -np.inf)

@@ -1,10 +1,10 @@
 """Reference motions of 50 digits for every machine, from its geometry.
 
-A machine is given as the tables of a spec. The pin is a place in the plane (on the sphere: a
-vector), the wheel's angle its direction, written as a textbook would and differentiated by
-mpmath's differences with digits to spare. The derivatives that theory derives by hand stand below
-and are held against those differences, so each of the two checks the other. Nothing in this file
-imports the program; every key is taken as the exact double that it is.
+The input is the tables of a spec. The pin is a place in the plane (on the sphere: a vector), and
+its direction is the wheel's angle. Formulas are those of a textbook, differentiated by mpmath's
+differences with digits to spare. The derivatives that theory derives by hand stand below and are
+compared with those differences, so each of the two checks the other. Nothing in this file imports
+the program; every key is the exact double that it is.
 """
 
 from functools import cache, partial
@@ -79,7 +79,7 @@ class Motion:
         return taylor(self.wheel, to_radians(deg), 4)
 
     def axis(self, x):
-        """What the pin does in its slot: lever of the slot's normal, and speed along the slot.
+        """Lever of the slot's normal at the pin, and the pin's speed along the slot.
 
         In the frame that turns with the wheel the pin moves along the slot only.
         """
@@ -95,7 +95,7 @@ class Motion:
 
 
 class LawMotion(Motion):
-    """A motion that a law gives; at a joint of the law, from the left."""
+    """A motion that follows a law; at a joint of the law, from the left."""
 
     def __init__(self, law, motion, half_step, path_of, middle=None):
         """``middle`` is the share of the motion at which the input's angle is 0: or else half."""
@@ -113,7 +113,7 @@ class LawMotion(Motion):
         return self.rates(to_radians(deg))
 
     def rates(self, x):
-        """The same at an angle in radians, which may be a rounding outside the motion."""
+        """The derivatives at an angle in radians, which rounding may put outside the motion."""
         u = (x - self.entry) / self.whole
         q = self.law(min(max(u, mp.mpf(0)), mp.mpf(1)), 4)
         q[0] -= mp.mpf(1) / 2
@@ -152,7 +152,7 @@ def motions(spec):
 
 
 def retimed(own, front, late=0):
-    """A motion whose input shaft another drive turns: every angle of that shaft is the front's."""
+    """A motion whose input shaft a front drive turns."""
     own_mid = own.mid + late
     mid = front.input(own_mid)
 

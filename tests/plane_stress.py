@@ -27,7 +27,7 @@ def horn(wall, recess, depth, opening, beyond, fine=1):
 
 
 def along(wall, recess, opening, fine=1):
-    """Likewise of any wall, points (2, n) from past the mouth to the slot's end.
+    """The result of ``horn`` for any wall: points (2, n) from past the mouth to the slot's end.
 
     The recess's centre is the origin, the mouth at (0, y), and the wall runs inwards along x there;
     the wall of the next slot is its image in the ray in the middle. From the recess's centre each
@@ -94,9 +94,9 @@ def along(wall, recess, opening, fine=1):
     # the stress along the wall, in the middle of each of its facets
     side = mesh.facets_satisfying(lambda x: on_wall(x, low, corner), boundaries_only=True)
     on = skfem.FacetBasis(mesh, basis.elem, facets=side, quadrature=(np.array([[0.5]]), np.ones(1)))
-    found = stress(sym_grad(on.interpolate(u)))[..., 0]
+    tensor = stress(sym_grad(on.interpolate(u)))[..., 0]
     s = on.default_parameters()["x"][0][:, 0]
     tx, ty = -on.normals[1][:, 0], on.normals[0][:, 0]
-    stretched = found[0, 0] * tx * tx + 2.0 * found[0, 1] * tx * ty + found[1, 1] * ty * ty
+    along_wall = tensor[0, 0] * tx * tx + 2.0 * tensor[0, 1] * tx * ty + tensor[1, 1] * ty * ty
     order = np.argsort(s)
-    return s[order], stretched[order], abs(float(f @ u))
+    return s[order], along_wall[order], abs(float(f @ u))

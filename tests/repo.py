@@ -15,18 +15,18 @@ GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")  # the installe
 
 
 def heed_signals() -> None:
-    """In a child: whoever runs the tests may ignore signals (nohup, a job behind &)."""
+    """Restore the default signals in a child: nohup and jobs behind & ignore them."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
 
 
 def read_terminal(master: int) -> bytes:
-    """All that is said to a pseudo-terminal whose other end only a child has open."""
-    said = b""
+    """Return the output on a pseudo-terminal whose other end only a child has open."""
+    output = b""
     try:
         while piece := os.read(master, 65536):
-            said += piece
+            output += piece
     except OSError:  # Linux: the other end is closed
         pass
     os.close(master)
-    return said
+    return output

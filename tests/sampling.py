@@ -7,8 +7,8 @@ GENEVA_STRESS=1 makes a run take all cases. Otherwise there are two ways to take
   that they share designs; each file chooses for itself, so that together they try all designs.
 - ``some(whole, few)`` are the cases of a loop, or how many: of hypothesis examples, say.
 
-``@pytest.mark.long`` leaves a test to `make stress` that takes a second or more, where quicker ones
-prove the same of simpler machines.
+``@pytest.mark.long`` leaves a test of a second or more to `make stress`, if quicker tests prove the
+same for simpler machines.
 """
 
 import os

@@ -1,4 +1,4 @@
-"""What must hold of every drawing sheet: texts stand free, all is on the paper, sizes are right."""
+"""Requirements on every drawing sheet: free texts, lines inside the frame, right sizes."""
 
 import math
 import re
@@ -18,41 +18,41 @@ CHORD = 0.02  # mm: how far the witness's polylines are from the arcs
 LEFT, MARGIN = 20.0, 10.0  # mm, of the frame (ISO 5457)
 
 
-def lines_of(found):
-    """Every line on a sheet as a polyline; arrows are triangles."""
-    shapes = [*found.shapes]
-    shapes += [Contour("", (piece,), closed=False) for m in found.measures for piece in m.lines]
+def lines_of(sheet):
+    """The lines on a sheet as polylines, and its arrows as triangles."""
+    shapes = [*sheet.shapes]
+    shapes += [Contour("", (piece,), closed=False) for m in sheet.measures for piece in m.lines]
     lines = [LineString(vertices(shape, CHORD)) for shape in shapes]
-    return lines + [Polygon(a.corners) for m in found.measures for a in m.arrows]
+    return lines + [Polygon(a.corners) for m in sheet.measures for a in m.arrows]
 
 
-def overlaps(found):
-    """Texts that stand on a line, on another text, or beyond the frame."""
-    boxes = [Polygon(label.corners) for label in found.texts]
-    tree = shapely.STRtree([*lines_of(found), *boxes])
-    inside = framed(found)
+def overlaps(sheet):
+    """The texts that stand on a line, on another text, or outside the frame."""
+    boxes = [Polygon(label.corners) for label in sheet.texts]
+    tree = shapely.STRtree([*lines_of(sheet), *boxes])
+    inside = framed(sheet)
     bad = []
     for i, one in enumerate(boxes):
         own = len(tree.geometries) - len(boxes) + i
         hit = [k for k in tree.query(one, predicate="intersects") if k != own]
         if hit or not inside.contains(one):
-            bad.append((found.texts[i].text, hit))
+            bad.append((sheet.texts[i].text, hit))
     return bad
 
 
-def crossings(found):
-    """Pairs of dimensions of which a line or an arrow of one runs into the other's.
+def crossings(sheet):
+    """Pairs of dimensions whose lines or arrows cross.
 
     Extension lines may cross other lines. Half a millimetre at the end of a line does not count,
     nor do the tips of arrows: dimensions in a row meet there.
     """
-    mains = [[shortened(line) for line in polylines(m.main_lines)] for m in found.measures]
-    arrows = [[blunt(a) for a in m.arrows] for m in found.measures]
-    whole = [unary_union(polylines(m.lines)) for m in found.measures]
+    mains = [[shortened(line) for line in polylines(m.main_lines)] for m in sheet.measures]
+    arrows = [[blunt(a) for a in m.arrows] for m in sheet.measures]
+    whole = [unary_union(polylines(m.lines)) for m in sheet.measures]
     bad = []
-    for i, m in enumerate(found.measures):
+    for i, m in enumerate(sheet.measures):
         main, heads = unary_union(mains[i]), unary_union(arrows[i])
-        for j, other in enumerate(found.measures):
+        for j, other in enumerate(sheet.measures):
             across = j < i and main.intersects(unary_union(mains[j]))
             if across or (j != i and heads.intersects(whole[j])):
                 bad.append((m.label.text, other.label.text))
@@ -75,23 +75,23 @@ def blunt(arrow):
     return Polygon([tip + 0.25 * (left - tip), tip + 0.25 * (right - tip), right, left])
 
 
-def beyond(found):
-    """Lines that are not the frame's and leave it."""
-    inside = framed(found).buffer(1e-6)
-    own = [shape for shape in found.shapes if shape.layer != FRAME]
-    lines = lines_of(found._replace(shapes=tuple(own)))
+def beyond(sheet):
+    """The bounds of lines that leave the frame; the frame itself does not count."""
+    inside = framed(sheet).buffer(1e-6)
+    own = [shape for shape in sheet.shapes if shape.layer != FRAME]
+    lines = lines_of(sheet._replace(shapes=tuple(own)))
     return [line.bounds for line in lines if not inside.contains(line)]
 
 
-def framed(found):
-    """What is inside the frame."""
-    return box(LEFT, MARGIN, found.width - MARGIN, found.height - MARGIN)
+def framed(sheet):
+    """The area inside the frame."""
+    return box(LEFT, MARGIN, sheet.width - MARGIN, sheet.height - MARGIN)
 
 
-def assert_measured(found):
-    """Each dimension says what its points are apart, at the scale of its view, in its units."""
-    for m in found.measures:
-        unit = 25.4 if found.units == "inch" and m.kind != "angular" else 1.0
+def assert_measured(sheet):
+    """Assert that each dimension shows its points' distance, at its scale and in its units."""
+    for m in sheet.measures:
+        unit = 25.4 if sheet.units == "inch" and m.kind != "angular" else 1.0
         if m.kind == "angular":
             apex, a, b, _ = m.points
             turn = math.atan2(b[1] - apex[1], b[0] - apex[0])
@@ -114,19 +114,19 @@ def assert_measured(found):
 
 
 def number(value):
-    """A size as a drawing writes it: three decimals at most."""
+    """The text of a size on a drawing, with at most three decimals."""
     text = f"{round(value, 3) + 0.0:.3f}".rstrip("0").rstrip(".")
     return "0" if text == "-0" else text
 
 
-def assert_as_listed(found, rows, close=5.1e-4):
-    """The sheet shows what the list of parts prints: each part by name, count, thickness, mass.
+def assert_as_listed(sheet, rows, close=5.1e-4):
+    """Assert that the sheet lists the parts with their names, counts, thicknesses and masses.
 
-    ``rows`` are the list's, as dictionaries; masses are written with four digits, and walls that
-    are drawn coarser than the list's move them by more, ``close``.
+    ``rows`` are those of the list of parts, as dictionaries. Masses have four digits; ``close`` is
+    the relative tolerance, which is larger for a sheet with coarser walls.
     """
-    texts = [label.text for label in found.texts]
-    said = " ".join(texts)
+    texts = [label.text for label in sheet.texts]
+    whole = " ".join(texts)
     masses = 0.0
     parts = [row for row in rows if row["row"] == "part"]
     items = texts[texts.index("kg each") + 2 :]
@@ -140,7 +140,7 @@ def assert_as_listed(found, rows, close=5.1e-4):
         assert shown == pytest.approx(row["mass_kg"], rel=close, abs=1e-9)
         masses += row["mass_kg"] * row["count"]
         titled = f"{i} {name}, t = {thick}"
-        assert titled in said or f"{i} {name}" in said or name in said, name
+        assert titled in whole or f"{i} {name}" in whole or name in whole, name
     total, unit = texts[texts.index("mass") + 1].split()
     assert float(total) * {"kg": 1.0, "mg": 1e-6}[unit] == pytest.approx(masses, rel=close)
     sizes = {row["name"]: row["value"] for row in rows if row["row"] == "dimension"}
@@ -149,7 +149,7 @@ def assert_as_listed(found, rows, close=5.1e-4):
         for letter, name in (("L", "centre distance"), ("R", "crank radius"))
         if name in sizes
     )
-    assert length in said
+    assert length in whole
     if "roller radius" in sizes:  # a counter has teeth
         rolls = f"Ø {number(2.0 * sizes['roller radius'])}"
-        assert rolls in said, rolls
+        assert rolls in whole, rolls

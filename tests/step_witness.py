@@ -1,7 +1,7 @@
-"""A reader of STEP files of the tests' own: references, faces and edges, and what they enclose.
+"""A reader of STEP files for tests: references, faces, edges and the volumes that they enclose.
 
-It knows the entities that outlines drawn out along z need, and nothing of the code that writes
-them. Volumes come from the file's own numbers alone.
+It reads the entities of outlines that are extruded along z, and shares no code with the writer.
+Volumes follow from the numbers in the file alone.
 """
 
 import math
@@ -64,7 +64,7 @@ class File:
 
 
 def parsed(text):
-    """An instance: its entity's name and a list of values; of several entities, under "" """
+    """An instance: its entity's name and a list of values; several entities have the name "" """
     tokens = [next(t for t in m.groups() if t) for m in TOKEN.finditer(text)]
     at = 0
 
@@ -96,13 +96,13 @@ def parsed(text):
         at += 1
         return out
 
-    found = one()
+    value = one()
     assert at == len(tokens)
-    return found if isinstance(found, tuple) else ("", found)
+    return value if isinstance(value, tuple) else ("", value)
 
 
 def less_sine(turn):
-    """turn - sin(turn), of small angles by its series, as the difference would cancel."""
+    """turn - sin(turn), for small angles by its series, since the difference would cancel."""
     if turn > 1.0:
         return turn - math.sin(turn)
     return sum((-1) ** k * turn ** (2 * k + 3) / math.factorial(2 * k + 3) for k in range(9))
@@ -147,7 +147,7 @@ def dot(a, b):
 
 
 class Solid:
-    """A MANIFOLD_SOLID_BREP: its faces, held against each other and against their surfaces."""
+    """A MANIFOLD_SOLID_BREP, whose faces are checked for consistency with edges and surfaces."""
 
     def __init__(self, file, number):
         self.file = file
@@ -174,7 +174,7 @@ class Solid:
         self.euler = len(vertices) - len(edges) + 2 * len(self.faces) - self.loops
 
     def bounds(self, face):
-        """A face's loops of edges, each with whether it is run forwards; the outer one first."""
+        """A face's loops, the outer one first: pairs of an edge, and True if it is run forwards."""
         bounds = self.file.values(face, "ADVANCED_FACE")[1]
         assert [self.file.of[b][0] for b in bounds] == [
             "FACE_OUTER_BOUND",
@@ -184,15 +184,15 @@ class Solid:
             _, loop, along = self.file.values(bound)
             assert along == ".T."
             edges = self.file.values(loop, "EDGE_LOOP")[1]
-            found = [self.file.values(edge, "ORIENTED_EDGE") for edge in edges]
-            yield [(edge, sense == ".T.") for _, _, _, edge, sense in found]
+            oriented = [self.file.values(edge, "ORIENTED_EDGE") for edge in edges]
+            yield [(edge, sense == ".T.") for _, _, _, edge, sense in oriented]
 
     def ends(self, edge):
         """Vertices at the start and the end, as numbers."""
         return self.file.values(edge, "EDGE_CURVE")[1:3]
 
     def hold(self, edge):
-        """Both vertices lie on the edge's curve."""
+        """Assert that an edge runs along its curve, and note how far its ends miss it."""
         _, start, end, curve, along = self.file.values(edge)
         ends = [self.file.vertex(v) for v in (start, end)]
         if along == ".F.":
@@ -220,7 +220,7 @@ class Solid:
         return self.spline(curve)[0]
 
     def spline(self, curve):
-        """Poles and knots, each as often as it counts."""
+        """Poles, and knots repeated by their multiplicities."""
         _, degree, poles, _, closed, crosses, counts, knots, _ = self.file.values(
             curve, "B_SPLINE_CURVE_WITH_KNOTS"
         )
@@ -232,7 +232,7 @@ class Solid:
         return poles, [k for k, n in zip(knots, counts, strict=True) for _ in range(int(n))]
 
     def swept(self, edge, sense):
-        """Integral of x dy along an edge that is run forwards or not."""
+        """Integral of x dy along an edge, forwards if ``sense``."""
         _, start, end, curve, along = self.file.values(edge)
         (x0, y0, _), (x1, y1, _) = self.file.vertex(start), self.file.vertex(end)
         kind, values = self.file.of[curve]
@@ -244,7 +244,7 @@ class Solid:
             a, b = math.atan2(y0 - cy, x0 - cx), math.atan2(y1 - cy, x1 - cx)
             way = 1.0 if along == ".T." else -1.0
             turn = way * (b - a) % math.tau or math.tau
-            if turn < 1.0:  # of a flat arc the chord says more than the centre, which is far off
+            if turn < 1.0:  # the chord of a flat arc is more accurate than its distant centre
                 turn = 2.0 * math.asin(0.5 * math.dist((x0, y0), (x1, y1)) / r)
             whole = 0.5 * (x0 + x1) * (y1 - y0) + way * 0.5 * r * r * less_sine(turn)
             return sign * whole
@@ -258,7 +258,7 @@ class Solid:
         return sign * total
 
     def volumes(self):
-        """Twice the volume, by the divergence theorem: of (0, 0, z) and of (x, 0, 0).
+        """The volume, twice by the divergence theorem: of (0, 0, z) and of (x, 0, 0).
 
         The first takes the faces that are level, the second those that stand.
         """
@@ -284,7 +284,7 @@ class Solid:
         return level, standing
 
     def faces_outwards(self, face, side):
-        """The surface's normal, turned as the face says, leads to the right of its lower edge."""
+        """Assert that a face's normal points to the right of its lower edge."""
         _, _, surface, same = self.file.values(face)
         kind, values = self.file.of[surface]
         sign = 1.0 if same == ".T." else -1.0

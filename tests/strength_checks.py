@@ -1,4 +1,4 @@
-"""The checks of strength that default sizes must pass, and the checks of a spec by their names."""
+"""Names of the strength checks that default sizes must pass, and a spec's checks by name."""
 
 from geneva_cli.machine.mechanism import build
 from geneva_cli.verdict.checks import checks

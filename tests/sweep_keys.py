@@ -1,4 +1,4 @@
-"""Sweeps of any numeric key held against single designs: every machine, every quantity."""
+"""Sweeps of any numeric key compared with single designs: every machine, every quantity."""
 
 import math
 
@@ -59,7 +59,7 @@ MORE = {
     "rack": machine(8, gearing="linear"),
     "counter": machine(4, gearing="counter", own={"driver_teeth": 20}),
 }
-SEVERAL = {"tolerance": Tolerance()}  # it has no keys for the places of cranks
+SEVERAL = {"tolerance": Tolerance()}  # which has no keys for the places of cranks
 # What replaces a part of ``GIVEN`` that a machine refuses.
 OTHERS = {
     "two cranks": SEVERAL,
@@ -82,22 +82,21 @@ OTHERS = {
     },
 }
 NAMES = (*MACHINES, *MORE)
-TRIED = (4.0, 8.0, 0.3, 20.0, 60.0, 120.0, 0.0)  # values of keys that a spec goes without
+TRIED = (4.0, 8.0, 0.3, 20.0, 60.0, 120.0, 0.0)  # values of keys that a spec leaves out
 UNITS = 16 * np.finfo(float).eps
-# Four times that where the rounding of a root is passed on: of how thick a horn is, and of the
-# wheel that a linkage drives.
+# Four times that after a root: of a horn's thickness, and of the wheel that a linkage drives.
 ROOTS, FOURFOLD = ("strength.horn",), 4
 UNBOUNDED = 1000.0  # N: a force without a peak; the load's torque gives it at a lever of 5 mm
-MANY = 100  # quantities of any loaded machine that a sweep has of arrays, at least
-SUMS = 1e-12  # what is promised of sums, and of what follows from them (load_summaries)
+MANY = 100  # the least number of quantities of a loaded machine that a batch computes
+SUMS = 1e-12  # accuracy of sums, and of quantities that follow from them (load_summaries)
 PLACE = 1e-6  # degrees: a peak is flat
-# these draw whole studies, judge parts, or list them, none of which a sweep has of arrays
+# tables of studies, checks and parts, which no batch computes
 SLOW = ("tolerance", "checks", "parts", "parts_list")
 SHOWN = tuple(group for group in GROUPS if group.table not in SLOW)
 
 
 def base(name):
-    """A design of a machine that can be built, loaded so that it has every quantity."""
+    """A design of a machine that can be built, with a load, so that it has every quantity."""
     spec, rules = (MORE[name], []) if name in MORE else MACHINES[name]
     spec = spec.replace(**GIVEN | OTHERS.get(name, {}))
     varied = drawn(rules, 60, 7)
@@ -105,16 +104,16 @@ def base(name):
     return changed(spec, next(some for some in ({}, *every) if built(spec, some)))
 
 
-def built(spec, given):
-    """The machine with these values of keys; None where there is none."""
+def built(spec, values_of_keys):
+    """The machine with these values of keys; None if it is refused."""
     try:
-        return build(changed(spec, given))
+        return build(changed(spec, values_of_keys))
     except GenevaError:
         return None
 
 
 def keys(spec):
-    """The numeric keys of a spec that may vary in an array, and the values that it has of them."""
+    """The numeric keys of a spec that a batch may vary: whether whole, and the spec's own value."""
     return {
         f"{table}.{field.key}": (int in field.types, spec.table(table)[field.key])
         for table in TABLES
@@ -131,7 +130,7 @@ def _fields(spec, table):
 
 
 def apart(spec, key):
-    """Two values of a key that both make a machine: the spec's own first, where it has one."""
+    """Two values of a key that both make a machine, the spec's own first if it has one."""
     whole, own = keys(spec)[key]
     for start in (own, *TRIED):
         if isinstance(start, int | float):
@@ -152,18 +151,18 @@ def quantities(mechanism):
 
 
 def off(spec, varied):
-    """What a sweep's quantities differ in from single designs, said in words; nothing if all agree.
+    """List the differences of a sweep's quantities from those of single designs, in words.
 
-    A quantity of which no design has an array, or that is NaN in it, is asked of each design alone.
+    A quantity that the batch lacks, or that is NaN there, is computed for each design alone.
     """
     count = len(next(iter(varied.values())))
-    found = many(spec, {key: np.array(row) for key, row in varied.items()})
-    assert not found.refused.any(), varied
+    batch = many(spec, {key: np.array(row) for key, row in varied.items()})
+    assert not batch.refused.any(), varied
     singles = [
         quantities(built(spec, {key: row[i] for key, row in varied.items()})) for i in range(count)
     ]
-    assert found.machine.designs == count
-    together = known_columns(found.machine, [name for name in singles[0] if in_batch([name])])
+    assert batch.machine.designs == count
+    together = known_columns(batch.machine, [name for name in singles[0] if in_batch([name])])
     rows = {
         name: np.broadcast_to(np.reshape(row, -1), (count,))
         for name, row in together.items()
@@ -198,21 +197,21 @@ def _agrees(name, value, single, times):
 
 
 def _size(name, single):
-    """The size that counts of a signed value: its curve's peak, a radian of an angle, or 1."""
+    """The scale of a signed value's error: its curve's peak, a radian for an angle, or 1."""
     group, _, own = name.rpartition(".")
     if own.endswith("_deg"):
         return math.degrees(1.0)
     if "share" in own or own == "margin":
         return 1.0
     if group.startswith("shock") and own in ("jump", "force_N", "moment_Nms"):
-        # the root of a way: what rounding is to that, is as much more to its root as it is smaller
+        # a root of a path length: its relative rounding grows as the root becomes smaller
         return abs(single[name] / single[f"{group}.jump"]) if single[name] else 0.0
-    if own == "drag_Nm":  # what a load takes beyond another
+    if own == "drag_Nm":  # a difference of two loads
         return single.get("loads.wheel_torque_Nm.max") or 0.0
     peak = single.get(f"{group}.max")
     return UNBOUNDED if peak is None and group.endswith("_N") else peak or 0.0
 
 
 def _is_level(single, group, own):
-    """Whether a curve has its end in several places, or none: where it is 0, or has no bound."""
+    """True if a curve has its extreme in several places or none: if it is 0 or unbounded."""
     return not single.get(f"{group}.{'min' if own == 'min_at_deg' else 'max'}")

@@ -1,4 +1,4 @@
-"""What one motion leaves of the swing of many oscillators."""
+"""Residual swings of many oscillators after one motion, for tests."""
 
 import numpy as np
 

@@ -14,7 +14,7 @@ DENSE = some(20_000, 4_000)  # positions of a turn
 
 
 def least_gap(parts, at):
-    """The smallest gap of all parts at input angles."""
+    """The smallest gap of all parts over some input angles, mm."""
     pose = parts.gaps.pose(at)
     locking = parts.gaps.locking(pose).min() if parts.crank else math.inf
     return float(min(parts.gaps.rollers(pose).min(), locking))
@@ -26,7 +26,7 @@ def turn_of(parts, count=DENSE):
 
 
 def pairs(parts, window):
-    """Each pair of parts in a motion or dwell, with the gap at input angles."""
+    """Yield each pair of parts in a motion or dwell: its interval, its bounds, and its gap."""
     every = parts.pairs(-TO_MM)
     if parts.crank:
         ends = window.start, window.end

@@ -1,4 +1,4 @@
-"""What laws leave of a swing, by closed forms of 60 digits: integrals of sums of exponentials.
+"""Residual swings after laws in 60 digits, in closed form: integrals of sums of exponentials.
 
 Each law is its acceleration or velocity as c e^(i k u) on pieces, or a polynomial; textbook forms
 are 0/0 where k is the swing's own rate, and there the rate is moved by 1e-30, which 60 digits bear.

@@ -40,8 +40,8 @@ def to_degrees(rad):
 def doubled(exact):
     """Numbers of many digits as two arrays of doubles whose sum they are to 32 digits.
 
-    What a double lacks of one is then had without its digits, to a share of 1e-16 of the lack:
-    ``(double - high) - low``, whose first difference is exact wherever the two are near.
+    The error of a double is then ``(double - high) - low``, to 1e-16 of itself: the first
+    difference is exact wherever the two are near.
     """
     high = np.array([float(e) for e in exact])
     low = np.array([float(e - h) for e, h in zip(exact, high.tolist(), strict=True)])
@@ -55,16 +55,23 @@ def taylor(f, x, order):
 
 
 def chain(g, f):
-    """Derivatives 0..4 of g(f(x)), from those of g by f and of f by x (Faà di Bruno)."""
-    g0, g1, g2, g3, g4 = g
-    _, f1, f2, f3, f4 = f
-    return (
-        g0,
-        g1 * f1,
-        g2 * f1**2 + g1 * f2,
-        g3 * f1**3 + 3 * g2 * f1 * f2 + g1 * f3,
-        g4 * f1**4 + 6 * g3 * f1**2 * f2 + g2 * (4 * f1 * f3 + 3 * f2**2) + g1 * f4,
+    """Derivatives of g(f(x)) up to the fifth, from those of g by f and of f by x (Faà di Bruno)."""
+    (g0, g1, g2, g3, g4, g5), (_, a, b, c, d, e) = (
+        [*rates, *[mp.mpf(0)] * (6 - len(rates))] for rates in (g, f)
     )
+    every = (
+        g0,
+        g1 * a,
+        g2 * a**2 + g1 * b,
+        g3 * a**3 + 3 * g2 * a * b + g1 * c,
+        g4 * a**4 + 6 * g3 * a**2 * b + g2 * (4 * a * c + 3 * b**2) + g1 * d,
+        g5 * a**5
+        + 10 * g4 * a**3 * b
+        + g3 * (10 * a**2 * c + 15 * a * b**2)
+        + g2 * (5 * a * d + 10 * b * c)
+        + g1 * e,
+    )
+    return every[: len(g)]
 
 
 def coulisse_derivatives(E, A):
@@ -104,11 +111,11 @@ class Geneva:
         return chain((mp.arg(1 - C), *wheel_derivatives(C, self.g)), f)
 
     def derivatives(self, deg):
-        """The same at a double in degrees, taken as exact."""
+        """The derivatives at a double in degrees, taken as exact."""
         return self.at(to_radians(deg))
 
     def rough(self, deg):
-        """The same in double precision on an array: to look for peaks, not to compare with."""
+        """The derivatives in double precision on an array, to search peaks; not a reference."""
         E = np.exp(1j * np.radians(deg))
         A, l, g = float(self.A), float(self.l), self.g
         f = (np.angle(A + E), *coulisse_derivatives(E, A))
@@ -146,9 +153,9 @@ class Geneva:
             for i in np.flatnonzero(slope[:-1] * slope[1:] < 0.0)
             if max(size[i], size[i + 1]) > 0.99 * size.max()
         ]
-        found = [(abs(pick(self.at(x))[0]), x) for x in [ends[0], *places, ends[1]]]
-        best = max(s for s, _ in found)
-        at = min(x for s, x in found if s > best * (1 - mp.mpf(10) ** -30))
+        sizes = [(abs(pick(self.at(x))[0]), x) for x in [ends[0], *places, ends[1]]]
+        best = max(s for s, _ in sizes)
+        at = min(x for s, x in sizes if s > best * (1 - mp.mpf(10) ** -30))
         return best, to_degrees(at)
 
 

@@ -1,4 +1,4 @@
-"""Specs put together in the words of a file, for tests: a kind by its name, its keys beside it."""
+"""Specs for tests in the words of a file: kinds by their names, with their keys."""
 
 import dataclasses
 import os
@@ -7,7 +7,7 @@ from typing import NamedTuple
 from geneva_cli import design
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics import registry
-from geneva_cli.machine import spec as given
+from geneva_cli.machine import spec as machine_spec
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.specfile.columns import read_pairs
 
@@ -23,7 +23,7 @@ class _Common(NamedTuple):
 
 
 def Drive(kind="crank", n_rpm=60.0, rollers=1, roller_angles_deg=None):
-    """A drive by its kind's name; one that needs keys of its own is whole with ``Spec``'s third."""
+    """A drive by its kind's name; ``Spec`` adds the keys of a kind that needs some."""
     common = {"n_rpm": n_rpm, "rollers": rollers, "roller_angles_deg": roller_angles_deg}
     try:
         return registry.drive(kind)(**common)
@@ -48,28 +48,28 @@ def law(name, *values, **own):
 
 
 def points(path, cls, attribute):
-    """The points in a CSV file, as the reader hands them over."""
+    """The points in a CSV file, as the reader returns them."""
     field = next(f for f in fields(cls) if f.attribute == attribute)
     pairs = read_pairs(str(path), field.rule, (cls.TABLE, field.key))
     return Points(tuple(pairs), os.path.basename(str(path)))
 
 
 def Motion(law=None, lambda_=None, *, alpha0_deg=0.0, ratio=None):
-    """A motion by its law's name; None for none, as of straight slots."""
+    """A motion by its law's name; None without a law, for straight slots."""
     if law is None:
         return None
     shape = {"lambda_": lambda_} if lambda_ else {}
-    return given.Motion(registry.law(law)(**shape), alpha0_deg, ratio)
+    return machine_spec.Motion(registry.law(law)(**shape), alpha0_deg, ratio)
 
 
 def Spec(wheel, drive=None, keys=None, motion=None, **rest):
-    """A whole spec, the drive with the keys of its kind."""
+    """A spec whose drive gets the keys of its kind."""
     drive = drive or Drive()
     if isinstance(drive, _Common):
         drive = registry.drive(drive.kind)(**drive.common, **(keys or {}))
     elif keys:
         drive = dataclasses.replace(drive, **keys)
-    return given.Spec(wheel, drive, motion, **rest)
+    return machine_spec.Spec(wheel, drive, motion, **rest)
 
 
 def load(path):
@@ -82,4 +82,4 @@ def named(name, shape=0.0):
     return law(name, *[shape] if shape else [])
 
 
-LAWS = registry.STANDARD_LAWS  # those that need nothing more said
+LAWS = registry.STANDARD_LAWS  # those without required parameters

@@ -50,7 +50,6 @@ def arrival(mechanism: Mechanism) -> Arrival | None:
 
     None if the slots have both walls, or without a load.
 
-
     >>> design = Design(External(3), GearSector(sector_deg=60), load=Load(inertia_kgm2=0.01))
     >>> round(arrival(design.mechanism).most_Nm, 6)  # tan b = 0.57735 of I w²
     0.227929

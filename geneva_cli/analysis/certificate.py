@@ -162,17 +162,17 @@ def certificate(
         exact = exact_rates(mechanism) if decimals and quantity in QUANTITIES else None
         if exact is None:
             formulas = [_formula(mechanism, e, quantity) for e in each]
-            found = [
+            peaks = [
                 greatest(_curve(formula), {*e.motion.seams_deg, *e.slot.seams_deg}, limit)
                 for formula, e in zip(formulas, each, strict=True)
             ]
         else:
-            found = [
+            peaks = [
                 greatest(_curve(_peak(rate, quantity)), (e.entry_deg, e.exit_deg), limit, False)
                 for rate, e in zip(exact, each, strict=True)
             ]
     combined = _combined(
-        quantity, [_Found(mechanism, e, one) for e, one in zip(each, found, strict=True)]
+        quantity, [_EngagementPeak(mechanism, *both) for both in zip(each, peaks, strict=True)]
     )
     return combined._replace(about=DOUBLES if exact is None else DECIMALS)
 
@@ -207,7 +207,7 @@ def _curve(formula: Formula) -> Callable[[Ball, int], Sequence[Ball]]:
     return lambda at, order: [ball_of(c) for c in formula(cast("Number", at), order).c]
 
 
-class _Found(NamedTuple):
+class _EngagementPeak(NamedTuple):
     """The greatest size over one engagement, with its angles as the machine's input angles."""
 
     mechanism: Mechanism
@@ -228,24 +228,24 @@ class _Found(NamedTuple):
         return self.engagement.motion.symmetric and apart < NARROW_DEG
 
 
-def _combined(quantity: str, found: Sequence[_Found]) -> Certificate:
+def _combined(quantity: str, peaks: Sequence[_EngagementPeak]) -> Certificate:
     """One certificate of all engagements."""
-    low = max(one.greatest.low for one in found)
+    low = max(one.greatest.low for one in peaks)
     least = low * (1.0 - TIE)
-    count = sum(one.greatest.intervals for one in found)
+    count = sum(one.greatest.intervals for one in peaks)
     left = [
         Open(*one.shown(one.greatest.open), _known(one.greatest.open.high))
-        for one in found
+        for one in peaks
         if one.greatest.open and one.greatest.open.high >= least
     ]
     if left:
         worst = max(left, key=lambda o: math.inf if o.below is None else o.below)
         return Certificate(quantity, low, None, (), False, count, worst)
-    places = [(one, place) for one in found for place in one.greatest.places if place.high >= least]
+    places = [(one, place) for one in peaks for place in one.greatest.places if place.high >= least]
     first, last = places[0], places[-1]
     mirrored = len(places) == 2 and first[0] is last[0] and first[0].mirrors(first[1], last[1])
     shown = tuple(sorted(one.shown(place) for one, place in places))
-    high = max(one.greatest.high for one in found)
+    high = max(one.greatest.high for one in peaks)
     return Certificate(quantity, low, high, shown, mirrored, count, None)
 
 
@@ -266,10 +266,10 @@ def _outwards(x: float, rounding: str) -> str:
 
 def with_certificates(peaks: Table, mechanism: Mechanism, for_people: bool) -> Table:
     """A record of peaks with the certificates of all: a table of them, or a text each."""
-    found = [certificate(mechanism, quantity) for quantity in QUANTITIES]
-    rows = [_row(one) for one in found]
+    proofs = [certificate(mechanism, quantity) for quantity in QUANTITIES]
+    rows = [_row(one) for one in proofs]
     table = rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
-    texts = [*(one.text for one in found), f"holds for {found[0].about}"]
+    texts = [*(one.text for one in proofs), f"holds for {proofs[0].about}"]
     value = tuple(texts) if for_people else table
     return peaks.replaced(names=(*peaks.names, "certificate"), columns=[*peaks.columns, (value,)])
 
@@ -281,15 +281,15 @@ def load_certificates(mechanism: Mechanism, for_people: bool) -> Table | tuple[s
     """
     lacks = mechanism.output.lacks
     reasons = {name: not_proved(mechanism, name) for name in LOADS if name not in lacks}
-    found = {name: certificate(mechanism, name) for name, why in reasons.items() if not why}
+    proofs = {name: certificate(mechanism, name) for name, why in reasons.items() if not why}
     if for_people:
         refused = [f"{name}.max not proved: {why}" for name, why in reasons.items() if why]
-        about = [f"holds for {DOUBLES}"] if found else []
-        return (*[one.text for one in found.values()], *refused, *about)
+        about = [f"holds for {DOUBLES}"] if proofs else []
+        return (*[one.text for one in proofs.values()], *refused, *about)
     names = ("quantity", "low", "high", "at_deg", "places", "proved", "intervals", "about", "open")
     none: dict[str, object] = dict.fromkeys(names) | {"places": (), "proved": False, "intervals": 0}
     rows = [
-        (_row(found[name]) if name in found else none | {"quantity": name}) | {"why": why or None}
+        (_row(proofs[name]) if name in proofs else none | {"quantity": name}) | {"why": why or None}
         for name, why in reasons.items()
     ]
     return rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -23,6 +23,9 @@ from geneva_cli.table import Table
 
 INSIDE = (np.arange(32) + 0.5) / 32.0  # places in a piece where its error is evaluated
 LEAST_DEG = 1e-3  # shorter pieces are not halved: a servo's cycle is longer
+
+# widths of pieces, and the states after and before their ends -> powers of their polynomials
+Interpolation: TypeAlias = "Callable[[Array, Array, Array], Array]"
 
 
 class CamPoints(NamedTuple):
@@ -240,9 +243,6 @@ def _stretches(mechanism: Mechanism) -> list[_Stretch]:
         if dwell > 0.0:
             out.append(_Stretch(None, begin - dwell, begin, begin, slave))
     return out
-
-
-Interpolation = Callable[["Array", "Array", "Array"], "Array"]
 
 
 def _halved(

@@ -10,12 +10,12 @@ import numpy as np
 from geneva_cli.analysis.change_of_sides import changes, drag_over, impacts_of
 from geneva_cli.analysis.contact import contact as touching
 from geneva_cli.analysis.mouth import mouth_contacts
-from geneva_cli.analysis.shock import FirstContacts, first_contacts
+from geneva_cli.analysis.shock import FirstContacts, RestingAxis, first_contacts
 from geneva_cli.analysis.shock_force import forces_N, impulse_Nms
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import all_true, library, only_of, parameter
+from geneva_cli.numerics.arrays import all_true, choose, library, only_of, parameter
 from geneva_cli.numerics.jet import Array
 
 
@@ -66,24 +66,28 @@ def start_impacts(mechanism: Mechanism) -> Impacts:
 
     The pinions of a counter that start at once are one mass behind the first driver's tooth.
     """
-    (engagement, *_), pinions = mechanism.engagements, mechanism.spec.wheel.pinions
-    jump = parameter(np.reshape(engagement.motion.jump, (-1, 1)))
-    at_deg, size = _shown(mechanism, engagement, np.ravel(engagement.entry_deg), np.ravel(jump))
-    impulse = np.ravel(pinions * impulse_Nms(mechanism, jump))
-    force = forces_N(mechanism, np.asarray(jump * np.sqrt(pinions)))
-    force = np.full(len(impulse), np.nan) if force is None else force
-    impulse = np.where(impulse == 0.0, np.nan, impulse)
-    return Impacts(*np.broadcast_arrays(at_deg, size, force, impulse))
+    engagement, *_ = mechanism.engagements
+    at_deg, jump = np.ravel(engagement.entry_deg), np.ravel(engagement.motion.jump)
+    impacts = _shown(mechanism, engagement, at_deg, jump)
+    return _with_force(mechanism, impacts, mechanism.spec.wheel.pinions)
 
 
 def _errors(
     mechanism: Mechanism, engagement: Engagement, fraction: float
 ) -> Iterator[tuple[float, float]]:
-    """Greatest relative errors of R and L that act across the slot, in both directions."""
-    spec, L = mechanism.spec, mechanism.center_distance_mm
+    """Greatest relative errors of R and L that act across the slot, in both directions.
+
+    A longer crank acts as a shorter centre distance. It acts as a longer one where the slot misses
+    the wheel's centre by so much that the crank's axis lies between both.
+    """
+    spec, L, axis = mechanism.spec, mechanism.center_distance_mm, RestingAxis.of(engagement)
+    if axis is None:  # a slot that is solved for has no contacts
+        return
     arm = arm_mm(mechanism, engagement)
     crank = fraction * spec.tolerance.crank_radius_mm / arm if spec.drive.ONE_ARM else 0.0
     center = fraction * spec.tolerance.center_distance_mm / L if spec.wheel.FLAT else 0.0
+    between = axis.hub_offset * (axis.hub_offset + axis.engagement.slot.offset) < 0.0
+    center = choose(between, -center, center)
     if not all_true((crank == 0.0) & (center == 0.0)):
         yield crank, -center
         yield -crank, center
@@ -173,11 +177,11 @@ def _harder(one: Array, other: Array) -> Array:
     return np.where(more, other, one)
 
 
-def _with_force(mechanism: Mechanism, impacts: Array) -> Impacts:
-    """Impacts with their forces and moments, from angles and jumps (2, m)."""
+def _with_force(mechanism: Mechanism, impacts: Array, wheels: float = 1) -> Impacts:
+    """Impacts with their forces and moments, from angles and jumps (2, m) of equal wheels."""
     at_deg, jump = impacts
-    moment = np.ravel(impulse_Nms(mechanism, jump[:, None]))
-    force = forces_N(mechanism, jump[:, None])
+    moment = np.ravel(wheels * impulse_Nms(mechanism, jump[:, None]))
+    force = forces_N(mechanism, jump[:, None] * np.sqrt(wheels))
     force = np.full(len(moment), np.nan) if force is None else force
     moment = np.where(moment == 0.0, np.nan, moment)
     return Impacts(*np.broadcast_arrays(at_deg, jump, force, moment))

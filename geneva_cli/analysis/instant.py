@@ -17,8 +17,11 @@ from geneva_cli.analysis.forces import (
     KnownValues,
     LoadCase,
     QuantityValue,
+    feeding,
+    sliding,
     stress_margin,
     value,
+    wheel_torque,
 )
 from geneva_cli.numerics.jet import Array, Jet, Number, V, sqrt
 
@@ -224,6 +227,19 @@ class Instant(Generic[V]):
 
 def _root(square: V) -> V:
     return sqrt(square) if isinstance(square, Jet) else np.sqrt(square)
+
+
+def signs(case: LoadCase, at: Contact[V]) -> tuple[Array, Array, Array]:
+    """Signs of the wheel's torque, of the sliding and of the input's torque."""
+    drives = np.copysign(1.0, value(wheel_torque(case, at)))
+    slides = np.copysign(1.0, value(sliding(at, drives, case.radius)))
+    return drives, slides, np.copysign(1.0, value(feeding(case, at, drives, slides)))
+
+
+def bounded_loads(case: LoadCase, at: Contact[Array]) -> Instant[Array]:
+    """The values at a contact with the signs that they have there, as ``bounded`` has them."""
+    with np.errstate(all="ignore"):
+        return bounded(Instant(case, at, *signs(case, at)))
 
 
 def values(instant: Instant[Jet]) -> Instant[Array]:

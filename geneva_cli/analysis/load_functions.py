@@ -6,7 +6,7 @@ quantities, the signs that matter, and how widely samples are spread about mid-m
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple, Protocol
@@ -25,7 +25,7 @@ from geneva_cli.analysis.forces import (
     wheel_torque,
 )
 from geneva_cli.analysis.instant import Instant
-from geneva_cli.analysis.quantities import PV, QUANTITIES, Quantity
+from geneva_cli.analysis.quantities import PV, QUANTITIES
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE
@@ -42,23 +42,13 @@ MARGINS = ("grip", "edge")  # where one of them is not above 0, a quantity is un
 
 
 class LoadQuantity(Protocol):
-    """A quantity as a function of an instant and its contact.
+    """A quantity as a function of an instant of jets.
 
     The function is a tuple whose numbers may be arrays (m, 1), or holds no numbers.
     """
 
-    def __call__(self, i: Instant[Jet], at: Contact[Jet], /) -> QuantityValue[Jet]:
+    def __call__(self, i: Instant[Jet], /) -> QuantityValue[Jet]:
         """The quantity, and the margin that bounds it."""
-
-
-class NamedQuantity(NamedTuple):
-    """One of ``QUANTITIES``, which do not need the contact."""
-
-    quantity: Quantity
-
-    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
-        """The quantity, and the margin that bounds it."""
-        return self.quantity(i)
 
 
 NO_MORE: Mapping[str, LoadQuantity] = MappingProxyType({})  # no quantities besides the named ones
@@ -69,6 +59,7 @@ class LoadBatch(NamedTuple):
 
     engagement: Engagement
     case: LoadCase
+    names: tuple[str, ...]
     quantities: tuple[LoadQuantity, ...]
 
 
@@ -82,11 +73,15 @@ class ContactState(NamedTuple):
 
 
 def load_batch(
-    engagement: Engagement, case: LoadCase, names: Sequence[str], own: Mapping[str, LoadQuantity]
+    engagement: Engagement,
+    case: LoadCase,
+    names: Iterable[str],
+    own: Mapping[str, LoadQuantity] = NO_MORE,
 ) -> LoadBatch:
     """A batch of one engagement, with quantities by name: from ``own``, or else of the cycle."""
-    wanted = [own[name] if name in own else NamedQuantity(QUANTITIES[name]) for name in names]
-    return LoadBatch(engagement, case, tuple(wanted))
+    every = tuple(names)
+    wanted = [own[name] if name in own else QUANTITIES[name] for name in every]
+    return LoadBatch(engagement, case, every, tuple(wanted))
 
 
 class LoadFunctions:
@@ -95,10 +90,10 @@ class LoadFunctions:
     ``kinds`` are the signs that matter: those at which quantities jump, and those in ``more``.
     """
 
-    def __init__(self, batch: LoadBatch, names: Sequence[str], more: Sequence[str] = ()) -> None:
-        self.batch, self.names, self.n = batch, names, batch.case.designs
-        self.engagement = engagement = batch.engagement
-        case = batch.case
+    def __init__(self, batch: LoadBatch, more: Sequence[str] = ()) -> None:
+        self.batch, self.n = batch, batch.case.designs
+        self.engagement, case, self.names, _ = batch
+        engagement, names = self.engagement, self.names
         # p v is 0 where the sliding is, in a notch that may be near a pole
         self.kinds = kinds(engagement, case, (*more, "slides") if PV in names else more)
         self.signs, self.wanted = len(self.kinds), len(names)
@@ -150,7 +145,7 @@ class LoadFunctions:
             self._slice, self._block, self._contacts = which, taken(self.batch, which), []
         if not self.mirrored:
             return self._state(self._block, x, order)
-        _, case, wanted = self._block
+        _, case, _, wanted = self._block
         for other, at in self._contacts if order == 0 else ():
             if np.array_equal(other, -x[:, ::-1]):
                 return ContactState(case, mirrored(at), x.shape, wanted)
@@ -164,7 +159,7 @@ class LoadFunctions:
 
     def at_mid_motion(self, n: int) -> list[MidMotionValues]:
         """The quantities of n designs at mid-motion, which no span of curved slots reaches."""
-        engagement, case, wanted = self.batch
+        engagement, case, _, wanted = self.batch
         if not engagement.slot.curved:
             return []
         from geneva_cli.analysis.mid_motion import at_mid_motion
@@ -173,7 +168,7 @@ class LoadFunctions:
             at: Contact[Jet], drives: Number, slides: Number, feeds: Number
         ) -> list[QuantityValue[Jet]]:
             instant = Instant(case, at, drives, slides, feeds)
-            return [quantity(instant, at) for quantity in wanted]
+            return [quantity(instant) for quantity in wanted]
 
         return at_mid_motion(engagement, case, rows, n)
 
@@ -224,7 +219,7 @@ class LoadFunctions:
         for i, sign in enumerate(signed.signs):
             positive[i] = sign > 0.0
         for i, quantity in enumerate(wanted, self.signs):
-            row = quantity(signed.instant, contact)
+            row = quantity(signed.instant)
             for k in orders:
                 values[k][i] = row.value.c[k]
             if row.margin is not None:
@@ -335,7 +330,7 @@ def signed_instant(
         "leans": lambda: leaning(case, at, drives, slides),
         "edge": lambda: instant.edge,
         "along": lambda: at.along,
-        "wanted": lambda: wanted(instant, at).value if wanted else None,
+        "wanted": lambda: wanted(instant).value if wanted else None,
     }
     for kind, function in others.items():
         jet = function() if kind in kinds else None

@@ -12,16 +12,8 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.analysis.contact import NEAR_CUSP, Contact, contact
-from geneva_cli.analysis.forces import (
-    NEGLIGIBLE,
-    LoadCase,
-    QuantityValue,
-    feeding,
-    sliding,
-    value,
-    wheel_torque,
-)
-from geneva_cli.analysis.instant import Instant, bounded, values
+from geneva_cli.analysis.forces import NEGLIGIBLE, LoadCase, QuantityValue, value, wheel_torque
+from geneva_cli.analysis.instant import Instant, bounded, signs, values
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
@@ -64,7 +56,7 @@ def at_mid_motion(
             here = at._replace(
                 along=at.along * sense, offset=at.offset * sense, curvature=at.curvature * sense
             )
-            for k, row in enumerate(rows(here, *_signs(case, here))):
+            for k, row in enumerate(rows(here, *signs(case, here))):
                 known = np.broadcast_to(value(row.value), (n, 1))
                 margin = np.inf if row.margin is None else value(row.margin)
                 there = (margin > NEGLIGIBLE) & np.isfinite(known)
@@ -96,7 +88,7 @@ def at_crossing(engagement: Engagement, case: LoadCase) -> dict[str, Array] | No
         if np.any(_is_loaded(engagement, case, value(wheel_torque(case, at)))):
             return None
         # the torque's own sign is rounding, and where friction leaves no lever its force is 0/0
-        here, jets = (Instant(case, x, *_signs(case, before)) for x in (at, before))
+        here, jets = (Instant(case, x, *signs(case, before)) for x in (at, before))
         open_ = np.abs(value(here.grip)) <= NEGLIGIBLE
         known, near_values = bounded(values(here)), bounded(values(jets))
         out = {}
@@ -120,17 +112,10 @@ def _is_loaded(engagement: Engagement, case: LoadCase, torque: Number) -> Mask:
     return loaded
 
 
-def _signs(case: LoadCase, at: Contact[Jet]) -> tuple[Array, Array, Array]:
-    """Signs of the wheel's torque, of the sliding and of the input's torque."""
-    drives = np.copysign(1.0, value(wheel_torque(case, at)))
-    slides = np.copysign(1.0, value(sliding(at, drives, case.radius)))
-    return drives, slides, np.copysign(1.0, value(feeding(case, at, drives, slides)))
-
-
 def _limits(engagement: Engagement, case: LoadCase, rows: Rows, x: Array) -> list[Array]:
     """The limits of 0/0 at mid-motion, from values near it."""
     at = contact(engagement, x, 2)
-    return [_limit(row.value, np.radians(x)) for row in rows(at, *_signs(case, at))]
+    return [_limit(row.value, np.radians(x)) for row in rows(at, *signs(case, at))]
 
 
 def _without_torque(
@@ -152,7 +137,7 @@ def _without_torque(
         left, rise = torque(x)
         x = np.clip(x - left / rise, np.minimum(near, 0.0), np.maximum(near, 0.0))
     at = contact(engagement, x)
-    _, slides, feeds = _signs(case, at)
+    _, slides, feeds = signs(case, at)
     unforced = at._replace(lever=at.lever + np.inf)  # the rest of the torque takes no force
     out = []
     for drives in (1.0, -1.0):  # it is 0 on both sides

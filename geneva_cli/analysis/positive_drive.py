@@ -19,39 +19,24 @@ from geneva_cli.numerics.arrays import Array, Mask
 HALF_SAMPLES = 720  # places in half a motion
 
 
-class PositiveDrive(NamedTuple):
-    """Intervals of a curved slot without positive drive, and the distance of its branches."""
-
-    loose_deg: tuple[tuple[float, float], ...]  # input angles without the needed wall
-    fraction: float  # of the motion that these take
-    gap_mm: float  # greatest distance of the two branches, along the wheel's circumference
-    gap_at_deg: float
-    loose_gap_mm: float = 0.0  # the greatest where the needed wall is missing
-
-
 class PositiveDrives(NamedTuple):
-    """Results of ``positive_drive`` for m designs, (m,) each.
+    """Where m designs' slots lack the needed wall, and the distance of their branches, (m,) each.
 
     ``loose`` (m, k) is a mask of the places ``input_deg`` without positive drive.
     """
 
-    fraction: Array
-    gap_mm: Array
+    fraction: Array  # of the motion without it
+    gap_mm: Array  # greatest distance of the two branches, along the wheel's circumference
     gap_at_deg: Array
-    loose_gap_mm: Array
+    loose_gap_mm: Array  # the greatest where the needed wall is missing
     input_deg: Array
     loose: Mask
 
-
-def positive_drive(mechanism: Mechanism) -> PositiveDrive | None:
-    """The positive drive of a slot under the spec's load; None for straight slots."""
-    batch = positive_drives(mechanism)
-    if batch is None:
-        return None
-    places = np.sort(batch.input_deg[0][batch.loose[0]]).tolist()
-    step = abs(mechanism.engagements[0].entry_deg) / HALF_SAMPLES
-    fraction, gap, at, wide = (float(row[0]) for row in batch[:4])
-    return PositiveDrive(tuple(_intervals(places, step)), fraction, gap, at, wide)
+    @property
+    def loose_deg(self) -> list[tuple[float, float]]:
+        """Intervals of a single design without the needed wall, input angles in degrees."""
+        ((at,), (loose,)) = self.input_deg, self.loose
+        return _intervals(np.sort(at[loose]).tolist(), abs(at[1] - at[0]).item())
 
 
 def positive_drives(mechanism: Mechanism) -> PositiveDrives | None:

@@ -113,11 +113,6 @@ def plain_values(values: Array, name: str) -> Array:
     return np.sqrt(np.abs(values)) if name in SQUARED else values
 
 
-def square_of(values: Array, name: str) -> Array:
-    """The square of a quantity, from the values that are searched."""
-    return values if name in SQUARED else values * values
-
-
 def outermost(each: Array) -> Array:
     """The extremes over all engagements, from those of each, (engagements, 4, ...).
 

@@ -8,22 +8,20 @@ force Q the roller is pressed into the wall and its pin is bent, together by
 The force is greatest where c Q^1.9 0.9 / 1.9 + Q² / (2 k) equals the energy I dw² / 2. For a spring
 only, as teeth are, it is dv sqrt(k m), for any lever. Palmgren measured c for steel on steel (Ball
 and Roller Bearing Engineering, 3rd ed., 1959). It is proportional to the 0.9th power of the
-materials' softness. The pin is a cantilever, 3 E pi d⁴ / (64 (b/2)³), loaded in the middle of its
-roller.
+materials' softness. The pin bends under a force in its roller's middle (``pin.stiffness_N_mm``).
 """
 
 from __future__ import annotations
-
-import math
 
 import numpy as np
 
 from geneva_cli.analysis.carried import MM, inertia_kgm2
 from geneva_cli.analysis.forces import contact_modulus_GPa
+from geneva_cli.analysis.pin import pin_diameter_mm, stiffness_N_mm
 from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.arrays import Array, N, Whole, choose, size
+from geneva_cli.numerics.arrays import Array, N, Whole, size
 from geneva_cli.numerics.newton import find_roots
 from geneva_cli.spec.workshops import Stock
 
@@ -56,7 +54,8 @@ def forces_N(mechanism: Mechanism, jump: Array) -> Array | None:
     soft = usual / contact_modulus_GPa(wheel_material(spec), roller_material(spec))
     # Palmgren's constant in mm, for 1 N on a line of 1 mm, steel on steel
     press = 3.84e-5 * soft**POWER / face**WIDTH
-    bend = 1.0 / pin_stiffness_N_mm(mechanism, face)
+    modulus_GPa = roller_material(spec).youngs_modulus_GPa
+    bend = 1.0 / stiffness_N_mm(spec.size, face, pin_diameter_mm(mechanism), modulus_GPa)
     if spec.wheel.toothed:
         press, bend = 0.0 * soft, soft / (spec.wheel.TOOTH_N_mm2 * face)
     rows = np.broadcast_arrays(energy, press, bend, inertia)
@@ -68,12 +67,3 @@ def forces_N(mechanism: Mechanism, jump: Array) -> Array | None:
 
     force = find_roots(over, 0.0 * work, np.sqrt(2.0 * work / k))
     return np.where(heavy > 0.0, force, np.nan)
-
-
-def pin_stiffness_N_mm(mechanism: Mechanism, face_mm: float) -> float:
-    """Stiffness of the pin, a cantilever that is loaded in the middle of the roller, N/mm."""
-    spec = mechanism.spec
-    pin, r = spec.size.pin_mm, mechanism.roller_radius_mm
-    d = r if pin is None else choose(pin == 0.0, r, pin)
-    modulus = roller_material(spec).youngs_modulus_GPa * 1e3
-    return 3.0 * modulus * math.pi * d**4 / 64.0 / (0.5 * face_mm) ** 3

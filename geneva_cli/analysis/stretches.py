@@ -19,7 +19,6 @@ from geneva_cli.analysis.forces import NEGLIGIBLE, LoadCase, wheel_torque
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Whole
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.roots import root
 from geneva_cli.numerics.search import Stretches
@@ -39,19 +38,6 @@ def spans_of(engagement: Engagement, n: int) -> list[tuple[Array, Array]]:
             end = np.where(b == 0.0, NEAR_CUSP * engagement.entry_deg, end)
         out.append((start, end))
     return out
-
-
-def mirror_images(pieces: Stretches) -> Whole:
-    """The number of each stretch's mirror image in symmetric motions, or its own number."""
-    design, (a, b), every = pieces.design, pieces.x, np.arange(len(pieces.design))
-    count = np.bincount(design, minlength=1)
-    start = np.cumsum(count) - count
-    other = 2 * start[design] + count[design] - 1 - every
-    # the ends of a mirror image may be off by 1e-9 of the stretch, some rounding
-    close = 1e-9 * (b - a)
-    alike = (np.abs(a + b[other]) <= close) & (np.abs(b + a[other]) <= close)
-    images: Whole = np.where(alike & alike[other], other, every)
-    return images
 
 
 def to_mid_motion(engagement: Engagement, stretches: Stretches, n: int) -> Stretches:

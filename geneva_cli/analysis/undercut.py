@@ -8,53 +8,47 @@ roller's radius. The flank then runs backwards, and the roller cuts away the wal
 
 from __future__ import annotations
 
-from typing import NamedTuple, cast
+import math
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.kinematics.pitch_curve import Pitch, pitch, retraces
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Array, Mask, Number, choose_record, only_of
+from geneva_cli.numerics.arrays import Array, Mask, Number, array, choose_record, parameter
 from geneva_cli.numerics.tolerances import TIE
 
 HALF_SAMPLES = 1024  # of a half motion; the depth's error is then far below a micrometre per metre
 
 
 class Undercut(NamedTuple):
-    """The undercut outer wall: its flank, place, curvature and depth."""
+    """The undercut outer wall: its flank, place, curvature and depth.
 
-    wall: str
+    (m,) each for m designs; NaN where none is undercut.
+    """
+
+    left: float  # 1 for the left flank, 0 for the right one
     from_deg: float
     to_deg: float
     at_deg: float
     radius_mm: float  # the pitch curve's least radius of curvature there
     depth_mm: float  # the wall's greatest shortfall from the roller
-    to_cusp: bool  # whether it reaches a cusp at mid-motion, which is too sharp for any roller
+    to_cusp: float  # 1 if it reaches a cusp at mid-motion, too sharp for any roller; else 0
 
-
-class Undercuts(NamedTuple):
-    """Undercuts of m designs, (m,) each; NaN where none is undercut."""
-
-    left: Array  # 1 for the left flank, 0 for the right one
-    from_deg: Array
-    to_deg: Array
-    at_deg: Array
-    radius_mm: Array
-    depth_mm: Array
-    to_cusp: Array  # 1 if it reaches a cusp at mid-motion, else 0
+    @property
+    def wall(self) -> str:
+        """The flank of a single design."""
+        return "left" if self.left else "right"
 
 
 def undercut(mechanism: Mechanism, samples: int = HALF_SAMPLES) -> Undercut | None:
     """The deepest undercut of an outer wall, at entry or exit; None if there is none."""
     batch = undercuts(mechanism, samples)
-    if batch is None or None in (one := only_of(batch)):
-        return None
-    left, from_deg, to_deg, at_deg, radius, depth, to_cusp = cast("list[float]", one)
-    wall = "left" if left else "right"
-    return Undercut(wall, from_deg, to_deg, at_deg, radius, depth, bool(to_cusp))
+    one = batch and Undercut(*(array(row).item() for row in batch))
+    return None if one is None or math.isnan(one.depth_mm) else one
 
 
-def undercuts(mechanism: Mechanism, samples: int = HALF_SAMPLES) -> Undercuts | None:
+def undercuts(mechanism: Mechanism, samples: int = HALF_SAMPLES) -> Undercut | None:
     """The deepest undercuts of m designs; None for straight slots, which have none."""
     walls = outer_walls(mechanism, samples)
     if walls is None:
@@ -146,7 +140,7 @@ def _gap(wall: OuterWall, r: Array) -> Array:
     return gap
 
 
-def _undercut(wall: OuterWall, roller_mm: Number, L: Number) -> Undercuts:
+def _undercut(wall: OuterWall, roller_mm: Number, L: Number) -> Undercut:
     """The undercut of a wall by a roller with its clearance; both numbers may be (m, 1)."""
     r, bend, degrees = np.asarray(roller_mm / L), wall.bend, wall.degrees
     over = bend * r > 1.0
@@ -163,4 +157,4 @@ def _undercut(wall: OuterWall, roller_mm: Number, L: Number) -> Undercuts:
         depths_mm(wall, roller_mm, L),
         to_cusp,
     )
-    return Undercuts(*(np.where(over.any(axis=1), row, np.nan) for row in rows))
+    return Undercut(*(parameter(np.where(over.any(axis=1), row, np.nan)) for row in rows))

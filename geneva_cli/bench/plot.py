@@ -26,13 +26,6 @@ def require() -> None:
 
 def svg(subject: Subject, rows: Sequence[BenchRow]) -> str:
     """SVG text of the plot; equal rows give equal bytes."""
-    out = io.StringIO()
-    save(subject, rows, out, "svg")
-    return out.getvalue()
-
-
-def save(subject: Subject, rows: Sequence[BenchRow], out: Any, format: str) -> None:
-    """Save the plot to an open file, in any format that matplotlib has."""
     require()
     import matplotlib as mpl
     from matplotlib.figure import Figure
@@ -60,8 +53,9 @@ def save(subject: Subject, rows: Sequence[BenchRow], out: Any, format: str) -> N
             figure = Figure(figsize=size, layout="constrained")
             _curves(figure, subject, panels, lines, columns)
         figure.suptitle(subject.title, fontweight="bold")
-        metadata = {"Date": None, "Creator": None} if format == "svg" else None
-        figure.savefig(out, format=format, metadata=metadata, dpi=80)
+        out = io.StringIO()
+        figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None}, dpi=80)
+    return out.getvalue()
 
 
 # title, label of the x axis, rows, field of the x values

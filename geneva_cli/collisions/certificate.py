@@ -88,12 +88,10 @@ def intervals(gaps: Clearances, start: Array, end: Array) -> Intervals:
 class Certificate(NamedTuple):
     """A proved lower bound of the gap in a full turn, ``least_mm``.
 
-    It is within ``to_mm`` of the smallest gap. If an interval is ``open``, it holds elsewhere only.
-    ``between`` names the parts there.
+    If an interval is ``open``, it holds elsewhere only. ``between`` names the parts there.
     """
 
     least_mm: float
-    to_mm: float
     intervals: int
     open: Open | None = None
     between: str = ""
@@ -122,13 +120,13 @@ def certificate(parts: MachineParts, gap_mm: float, to_mm: float) -> Certificate
     spare = 1e-11 * parts.assembly.L
     target = max(gap_mm, 0.0) - to_mm + spare
     least, count = math.inf, 0
-    for between, found in _gaps(parts, target):
-        least, count = min(least, found.least - spare), count + found.intervals
-        if found.open:
-            start, end = (parts.assembly.shown_deg(x) for x in found.open[:2])
-            shown = found.open._replace(start_deg=start, end_deg=end)
-            return Certificate(least, to_mm, count, shown, between)
-    return Certificate(least, to_mm, count)
+    for between, bound in _gaps(parts, target):
+        least, count = min(least, bound.least - spare), count + bound.intervals
+        if bound.open:
+            start, end = (parts.assembly.shown_deg(x) for x in bound.open[:2])
+            shown = bound.open._replace(start_deg=start, end_deg=end)
+            return Certificate(least, count, shown, between)
+    return Certificate(least, count)
 
 
 def _gaps(parts: MachineParts, target: float) -> Iterator[tuple[str, Settled]]:

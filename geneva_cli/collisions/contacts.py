@@ -10,6 +10,7 @@ contact between two samples is missed.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TypeAlias
 
 import numpy as np
@@ -58,22 +59,37 @@ def candidates(
     and the points in the frame of ``own``.
     """
     owner, piece = near
-    columns = [(owner, own.x0[piece], own.y0[piece])]
-    arcs, lines = np.flatnonzero(other.arc)[:, None], np.flatnonzero(~other.arc)[:, None]
     c, s = np.cos(angle)[owner], np.sin(angle)[owner]
     # one row for each of the other's pieces, which are few
+    arcs, lines = np.flatnonzero(other.arc)[:, None], np.flatnonzero(~other.arc)[:, None]
     x, y = other.cx[arcs], other.cy[arcs]
-    centre_x, centre_y = origin[owner, 0] + (c * x - s * y), origin[owner, 1] + (s * x + c * y)
+    centres = origin[owner, 0] + (c * x - s * y), origin[owner, 1] + (s * x + c * y)
     x, y = other.dy[lines], -other.dx[lines]
-    normal_x, normal_y = c * x - s * y, s * x + c * y
+    normals = c * x - s * y, s * x + c * y
+    columns = [
+        (owner, own.x0[piece], own.y0[piece]),
+        *_on_arcs(own, near, centres, normals),
+        _on_lines(own, near, centres),
+    ]
+    owner, x, y = (np.concatenate(each) for each in zip(*columns, strict=True))
+    inside = (x - origin[owner, 0]) ** 2 + (y - origin[owner, 1]) ** 2 < reach * reach
+    return owner[inside], np.column_stack((x[inside], y[inside]))
 
-    # Along the chord of each arc and outwards, from its centre, over its radius: an arc that was
-    # fitted to a nearly straight wall has its centre too far away to measure from there.
+
+def _on_arcs(
+    own: Polyarc, near: Near, centres: tuple[Array, Array], normals: tuple[Array, Array]
+) -> Iterator[tuple[Whole, Array, Array]]:
+    """Yield points of arcs in the directions of centres and normals, (k, pieces) each.
+
+    All is measured along the chord of each arc and outwards, from its centre, over its radius: an
+    arc that was fitted to a nearly straight wall has its centre too far away to measure from there.
+    """
+    owner, piece = near
     bent = np.flatnonzero(own.arc[piece])
     i = piece[bent]
     mx, my, half, bend = own.mx[i], own.my[i], 0.5 * own.length[i], 1.0 / own.radius[i]
-    px, py = centre_x[:, bent] - own.ox[i], centre_y[:, bent] - own.oy[i]
-    nx, ny = normal_x[:, bent], normal_y[:, bent]
+    px, py = centres[0][:, bent] - own.ox[i], centres[1][:, bent] - own.oy[i]
+    nx, ny = normals[0][:, bent], normals[1][:, bent]
     aside = np.concatenate((bend * (mx * py - my * px), mx * ny - my * nx))
     ahead = np.concatenate((bend * (mx * px + my * py) + own.cos_half[i], mx * nx + my * ny))
     size = np.maximum(np.sqrt(aside * aside + ahead * ahead), 1e-300)
@@ -88,16 +104,16 @@ def candidates(
         out = bend[pair] * (half[pair] ** 2 / (1.0 + own.cos_half[k]) - falls)
         x = own.ox[k] + out * own.mx[k] - along * own.my[k]
         y = own.oy[k] + out * own.my[k] + along * own.mx[k]
-        columns.append((owner[bent[pair]], x, y))
+        yield owner[bent[pair]], x, y
 
+
+def _on_lines(own: Polyarc, near: Near, centres: tuple[Array, Array]) -> tuple[Whole, Array, Array]:
+    """Return the feet of perpendiculars from centres, (k, pieces), on lines."""
+    owner, piece = near
     flat = np.flatnonzero(~own.arc[piece])
     i = piece[flat]
-    ax, ay = centre_x[:, flat] - own.x0[i], centre_y[:, flat] - own.y0[i]
+    ax, ay = centres[0][:, flat] - own.x0[i], centres[1][:, flat] - own.y0[i]
     fraction = (ax * own.dx[i] + ay * own.dy[i]) / own.square[i]
     which, pair = np.nonzero((fraction > 0.0) & (fraction < 1.0))
     t, i = fraction[which, pair], i[pair]
-    columns.append((owner[flat[pair]], own.x0[i] + t * own.dx[i], own.y0[i] + t * own.dy[i]))
-
-    owner, x, y = (np.concatenate(each) for each in zip(*columns, strict=True))
-    inside = (x - origin[owner, 0]) ** 2 + (y - origin[owner, 1]) ** 2 < reach * reach
-    return owner[inside], np.column_stack((x[inside], y[inside]))
+    return owner[flat[pair]], own.x0[i] + t * own.dx[i], own.y0[i] + t * own.dy[i]

@@ -10,13 +10,13 @@ from typing import Protocol
 import numpy as np
 
 from geneva_cli.collisions.contacts import candidates, nearest_pieces
-from geneva_cli.collisions.machine_parts import Lengths, Stop
+from geneva_cli.collisions.machine_parts import Lengths, Stop, WorkLimit
 from geneva_cli.collisions.pairs import Pose
 from geneva_cli.collisions.place_index import PlaceIndex
 from geneva_cli.collisions.stops import Stops
+from geneva_cli.collisions.turning_stops import TurningStops
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Contour, backwards
-from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.plane_motion import turned_points
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.numerics.arrays import Array, Whole
@@ -26,25 +26,12 @@ NEAR = 0.02  # of the centre distance: wider gaps are returned as this
 WORK = 1e8  # greatest number of distances between points and pieces in a full turn: about 5 s
 
 
-class WorkLimit(GenevaError):
-    """Error for a full turn that would take too long."""
-
-
 class PlaneLengths(Lengths, Protocol):
     """Lengths of the parts of a machine in the plane, mm."""
 
     @property
     def lock(self) -> float:
         """Radius of the locking disc."""
-
-
-class FirstStops(Protocol):
-    """Stops of a wheel or rack against rollers and crank."""
-
-    pairs: int  # of pieces that one roller and the crank can form with the wheel
-
-    def first(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
-        """Return the stops back and on from n poses; see ``Clearances.stops``."""
 
 
 class Gaps:
@@ -146,10 +133,12 @@ class Gaps:
         return self._stops.first(pose, most, close)
 
     @cached_property
-    def _stops(self) -> FirstStops:
+    def _stops(self) -> Stops:
         each = len(self.wheel) // len(self.assembly.slots)
         one = self.wheel.subset(np.arange(each)) if self.pitch else self.wheel
-        return Stops(one, self.pitch or math.tau, self.crank, self.assembly.L, self.sizes.roller)
+        return TurningStops(
+            one, self.pitch or math.tau, self.crank, self.assembly.L, self.sizes.roller
+        )
 
     def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """Return the gap between the outlines of crank and wheel, mm (n,); see ``rollers``."""

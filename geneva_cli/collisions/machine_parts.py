@@ -7,11 +7,16 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, Self
 
 import numpy as np
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.arrays import Array
 
 if TYPE_CHECKING:
     from geneva_cli.collisions.pairs import Pairs, Pose
     from geneva_cli.layout.assembly import Assembly
+
+
+class WorkLimit(GenevaError):
+    """Error for a full turn that would take too long."""
 
 
 class Stop(NamedTuple):

@@ -1,9 +1,7 @@
-"""Stops of a sliding rack against roller and crank, in closed form.
+"""Stops of a sliding rack against rollers and crank, in closed form.
 
-As for a wheel (``collisions.stops``), outlines consist of lines, arcs and corners. As the rack
-slides along y, the centres of its arcs keep their x. Two arcs touch when the distance of their
-centres is the sum of their radii, or the difference if one of them is hollow: a triangle with a
-right angle. An arc and a line touch when the centre is one radius away from the line.
+As the rack slides along y, the centres of its arcs keep their x. So a contact of two arcs is a
+triangle with a right angle, whose other two sides are known (``stops``).
 """
 
 from __future__ import annotations
@@ -12,68 +10,20 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from geneva_cli.collisions.machine_parts import Stop
 from geneva_cli.collisions.pairs import Pose
-from geneva_cli.collisions.pieces import Rounds, lines, rounds
-from geneva_cli.collisions.touch import WAYS, Touch, first_stops, within
-from geneva_cli.curves.distance import Polyarc
+from geneva_cli.collisions.pieces import Lines
+from geneva_cli.collisions.stops import NearbyArcs, Stops
+from geneva_cli.collisions.touch import WAYS, Touch, within
 from geneva_cli.numerics.arrays import Array, Mask, Whole
 
 
-class SlidingStops:
-    """Stops of one machine's rack against its roller and its crank.
-
-    ``rack`` is the part of the rack's outline that repeats after ``pitch`` radians. The rack slides
-    by ``radius`` a radian, and the crank's axis is at (``radius``, 0). ``pairs`` is the number of
-    pairs of pieces that one roller and the crank can form with the rack.
-    """
-
-    def __init__(
-        self, rack: Polyarc, pitch: float, crank: Polyarc | None, radius: float, roller: float
-    ) -> None:
-        self.pitch, self.radius, self.roller = pitch, radius, roller
-        self.rounds, self.lines = rounds(rack), lines(rack)
-        self.crank = rounds(crank) if crank else None
-        self.edges = lines(crank) if crank else None
-        self.pairs = (len(self.rounds.x) + len(self.lines.off)) * (1 + len(crank or ()))
-
-    def first(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
-        """Return the stops of the rack, moved back and on from n poses; see ``Stops.first``."""
-        rollers = [
-            touch
-            for pin in np.moveaxis(pose.pins, 1, 0)
-            for touch in self._against(self._roller, pin, 0.0 * pose.crank, pose, most, close)
-        ]
-        crank: list[Touch] = []
-        if self.crank is not None:
-            axis = np.tile((self.radius, 0.0), (len(pose.wheel), 1))
-            crank += self._against(self.crank, axis, pose.crank, pose, most, close)
-            crank.append(self._at_edges(pose, most, close))
-        return first_stops(rollers, crank, len(pose.wheel), most)
-
-    @property
-    def _roller(self) -> Rounds:
-        one, no = np.ones(1), np.zeros(1)
-        return Rounds(no, no, self.roller * one, one, one, no, no, -one, no)
-
-    def _against(
-        self, other: Rounds, origin: Array, turn: Array, pose: Pose, most: float, close: float
-    ) -> Iterator[Touch]:
-        """Yield contacts with arcs whose frame is at n origins, turned by n angles."""
-        c, s = np.cos(turn)[:, None], np.sin(turn)[:, None]
-        x = origin[:, :1] + other.x * c - other.y * s
-        y = origin[:, 1:] + other.x * s + other.y * c - self.radius * pose.wheel[:, None]
-        yield self._at_rounds(other, x, y, turn, (most, close))
-        yield self._at_lines(other, x, y, turn, (most, close))
+class SlidingStops(Stops):
+    """Stops of one machine's rack, which slides by L a radian."""
 
     def _at_rounds(
-        self, other: Rounds, x: Array, y: Array, turn: Array, limits: tuple[float, float]
-    ) -> Touch:
-        """Return contacts of the rack's arcs with arcs whose centres are at (n, k) points.
-
-        Both are convex, or one of them lies in the other's hollow.
-        """
-        own, (most, close) = self.rounds, limits
+        self, others: NearbyArcs, pose: Pose, most: float, close: float
+    ) -> Iterator[tuple[Touch, Whole]]:
+        own, (other, x, y, turn) = self.rounds, self._seen(others, pose)
         both = own.sense[:, None] + other.sense
         convex = np.where(both > 0.0, 1.0, -1.0)
         radii = own.sense[:, None] * own.radius[:, None] + other.sense * other.radius
@@ -90,13 +40,12 @@ class SlidingStops:
         ux, uy = across[i] / d[i], along[on, i] / d[i]
         good = own.face(p, ux, uy, 0.0 * lead, other.sense[q])
         good &= other.face(q, ux, uy, -turn[n], -own.sense[p])
-        return Touch((n + len(x) * on)[good], lead[good], np.abs(uy)[good])
+        yield Touch((n + len(x) * on)[good], lead[good], np.abs(uy)[good]), q[good]
 
     def _at_lines(
-        self, other: Rounds, x: Array, y: Array, turn: Array, limits: tuple[float, float]
-    ) -> Touch:
-        """Return contacts of the rack's lines with convex arcs; a line stops the rack one way."""
-        own, (most, close) = self.lines, limits
+        self, others: NearbyArcs, pose: Pose, most: float, close: float
+    ) -> Iterator[tuple[Touch, Whole]]:
+        own, (other, x, y, turn) = self.lines, self._seen(others, pose)
         nx, ny = np.cos(own.normal), np.sin(own.normal)
         # the rack slides along lines whose normals are across its travel, up to their rounding
         stops = np.abs(ny) > 1e-9
@@ -107,29 +56,32 @@ class SlidingStops:
         on_line = (along >= own.start[p]) & (along <= own.end[p])
         n, pair = np.nonzero(on_line)
         p, q = p[pair], q[pair]
+        # a line stops the rack one way
         on, i, lead = self._within(travel[n, pair], most, ny[p] * WAYS > 0.0)
         n, p, q = n[i], p[i], q[i]
         good = other.face(q, 0.0 * lead - 1.0, 0.0 * lead, own.normal[p] - turn[n])
-        return Touch((n + len(x) * on)[good], lead[good], np.abs(ny[p])[good])
+        yield Touch((n + len(x) * on)[good], lead[good], np.abs(ny[p])[good]), q[good]
 
-    def _at_edges(self, pose: Pose, most: float, close: float) -> Touch:
-        """Return contacts of the rack's convex arcs with the crank's lines."""
-        own, edges = self.rounds, self.edges
-        assert edges is not None
+    def _at_edges(self, edges: Lines, pose: Pose, most: float, close: float) -> Iterator[Touch]:
+        own = self.rounds
         qs, ps = np.nonzero(np.broadcast_to(own.sense > 0.0, (len(edges.off), len(own.sense))))
         normal = (edges.normal + pose.crank[:, None])[:, qs]
         nx, ny = np.cos(normal), np.sin(normal)
-        level = edges.off[qs] + self.radius * nx + own.radius[ps] - close
+        level = edges.off[qs] + self.L * nx + own.radius[ps] - close
         with np.errstate(divide="ignore", invalid="ignore"):
             place = (level - nx * own.x[ps]) / ny  # of the arc's centre along the travel
-        along = nx * place - ny * own.x[ps] + ny * self.radius
+        along = nx * place - ny * own.x[ps] + ny * self.L
         on_line = (along >= edges.start[qs]) & (along <= edges.end[qs]) & (np.abs(ny) > 1e-9)
         n, pair = np.nonzero(on_line)
-        travel = place[n, pair] - own.y[ps[pair]] - self.radius * pose.wheel[n]
+        travel = place[n, pair] - own.y[ps[pair]] - self.L * pose.wheel[n]
         on, i, lead = self._within(travel, most, ny[n, pair] * WAYS < 0.0)
         n, pair = n[i], pair[i]
         good = own.face(ps[pair], 0.0 * lead - 1.0, 0.0 * lead, normal[n, pair])
-        return Touch((n + len(pose.wheel) * on)[good], lead[good], 0.0 * lead[good])
+        yield Touch((n + len(pose.wheel) * on)[good], lead[good], 0.0 * lead[good])
+
+    def _seen(self, others: NearbyArcs, pose: Pose) -> NearbyArcs:
+        """Return the arcs as the rack sees them, which has moved along y."""
+        return others._replace(y=others.y - self.L * pose.wheel[:, None])
 
     def _within(
         self, travel: Array, most: float, way: Mask | bool = True
@@ -138,4 +90,4 @@ class SlidingStops:
 
         ``way`` masks back and on, (2, n); see ``touch.within``.
         """
-        return within(travel / self.radius, self.pitch, most, way)
+        return within(travel / self.L, self.pitch, most, way)

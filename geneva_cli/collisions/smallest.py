@@ -9,8 +9,7 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.collisions.gaps import WorkLimit
-from geneva_cli.collisions.machine_parts import MachineParts, rim_lever
+from geneva_cli.collisions.machine_parts import MachineParts, WorkLimit, rim_lever
 from geneva_cli.numerics.arrays import Array, Mask, rising
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 

@@ -15,7 +15,8 @@ from geneva_cli.curves.corners import Bone, TooWide, bone, inner_corners, pieces
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.kerf import Closed, offset
-from geneva_cli.curves.measure import at, with_material_left
+from geneva_cli.curves.measure import at
+from geneva_cli.curves.moments import with_material_left
 from geneva_cli.curves.pieces import prepared
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Shape

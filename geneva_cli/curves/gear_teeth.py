@@ -29,14 +29,13 @@ Writer: TypeAlias = "Callable[[Curve, float, float], Sequence[Segment]]"  # fits
 class Rack(NamedTuple):
     """The rack that cuts a gear: its module, and the shift of its datum line from the pitch curve.
 
-    Shift, addendum, dedendum and rounding are in modules; the profile is type A of ISO 53. A tooth
-    of the rack is straight from the addendum to the rounded corner.
+    Shift, dedendum and rounding are in modules; the profile is type A of ISO 53. A tooth of the
+    rack is straight from its addendum, one module, to the rounded corner.
     """
 
     module: float
     shift: float = 0.0  # outwards
     angle: float = math.radians(20.0)  # pressure angle
-    addendum: float = 1.0
     dedendum: float = 1.25
     rounding: float = 0.38
 

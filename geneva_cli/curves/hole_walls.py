@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.measure import with_material_left
+from geneva_cli.curves.moments import oriented, with_material_left
 from geneva_cli.curves.shapes import Circle, Shape, as_contour
 from geneva_cli.errors import GenevaError
 
@@ -74,8 +74,8 @@ def require_faces(plate: Plate) -> None:
     from geneva_cli.curves.inset import inset, lines_and_arcs
 
     try:
-        for i, shape in enumerate((plate.outline, *plate.holes)):
-            inset(lines_and_arcs(with_material_left(as_contour(shape), i == 0)), "", edge.size)
+        for contour in oriented(plate.outline, plate.holes):
+            inset(lines_and_arcs(contour), "", edge.size)
     except GenevaError as error:
         raise _no_edge(edge, str(error)) from None
     wall = plate_wall(plate)

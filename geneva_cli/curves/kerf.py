@@ -13,7 +13,8 @@ import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.measure import at, directions, segment_length, with_material_left
+from geneva_cli.curves.measure import at, directions, segment_length
+from geneva_cli.curves.moments import with_material_left
 from geneva_cli.curves.pieces import SHORTEST_MM, prepared
 from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Segment, closed

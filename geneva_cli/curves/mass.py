@@ -8,10 +8,9 @@ from functools import reduce
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.curves.hole_walls import require_faces
-from geneva_cli.curves.measure import with_material_left
-from geneva_cli.curves.moments import Moments, moments, total
+from geneva_cli.curves.moments import Moments, moments, oriented, total
 from geneva_cli.curves.plates import Plate, Stack
-from geneva_cli.curves.shapes import Circle, Contour, Point, Shape, as_contour
+from geneva_cli.curves.shapes import Circle, Contour, Point, Shape
 
 if TYPE_CHECKING:
     from geneva_cli.curves.cross_holes import CrossHole
@@ -52,8 +51,6 @@ def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
 
 def solid_properties(solid: Plate | Stack, density_kgm3: float) -> MassProperties:
     """Mass, centroid and inertia of a flat or a turned part."""
-    if isinstance(solid, Plate):
-        return mass_properties(solid, density_kgm3)
     return reduce(added, (mass_properties(one, density_kgm3) for one in solid.plates))
 
 
@@ -87,7 +84,8 @@ def face(plate: Plate) -> Moments:
 
 
 def _counterclockwise(shape: Contour | Circle) -> Moments:
-    return moments(shape if isinstance(shape, Circle) else with_material_left(shape, True))
+    own = moments(shape)
+    return own.times(math.copysign(1.0, own.area))
 
 
 def _between(plate: Plate) -> Moments:
@@ -98,14 +96,11 @@ def _between(plate: Plate) -> Moments:
     from geneva_cli.curves.inset import inset, lines_and_arcs
 
     require_faces(plate)
-    oriented = [
-        (lines_and_arcs(with_material_left(as_contour(shape), i == 0)), 1.0 if i == 0 else -1.0)
-        for i, shape in enumerate((plate.outline, *plate.holes))
-    ]
+    pieces = [lines_and_arcs(one) for one in oriented(plate.outline, plate.holes)]
     return total(
-        _counterclockwise(inset(pieces, "", depth)).times(thickness * side)
+        moments(inset(one, "", depth)).times(thickness)
         for depth, thickness in plate.edge.layers()
-        for pieces, side in oriented
+        for one in pieces
     )
 
 

@@ -1,6 +1,6 @@
-"""Bounds, areas and lengths of shapes, and shapes moved and rotated.
+"""Bounds and lengths of shapes, and shapes moved and rotated.
 
-Lengths are in the unit of the coordinates, areas in its square. Arcs are computed from their ends
+Lengths are in the unit of the coordinates. Arcs are computed from their ends
 and bulge. The centre of a nearly straight arc is far away and inaccurate.
 """
 
@@ -19,7 +19,6 @@ from geneva_cli.curves.shapes import (
     Point,
     Segment,
     Shape,
-    backwards,
 )
 
 STRAIGHT = 1e-16  # a bulge below it moves no point of the arc by a rounding of the chord
@@ -50,31 +49,10 @@ def bounds(shape: Shape) -> Box:
     return _box(p for segment in shape.segments for p in _extremes(segment))
 
 
-def area(shape: Shape) -> float:
-    """Area inside, positive if the contour runs counterclockwise; in closed form.
-
-    An open contour is closed by the chord from its end to its start. Green's theorem is applied
-    about the first point, so that a shape far from the origin loses no digits.
-    """
-    if isinstance(shape, Circle):
-        return math.pi * shape.radius * shape.radius
-    if not shape.segments:
-        return 0.0
-    origin = shape.segments[0].start
-    return math.fsum(_swept(segment, origin) for segment in shape.segments)
-
-
-def with_material_left(shape: Contour, outside: bool) -> Contour:
-    """Contour that runs counterclockwise as an outline, and clockwise as a hole."""
-    return shape if (area(shape) > 0.0) is outside else backwards(shape)
-
-
 def segment_length(segment: Segment) -> float:
-    """Length of one segment."""
+    """Length of a line or arc; of a cubic that of its control polygon, which is no shorter."""
     if isinstance(segment, Cubic):
-        scale = _polygon(segment)
-        # to 1e-13 of the control polygon; a cusp takes about 20 of the 40 halvings
-        return _refined(segment, _gauss(segment), 1e-13 * scale, 40)
+        return math.fsum(map(math.dist, segment[:-1], segment[1:]))
     chord = math.dist(segment.start, segment.end)
     if isinstance(segment, Line) or abs(segment.bulge) < STRAIGHT:
         return chord
@@ -124,7 +102,7 @@ def at(segment: Segment, t: float) -> Point:
     if t in (0.0, 1.0):
         return segment.end if t else segment.start
     if isinstance(segment, Cubic):
-        return _halves(segment, t)[0].end
+        return _on_cubic(segment, t)
     if isinstance(segment, Line) or abs(segment.bulge) < STRAIGHT:
         (x0, y0), (x1, y1) = segment.start, segment.end
         return x0 + t * (x1 - x0), y0 + t * (y1 - y0)
@@ -151,15 +129,10 @@ def _on_arc(arc: Arc, parameters: Iterable[float]) -> list[Point]:
     return out
 
 
-def halves(segment: Segment) -> tuple[Segment, Segment]:
-    """The segment cut in two at its parameter 1/2."""
-    if isinstance(segment, Cubic):
-        return _halves(segment, 0.5)
-    middle = at(segment, 0.5)
-    if isinstance(segment, Line):
-        return Line(segment.start, middle), Line(middle, segment.end)
-    bulge = math.tan(0.125 * segment.sweep)
-    return Arc(segment.start, middle, bulge), Arc(middle, segment.end, bulge)
+def halves(arc: Arc) -> tuple[Arc, Arc]:
+    """The arc cut in two at its middle."""
+    middle, bulge = at(arc, 0.5), math.tan(0.125 * arc.sweep)
+    return Arc(arc.start, middle, bulge), Arc(middle, arc.end, bulge)
 
 
 def mapped(
@@ -229,75 +202,10 @@ def _level(a: float, b: float, c: float, d: float) -> list[float]:
     return [t for t in roots if 0.0 < t < 1.0]
 
 
-def _swept(segment: Segment, origin: Point) -> float:
-    """Area that the ray from the origin to the segment's point sweeps."""
-    points = [(x - origin[0], y - origin[1]) for x, y in _points(segment)]
-    if isinstance(segment, Cubic):
-        p, q, r, s = points
-        pairs = 6.0 * (_cross(p, q) + _cross(r, s)) + 3.0 * (_cross(p, r) + _cross(q, s))
-        return 0.05 * (pairs + 3.0 * _cross(q, r) + _cross(p, s))
-    triangle = 0.5 * _cross(points[0], points[1])
-    if isinstance(segment, Line):
-        return triangle
-    return triangle + _cap(math.dist(*points), segment.sweep)
-
-
-def _cap(chord: float, sweep: float) -> float:
-    """Area between an arc and its chord: chord^2 (sweep - sin sweep) / (8 sin^2(sweep/2))."""
-    if abs(sweep) < 0.5:  # radians; the difference sweep - sin sweep would cancel
-        square = sweep * sweep
-        rest = 1.0
-        for k in (12, 10, 8, 6, 4):  # 6 (sweep - sin sweep) / sweep^3, from its far end
-            rest = 1.0 - rest * square / (k * (k + 1))
-        sinc = math.sin(0.5 * sweep) / (0.5 * sweep) if sweep else 1.0
-        return chord * chord * sweep * rest / (12.0 * sinc * sinc)
-    sine = math.sin(0.5 * sweep)
-    return chord * chord * (sweep - math.sin(sweep)) / (8.0 * sine * sine)
-
-
-def _points(segment: Segment) -> tuple[Point, ...]:
-    return tuple(segment) if isinstance(segment, Cubic) else (segment.start, segment.end)
-
-
-def _cross(p: Point, q: Point) -> float:
-    return p[0] * q[1] - p[1] * q[0]
-
-
-def _polygon(cubic: Cubic) -> float:
-    return sum(map(math.dist, cubic[:-1], cubic[1:]))
-
-
-def _gauss(cubic: Cubic) -> float:
-    """Length by Gauss's eight points."""
-    sides = [
-        (3.0 * (q[0] - p[0]), 3.0 * (q[1] - p[1]))
-        for p, q in zip(cubic[:-1], cubic[1:], strict=True)
-    ]
-    total = 0.0
-    for node, weight in GAUSS:
-        for t in (0.5 - 0.5 * node, 0.5 + 0.5 * node):
-            a, b, c = (1.0 - t) ** 2, 2.0 * t * (1.0 - t), t * t
-            (e, f), (g, h), (i, j) = sides
-            total += weight * math.hypot(a * e + b * g + c * i, a * f + b * h + c * j)
-    return 0.5 * total
-
-
-def _refined(cubic: Cubic, whole: float, error: float, depth: int) -> float:
-    first, second = _halves(cubic, 0.5)
-    a, b = _gauss(first), _gauss(second)
-    if abs(a + b - whole) <= error or not depth:
-        return a + b
-    return _refined(first, a, error, depth - 1) + _refined(second, b, error, depth - 1)
-
-
-def _halves(cubic: Cubic, t: float) -> tuple[Cubic, Cubic]:
-    """De Casteljau's two parts."""
-
-    def between(p: Point, q: Point) -> Point:
-        return p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])
-
-    a, d = cubic.start, cubic.end
-    ab, bc, cd = between(a, cubic.first), between(cubic.first, cubic.second), between(*cubic[2:])
-    abc, bcd = between(ab, bc), between(bc, cd)
-    middle = between(abc, bcd)
-    return Cubic(a, ab, abc, middle), Cubic(middle, bcd, cd, d)
+def _on_cubic(cubic: Cubic, t: float) -> Point:
+    """Point of a cubic by de Casteljau's construction."""
+    corners: list[Point] = list(cubic)
+    while len(corners) > 1:
+        pairs = zip(corners[:-1], corners[1:], strict=True)
+        corners = [(x + t * (u - x), y + t * (v - y)) for (x, y), (u, v) in pairs]
+    return corners[0]

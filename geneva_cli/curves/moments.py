@@ -10,8 +10,19 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from geneva_cli.curves.measure import GAUSS, STRAIGHT, halves
-from geneva_cli.curves.shapes import Arc, Circle, Cubic, Line, Point, Segment, Shape
+from geneva_cli.curves.measure import GAUSS, STRAIGHT, halves, mapped
+from geneva_cli.curves.shapes import (
+    Arc,
+    Circle,
+    Contour,
+    Cubic,
+    Line,
+    Point,
+    Segment,
+    Shape,
+    as_contour,
+    backwards,
+)
 
 
 class Moments(NamedTuple):
@@ -57,6 +68,31 @@ def moments(shape: Shape) -> Moments:
         return Moments(area, area * x, area * y, area * (x * x + y * y + 0.5 * square))
     parts = [_swept(piece) for segment in shape.segments for piece in _small(segment)]
     return total(parts)
+
+
+def area(shape: Shape) -> float:
+    """Area inside, positive if the contour runs counterclockwise.
+
+    An open contour is closed by the chord from its end to its start. Moments are taken about the
+    first point, so that a shape far from the origin loses no digits.
+    """
+    if isinstance(shape, Circle):
+        return math.pi * shape.radius * shape.radius
+    if not shape.segments:
+        return 0.0
+    x, y = shape.segments[0].start
+    return moments(mapped(shape, lambda p: (p[0] - x, p[1] - y))).area
+
+
+def with_material_left(shape: Contour, outside: bool) -> Contour:
+    """Contour that runs counterclockwise as an outline, and clockwise as a hole."""
+    return shape if (area(shape) > 0.0) is outside else backwards(shape)
+
+
+def oriented(outline: Shape, holes: Iterable[Shape]) -> list[Contour]:
+    """A face's outline and holes as contours with the material on their left."""
+    inner = [with_material_left(as_contour(hole), False) for hole in holes]
+    return [with_material_left(as_contour(outline), True), *inner]
 
 
 def total(parts: Iterable[Moments]) -> Moments:

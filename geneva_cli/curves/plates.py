@@ -7,6 +7,7 @@ millimetres, angles in radians.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
@@ -40,6 +41,16 @@ class Plate(NamedTuple):
         """Thickness along the axis."""
         return self.high - self.low
 
+    @property
+    def plates(self) -> tuple[Plate, ...]:
+        """The plate itself, as those of a ``Stack``."""
+        return (self,)
+
+    def of_plates(self, plates: Iterable[Plate]) -> Plate:
+        """Return the only plate, as a part in place of this one."""
+        (only,) = plates
+        return only
+
 
 class Stack(NamedTuple):
     """A turned part: plates without holes, each on the one before, as one solid.
@@ -66,6 +77,10 @@ class Stack(NamedTuple):
     def thickness(self) -> float:
         """Length along the axis."""
         return self.high - self.low
+
+    def of_plates(self, plates: Iterable[Plate]) -> Stack:
+        """Return a part with other plates."""
+        return self._replace(plates=tuple(plates))
 
 
 class Shell(NamedTuple):
@@ -168,36 +183,34 @@ def plates(part: Part) -> list[Plate]:
 
 def between(part: Plate | Stack, low: float, high: float) -> Plate | Stack:
     """The length of a flat or turned part that lies between two heights."""
-    if isinstance(part, Plate):
-        return part._replace(low=max(low, part.low), high=min(high, part.high))
-    steps = [one for one in part.plates if one.low < high and one.high > low]
-    return part._replace(
-        plates=tuple(p._replace(low=max(low, p.low), high=min(high, p.high)) for p in steps)
+    inside = (one for one in part.plates if one.low < high and one.high > low)
+    return part.of_plates(
+        one._replace(low=max(low, one.low), high=min(high, one.high)) for one in inside
     )
 
 
 def inwards(part: Part, outside: float) -> Plate | Stack:
     """A flat or turned part whose heights count inwards from ``outside``, by distances instead."""
     assert isinstance(part, Plate | Stack)
-    if isinstance(part, Plate):
-        return part._replace(low=outside - part.high, high=outside - part.low)
-    plates = (p._replace(low=outside - p.high, high=outside - p.low) for p in part.plates[::-1])
-    return part._replace(plates=tuple(plates))
+    return part.of_plates(
+        one._replace(low=outside - one.high, high=outside - one.low) for one in part.plates[::-1]
+    )
 
 
 def steps_of(part: Part) -> list[Plate]:
     """A flat part, or the steps of a turned one, under the part's name."""
     assert isinstance(part, Plate | Stack)
-    steps = (part,) if isinstance(part, Plate) else part.plates
-    return [step._replace(name=part.name) for step in steps]
+    return [step._replace(name=part.name) for step in part.plates]
 
 
 def lowered(part: Plate | Stack) -> Plate | Stack:
     """A flat or turned part with its lower face at z = 0."""
-    if isinstance(part, Plate):
-        cross = tuple(h._replace(height=h.height - part.low) for h in part.cross)
-        return part._replace(low=0.0, high=part.thickness, cross=cross)
     down = part.low
-    return part._replace(
-        plates=tuple(p._replace(low=p.low - down, high=p.high - down) for p in part.plates)
+    return part.of_plates(
+        one._replace(
+            low=one.low - down,
+            high=one.high - down,
+            cross=tuple(hole._replace(height=hole.height - down) for hole in one.cross),
+        )
+        for one in part.plates
     )

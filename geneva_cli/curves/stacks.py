@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.curves.measure import area, with_material_left
+from geneva_cli.curves.moments import area, with_material_left
 from geneva_cli.curves.plates import Plate, Stack
 from geneva_cli.curves.shapes import Arc, Contour, Line, as_contour
 

@@ -18,8 +18,7 @@ from geneva_cli.machine.mechanism import Mechanism
 
 if TYPE_CHECKING:
     from geneva_cli.collisions.full_turn import FullTurn
-    from geneva_cli.collisions.gaps import WorkLimit
-    from geneva_cli.collisions.machine_parts import MachineParts
+    from geneva_cli.collisions.machine_parts import MachineParts, WorkLimit
     from geneva_cli.layout.assembly import Assembly
     from geneva_cli.layout.plain_sizes import Sizes
     from geneva_cli.layout.roller_paths import RollerPaths
@@ -152,7 +151,7 @@ class PartsModel:
     @property
     def turn(self) -> FullTurn:
         """The full turn; raises WorkLimit where it takes too long."""
-        from geneva_cli.collisions.gaps import WorkLimit
+        from geneva_cli.collisions.machine_parts import WorkLimit
 
         if isinstance(self._turn, WorkLimit):
             raise self._turn
@@ -161,7 +160,7 @@ class PartsModel:
     @cached_property
     def _turn(self) -> FullTurn | WorkLimit:
         from geneva_cli.collisions.full_turn import full_turn
-        from geneva_cli.collisions.gaps import WorkLimit
+        from geneva_cli.collisions.machine_parts import WorkLimit
 
         # That it takes too long is remembered too.
         try:

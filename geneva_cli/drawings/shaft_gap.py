@@ -14,7 +14,8 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.measure import at, with_material_left
+from geneva_cli.curves.measure import at
+from geneva_cli.curves.moments import with_material_left
 from geneva_cli.curves.plates import Group, Member, Part, Plate, Stack, plates
 from geneva_cli.curves.shapes import Arc, Point, Segment, as_contour
 from geneva_cli.machine.mechanism import Mechanism

@@ -44,11 +44,9 @@ def shapes(members: Iterable[Member]) -> Iterator[Shape]:
     for one in members:
         if isinstance(one.part, Group):
             own: Iterable[Shape] = shapes(one.part.members)
-        elif isinstance(one.part, Stack):
-            own = [plate.outline for plate in one.part.plates]
         else:
-            assert isinstance(one.part, Plate)
-            own = (one.part.outline, *one.part.holes)
+            assert isinstance(one.part, Plate | Stack)
+            own = [shape for plate in one.part.plates for shape in (plate.outline, *plate.holes)]
         yield from (placed(shape, one.at, one.turn) for shape in own)
 
 

@@ -24,13 +24,19 @@ from geneva_cli.layout.holds import (
 )
 from geneva_cli.layout.sphere_stressed import sphere_stressed
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
-from geneva_cli.loads.strength.shafts import ShaftDimensions, crank_forces, shaft, wheel_forces
+from geneva_cli.loads.strength.shafts import (
+    ShaftDimensions,
+    crank_forces,
+    shafts_under_load,
+    wheel_forces,
+)
 from geneva_cli.loads.strength.sphere_horn import sphere_horn
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.materials import wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.preferred import bores_from, rounded_from
 from geneva_cli.numerics.tolerances import keeps
 
@@ -167,5 +173,5 @@ def _hub_fits(spec: Spec, ball: Ball) -> bool:
 def _moment_Nm(mechanism: Mechanism, forces: ShaftForces, overhang_mm: float) -> float:
     """Return the greatest equivalent torque of a shaft; it needs a search of the whole cycle."""
     ends = ShaftDimensions(None, overhang_mm, None, None)
-    each = [shaft(way, ends, forces) for way in every_way(mechanism)]
-    return max(one.moment_Nm if one else 0.0 for one in each)
+    each = [shafts_under_load(way, ends, forces) for way in every_way(mechanism)]
+    return max(array(one.moment_Nm).item() if one else 0.0 for one in each)

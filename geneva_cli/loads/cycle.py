@@ -11,14 +11,20 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from functools import cached_property, lru_cache
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
 from geneva_cli.analysis.contact import contact, contacts
-from geneva_cli.analysis.forces import LoadCase, feeding, load_case, sliding, wheel_torque
-from geneva_cli.analysis.instant import INSTANT_QUANTITIES, Instant, bounded, values
-from geneva_cli.analysis.load_functions import NO_MORE, LoadFunctions, load_batch
+from geneva_cli.analysis.forces import LoadCase, load_case
+from geneva_cli.analysis.instant import (
+    INSTANT_QUANTITIES,
+    Instant,
+    bounded,
+    bounded_loads,
+    values,
+)
+from geneva_cli.analysis.load_functions import LoadFunctions, load_batch
 from geneva_cli.analysis.quantities import KINETIC, known_quantities, sources
 from geneva_cli.analysis.stretches import (
     Stretch,
@@ -44,18 +50,6 @@ from geneva_cli.numerics.quadrature import Integrands, span_integrals
 from geneva_cli.numerics.search import SearchResult
 
 Integrand: TypeAlias = "Callable[[Instant[Array]], Array]"  # of values, at many angles
-
-
-class Extremes(NamedTuple):
-    """The greatest and least value over the motions, and their input angles as shown.
-
-    An unbounded value is infinite.
-    """
-
-    max: float
-    max_at_deg: float
-    min: float
-    min_at_deg: float
 
 
 class Cycle:
@@ -106,15 +100,9 @@ class Cycle:
         """Arrays (n,) at input angles of an engagement, degrees from its own mid-motion."""
         from geneva_cli.analysis.mid_motion import at_crossing
 
-        case, at = self.case, contacts(engagement, input_deg)
-        torque = wheel_torque(case, at)
-        drives = np.copysign(1.0, torque)
-        slides = np.copysign(1.0, sliding(at, drives, case.radius))
-        feeds = np.copysign(1.0, feeding(case, at, drives, slides))
-        with np.errstate(all="ignore"):
-            moving_values = bounded(Instant(case, at, drives, slides, feeds))
+        moving_values = bounded_loads(self.case, contacts(engagement, input_deg))
         middle = input_deg == 0.0
-        limits = at_crossing(engagement, case) if middle.any() else None
+        limits = at_crossing(engagement, self.case) if middle.any() else None
         if limits is None:
             return moving_values
         every = dict[str, object](moving_values.quantities())
@@ -136,8 +124,7 @@ class Cycle:
         """For each engagement, the search for the extremes of known quantities, and its cuts."""
         names, out = [*known_quantities(self.mechanism), KINETIC], []
         for engagement in self.mechanism.engagements:
-            every = load_batch(engagement, self.case, names, NO_MORE)
-            load = LoadFunctions(every, names, ("slides", "feeds"))
+            load = LoadFunctions(load_batch(engagement, self.case, names), ("slides", "feeds"))
             result = search_loads(load, 1)
             fastest = result.most[names.index("omega_rad_s"), 0] / self.case.speed_rad_s
             refuse_rounding(engagement, fastest)
@@ -145,7 +132,7 @@ class Cycle:
         return out
 
     @cached_property
-    def known(self) -> Mapping[str, LoadSummary]:
+    def known(self) -> Mapping[str, LoadSummary[Array]]:
         """The summaries of all quantities that have a value, (1,) each."""
         searched, known = known_quantities(self.mechanism), sources(self.mechanism)
         names = [*searched, KINETIC, *known]
@@ -173,10 +160,11 @@ class Cycle:
         return out
 
     @cached_property
-    def extremes(self) -> Mapping[str, Extremes]:
-        """The extremes of all quantities that have a value."""
+    def extremes(self) -> Mapping[str, LoadSummary[float]]:
+        """The summaries of all quantities that have a value, as numbers."""
         return {
-            name: Extremes(*(float(end[0]) for end in one[:4])) for name, one in self.known.items()
+            name: LoadSummary._make(row if row is None else row.item() for row in one)
+            for name, one in self.known.items()
         }
 
     def integrals(self, *of: Integrand) -> list[float]:

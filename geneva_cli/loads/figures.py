@@ -19,7 +19,7 @@ from geneva_cli.analysis.quantities import sources
 from geneva_cli.errors import GenevaError, Notice, cut, few, nearest
 from geneva_cli.figure import Axis, Curve, Figure, Mark, Panel, Piece
 from geneva_cli.loads import summary
-from geneva_cli.loads.cycle import Cycle, Extremes
+from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.stages import (
     MOTION_QUANTITIES,
     Stage,
@@ -27,6 +27,7 @@ from geneva_cli.loads.stages import (
     motion_stages,
     pieces,
 )
+from geneva_cli.loads.summaries import LoadSummary
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import ROUNDED, SAME_INPUT_DEG
 
@@ -95,14 +96,14 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
         raise GenevaError(
             f"{len(cycles)} designs in one figure; at most {MACHINES_MAX} can be told apart"
         )
-    outputs = tuple(dict.fromkeys(cycle.mechanism.output.column for cycle in cycles.values()))
-    requested = tuple(dict.fromkeys(pick)) or (*outputs, *USUAL_QUANTITIES)
-    for name in requested:
+    for name in pick:
         if name not in AXIS_BY_NAME:
             raise GenevaError(
                 f"--pick {cut(name)}: no quantity of a cycle{nearest(name, AXIS_BY_NAME)}; "
                 f"it must be one of {few(name, AXIS_BY_NAME)}"
             )
+    outputs = tuple(dict.fromkeys(cycle.mechanism.output.column for cycle in cycles.values()))
+    requested = tuple(dict.fromkeys(pick)) or (*outputs, *USUAL_QUANTITIES)
     has = {design: _known(cycle) for design, cycle in cycles.items()}
     shown = [name for name in requested if any(name in known for known in has.values())]
     missing = [name for name in requested if name not in shown]
@@ -116,19 +117,13 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
         for design, cycle in cycles.items()
     }
     panels = tuple(_panel(name, drawn) for name in shown)
-    picture = Figure(
-        _title(machines),
-        Axis("input_deg", "Input angle", "deg"),
-        panels,
-        window,
-        tuple(_rests(machines, window)),
-    )
+    axis, rests = Axis("input_deg", "Input angle", "deg"), tuple(_rests(machines, window))
     left = []
     for design, cycle in cycles.items():
         names = requested if cycle.is_loaded else shown  # forces are not expected without a load
         lacking = [n for n in names if n not in has[design] and n not in outputs]
         left += [(design, line) for line in _left_out(cycle, lacking)]
-    return picture, left
+    return Figure(_title(machines), axis, panels, window, rests), left
 
 
 def _title(machines: Sequence[Mechanism]) -> str:
@@ -234,7 +229,9 @@ def _peak(
     return (Mark("peak", _placed(machine, peak.at_deg, window), y),)
 
 
-def _ends(machine: Mechanism, ends: Extremes, window: tuple[float, float]) -> Iterator[Mark]:
+def _ends(
+    machine: Mechanism, ends: LoadSummary[float], window: tuple[float, float]
+) -> Iterator[Mark]:
     """The greatest value of a load and, if it goes below 0, the least."""
     size = max(abs(ends.max), abs(ends.min))
     for word, value, at_deg, shown in (
@@ -252,7 +249,7 @@ def _placed(machine: Mechanism, at_deg: float, window: tuple[float, float]) -> f
     return at_deg + whole * math.ceil((window[0] - SAME_INPUT_DEG - at_deg) / whole)
 
 
-def _bounds(cycle: Cycle, ends: Mapping[str, Extremes]) -> dict[str, tuple[float, float]]:
+def _bounds(cycle: Cycle, ends: Mapping[str, LoadSummary[float]]) -> dict[str, tuple[float, float]]:
     """The visible range of each unbounded load, from its sizes half-way between cuts."""
     endless = [n for n, e in ends.items() if math.isinf(e.max) or math.isinf(e.min)]
     out = {}

@@ -19,7 +19,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.contact import Contact
 from geneva_cli.analysis.forces import LoadCase, QuantityValue, load_case
 from geneva_cli.analysis.instant import Instant
 from geneva_cli.analysis.load_functions import (
@@ -46,7 +45,7 @@ class Unevenness(NamedTuple):
 
     mean: Array
 
-    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
+    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
         """The quantity, and the margin that bounds it."""
         return QuantityValue(i.input_torque_Nm - self.mean, i.friction_margin)
 
@@ -103,8 +102,7 @@ def _works(
     """Works less the mean's, J, a row for each design padded with zeros, and returned squares."""
     n = len(mean)
     own: dict[str, LoadQuantity] = {"unevenness_Nm": Unevenness(mean)}
-    names = tuple(own)
-    load = LoadFunctions(load_batch(engagement, case, names, own), names, ("feeds", "wanted"))
+    load = LoadFunctions(load_batch(engagement, case, own, own), ("feeds", "wanted"))
     spans = spans_of(engagement, n)
     result = search(SignFunctions(load), spans, n, False)
     whole = to_mid_motion(engagement, result.stretches, n)
@@ -115,7 +113,7 @@ def _works(
         some, at, _, (uneven,) = load.at(x, design[which], 0)
         here = signed_instant(load.kinds, some, at, signs[:, which, None]).instant
         back = 0.5 * (1.0 - here.feeds) * here.input_torque_Nm.c[0]
-        return np.stack(np.broadcast_arrays(uneven(here, at).value.c[0], back * back))
+        return np.stack(np.broadcast_arrays(uneven(here).value.c[0], back * back))
 
     needed = np.stack((bounded, bounded))
     with np.errstate(all="ignore"):

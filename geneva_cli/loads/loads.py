@@ -1,7 +1,6 @@
-"""Loads of the motion: pin force, torque on the input shaft, contact stress, power.
+"""The greatest loads and pressure angle of a machine, and the highest speed that keeps the limits.
 
-The wheel needs the torque T = I epsilon + M_r; the formulas are in ``forces``. Lengths are in
-metres, forces in newtons.
+The formulas of loads are in ``forces``. Forces are in newtons, torques in newton metres.
 """
 
 from __future__ import annotations
@@ -14,15 +13,8 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.carried import inertia_kgm2
-from geneva_cli.analysis.contact import Contact, contact, is_straight
-from geneva_cli.analysis.forces import (
-    Forces,
-    LoadCase,
-    QuantityValue,
-    load_case,
-    sliding,
-    wheel_torque,
-)
+from geneva_cli.analysis.contact import is_straight
+from geneva_cli.analysis.forces import Forces, LoadCase, QuantityValue, load_case
 from geneva_cli.analysis.instant import Instant
 from geneva_cli.analysis.load_functions import LoadFunctions, LoadQuantity, load_batch
 from geneva_cli.analysis.peak_search import PeakArray
@@ -33,59 +25,11 @@ from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.summaries import load_peaks, search_loads
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.arrays import array, parameter
+from geneva_cli.numerics.arrays import parameter
 from geneva_cli.numerics.greatest import first_greatest
-from geneva_cli.numerics.jet import Array, Jet, Number
+from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.latest import Known
 from geneva_cli.spec.load_limits import load_limits
-
-
-class LoadState(NamedTuple):
-    """The loads at one input angle, or at an array of them.
-
-    Forces and stresses are infinite where they have no bound. It is so where friction alone holds
-    the wheel, where the bearing wall ends in an edge, and where a slot lies across the path.
-    """
-
-    torque_Nm: Number  # torque that the wheel needs
-    pin_force_N: Number
-    input_torque_Nm: Number
-    contact_stress_MPa: Number | None  # None without a face width
-    pressure_deg: Number
-
-
-def state(mechanism: Mechanism, engagement: Engagement, input_deg: Number) -> LoadState:
-    """An engagement's loads at an input angle from its mid-motion, or at an array of angles.
-
-    For m designs at k angles the shape is (m, k), at one angle (m, 1); values equal in all designs
-    lack the m.
-    """
-    case = load_case(mechanism)
-    x = np.atleast_1d(np.asarray(input_deg, dtype=float))
-    at = contact(engagement, x, reactions=False)
-    torque = array(wheel_torque(case, at).c[0])
-    drives = np.copysign(1.0, torque)
-    slides = np.copysign(1.0, sliding(at, drives, case.radius).c[0])
-    bound = np.where(torque == 0.0, 0.0, np.inf)
-    with np.errstate(all="ignore"):
-        forces = Forces(case, at, drives, slides)
-        is_held = forces.grip.c[0] > 0.0
-        force = np.where(is_held, forces.force.c[0], bound)
-        free = np.equal(case.all_friction, 0.0)
-        rubbed = np.where(is_held | free, forces.shaft.c[0], bound)
-        shaft = rubbed / np.where(rubbed > 0.0, case.efficiency, 1.0)
-        stress = None
-        if forces.edge is not None and forces.square is not None:
-            square = np.where(is_held & (forces.edge.c[0] > 0.0), forces.square.c[0], bound)
-            stress = np.sqrt(square)
-    pressure: Array = np.degrees(np.arctan2(np.abs(at.offset.c[0]), at.lever.c[0])) + 0.0 * x
-    every = (torque, force, shaft, pressure)
-    if isinstance(input_deg, (int, float)) and all(value.ndim < 2 for value in every):
-        one = None if stress is None else float(stress[0])
-        return LoadState(
-            float(torque[0]), float(force[0]), float(shaft[0]), one, float(pressure[0])
-        )
-    return LoadState(torque, force, shaft, stress, pressure)
 
 
 def greatest(mechanism: Mechanism, name: str) -> Peak[float]:
@@ -109,9 +53,9 @@ def greatest(mechanism: Mechanism, name: str) -> Peak[float]:
 class Slope(NamedTuple):
     """The square of the pressure angle's tangent, as a quantity of ``load_peaks``."""
 
-    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
+    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
         """The quantity, which is bounded where its denominator is not 0."""
-        slope = at.offset / at.lever
+        slope = i.at.offset / i.at.lever
         return QuantityValue(slope * slope)
 
 
@@ -201,11 +145,11 @@ class Slowness(NamedTuple):
     limit: float
     case: LoadCase  # at 1 rad/s
 
-    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
+    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
         """The quantity, which is unbounded where the place allows no speed."""
         unit = self.case.at_speed(0.0)._replace(resists_Nm=1.0)
-        factor = self.of(Forces(unit, at, i.drives, i.slides))
-        load = self.of(Forces(self.case._replace(resists_Nm=0.0), at, i.drives, i.slides))
+        factor = self.of(Forces(unit, i.at, i.drives, i.slides))
+        load = self.of(Forces(self.case._replace(resists_Nm=0.0), i.at, i.drives, i.slides))
         left = self.limit - factor * self.case.resists_Nm
         # Where the wheel is not driven, any speed keeps the limit. The margin is then that next to
         # it, as at rest the load's sign is rounding.
@@ -231,9 +175,9 @@ def _slowness(engagement: Engagement, case: LoadCase, limits: Mapping[str, float
         most = limit * limit if name in SQUARED else limit
         for factor in factors[name]:
             own[f"slowness {len(own)}"] = Slowness(factor, most, case)
-    names, still = tuple(own), case._replace(resists_Nm=0.0)
-    result = search_loads(LoadFunctions(load_batch(engagement, still, names, own), names), 1)
-    return max(0.0, float(result.most[: len(names)].max()))
+    still = case._replace(resists_Nm=0.0)
+    result = search_loads(LoadFunctions(load_batch(engagement, still, own, own)), 1)
+    return max(0.0, float(result.most[: len(own)].max()))
 
 
 def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:

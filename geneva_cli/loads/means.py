@@ -7,10 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.contact import NEAR_CUSP, mirrored
+from geneva_cli.analysis.contact import NEAR_CUSP
 from geneva_cli.analysis.forces import load_case
 from geneva_cli.analysis.load_functions import (
-    NO_MORE,
     ContactState,
     LoadBatch,
     LoadFunctions,
@@ -18,8 +17,8 @@ from geneva_cli.analysis.load_functions import (
     load_batch,
     signed_instant,
 )
-from geneva_cli.analysis.quantities import SQUARED, multiples, plain_values, square_of
-from geneva_cli.analysis.stretches import mirror_images, spans_of
+from geneva_cli.analysis.quantities import SQUARED, multiples, plain_values
+from geneva_cli.analysis.stretches import spans_of
 from geneva_cli.loads.groups import of_groups
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
@@ -58,10 +57,10 @@ def load_means(
     mechanism = mechanism.under_load
     case = load_case(mechanism)
     multiple_of, sources = sources_of(mechanism, names)
-    every = [load_batch(engagement, case, sources, NO_MORE) for engagement in mechanism.engagements]
+    every = [load_batch(engagement, case, sources) for engagement in mechanism.engagements]
 
     def summed(some: LoadBatch, n: int) -> tuple[Array]:
-        return (_sums_of(LoadFunctions(some, sources), n, "mean" in requested),)
+        return (_sums_of(LoadFunctions(some), n, "mean" in requested),)
 
     sums = sum(of_groups(one, summed)[0] for one in every)
     means = means_from(mechanism, sources, np.asarray(sums), "mean" in requested)
@@ -98,10 +97,6 @@ def means_from(
 
 def _sums_of(load: LoadFunctions, n: int, plain: bool) -> Array:
     """The integrals without a search for extremes: designs are only divided where signs change."""
-    from geneva_cli.loads.inertia_means import is_balanced, squares
-
-    if is_balanced(load) and not plain:
-        return squares(load, n)
     spans, only = spans_of(load.engagement, n), SignFunctions(load)
     pieces = search(only, spans, n, False, w=load.spread).stretches
     with np.errstate(all="ignore"):
@@ -115,53 +110,41 @@ def sums(load: LoadFunctions, pieces: Stretches, bounded: Mask, n: int, plain: b
     The shape is (names, n) for each; integrals that are not ``bounded`` are infinite. Only
     quantities that are searched by their squares behave as a root at the ends of their stretches.
     """
-    every = np.arange(len(pieces.design))
-    # the second half of a mirrored motion is evaluated with the first, as further functions
-    other = mirror_images(pieces) if load.mirrored else every
-    kept = np.flatnonzero(every <= other)
     # pieces of one span together: a motion of several pieces is evaluated in one of them at a time
-    kept = kept[np.argsort(pieces.span[kept], kind="stable")]
-    design, (a, b), other = pieces.design[kept], pieces.x[:, kept], other[kept]
-    signs = np.where(pieces.positive, 1.0, -1.0)
-    sides = signs[:, kept], signs[:, other]
-    paired = other != every[kept]
-
-    def rows(x: Array, which: Whole) -> Array:
-        state = load.at(x, design[which], 0)
-        here = powers(load, state, sides[0][:, which, None], plain)
-        if not paired.any():
-            return here
-        image = state._replace(contact=mirrored(state.contact))
-        # the images are in reverse order
-        back = powers(load, image, sides[1][:, which, None], plain)[..., ::-1]
-        back[:, ~paired[which]] = 0.0
-        return np.concatenate((here, back))
-
+    order = np.argsort(pieces.span, kind="stable")
+    design, (a, b) = pieces.design[order], pieces.x[:, order]
+    signs = np.where(pieces.positive, 1.0, -1.0)[:, order]
     w = load.spread[design, 0]
 
-    def by_spread(u: Array, which: Whole) -> Array:
+    def rows(u: Array, which: Whole) -> Array:
         x, rate = gathered(u, w[which, None])
-        return rows(np.clip(x, a[which, None], b[which, None]), which) * rate
+        state = load.at(np.clip(x, a[which, None], b[which, None]), design[which], 0)
+        return powers(load, state, signs[:, which, None], plain) * rate
 
     rooted = plain and any(name in SQUARED for name in load.names)
-    parts = (2 if plain else 1) * (2 if paired.any() else 1)
+    needed = np.tile(bounded, (2 if plain else 1, 1))
     with np.errstate(all="ignore"):
-        needed = np.tile(bounded, (parts, 1))
-        ends = spread(a, w), spread(b, w)
-        poles = 0.5 * np.pi * w
-        total = span_integrals(Integrands(by_spread, *ends, rooted), design, needed, poles=poles)
-        if paired.any():
-            total = total[: len(total) // 2] + total[len(total) // 2 :]
-        engagement = load.engagement
-        if engagement.slot.curved:  # the rest up to mid-motion, which no stretch reaches
-            # the integral of a cubic from 0 to 1 by its values at 1, 2, 3 (Adams and Bashforth)
-            places, weights = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
-            for end in (engagement.entry_deg, engagement.exit_deg):
-                near = np.broadcast_to(np.reshape(NEAR_CUSP * end, (-1, 1)), (n, 1))
-                near_values = powers(load, load.at(near * places, np.arange(n), 0), None, plain)
-                total += matrix_product(near_values, weights) * np.abs(near[:, 0])
-        total[~np.tile(bounded, (2 if plain else 1, 1))] = np.inf
+        ends, poles = (spread(a, w), spread(b, w)), 0.5 * np.pi * w
+        total = span_integrals(Integrands(rows, *ends, rooted), design, needed, poles=poles)
+        if load.engagement.slot.curved:
+            total += _to_mid_motion(load, n, plain)
+    total[~needed] = np.inf
     return total * DEGREE
+
+
+def _to_mid_motion(load: LoadFunctions, n: int, plain: bool) -> Array:
+    """The integrals of ``sums`` next to mid-motion of curved slots, by the angle in degrees.
+
+    No stretch reaches there. The integral of a cubic from 0 to 1 follows from its values at 1, 2
+    and 3 (Adams and Bashforth).
+    """
+    places, weights = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
+    total = np.zeros(1)
+    for end in (load.engagement.entry_deg, load.engagement.exit_deg):
+        near = np.broadcast_to(np.reshape(NEAR_CUSP * end, (-1, 1)), (n, 1))
+        values = powers(load, load.at(near * places, np.arange(n), 0), None, plain)
+        total = total + matrix_product(values, weights) * np.abs(near[:, 0])
+    return total
 
 
 def powers(load: LoadFunctions, state: ContactState, signs: Array | None, plain: bool) -> Array:
@@ -171,8 +154,8 @@ def powers(load: LoadFunctions, state: ContactState, signs: Array | None, plain:
     count = len(load.names)
     out = np.empty((2 * count if plain else count, *shape[::-1])).swapaxes(1, 2)
     for i, (name, quantity) in enumerate(zip(load.names, wanted, strict=True)):
-        value = array(quantity(here, at).value.c[0])
-        out[i] = square_of(value, name)
+        value = array(quantity(here).value.c[0])
+        out[i] = value if name in SQUARED else value * value
         if plain:
             out[count + i] = plain_values(value, name)
     return out

@@ -107,7 +107,7 @@ def sizing(cycle: Cycle) -> tuple[Mapping[str, float | None], tuple[str, ...]]:
 def sizings(
     mechanism: Mechanism,
     requested: Collection[str] = SIZING_NAMES,
-    torque: LoadSummary | None = None,
+    torque: LoadSummary[Array] | None = None,
     peaks: Sequence[Peaks] | None = None,
 ) -> dict[str, Array]:
     """Values of ``SIZING_NAMES``: (m,), or (1,) for values equal in all designs; NaN if undefined.
@@ -170,7 +170,7 @@ def _form(mechanism: Mechanism, peaks: Sequence[Peaks]) -> dict[str, Number]:
 
 
 def _exact(
-    mechanism: Mechanism, torque: LoadSummary, form_torque: Number | None
+    mechanism: Mechanism, torque: LoadSummary[Array], form_torque: Number | None
 ) -> dict[str, Number]:
     """Motor and flywheel from the exact cycle; NaN if the torque is unbounded."""
     motor, w = mechanism.spec.motor, load_case(mechanism).speed_rad_s

@@ -16,7 +16,7 @@ designs are searched together, one block of designs after the other.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import NamedTuple, cast
+from typing import Generic, NamedTuple, cast
 
 import numpy as np
 
@@ -37,7 +37,7 @@ from geneva_cli.analysis.quantities import (
     outermost,
 )
 from geneva_cli.analysis.stretches import on_breaks, spans_of
-from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.kinematics.engagement import Engagement, K
 from geneva_cli.loads.groups import of_groups
 from geneva_cli.loads.means import means_from, sources_of, sums
 from geneva_cli.machine.mechanism import Mechanism
@@ -46,25 +46,19 @@ from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.search import SearchResult, search
 
 
-class LoadSummary(NamedTuple):
+class LoadSummary(NamedTuple, Generic[K]):
     """Greatest and least over the motions, mean and root mean square over a period.
 
-    Each is (m,) for m designs, and infinite if unbounded.
+    Input angles are as shown; values are infinite if unbounded. Each is (m,) for m designs, or a
+    number of one.
     """
 
-    max: Array
-    max_at_deg: Array
-    min: Array
-    min_at_deg: Array
-    mean: Array | None = None  # None if not requested
-    rms: Array | None = None
-
-    def times(self, factor: Array) -> LoadSummary:
-        """The summary of a multiple of the quantity."""
-        mean, rms = (None if v is None else v * factor for v in self[4:])
-        return LoadSummary(
-            self.max * factor, self.max_at_deg, self.min * factor, self.min_at_deg, mean, rms
-        )
+    max: K
+    max_at_deg: K
+    min: K
+    min_at_deg: K
+    mean: K | None = None  # None if not requested
+    rms: K | None = None
 
 
 class EngagementExtremes(NamedTuple):
@@ -95,7 +89,7 @@ def load_peaks(
     sought = list(dict.fromkeys(source_of.values()))
     for engagement in mechanism.engagements:
         every = load_batch(engagement, case, sought, own)
-        sizes, at_deg, _ = _engagement_extremes(mechanism, every, sought, sized=True)
+        sizes, at_deg, _ = _engagement_extremes(mechanism, every, sized=True)
         for name, most, at in zip(sought, sizes, at_deg, strict=True):
             here = PeakArray(most, at)
             best[name] = greater(best[name], here) if name in best else here
@@ -111,7 +105,7 @@ def load_peaks(
 
 def load_summaries(
     mechanism: Mechanism, names: Sequence[str], requested: Collection[str] = ("mean", "rms")
-) -> dict[str, LoadSummary]:
+) -> dict[str, LoadSummary[Array]]:
     """The summaries of quantities over a period, by their names; signs kept.
 
     Extremes are exact to some units in the last place of a quantity's greatest size. Means and root
@@ -121,14 +115,14 @@ def load_summaries(
     mechanism = mechanism.under_load
     _, sources = sources_of(mechanism, names)
     case = load_case(mechanism)
-    every = [load_batch(engagement, case, sources, NO_MORE) for engagement in mechanism.engagements]
-    each = [_engagement_extremes(mechanism, one, sources, requested=requested) for one in every]
+    every = [load_batch(engagement, case, sources) for engagement in mechanism.engagements]
+    each = [_engagement_extremes(mechanism, one, requested=requested) for one in every]
     return summaries_from(mechanism, names, each, "mean" in requested)
 
 
 def summaries_from(
     mechanism: Mechanism, names: Sequence[str], each: Sequence[EngagementExtremes], plain: bool
-) -> dict[str, LoadSummary]:
+) -> dict[str, LoadSummary[Array]]:
     """The summaries of quantities, from the results of their sources in each engagement.
 
     With ``plain`` the sums include those of the quantities, besides those of their squares.
@@ -136,7 +130,7 @@ def summaries_from(
     multiple_of, sources = sources_of(mechanism, names)
     totals = [one.total for one in each if one.total is not None]
     means = means_from(mechanism, sources, np.sum(totals, axis=0), plain) if totals else {}
-    best: dict[str, LoadSummary] = {}
+    best: dict[str, LoadSummary[Array]] = {}
     for i, name in enumerate(sources):
         k = i + len(sources)
         rows = [(one.most[i], one.at_deg[i], -one.most[k], one.at_deg[k]) for one in each]
@@ -144,7 +138,15 @@ def summaries_from(
         most, least = _ends_of(name, most, least)
         mean, rms = means.get(name, (None, None))
         best[name] = LoadSummary(most, most_at, least, least_at, mean, rms)
-    return {name: best[source].times(factor) for name, (source, factor) in multiple_of.items()}
+    return {name: _multiple(best[source], factor) for name, (source, factor) in multiple_of.items()}
+
+
+def _multiple(one: LoadSummary[Array], factor: Array) -> LoadSummary[Array]:
+    """The summary of a multiple of the quantity."""
+    mean, rms = (None if v is None else v * factor for v in one[4:])
+    return LoadSummary(
+        one.max * factor, one.max_at_deg, one.min * factor, one.min_at_deg, mean, rms
+    )
 
 
 def _ends_of(name: str, most: Array, least: Array) -> list[Array]:
@@ -163,14 +165,13 @@ def _ends_of(name: str, most: Array, least: Array) -> list[Array]:
 def _engagement_extremes(
     mechanism: Mechanism,
     every: LoadBatch,
-    names: Sequence[str],
     sized: bool = False,
     requested: Collection[str] = (),
 ) -> EngagementExtremes:
     """The results of one engagement of m designs, computed in groups."""
 
     def extremes(some: LoadBatch, n: int) -> Sequence[Array]:
-        load = LoadFunctions(some, names)
+        load = LoadFunctions(some)
         here = search_loads(load, n, sized)
         rows = here.most, here.x
         return (*rows, sums_of(load, here, n, "mean" in requested)) if requested else rows

@@ -21,7 +21,6 @@ from geneva_cli.analysis.quantities import (
 )
 from geneva_cli.errors import Notice
 from geneva_cli.loads.cycle import Cycle
-from geneva_cli.loads.summaries import LoadSummary
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.jet import Array
 from geneva_cli.table import Reading, Table, computed_table, record_table, rows_table
@@ -67,16 +66,12 @@ class QuantitySummary(NamedTuple):
 @lru_cache(maxsize=16)
 def summaries(cycle: Cycle) -> Mapping[str, QuantitySummary]:
     """The summary of each quantity, by its name; None for each value that is not known."""
-    known = cycle.known
-    return {
-        name: _summary(known[name]) if name in known else QuantitySummary()
-        for name in SHOWN_QUANTITIES
-    }
+    known = cycle.extremes
+    return {name: QuantitySummary(*map(_finite, known.get(name, ()))) for name in SHOWN_QUANTITIES}
 
 
-def _summary(summary: LoadSummary) -> QuantitySummary:
-    every = [None if end is None else float(end[0]) for end in summary]
-    return QuantitySummary(*(x if x is not None and math.isfinite(x) else None for x in every))
+def _finite(x: float | None) -> float | None:
+    return x if x is not None and math.isfinite(x) else None
 
 
 def plain(cycle: Cycle, states: Instant[Array], name: str) -> Array:

@@ -7,8 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.collisions.gaps import FirstStops, Gaps
+from geneva_cli.collisions.gaps import Gaps
 from geneva_cli.collisions.sliding_stops import SlidingStops
+from geneva_cli.collisions.stops import Stops
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.layout.assembly import Assembly, assembled
 from geneva_cli.machine.mechanism import Mechanism
@@ -32,7 +33,7 @@ class RackGaps(Gaps):
         self.around = self.wheel.subset(np.flatnonzero(np.abs(self.wheel.oy) <= 3.5 * radius))
 
     @cached_property
-    def _stops(self) -> FirstStops:
+    def _stops(self) -> Stops:
         """Stops of a slot and the recess after it, whose pieces begin between two recesses."""
         radius, start = self.assembly.L, self.wheel.y0
         one = self.wheel.subset(np.flatnonzero((start >= -radius) & (start < radius)))

@@ -70,10 +70,7 @@ def rings(solid: Part, unit: float = 1.0) -> list[tuple[str, tuple[Contour, ...]
 
 def _placed(part: Part, move: Move) -> Iterator[tuple[Plate, Move]]:
     """Each plate with the transformation of its outline to its place."""
-    if isinstance(part, Plate):
-        yield part, move
-        return
-    if isinstance(part, Stack):
+    if isinstance(part, Plate | Stack):
         yield from ((plate, move) for plate in part.plates)
         return
     assert isinstance(part, Group)

@@ -27,23 +27,10 @@ class Built(NamedTuple):
     trouble: str
 
 
-def built(spec: Spec, fixed: frozenset[str] = frozenset()) -> Built:
-    """The spec with the first of some sizes with which its parts pass every check in a full turn.
-
-    ``fixed`` are keys of its [size] that must not change. If no sizes pass, the spec is unchanged.
-    """
-    return built_together([spec], fixed)[0]
-
-
-def built_together(
-    specs: Sequence[Spec], fixed: frozenset[str] = frozenset(), turns: Turns | None = None
-) -> list[Built]:
-    """The result of ``built`` for several specs; those with the same positions are turned once.
-
-    ``turns`` are the machines that were turned before.
-    """
-    turns = turns or Turns()
-    return [_built(turns, spec, fixed) for spec in specs]
+def built_together(specs: Sequence[Spec], fixed: frozenset[str] = frozenset()) -> list[Built]:
+    """The result of ``built`` for several specs; those with the same positions are turned once."""
+    turns = Turns()
+    return [built(spec, fixed, turns) for spec in specs]
 
 
 def passes(spec: Spec, turns: Turns) -> bool:
@@ -52,8 +39,13 @@ def passes(spec: Spec, turns: Turns) -> bool:
     return not (_of_motion(machine) or turns.first_failing(machine))
 
 
-def _built(turns: Turns, spec: Spec, fixed: frozenset[str]) -> Built:
-    machine = build(spec)
+def built(spec: Spec, fixed: frozenset[str] = frozenset(), turns: Turns | None = None) -> Built:
+    """The spec with the first of some sizes with which its parts pass every check in a full turn.
+
+    ``fixed`` are keys of its [size] that must not change, ``turns`` the machines that were turned
+    before. If no sizes pass, the spec is unchanged.
+    """
+    turns, machine = turns or Turns(), build(spec)
     motion = _of_motion(machine)
     if {one.name for one in motion} & UNSIZED:  # no need to turn them
         return Built(spec, _names(motion))

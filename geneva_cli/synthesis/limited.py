@@ -37,23 +37,22 @@ def breaks_limit(row: MachineRow) -> bool:
     return not {*UPPER_LIMITS, *LOWER_LIMITS}.isdisjoint(row.trouble.split(", "))
 
 
-def family(row: MachineRow) -> tuple[object, ...]:
-    """A key that is equal for all machines of one family."""
-    candidate, wheel = row.candidate, row.spec.wheel
-    own = candidate.drive, candidate.law, candidate.fixed, candidate.rollers
-    return (type(wheel), wheel.z, *own)
+def _kind(row: MachineRow) -> tuple[object, ...]:
+    """A key that is equal for all machines of one wheel, drive, law and number of rollers."""
+    one = row.candidate
+    return one.gearing, one.z, one.drive, one.law, one.fixed, one.rollers
 
 
 def first_of_each(rows: Sequence[MachineRow], linkages: bool = False) -> list[MachineRow]:
-    """The first row of every family, or the first that may be built if that one cannot.
+    """The first row of every kind, or the first that may be built if that one cannot.
 
-    With ``linkages`` every linkage counts as a family, as several rows stand for those searched.
+    With ``linkages`` every linkage counts as a kind, as several rows stand for those searched.
     """
     kept: list[MachineRow] = []
-    can_be: dict[Any, bool] = {}  # by family, whether one of the kept rows may be built
+    can_be: dict[Any, bool] = {}  # by kind, whether one of the kept rows may be built
     for i, row in enumerate(rows):
         apart = linkages and row.candidate.crank_mm is None
-        own = i if apart else family(row)
+        own = i if apart else _kind(row)
         if own not in can_be or (not can_be[own] and not row.is_impossible):
             kept.append(row)
             can_be[own] = not row.is_impossible
@@ -61,8 +60,8 @@ def first_of_each(rows: Sequence[MachineRow], linkages: bool = False) -> list[Ma
 
 
 def with_replacements(rows: Sequence[MachineRow], kept: Sequence[MachineRow]) -> list[MachineRow]:
-    """The rows, with those that break a limit replaced by rows ``kept`` of their family."""
-    broken = {family(row) for row in rows if breaks_limit(row)}
-    instead = [row for row in kept if family(row) in broken and not breaks_limit(row)]
-    mended = {family(row) for row in instead}
-    return [*(row for row in rows if family(row) not in mended), *instead]
+    """The rows, with those that break a limit replaced by rows ``kept`` of their kind."""
+    broken = {_kind(row) for row in rows if breaks_limit(row)}
+    instead = [row for row in kept if _kind(row) in broken and not breaks_limit(row)]
+    mended = {_kind(row) for row in instead}
+    return [*(row for row in rows if _kind(row) not in mended), *instead]

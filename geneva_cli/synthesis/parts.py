@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Callable
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import NamedTuple
 
 from geneva_cli.analysis.undercut import depths_mm
@@ -25,8 +25,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.outlines.outlines import CONTACT
 from geneva_cli.outlines.rack import rack_sizes
-from geneva_cli.spec.tables import Size
-from geneva_cli.synthesis.parts_data import PartsData, gap_at_rest, parts_data
+from geneva_cli.synthesis.parts_data import PartsData, distances_at_rest, parts_data
 from geneva_cli.verdict.checks.motion import undercut_depth
 from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT
 
@@ -120,12 +119,9 @@ def _suiting_plane(where: Assembly, at: PartsData, m: int) -> tuple[float | None
     mechanism, L = where.mechanism, where.L
     apart = math.inf if m == 1 else mechanism.ratio * L * math.sin(math.pi / m)
 
+    @cache
     def obstacle(r: float) -> str:
-        if apart <= r:
-            return "rollers"
-        if r not in at.tried:
-            at.tried[r] = _obstacle(where, at, r)
-        return at.tried[r]
+        return "rollers" if apart <= r else _obstacle(where, at, r)
 
     def of_percent(percent: float) -> str:
         return obstacle(0.01 * percent * L)
@@ -171,12 +167,7 @@ def _radius_mm(percent: float | None, L: float) -> float | None:
 
 def with_roller(spec: Spec, radius_mm: float | None) -> Spec:
     """The spec with another roller; None means the usual one."""
-    return spec.replace(size=_size_with(spec.size, radius_mm))
-
-
-@lru_cache(maxsize=1024)
-def _size_with(size: Size, radius_mm: float | None) -> Size:
-    return size.replace(roller_radius_mm=radius_mm)
+    return spec.replace(size=spec.size.replace(roller_radius_mm=radius_mm))
 
 
 def exact(x: float) -> float:
@@ -216,8 +207,10 @@ def _obstacle(where: Assembly, at: PartsData, r: float) -> str:
     if lengths.lock and lengths.horn < lengths.wall_min:
         return LOCK
     w, L = lengths.half_width, where.L
-    if at.back and gap_at_rest(at.back, lengths.rim, w, lengths.roller) < -CONTACT * L:
-        return "gap"
+    if at.back:
+        gap = distances_at_rest(*at.back, lengths.rim, w).min() - lengths.roller
+        if gap < -CONTACT * L:
+            return "gap"
     bent = [wall for wall in at.walls or () if not wall.bend.max() * w <= L]
     cut = max((float(depths_mm(wall, w, L)[0]) for wall in bent), default=0.0)
     if 0.98 * SHOWN_UNDERCUT < cut <= SHOWN_UNDERCUT:  # samples rarely miss more than 2 %

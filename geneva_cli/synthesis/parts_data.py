@@ -19,7 +19,7 @@ from geneva_cli.layout.roller_paths import RollerPaths
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.numerics.arrays import Array, array
+from geneva_cli.numerics.arrays import Array, Number, array
 from geneva_cli.study.batches import batch_machines
 from geneva_cli.study.target import USUAL_RPM
 
@@ -39,23 +39,19 @@ class PartsData(NamedTuple):
     walls: tuple[OuterWall, OuterWall] | None  # of curved slots
     # of a wheel without a lock, the roller's places at rest: along the nearest slot, and across
     back: tuple[Array, Array] | None
-    tried: dict[float, str]  # obstacles by roller radius, a cache of ``parts``
 
 
-def gap_at_rest(back: tuple[Array, Array], rim: float, half_width: float, r: float) -> float:
-    """The smallest gap between a roller and the wheel at rest, mm, at the sampled places.
+def distances_at_rest(along: Array, across: Array, rim: Number, half_width: Number) -> Array:
+    """Distances of places along the nearest slot and across it from a wheel with straight slots.
 
-    The rim has straight slots. Next to a slot the rim is nearest; in front of it, a corner of its
-    mouth is.
+    Next to a slot the rim is nearest; in front of it, a corner of its mouth is.
     """
-    along, across = back
-    level = math.sqrt(max(rim * rim - half_width * half_width, 0.0))
+    level = np.sqrt(np.maximum(rim * rim - half_width * half_width, 0.0))
     corner = np.where(
         along >= level, np.hypot(along - level, half_width - across), half_width - across
     )
     before = across * level < half_width * along
-    gap = np.where(before, corner, np.hypot(along, across) - rim)
-    return float(gap.min()) - r
+    return np.where(before, corner, np.hypot(along, across) - rim)
 
 
 _kept: dict[Spec, PartsData] = {}
@@ -130,7 +126,7 @@ def _computed(specs: Sequence[Spec], machine: Mechanism) -> list[PartsData]:
         end, near, apart, radius, steep = row
         own = (walls[0].of(i), walls[1].of(i)) if walls else None
         away = (back[0][i], back[1][i]) if back else None
-        out.append(PartsData(spec, RollerPaths((end,), near), apart, radius, steep, own, away, {}))
+        out.append(PartsData(spec, RollerPaths((end,), near), apart, radius, steep, own, away))
     return out
 
 

@@ -28,7 +28,7 @@ from geneva_cli.verdict.quantities.names import in_batch
 if TYPE_CHECKING:
     from geneva_cli.study.fields import Pick
 
-Cells: TypeAlias = list[float | int | str | bool | None]  # values of one machine
+Cells: TypeAlias = tuple[float | int | str | bool | None, ...]  # values of one machine
 
 
 class QuantityRequest(NamedTuple):
@@ -69,26 +69,22 @@ def quantity_request(target: Target, spec: Spec) -> QuantityRequest:
     return QuantityRequest(every, bounds, target.sort and target.sort._replace(name=of_sort[0]))
 
 
-def batch_cells(names: Sequence[str], rows: Sequence[MachineRow]) -> list[Cells | None]:
-    """The quantities of each row from batches; None for a row that needs its own machine."""
+def with_batch_values(names: Sequence[str], rows: Sequence[MachineRow]) -> list[MachineRow]:
+    """The rows with their quantities from batches; without them if a row needs its own machine."""
     if not (names and in_batch(names)):
-        return [None] * len(rows)
-    return [*map(_cells, numbers([row.spec for row in rows], names))]
+        return list(rows)
+    values = numbers([row.spec for row in rows], names)
+    return [row._replace(extra=_cells(one)) for row, one in zip(rows, values, strict=True)]
 
 
-def bounded(
-    request: QuantityRequest, rows: Sequence[MachineRow], together: Sequence[Cells | None]
-) -> list[MachineRow]:
-    """The rows that keep the bounds, with the requested quantities.
-
-    ``together`` are the results of ``batch_cells``.
-    """
+def bounded(request: QuantityRequest, rows: Sequence[MachineRow]) -> list[MachineRow]:
+    """The rows that keep the bounds, with the requested quantities."""
     assert request.pick
     names = request.names
-    alone = [row.spec for row, one in zip(rows, together, strict=True) if one is None]
+    alone = [row.spec for row in rows if not row.extra]
     rest = mapped(partial(_values, request.pick), alone, min(cores(), len(alone)), "machines")
     rest = tracked(rest, "machines computed", len(alone))
-    values = [one or next(rest) for one in together]
+    values = [row.extra or next(rest) for row in rows]
     out = []
     nearest: dict[str, list[float]] = {b.name: [] for b in request.bounds}
     for row, cells in zip(rows, values, strict=True):
@@ -99,22 +95,22 @@ def bounded(
             cell = by_name[name]
             values_of_bound += [float(cell)] if is_number(cell) else []
         if all(b.kept(by_name[b.name]) for b in request.bounds):
-            out.append(row._replace(extra=tuple(cells)))
+            out.append(row._replace(extra=cells))
     if not out:
         raise GenevaError(f"--subject-to: {_how_near(request, nearest, len(rows))}")
     return out
 
 
-def _cells(row: Sequence[float] | None) -> Cells | None:
-    """The cells of a machine, empty for unbounded values; None if a value is unknown."""
+def _cells(row: Sequence[float] | None) -> Cells:
+    """The cells of a machine, None for unbounded values; no cells if a value is unknown."""
     if row is None or any(map(math.isnan, row)):
-        return None
-    return [None if math.isinf(value) else value for value in row]
+        return ()
+    return tuple(None if math.isinf(value) else value for value in row)
 
 
 def _values(of: Pick, spec: Spec) -> Cells | None:
     try:
-        return of.of(build(spec))
+        return tuple(of.of(build(spec)))
     except GenevaError:  # parts that cannot be drawn have no quantities
         return None
 

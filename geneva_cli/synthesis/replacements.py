@@ -17,7 +17,7 @@ from geneva_cli.synthesis.families.family import Family
 from geneva_cli.synthesis.limited import breaks_limit
 from geneva_cli.synthesis.parts import has_no_obstacle
 from geneva_cli.synthesis.parts_data import compute_parts_data
-from geneva_cli.synthesis.rows import MachineRow, limited, rows
+from geneva_cli.synthesis.rows import MachineRow, rows, with_peak_limit
 
 TrialsByFamily: TypeAlias = dict[int, list[Trial]]  # places of families, by their numbers
 # A function that turns a machine's parts and returns its row, None if they fail. It uses the sizes
@@ -175,7 +175,7 @@ class _BuildableSearch:
 
     def _spec(self, i: int, place: Trial) -> Spec | None:
         spec = self.families[i].at(place.x)
-        return limited(self.target, spec) if spec else None
+        return with_peak_limit(self.target, spec) if spec else None
 
     def _first_turned(self, places: TrialsByFamily) -> dict[int, BuildablePlace]:
         """For each family the first place that passes; every second one is turned first."""

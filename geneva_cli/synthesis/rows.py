@@ -30,6 +30,14 @@ PEAKS = {  # keys of [limits], and the quantities that they limit
 COSTS = ("velocity.max", "acceleration.max", "acceleration.entry", "jerk.max", "power.max")
 
 
+# Keys of wheel and drive that only some machines have, and that describe a row.
+OWN_KEYS = (
+    *("A", "eccentricity", "phase", "axes_deg", "offset_mm", "planet_ratio", "fixed"),
+    *("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg"),
+    *("sector_deg", "first_z", "wheels"),
+)
+
+
 class Candidate(NamedTuple):
     """One machine as a row: its description, then its costs (invariants)."""
 
@@ -150,11 +158,11 @@ def rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[Machi
     The reasons are added to ``errors``.
     """
     with searches_kept():  # every machine is tested in a batch first
-        candidates = _rows(target, [limited(target, spec) for spec in specs], errors)
+        candidates = _rows(target, [with_peak_limit(target, spec) for spec in specs], errors)
     return [row if row and _moves_as_required(target, row) else None for row in candidates]
 
 
-def limited(target: Target, spec: Spec) -> Spec:
+def with_peak_limit(target: Target, spec: Spec) -> Spec:
     """The spec with the required peak acceleration as a further limit."""
     if target.acceleration_max is None:
         return spec
@@ -202,7 +210,9 @@ def _candidate(
     machine: Mechanism, target: Target, costs: Sequence[float], parts: str | None
 ) -> Candidate:
     spec, time, motion = machine.spec, timings(machine)[0], machine.spec.motion
-    own = spec.wheel.as_dict() | spec.drive.as_dict()
+    keys = spec.wheel.as_dict() | spec.drive.as_dict()
+    own = {name: keys.get(name) for name in OWN_KEYS}
+    own["offset_mm"] = own["offset_mm"] or None
     n = spec.drive.n_rpm if target.timed else None
     velocity, acceleration, entry, jerk, power = costs
     output = machine.output
@@ -212,10 +222,6 @@ def _candidate(
         gearing=spec.wheel.NAME,
         rollers=spec.drive.rollers,
         drive=spec.drive.NAME,
-        A=own.get("A"),
-        eccentricity=own.get("eccentricity"),
-        phase=own.get("phase"),
-        axes_deg=own.get("axes_deg"),
         alpha0_deg=motion.alpha0_deg if motion else None,
         law=motion.law.NAME if motion else None,
         ratio=machine.ratio,
@@ -231,21 +237,9 @@ def _candidate(
         n_rpm=n,
         acceleration_max_rad_s2=rate if output.turns else None,
         parts=parts,
-        offset_mm=own.get("offset_mm") or None,
-        planet_ratio=own.get("planet_ratio"),
-        fixed=own.get("fixed"),
         motion_s=time.motion_s if n else None,
         dwell_s=time.dwell_s if n else None,
-        crank_mm=own.get("crank_mm"),
-        ground_mm=own.get("ground_mm"),
-        coupler_mm=own.get("coupler_mm"),
-        rocker_mm=own.get("rocker_mm"),
-        point_mm=own.get("point_mm"),
-        point_deg=own.get("point_deg"),
-        entry_deg=own.get("entry_deg"),
-        sector_deg=own.get("sector_deg"),
-        first_z=own.get("first_z"),
         index_mm=time.index_mm,
         acceleration_max_m_s2=None if output.turns else rate,
-        wheels=own.get("wheels"),
+        **own,
     )

@@ -28,11 +28,10 @@ from geneva_cli.synthesis.limited import (
     with_replacements,
 )
 from geneva_cli.synthesis.quantities import (
-    Cells,
     QuantityRequest,
-    batch_cells,
     bounded,
     quantity_request,
+    with_batch_values,
 )
 from geneva_cli.synthesis.replacements import replacement_rows
 from geneva_cli.synthesis.rows import MachineRow, rows
@@ -50,15 +49,14 @@ class Ranking(NamedTuple):
 
     def rank(self, row: MachineRow) -> tuple[object, ...]:
         """The sort key of a row."""
-        return _rank(self.target, self.requested, row)
+        return _rank(self.requested, row)
 
     def in_turn(self, row: MachineRow) -> MachineRow | None:
         """A row with the requested quantities; None if it breaks a bound on them."""
         if not self.requested.pick:
             return row
         try:
-            cells = batch_cells(self.requested.names, [row])
-            return bounded(self.requested, [row], cells)[0]
+            return bounded(self.requested, with_batch_values(self.requested.names, [row]))[0]
         except GenevaError:
             return None
 
@@ -67,7 +65,6 @@ class _KindRows(NamedTuple):
     """The rows of one kind of machine, and whether one of its machines keeps the bounds."""
 
     rows: list[MachineRow]
-    requested: list[Cells | None]  # of each row, from ``batch_cells``
     keeps: bool
     errors: list[str]
 
@@ -92,13 +89,12 @@ def search(target: Target, meanwhile: Callable[[], None] | None = None) -> Ranki
         if target.acceleration_max is not None:
             return search(target.by_bounds)  # its message says how near they come
         raise GenevaError(_out_of_reach(target, errors))
-    together = [cells for kind in by_kind for cells in kind.requested]
-    ranked = _ranked(target, request, every, together)
+    ranked = _ranked(target, request, every)
     if frame_limits(target) and narrowed.motion_for(1) and any(map(breaks_limit, ranked)):
         which = [any(map(breaks_limit, kind.rows)) for kind in by_kind]
         within = _within_limits(narrowed, request, which)
         ranked = with_replacements(ranked, within)
-        ranked.sort(key=lambda row: _rank(target, request, row))
+        ranked.sort(key=partial(_rank, request))
     ranking = Ranking(ranked, narrowed, request)
     others = map(ranking.in_turn, replacement_rows(narrowed, ranked[:TURNED], ranked))
     ranked.extend(row for row in others if row)
@@ -107,17 +103,14 @@ def search(target: Target, meanwhile: Callable[[], None] | None = None) -> Ranki
 
 
 def _ranked(
-    target: Target,
-    request: QuantityRequest,
-    machines: list[MachineRow],
-    together: Sequence[Cells | None],
+    target: Target, request: QuantityRequest, machines: list[MachineRow]
 ) -> list[MachineRow]:
     """The rows that keep the bounds, in order."""
     if request.pick:
-        machines = bounded(request, machines, together)
+        machines = bounded(request, machines)
     machines = _worthwhile(target, request, machines)
-    machines.sort(key=lambda row: _rank(target, request, row))
-    return first_of_each(machines, linkages=_is_batched(target))
+    machines.sort(key=partial(_rank, request))
+    return first_of_each(machines, linkages=in_batch(target.quantities))
 
 
 def _within_limits(
@@ -126,20 +119,11 @@ def _within_limits(
     """The rows of those kinds whose machines keep the frame's limits too."""
     strict = target._replace(bounds=(*target.bounds, *frame_limits(target)))
     by_kind = _all_kinds(strict, request.names, which=which)
-    pairs = [pair for kind in by_kind for pair in zip(kind.rows, kind.requested, strict=True)]
-    kept = [(row, cells) for row, cells in pairs if not breaks_limit(row)]
+    kept = [row for kind in by_kind for row in kind.rows if not breaks_limit(row)]
     try:
-        return _ranked(target, request, [row for row, _ in kept], [cells for _, cells in kept])
+        return _ranked(target, request, kept)
     except GenevaError:  # none keeps the bounds as well
         return []
-
-
-def _is_batched(target: Target) -> bool:
-    """Return True if a batch can compute the quantities of the goal and of the bounds.
-
-    If not, they are computed for several machines of each family, and the best of these is shown.
-    """
-    return in_batch(target.quantities)
 
 
 def _all_kinds(
@@ -166,8 +150,9 @@ def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) 
     kind, target = task
     errors: list[str] = []
     of_kind = [*families(kind, target)]
-    if not _is_batched(target):
-        of_kind = pieces(of_kind, 120)  # the quantities of each piece's best are computed singly
+    if not in_batch(target.quantities):
+        # the search cannot see them: they are computed for the best of several pieces of a family
+        of_kind = pieces(of_kind, 120)
     one_each, near = best(of_kind, target, how_near)
     of = {one.spec: one.family for one in reversed([*one_each, *near])}
     keeps, kept, broken = _divided(
@@ -179,7 +164,7 @@ def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) 
         for spec, row in zip(shown, rows(target, shown, errors), strict=True)
         if row
     ]
-    return _KindRows(built_rows, batch_cells(names, built_rows), keeps, errors)
+    return _KindRows(with_batch_values(names, built_rows), keeps, errors)
 
 
 def _requested(target: Target) -> QuantityRequest:
@@ -221,29 +206,30 @@ def _divided(
     return keeps, kept, [spec for spec, out in zip(specs, broken, strict=True) if out]
 
 
-def _rank(target: Target, request: QuantityRequest, row: MachineRow) -> tuple[object, ...]:
+def _rank(request: QuantityRequest, row: MachineRow) -> tuple[object, ...]:
     """The sort key of a row: the goal's quantity, then peaks.
 
     Numbers that differ only by rounding are equal.
     """
     candidate = row.candidate
-    first: list[object] = []
+    first: tuple[object, ...] = ()
     if request.sort:
         value = row.extra[request.names.index(request.sort.name)]
-        first = [
-            not is_number(value),
-            float(f"{_first(request, row):.12g}") if is_number(value) else 0.0,
-            "" if is_number(value) else str(value),
-        ]
-    peaks = (candidate.peak, candidate.jerk_max)
+        # texts, and unknown values, come behind the numbers
+        first = (0, _in_12_digits(_first(request, row))) if is_number(value) else (1, str(value))
     return (
         *first,
-        *[float(f"{x:.12g}") for x in peaks],
+        _in_12_digits(candidate.peak),
+        _in_12_digits(candidate.jerk_max),
         candidate.rollers,
         candidate.z,
         candidate.gearing,
         candidate.drive,
     )
+
+
+def _in_12_digits(x: float) -> float:
+    return float(f"{x:.12g}")
 
 
 def _worthwhile(

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from geneva_cli.output.text import cell
+from geneva_cli.synthesis.rows import OWN_KEYS
 from geneva_cli.table import Reading, Table
 
 # Columns and their short names, the least important last; empty ones are left out. Rows are sorted
@@ -38,24 +39,9 @@ HEADS = {
 }
 ORDER = (
     *("no", "z", "gearing", "rollers", "machine", "ratio", "index_mm", "motion_deg", "dwell_deg"),
-    *(
-        "motion_s",
-        "dwell_s",
-        "tau",
-        "k",
-        "n_rpm",
-        "velocity_max",
-        "acceleration_max",
-        "acceleration_entry",
-    ),
-    *("jerk_max", "power_max", "acceleration_max_rad_s2", "acceleration_max_m_s2", "extra"),
-    "parts",
-)
-DESCRIBED = (  # columns that the machine's description replaces
-    *("drive", "A", "eccentricity", "phase", "axes_deg", "alpha0_deg", "law"),
-    *("offset_mm", "planet_ratio", "fixed"),
-    *("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg"),
-    *("sector_deg", "first_z", "wheels"),
+    *("motion_s", "dwell_s", "tau", "k", "n_rpm", "velocity_max", "acceleration_max"),
+    *("acceleration_entry", "jerk_max", "power_max"),
+    *("acceleration_max_rad_s2", "acceleration_max_m_s2", "extra", "parts"),
 )
 
 
@@ -116,7 +102,8 @@ def _columns(
     rows: list[dict[str, Any]], names: tuple[str, ...], several: bool
 ) -> Iterator[SynthesisColumn]:
     """All columns in their order."""
-    known = {*HEADS, *DESCRIBED}
+    # the machine's description has the keys
+    known = {*HEADS, "drive", "law", "alpha0_deg", *OWN_KEYS}
     for source in ORDER:
         if source == "machine":
             yield SynthesisColumn(source, source, [_machine(row, several) for row in rows])

@@ -10,7 +10,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.progress import tracked
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.target import Target
-from geneva_cli.synthesis.built import Built, built_together, passes
+from geneva_cli.synthesis.built import Built, built, built_together, passes
 from geneva_cli.synthesis.parts import MAYBE, YES
 from geneva_cli.synthesis.replacements import buildable_rows
 from geneva_cli.synthesis.rows import Candidate, MachineRow
@@ -110,7 +110,7 @@ def other(ranking: Ranking, row: MachineRow) -> MachineRow | None:
         if like:
             spec = own.spec.replace(size=like.spec.size)
             return with_result(own, Built(spec, "")) if passes(spec, turns) else None
-        (result,) = built_together([own.spec], sizes, turns)
+        result = built(own.spec, sizes, turns)
         return None if result.trouble else with_result(own, result)
 
     return buildable_rows(ranking.target, [row.family], turn)[0] if row.family else None

@@ -11,9 +11,8 @@ from functools import cached_property
 from typing import NamedTuple
 
 from geneva_cli.collisions.full_turn import full_turn
-from geneva_cli.collisions.gaps import WorkLimit
 from geneva_cli.collisions.glance import gap_about, play_about
-from geneva_cli.collisions.machine_parts import MachineParts
+from geneva_cli.collisions.machine_parts import MachineParts, WorkLimit
 from geneva_cli.collisions.one_motion import one_motion
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
@@ -24,12 +23,7 @@ from geneva_cli.numerics.tolerances import CLEARLY
 from geneva_cli.study.target import USUAL_RPM
 from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.checks.play import finds_slot
-from geneva_cli.verdict.checks.registry import (
-    check_named,
-    standing,
-    standing_checks,
-    turn_checks,
-)
+from geneva_cli.verdict.checks.registry import check_named, standing, standing_checks, turn_checks
 
 HAND_OVER_PLAY = "hand_over_play_deg"
 # Times the play that lets a roller find its slot. With this much play between lock and slot no

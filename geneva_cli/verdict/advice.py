@@ -274,7 +274,7 @@ class _Search:
         spec = changed(self.mechanism.spec, change.table, change.key, value)
         if spec is None:
             return False
-        from geneva_cli.collisions.gaps import WorkLimit
+        from geneva_cli.collisions.machine_parts import WorkLimit
 
         turn = self.turned or (change.table, change.key) not in APART
         try:

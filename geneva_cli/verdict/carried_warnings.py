@@ -30,15 +30,15 @@ def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> list
     ]
 
 
-def _wheel_inertia(spec: Spec, plate: MassProperties | None) -> list[Notice]:
+def _wheel_inertia(spec: Spec, plate: MassProperties | None) -> Iterator[Notice]:
     inertia = inertia_kgm2(spec)
     # a [[mass]] of this name is the wheel itself
     if plate is None or not inertia or any(mass.name == "wheel" for mass in spec.mass):
-        return []
+        return
     own = plate.inertia_kgm2
     # An inertia of the wheel below a hundredth of the load's is not mentioned.
     if own <= 0.01 * inertia:
-        return []
+        return
     across = 1e3 * math.sqrt(8.0 * own / plate.mass_kg)
     helps = (
         f'[[mass]] with name = "wheel", shape = "disc", mass_kg = {plate.mass_kg:.4g} and '
@@ -46,49 +46,41 @@ def _wheel_inertia(spec: Spec, plate: MassProperties | None) -> list[Notice]:
         if spec.support.gear_ratio == 1.0  # masses are on the table, behind its gears
         else f"{own:.4g} on inertia_kgm2 in [load]"
     )
-    return [
-        Notice(
-            "wheel-left-out",
-            f"the wheel's own inertia, as drawn, is {own:.4g} kg m², {100.0 * own / inertia:.3g} % "
-            f"of the {inertia:.4g} kg m² of the load: if the load leaves it out, add {helps}",
-        )
-    ]
+    yield Notice(
+        "wheel-left-out",
+        f"the wheel's own inertia, as drawn, is {own:.4g} kg m², {100.0 * own / inertia:.3g} % "
+        f"of the {inertia:.4g} kg m² of the load: if the load leaves it out, add {helps}",
+    )
 
 
-def _unbalanced(spec: Spec) -> list[Notice]:
+def _unbalanced(spec: Spec) -> Iterator[Notice]:
     """Warnings about masses to one side of a horizontal axis, whose gravity is not counted."""
     if spec.support.axis != "horizontal":
-        return []
-    out: list[Notice] = []
+        return
     for mass in spec.mass:
         # Two or more equal masses are assumed to be spaced evenly around the axis.
         if mass.radius_mm and mass.count < 2:
             torque = spec.support.gear_ratio * weight_kg(mass) * G * mass.radius_mm * 1e-3
-            out.append(
-                Notice(
-                    "weight-to-one-side",
-                    f"{mass.name or mass.shape} stands {mass.radius_mm:g} mm off a horizontal "
-                    f"axis. Its weight puts up to {torque:.4g} N m on the wheel in either "
-                    "direction. That is not counted: balance it with another body (count = 2), or "
-                    "add the torque to torque_Nm in [load]",
-                )
+            yield Notice(
+                "weight-to-one-side",
+                f"{mass.name or mass.shape} stands {mass.radius_mm:g} mm off a horizontal "
+                f"axis. Its weight puts up to {torque:.4g} N m on the wheel in either "
+                "direction. That is not counted: balance it with another body (count = 2), or "
+                "add the torque to torque_Nm in [load]",
             )
-    return out
 
 
-def _distant(mechanism: Mechanism) -> list[Notice]:
+def _distant(mechanism: Mechanism) -> Iterator[Notice]:
     """Warnings about a mass that is farther away than a table reaches."""
     far = max((mass.radius_mm for mass in mechanism.spec.mass), default=0.0)
     distances = far / mechanism.center_distance_mm
     if distances <= 5.0:  # centre distances: most tables are smaller
-        return []
-    return [
-        Notice(
-            "far-mass",
-            f"radius_mm = {far:g} in [[mass]] is {distances:.3g} centre distances from the wheel's "
-            "axis: check that it is in mm",
-        )
-    ]
+        return
+    yield Notice(
+        "far-mass",
+        f"radius_mm = {far:g} in [[mass]] is {distances:.3g} centre distances from the wheel's "
+        "axis: check that it is in mm",
+    )
 
 
 def _unlikely_materials(spec: Spec) -> Iterator[Notice]:
@@ -118,46 +110,36 @@ def _unlikely_materials(spec: Spec) -> Iterator[Notice]:
             )
 
 
-def _keys_without_effect(spec: Spec) -> list[Notice]:
+def _keys_without_effect(spec: Spec) -> Iterator[Notice]:
     """Warnings about keys without effect."""
-    out: list[Notice] = []
     if not spec.is_loaded and spec.motor != Motor():
-        out.append(
-            Notice(
-                "nothing-to-act-on",
-                "[motor] has no load to drive, so no motor or flywheel is computed: set "
-                f"{spec.load_keys}",
-            )
+        yield Notice(
+            "nothing-to-act-on",
+            "[motor] has no load to drive, so no motor or flywheel is computed: set "
+            f"{spec.load_keys}",
         )
     if not spec.drive.wheels_on_carrier and any(one.angle_deg for one in spec.mass):
-        out.append(
-            Notice(
-                "nothing-to-act-on",
-                "angle_deg in [[mass]] has an effect on a carrier only: remove it, or set "
-                'kind = "carousel" in [drive]',
-            )
+        yield Notice(
+            "nothing-to-act-on",
+            "angle_deg in [[mass]] has an effect on a carrier only: remove it, or set "
+            'kind = "carousel" in [drive]',
         )
     support = spec.support
     if bool(support.friction) != bool(support.radius_mm):
         present, lacking = (
             ("friction", "radius_mm") if support.friction else ("radius_mm", "friction")
         )
-        out.append(
-            Notice(
-                "nothing-to-act-on",
-                f"{present} in [support] has no effect without {lacking}: set {lacking}, or remove "
-                f"{present}",
-            )
+        yield Notice(
+            "nothing-to-act-on",
+            f"{present} in [support] has no effect without {lacking}: set {lacking}, or remove "
+            f"{present}",
         )
     elif support.friction and not (spec.mass or support.force_N):
-        out.append(
-            Notice(
-                "nothing-to-act-on",
-                "friction in [support] has no effect, because nothing presses on the support: set "
-                "force_N there, or give the weight as [[mass]]",
-            )
+        yield Notice(
+            "nothing-to-act-on",
+            "friction in [support] has no effect, because nothing presses on the support: set "
+            "force_N there, or give the weight as [[mass]]",
         )
-    return out
 
 
 def unlikely_warnings(mechanism: Mechanism) -> list[Notice]:
@@ -165,25 +147,23 @@ def unlikely_warnings(mechanism: Mechanism) -> list[Notice]:
     return [*_heavy(mechanism), *_fast(mechanism)] if mechanism.output.turns else []
 
 
-def _heavy(mechanism: Mechanism) -> list[Notice]:
+def _heavy(mechanism: Mechanism) -> Iterator[Notice]:
     L, inertia = mechanism.center_distance_mm / 1000.0, inertia_kgm2(mechanism.spec)
     # The largest table expected is solid steel, 6 L across and L/2 thick; J = pi rho h D^4 / 32. A
     # larger inertia is nearly always meant in kg cm2.
     diameter, thickness, density = 6.0 * L, 0.5 * L, 7850.0  # m, m, kg/m3
     most = math.pi * density * thickness * diameter**4 / 32.0
     if not inertia > most:
-        return []
-    return [
-        Notice(
-            "heavy-inertia",
-            f"an inertia of {inertia:.4g} kg m² is large for a centre distance of {1e3 * L:.4g} "
-            f"mm. A solid steel table {1e3 * diameter:.4g} mm across and {1e3 * thickness:.4g} "
-            f"mm thick has {most:.3g} kg m². If it is in kg cm², write {1e-4 * inertia:.4g}",
-        )
-    ]
+        return
+    yield Notice(
+        "heavy-inertia",
+        f"an inertia of {inertia:.4g} kg m² is large for a centre distance of {1e3 * L:.4g} "
+        f"mm. A solid steel table {1e3 * diameter:.4g} mm across and {1e3 * thickness:.4g} "
+        f"mm thick has {most:.3g} kg m². If it is in kg cm², write {1e-4 * inertia:.4g}",
+    )
 
 
-def _fast(mechanism: Mechanism) -> list[Notice]:
+def _fast(mechanism: Mechanism) -> Iterator[Notice]:
     engagement = mechanism.engagements[0]
     x, y = engagement.path(engagement.entry_deg, 0)
     rim = math.hypot(x.c[0], y.c[0]) * mechanism.center_distance_mm / 1000.0
@@ -191,11 +171,9 @@ def _fast(mechanism: Mechanism) -> list[Notice]:
     speed = rim * worst_of(mechanism, "velocity").max * omega(n)
     sound_m_s = 343.0
     if not speed > sound_m_s:
-        return []
-    return [
-        Notice(
-            "faster-than-sound",
-            f"the wheel's rim moves at up to {speed:.4g} m/s, faster than sound ({sound_m_s:g} "
-            f"m/s): check n_rpm = {n:g}, the input's turns a minute",
-        )
-    ]
+        return
+    yield Notice(
+        "faster-than-sound",
+        f"the wheel's rim moves at up to {speed:.4g} m/s, faster than sound ({sound_m_s:g} "
+        f"m/s): check n_rpm = {n:g}, the input's turns a minute",
+    )

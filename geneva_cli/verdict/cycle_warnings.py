@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from geneva_cli.analysis.arrival import arrival
 from geneva_cli.analysis.change_of_sides import braking
@@ -38,14 +38,14 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
     return out
 
 
-def _back_driven(cycle: Cycle, summaries: Mapping[str, QuantitySummary]) -> list[Notice]:
+def _back_driven(cycle: Cycle, summaries: Mapping[str, QuantitySummary]) -> Iterator[Notice]:
     torque, noun = summaries["input_torque_Nm"], cycle.mechanism.output.noun
     least, most = torque.min, torque.max
     if least is None or not least < -ROUNDED * abs(most or least):
-        return []
+        return
     driven = back_driven_deg(cycle)
     if not driven:
-        return []
+        return
     each = [f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in driven]
     more = len(each) - 6  # a line or two; a carousel may have many
     where = ", ".join(each if more <= 0 else each[:6])
@@ -56,14 +56,12 @@ def _back_driven(cycle: Cycle, summaries: Mapping[str, QuantitySummary]) -> list
         helps = "but no drag on the wheel, which would take it off the roller that stops it"
     if cycle.case.frame:
         helps = "as no drag on the wheel stops it from pushing the carrier"
-    return [
-        Notice(
-            "drives-the-motor",
-            f"the {noun} drives the motor from {where} deg{rest}, with up to {-least:.4g} N m on "
-            "the input. There the play of slot and reducer changes sides, and a self-locking worm "
-            f"jams: use a brake or a motor that brakes, {helps}",
-        )
-    ]
+    yield Notice(
+        "drives-the-motor",
+        f"the {noun} drives the motor from {where} deg{rest}, with up to {-least:.4g} N m on "
+        "the input. There the play of slot and reducer changes sides, and a self-locking worm "
+        f"jams: use a brake or a motor that brakes, {helps}",
+    )
 
 
 def resistance(cycle: Cycle) -> str:
@@ -75,21 +73,19 @@ def resistance(cycle: Cycle) -> str:
     return f"a resisting force of {braked_Nm / case.L:.4g} N"
 
 
-def _lags(mechanism: Mechanism) -> list[Notice]:
+def _lags(mechanism: Mechanism) -> Iterator[Notice]:
     """A warning if the wheel leaves the roller that stops it, and meets it again."""
     stop = arrival(mechanism)
     if stop is None or stop.lag is None:
-        return []
+        return
     lag, at_deg, struck = stop.lag
-    return [
-        Notice(
-            "lags-behind",
-            f"a torque of {stop.torque_Nm:.4g} N m takes the wheel off the roller that stops it. "
-            f"Once the gears let go the wheel lags, by up to {lag:.4g} deg at {at_deg:.4g} deg, "
-            f"and the roller strikes it at {struck:.4g} deg. Less torque, more inertia or more "
-            "speed reduces the lag",
-        )
-    ]
+    yield Notice(
+        "lags-behind",
+        f"a torque of {stop.torque_Nm:.4g} N m takes the wheel off the roller that stops it. "
+        f"Once the gears let go the wheel lags, by up to {lag:.4g} deg at {at_deg:.4g} deg, "
+        f"and the roller strikes it at {struck:.4g} deg. Less torque, more inertia or more "
+        "speed reduces the lag",
+    )
 
 
 def load_warnings(mechanism: Mechanism) -> list[Notice]:
@@ -111,7 +107,7 @@ def _keeps_limits(cycle: Cycle) -> bool:
     return all(max(one.max, -one.min) <= limit for one, limit in extremes)
 
 
-def _jammed(cycle: Cycle) -> list[Notice]:
+def _jammed(cycle: Cycle) -> Iterator[Notice]:
     force, case = cycle.extremes[FORCE], cycle.case
     endless = [
         at
@@ -119,7 +115,7 @@ def _jammed(cycle: Cycle) -> list[Notice]:
         if math.isinf(value)
     ]
     if not case.all_friction or not endless:
-        return []
+        return
     when = f"at {min(endless):.4g} deg, however hard the roller presses"
     text = (
         f"friction of {case.friction:g} holds the wheel {when}: it takes as much torque as the "
@@ -130,23 +126,21 @@ def _jammed(cycle: Cycle) -> list[Notice]:
             f"friction of {case.guide_friction:g} in the guide holds the rack {when}: it takes as "
             "much force as the roller gives. Use a smaller roller or less guide_friction"
         )
-    return [Notice("friction-holds-the-wheel", text)]
+    yield Notice("friction-holds-the-wheel", text)
 
 
-def _on_an_edge(cycle: Cycle) -> list[Notice]:
+def _on_an_edge(cycle: Cycle) -> Iterator[Notice]:
     stress, force = cycle.extremes.get(STRESS), cycle.extremes[FORCE]
     if stress is None:
-        return []
+        return
     if math.isfinite(stress.max) or math.isinf(force.max) or math.isinf(force.min):
-        return []
-    return [
-        Notice(
-            "sharp-wall",
-            f"contact stress without bound at {stress.max_at_deg:.4g} deg: the roller bears on an "
-            "edge there, where the undercut of the wall begins. A smaller roller bears on less of "
-            'it; straight slots have none (kind = "cam" drives any law)',
-        )
-    ]
+        return
+    yield Notice(
+        "sharp-wall",
+        f"contact stress without bound at {stress.max_at_deg:.4g} deg: the roller bears on an "
+        "edge there, where the undercut of the wall begins. A smaller roller bears on less of "
+        'it; straight slots have none (kind = "cam" drives any law)',
+    )
 
 
 def _no_speed(mechanism: Mechanism) -> Notice:

@@ -21,64 +21,60 @@ SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's toleran
 
 def motion_warnings(mechanism: Mechanism) -> list[Notice]:
     """The warnings about a machine that need neither its loads nor its parts."""
-    out: list[Notice] = []
+    return [
+        *_of_wheel(mechanism),
+        *_loose_fits(mechanism),
+        *_rounded_points(mechanism),
+        *_overtaken(mechanism),
+        *_starts_at_speed(mechanism),
+        *(_of_law(mechanism, mechanism.law) if mechanism.law else ()),
+    ]
+
+
+def _of_wheel(mechanism: Mechanism) -> Iterator[Notice]:
+    """Warnings about many slots, and about a wheel that nothing holds."""
     z = mechanism.spec.wheel.z
     if z > Z_USUAL and mechanism.output.turns:  # a rack only becomes longer
-        out.append(
-            Notice(
-                "many-slots",
-                f"z = {z}: more than {Z_USUAL} slots leave little of the wheel between them",
-            )
+        yield Notice(
+            "many-slots",
+            f"z = {z}: more than {Z_USUAL} slots leave little of the wheel between them",
         )
     if mechanism.spec.dwell_holder is None:
-        out.append(
-            Notice(
-                "nothing-holds",
-                "nothing holds the wheel in the dwell, because there is no locking disc: set "
-                'held_by = "brake", "detent" or "pin" in [wheel]',
-            )
+        yield Notice(
+            "nothing-holds",
+            "nothing holds the wheel in the dwell, because there is no locking disc: set "
+            'held_by = "brake", "detent" or "pin" in [wheel]',
         )
-    engagement = mechanism.engagements[0]
-    out.extend(_loose_fits(mechanism))
-    out.extend(_rounded_points(mechanism))
-    out.extend(_overtaken(mechanism))
-    out.extend(_starts_at_speed(mechanism))
-    law = mechanism.law
-    if law is None:
-        return out
+
+
+def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
+    """Warnings about a wheel that follows a law, and about its slots."""
     back = turns_back(mechanism)
     if back:
-        out.append(
-            Notice(
-                "turns-back",
-                f"the wheel turns back: velocity {back[0]:.4g} at {back[1]:.4g} deg; "
-                f"{law.TURNS_BACK}",
-            )
+        yield Notice(
+            "turns-back",
+            f"the wheel turns back: velocity {back[0]:.4g} at {back[1]:.4g} deg; {law.TURNS_BACK}",
         )
     from geneva_cli.kinematics.pitch_curve import retraces
 
+    engagement = mechanism.engagements[0]
     if engagement.slot.curved and not retraces(engagement):
-        out.append(_off_the_mid_condition(mechanism))
+        yield _off_the_mid_condition(mechanism)
     if max(abs(half(0.0, 2).scalars()[2]) for half in (law.first, law.second)) > 1e-9:
-        out.append(
-            Notice(
-                "soft-shock-at-ends",
-                f'the law "{law.NAME}" starts and stops with a jump in acceleration: a soft shock '
-                "at both ends",
-            )
+        yield Notice(
+            "soft-shock-at-ends",
+            f'the law "{law.NAME}" starts and stops with a jump in acceleration: a soft shock at '
+            "both ends",
         )
     if abs(law.first(0.5, 2).scalars()[2] + law.second(0.5, 2).scalars()[2]) > 1e-9:
-        out.append(
-            Notice(
-                "soft-shock-at-mid",
-                f'the law "{law.NAME}" jumps from acceleration to deceleration: a soft shock at '
-                "mid-motion",
-            )
+        yield Notice(
+            "soft-shock-at-mid",
+            f'the law "{law.NAME}" jumps from acceleration to deceleration: a soft shock at '
+            "mid-motion",
         )
     if engagement.slot.curved:
-        out.extend(_not_driven(mechanism))
-    out.extend(_undercut(mechanism))
-    return out
+        yield from _not_driven(mechanism)
+    yield from _undercut(mechanism)
 
 
 def _loose_fits(mechanism: Mechanism) -> Iterator[Notice]:
@@ -109,26 +105,23 @@ def _loose_fits(mechanism: Mechanism) -> Iterator[Notice]:
             )
 
 
-def _overtaken(mechanism: Mechanism) -> list[Notice]:
+def _overtaken(mechanism: Mechanism) -> Iterator[Notice]:
     """A warning for a roller that presses into the wall that it drove, as gears slow the wheel."""
     lead = mechanism.engagements[0].overtaking / DEGREE
-    if not lead > 1e-6:  # degrees: less is rounding
-        return []
-    return [
-        Notice(
+    if lead > 1e-6:  # degrees: less is rounding
+        yield Notice(
             "roller-overtakes",
             f"the roller overtakes the wheel by {lead:.4g} deg while the gears drive. Near the "
             "line of centres its slot would turn the wheel faster than the gears do. It presses "
             'into the wall that it drove: gear_ratio = "shockless" keeps it behind',
         )
-    ]
 
 
-def _starts_at_speed(mechanism: Mechanism) -> list[Notice]:
+def _starts_at_speed(mechanism: Mechanism) -> Iterator[Notice]:
     """A warning for a wheel whose speed jumps, with the impact at entry."""
     spec = mechanism.spec
     if not spec.wheel.JUMPS:
-        return []
+        return
     from geneva_cli.analysis.impacts import start_impacts
 
     impact = start_impacts(mechanism).only
@@ -142,16 +135,14 @@ def _starts_at_speed(mechanism: Mechanism) -> list[Notice]:
         hit += f"an impact of {impact.moment_Nms:.4g} N m s and {0.5 * impact.moment_Nms * w:.4g} J"
         force = impact.force_N
         hit += "; set face_width_mm for its force" if force is None else f", up to {force:.4g} N"
-    return [
-        Notice(
-            "speed-jumps",
-            f"at entry and exit the {spec.output.noun}'s speed jumps by {w:.4g} rad/s, "
-            f"{impact.jump:.4g} of the input's. Acceleration and forces have no bound there: {hit}",
-        )
-    ]
+    yield Notice(
+        "speed-jumps",
+        f"at entry and exit the {spec.output.noun}'s speed jumps by {w:.4g} rad/s, "
+        f"{impact.jump:.4g} of the input's. Acceleration and forces have no bound there: {hit}",
+    )
 
 
-def _rounded_points(mechanism: Mechanism) -> list[Notice]:
+def _rounded_points(mechanism: Mechanism) -> Iterator[Notice]:
     """A warning about the uncertainty of the jerk from the rounding of a file's points."""
     engagement, law = mechanism.engagements[0], mechanism.law
     # the place where the jerk of a ratio has the greatest effect
@@ -166,17 +157,14 @@ def _rounded_points(mechanism: Mechanism) -> list[Notice]:
         whole = (engagement.motion_deg * DEGREE) ** 3
         decimals, move = points.decimals, points.move * 2.0 * engagement.half_step / whole
     else:
-        return []
+        return
     fraction = move / peak(engagement.motion, "jerk").max
-    if fraction < 0.01:  # not worth a warning
-        return []
-    return [
-        Notice(
+    if not fraction < 0.01:  # less is not worth a warning
+        yield Notice(
             "rounded-points",
             f"the points have {decimals} decimals, so the jerk is known only to about "
             f"{float(f'{100.0 * fraction:.2g}'):g} %: use more decimals, or fewer points",
         )
-    ]
 
 
 def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:
@@ -223,31 +211,29 @@ def _off_the_mid_condition(mechanism: Mechanism) -> Notice:
     )
 
 
-def _not_driven(mechanism: Mechanism) -> list[Notice]:
-    from geneva_cli.analysis.positive_drive import positive_drive
+def _not_driven(mechanism: Mechanism) -> Iterator[Notice]:
+    from geneva_cli.analysis.positive_drive import positive_drives
 
-    drive = positive_drive(mechanism)
+    drive = positive_drives(mechanism)
     if drive is None or not drive.loose_deg:
-        return []
+        return
     where = ", ".join(f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in drive.loose_deg)
-    percent = 100.0 * drive.fraction
-    return [
-        Notice(
-            "not-positively-driven",
-            f"not positively driven from {where} deg ({percent:.3g} % of the motion). "
-            f"The slot's other branch, up to {drive.loose_gap_mm:.3g} mm off, cuts away the wall "
-            "that the torque needs there. Less torque_Nm against the inertia shortens the "
-            'interval; kind = "cam" drives any law through straight slots',
-        )
-    ]
+    percent, gap_mm = 100.0 * drive.fraction.item(), drive.loose_gap_mm.item()
+    yield Notice(
+        "not-positively-driven",
+        f"not positively driven from {where} deg ({percent:.3g} % of the motion). The slot's other "
+        f"branch, up to {gap_mm:.3g} mm off, cuts away the wall that the torque needs "
+        "there. Less torque_Nm against the inertia shortens the interval; "
+        'kind = "cam" drives any law through straight slots',
+    )
 
 
-def _undercut(mechanism: Mechanism) -> list[Notice]:
+def _undercut(mechanism: Mechanism) -> Iterator[Notice]:
     from geneva_cli.analysis.undercut import undercut
 
     place = undercut(mechanism)
     if place is None or place.depth_mm < SHOWN_UNDERCUT:
-        return []
+        return
     r = mechanism.roller_radius_mm + mechanism.spec.size.allowances.slot_clearance_mm
     free = place.radius_mm - mechanism.spec.size.allowances.slot_clearance_mm
     helps = (
@@ -255,11 +241,9 @@ def _undercut(mechanism: Mechanism) -> list[Notice]:
         if place.to_cusp or free <= 0.0
         else f"a roller radius below {free:.4g} mm avoids it"
     )
-    return [
-        Notice(
-            "undercut",
-            f"undercut of the {place.wall} flank from {place.from_deg:.4g} to {place.to_deg:.4g} "
-            f"deg, by up to {place.depth_mm:.3g} mm. The roller's radius, {r:.4g} mm, exceeds the "
-            f"radius of curvature, {place.radius_mm:.4g} mm at {place.at_deg:.4g} deg: {helps}",
-        )
-    ]
+    yield Notice(
+        "undercut",
+        f"undercut of the {place.wall} flank from {place.from_deg:.4g} to {place.to_deg:.4g} deg, "
+        f"by up to {place.depth_mm:.3g} mm. The roller's radius, {r:.4g} mm, exceeds the radius "
+        f"of curvature, {place.radius_mm:.4g} mm at {place.at_deg:.4g} deg: {helps}",
+    )

@@ -122,16 +122,9 @@ _WIDER_FACE = scaled("size", "face_width_mm", 10.0)
 _BLUNTER = (scaled("size", "lock_edge_mm", 10.0), _WIDER_FACE, _LARGER)
 _OTHER_LOCK = sized("size", "lock_radius_mm")
 _SMALLER = scaled("size", "roller_radius_mm", 0.2)
-_CRANK = (
-    scaled("size", "crank_bore_mm", 0.2),
-    replaced("size", "crank_bore_mm", 0.0),
-)
+_CRANK = (scaled("size", "crank_bore_mm", 0.2), replaced("size", "crank_bore_mm", 0.0))
 _WIDER = (scaled("size", "roller_radius_mm", 3.0), *_MOTION)
-_CONVEX = (
-    towards("drive", "eccentricity", 0.0),
-    towards("drive", "A", 0.0),
-    _SLOTS,
-)
+_CONVEX = (towards("drive", "eccentricity", 0.0), towards("drive", "A", 0.0), _SLOTS)
 REMEDIES: dict[str, tuple[Change, ...]] = {
     "velocity_max": _MILDER,
     "acceleration_max": _MILDER,
@@ -139,12 +132,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
     "jerk_max": _MILDER,
     "pin_force_max_N": (_SLOWER, _LARGER, *_MILDER),
     "input_torque_max_Nm": (_SLOWER, *_MILDER),
-    "contact_stress_max_MPa": (
-        _SLOWER,
-        _WIDER_FACE,
-        _LARGER,
-        *_MILDER,
-    ),
+    "contact_stress_max_MPa": (_SLOWER, _WIDER_FACE, _LARGER, *_MILDER),
     "product_acceleration_max_m_s2": (_SLOWER, *_MILDER),
     "product_slip": (_SLOWER, *_MILDER),
     "stopping_torque_Nm": (scaled("drive", "n_rpm", 30.0),),
@@ -155,14 +143,8 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
     ),
     "reversal_shock_N": (scaled("size", "slot_clearance_mm", 0.0), _SLOWER),
     "pv_max_W_m2": (_SLOWER, _WIDER_FACE, _LARGER),
-    "roller_life_min_h": (
-        scaled("material.roller", "dynamic_capacity_N", 10.0),
-        *_LESS_LOAD,
-    ),
-    "slot_wear_max_mm_per_million": (
-        _WIDER_FACE,
-        *_LESS_LOAD,
-    ),
+    "roller_life_min_h": (scaled("material.roller", "dynamic_capacity_N", 10.0), *_LESS_LOAD),
+    "slot_wear_max_mm_per_million": (_WIDER_FACE, *_LESS_LOAD),
     "pin_stress_MPa": (
         scaled("size", "pin_mm", 1.9),
         scaled("size", "roller_radius_mm", 3.0),
@@ -170,22 +152,10 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         scaled("size", "face_width_mm", 0.1),
         *_LESS_LOAD,
     ),
-    "horn_stress_MPa": (
-        _WIDER_FACE,
-        scaled("size", "lock_radius_mm", 0.5),
-        *_LESS_LOAD,
-    ),
-    "lock_horn_stress_MPa": (
-        _WIDER_FACE,
-        scaled("size", "lock_radius_mm", 0.5),
-        _LARGER,
-    ),
+    "horn_stress_MPa": (_WIDER_FACE, scaled("size", "lock_radius_mm", 0.5), *_LESS_LOAD),
+    "lock_horn_stress_MPa": (_WIDER_FACE, scaled("size", "lock_radius_mm", 0.5), _LARGER),
     "lock_stress_max_MPa": _BLUNTER,
-    "lock_deflection_max_deg": (
-        scaled("size", "lock_clearance_mm", 0.1),
-        _WIDER_FACE,
-        _LARGER,
-    ),
+    "lock_deflection_max_deg": (scaled("size", "lock_clearance_mm", 0.1), _WIDER_FACE, _LARGER),
     "wheel_shaft_stress_MPa": (
         scaled("shaft", "wheel_diameter_mm", 5.0),
         scaled("shaft", "wheel_overhang_mm", 0.1),

@@ -158,7 +158,7 @@ class Strength:
         """The needs of the lock's contact stress, which is unbounded on a sharp edge."""
         yield from self._lock()
         lock_load = self.load.lock
-        if lock_load is not None and lock_load.approach_deg is not None:
+        if lock_load is not None:
             rounds = (
                 "lock_edge_mm in [size]"
                 if lock_load.on == "corner"
@@ -181,15 +181,6 @@ class Strength:
         placed = (ends.overhang_mm is not None or drawn, f"{which}_overhang_mm in [shaft]")
         thick = (ends.diameter_mm is not None or has_shaft, f"{which}_diameter_mm in [shaft]")
         yield [(bool(met), keys) for met, keys in (placed, thick)] + [self._has_load]
-
-    def _arm(self) -> Keys:
-        yield from self._part("arm")
-
-    def _wheel_key(self) -> Keys:
-        yield from self._part("wheel_key")
-
-    def _crank_key(self) -> Keys:
-        yield from self._part("crank_key")
 
     def _part(self, name: str) -> Keys:
         """The needs of an arm or a key, which a machine may lack."""
@@ -232,9 +223,9 @@ REASONS: dict[str, Callable[[Strength], Keys]] = {
     "lock_horn_stress_MPa": Strength._lock,
     "wheel_shaft_stress_MPa": Strength._wheel_shaft,
     "crank_shaft_stress_MPa": Strength._crank_shaft,
-    "arm_stress_MPa": Strength._arm,
-    "wheel_key_pressure_MPa": Strength._wheel_key,
-    "crank_key_pressure_MPa": Strength._crank_key,
+    "arm_stress_MPa": lambda of: of._part("arm"),
+    "wheel_key_pressure_MPa": lambda of: of._part("wheel_key"),
+    "crank_key_pressure_MPa": lambda of: of._part("crank_key"),
     "roller_life_min_h": Strength._rated,
     "roller_life_turns": Strength._rated,
     "roller_life_motions": Strength._rated,

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 import repo
+from load_states import state
 from sampling import some
 from witness import mp
 
@@ -17,7 +18,7 @@ from geneva_cli import Crank, External, load
 from geneva_cli.analysis.motion import derivatives
 from geneva_cli.analysis.peaks import QUANTITIES, worst
 from geneva_cli.layout.groove import greatest_pressure
-from geneva_cli.loads import loads, summary
+from geneva_cli.loads import summary
 from geneva_cli.loads.cycle import Cycle, cycle_of
 from geneva_cli.loads.summaries import load_peaks, load_summaries
 from geneva_cli.machine.many import many
@@ -129,7 +130,7 @@ def test_a_stress_of_one_wall_is_not_that_of_the_other_half() -> None:
     size = spec.size.replace(face_width_mm=10.0)
     spec = spec.replace(load=Load(torque_Nm=5.0), size=size)
     (engagement,) = build(spec).engagements
-    sharp = [loads.state(build(spec), engagement, x).contact_stress_MPa for x in (-0.02, 0.02)]
+    sharp = [state(build(spec), engagement, x).contact_stress_MPa for x in (-0.02, 0.02)]
     assert np.isinf(sharp).tolist() == [False, True]
     most = load_peaks(build(spec), ["contact_stress_MPa"])["contact_stress_MPa"]
     assert 0.0 < most.at_deg[0] < 0.02

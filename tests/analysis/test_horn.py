@@ -6,13 +6,13 @@ import mpmath
 import numpy as np
 import pytest
 import repo
+from load_states import state
 from plane_stress import along
 from plane_stress import horn as in_plane_stress
 from words import Motion, Spec, Wheel
 
 from geneva_cli import load as read
 from geneva_cli.layout.sizes import sized
-from geneva_cli.loads.loads import state
 from geneva_cli.loads.strength.horn import horn_stresses, horns, product, stoutness
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Load, Size

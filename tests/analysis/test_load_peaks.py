@@ -5,6 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from load_states import state
 from sampling import some
 from witness import mp
 from words import Drive, Keys, Motion, Spec, Wheel
@@ -98,7 +99,7 @@ def test_against_a_dense_grid(spec):
     near = np.geomspace(1e-6, 1.0, 300)
     grids = [np.linspace(a, b, 3001)[1:-1] for a, b in pairwise(breaks)]
     x = np.concatenate([*grids, near, -near, breaks[:1], breaks[-1:]])
-    every = loads.state(mechanism, engagement, x)
+    every = state(mechanism, engagement, x)
     for quantity, values in every._asdict().items():
         if quantity == "pressure_deg":
             found = loads.greatest_pressure(mechanism).max
@@ -149,9 +150,7 @@ def test_a_bearing_wall_as_sharp_as_the_roller_ends_in_an_edge():
     mechanism = build(Spec(Wheel(6), motion=Motion("cycloidal", ratio="matched"), size=size))
     mechanism = mechanism._replace(spec=mechanism.spec.replace(load=load))
     engagement = mechanism.engagements[0]
-    assert loads.state(mechanism, engagement, -1.0).contact_stress_MPa == pytest.approx(
-        2179.5, abs=0.1
-    )
+    assert state(mechanism, engagement, -1.0).contact_stress_MPa == pytest.approx(2179.5, abs=0.1)
     found = loads.greatest(mechanism, "contact_stress_MPa")
     assert math.isinf(found.max)
     # The radius of curvature is the roller's there, by differences of the pitch curve in 50 digits.
@@ -247,8 +246,8 @@ def test_friction_that_holds_the_wheel():
     engagement = mechanism.engagements[0]
     # it is told where that begins: all the way to it the force has a bound
     places = np.linspace(engagement.entry_deg, found.at_deg - 1e-6, 50)
-    assert np.isfinite(loads.state(mechanism, engagement, places).pin_force_N).all()
-    assert loads.state(mechanism, engagement, found.at_deg + 1e-6).pin_force_N == math.inf
+    assert np.isfinite(state(mechanism, engagement, places).pin_force_N).all()
+    assert state(mechanism, engagement, found.at_deg + 1e-6).pin_force_N == math.inf
     assert any("friction of 3 holds the wheel" in text for text in load_warnings(mechanism))
 
 
@@ -295,9 +294,7 @@ def test_beside_a_cusp_the_stress_goes_to_nought():
     """
     design = load("designs/press-345.toml")
     [engagement] = design.mechanism.engagements
-    more, less = (
-        loads.state(design.mechanism, engagement, at).contact_stress_MPa for at in (1e-3, 1e-4)
-    )
+    more, less = (state(design.mechanism, engagement, at).contact_stress_MPa for at in (1e-3, 1e-4))
     assert less / more == pytest.approx(math.sqrt(0.1), rel=1e-3)
     found = design.loads["contact_stress_MPa"]
     assert (found.min, found.min_at_deg) == (0.0, 0.0)

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 import repo
 from design_arrays import MACHINES, alone, drawn
+from load_states import state
 from loaded_arrays import CARRIED, LOAD, MISSED, NAMES, beyond, dense_means, loaded, missed
 
 from geneva_cli import design
@@ -279,7 +280,7 @@ def test_a_torque_alone_has_no_sign_that_counts():
     sizes = load_peaks(found.machine, names)
     for i, row in enumerate(found.which.tolist()):
         one = build(spec.replace(drive=spec.drive.replace(A=(-0.2, 0.0, 0.6)[row])))
-        middle = loads.state(one, one.engagements[0], 0.0)
+        middle = state(one, one.engagements[0], 0.0)
         for name in names:
             assert sizes[name].max[i] == pytest.approx(getattr(middle, name), rel=32 * ULP)
 

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from load_states import state
 from words import Drive, Motion, Spec, Wheel
 
 from geneva_cli.kinematics import registry
@@ -57,9 +58,9 @@ def test_near_mid_motion_it_grows_as_published() -> None:
     """23.9 kN one degree before mid-motion, 2.1 MN a hundredth before it."""
     mechanism = build(PRESS.replace(motion=Motion("sine-group", ratio=0.5)))
     engagement = mechanism.engagements[0]
-    assert loads.state(mechanism, engagement, -1.0).pin_force_N == pytest.approx(23.9e3, rel=0.01)
+    assert state(mechanism, engagement, -1.0).pin_force_N == pytest.approx(23.9e3, rel=0.01)
     # printed to two digits, cut off
-    assert loads.state(mechanism, engagement, -0.01).pin_force_N == pytest.approx(2.15e6, rel=0.01)
+    assert state(mechanism, engagement, -0.01).pin_force_N == pytest.approx(2.15e6, rel=0.01)
 
 
 @pytest.mark.parametrize(
@@ -86,7 +87,7 @@ def test_power_closes_over_a_cycle() -> None:
     mechanism = build(PRESS)
     engagement = mechanism.engagements[0]
     x, weights = np.polynomial.legendre.leggauss(60)
-    torque = [loads.state(mechanism, engagement, float(60.0 * t)).input_torque_Nm for t in x]
+    torque = state(mechanism, engagement, 60.0 * x).input_torque_Nm
     work = float(np.dot(torque, weights)) * math.radians(60.0)
     assert work == pytest.approx(497.0 * math.pi / 3.0, rel=1e-13)  # quadrature of smooth curves
 
@@ -102,8 +103,8 @@ def test_the_greatest_of_two_that_are_nearly_one() -> None:
     found = loads.greatest(m, "pin_force_N")
     _, one, other = m.engagements  # the other's motion is the one's, backwards
     near = found.at_deg - one.mid_deg + np.linspace(-1e-3, 1e-3, 2001)  # of a flat top
-    both = loads.state(m, one, near), loads.state(m, other, -near)
-    first, second = (float(np.max(state.pin_force_N)) for state in both)
+    both = state(m, one, near), state(m, other, -near)
+    first, second = (float(np.max(one_way.pin_force_N)) for one_way in both)
     assert first * (1.0 + 2e-14) < second < first * (1.0 + 1e-13)
     assert found.max == pytest.approx(second, rel=2e-14)
     assert found.at_deg == pytest.approx(131.7088107, abs=1e-6)

@@ -12,7 +12,7 @@ from words import Spec, Wheel
 from geneva_cli import load
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.loads.strength.lock import bending, lock
+from geneva_cli.loads.strength.lock import LockUnderTorque, bending, loaded_locks
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Load, Size
 from geneva_cli.verdict.strength import strength
@@ -24,7 +24,11 @@ SPEC = Spec(Wheel(8), size=SIZES, load=Load(torque_Nm=20.0))
 def answer(spec):
     mechanism = build(spec)
     s = PartsModel(mechanism).outlines.sizes
-    return lock(mechanism, s.half_width, by(s, mechanism.spec), s.wheel_thickness), s, mechanism
+    found = loaded_locks(mechanism, s.half_width, by(s, mechanism.spec), s.wheel_thickness)
+    if found is None:
+        return None, s, mechanism
+    on, *rows = found
+    return LockUnderTorque(on, *(np.asarray(row).item() for row in rows)), s, mechanism
 
 
 def by(s, spec):
@@ -120,17 +124,17 @@ def test_the_approach_is_the_integral_of_the_strains():
     assert math.radians(found.approach_deg) * lever == pytest.approx(-float(sides), rel=1e-3)
 
 
-def test_what_is_not_known_is_none():
+def test_what_is_not_known_is_nan():
     sharp, _, _ = answer(SPEC.with_("size.lock_edge_mm", None))
-    assert sharp.contact_stress_MPa is None
-    assert sharp.approach_deg is None
-    assert sharp.deflection_deg is None
+    assert math.isnan(sharp.contact_stress_MPa)
+    assert math.isnan(sharp.approach_deg)
+    assert math.isnan(sharp.deflection_deg)
     assert sharp.bending_deg > 0.0
     assert answer(SPEC.with_("load.torque_Nm", 0.0))[0] is None
     held, _, _ = answer(SPEC.with_("load.dwell_torque_Nm", 40.0))
     assert held.force_N == pytest.approx(2.0 * answer(SPEC)[0].force_N, rel=1e-15)
     fits, _, _ = answer(SPEC.with_("size.lock_clearance_mm", 0.0))
-    assert fits.contact_stress_MPa is None  # the arcs lie on each other
+    assert math.isnan(fits.contact_stress_MPa)  # the arcs lie on each other
     assert fits.play_deg == 0.0
     assert 0.0 < fits.approach_deg < answer(SPEC)[0].approach_deg
 

@@ -1,5 +1,7 @@
 """Shocks against closed forms and searches of 50 digits that know nothing of jets or anchors."""
 
+import itertools
+
 import mpmath as mp
 import numpy as np
 import pytest
@@ -14,8 +16,10 @@ from geneva_cli import (
     SideCrank,
     Size,
     Spherical,
+    Tolerance,
 )
 from geneva_cli.analysis import change_of_sides
+from geneva_cli.analysis.impacts import entry_impacts
 from geneva_cli.analysis.shock_force import impulse_Nms
 from geneva_cli.kinematics.laws.standard import Cycloidal
 from geneva_cli.kinematics.motion import Motion
@@ -93,11 +97,9 @@ def test_of_a_side_crank(e):
     assert found.jump < 0.0  # struck backwards: the first of the axis' two crossings
 
 
-@pytest.mark.parametrize("offset", [10.0, -10.0])
-@pytest.mark.parametrize("crank, center", [(1e-3, 0.0), (0.0, -1e-3), (3e-4, 1e-4)])
-def test_of_slots_beside_the_centre(offset, crank, center):
-    """The circle with errors, and the axis at rest: the line at -e beside the wheel's centre."""
-    z, e = 6, mp.mpf(offset) / 100
+def beside_the_centre(z, offset, crank, center):
+    """Angle and jump by the circle with errors, and the axis at rest: the line at -e beside."""
+    e = mp.mpf(offset) / 100
     b = mp.pi / z
     d = mp.asin(e / mp.cos(b))
     R, L = mp.sin(b) * mp.cos(d) * (1 + mp.mpf(crank)), 1 + mp.mpf(center)
@@ -108,10 +110,32 @@ def test_of_slots_beside_the_centre(offset, crank, center):
     pin = along * mp.expj(-ahead) + -e * 1j * mp.expj(-ahead)
     a = mp.arg(-(pin - L))  # from the line of centres, clockwise
     velocity = 1j * (pin - L) * -1
-    jump = mp.im(velocity * mp.expj(ahead)) / along
+    return -deg(a), mp.im(velocity * mp.expj(ahead)) / along
+
+
+@pytest.mark.parametrize("offset", [10.0, -10.0])
+@pytest.mark.parametrize("crank, center", [(1e-3, 0.0), (0.0, -1e-3), (3e-4, 1e-4)])
+def test_of_slots_beside_the_centre(offset, crank, center):
+    at_deg, jump = beside_the_centre(6, offset, crank, center)
     found = contact_of(of(External(6, offset_mm=offset)), crank, center)
-    near(found.at_deg, -deg(a))
+    near(found.at_deg, at_deg)
     near(found.jump, jump, 1e-11)
+
+
+@pytest.mark.parametrize("z, offset", [(12, 20.0), (12, 40.0), (24, 60.0)])
+def test_the_hardest_of_slots_far_beside_the_centre(z, offset):
+    """Of four combinations of the errors, for a crank's axis on either side of the wheel's centre.
+
+    Beyond an offset of R (25 and 10 mm here) a longer centre distance is as bad as a longer crank.
+    """
+    clear = Size(slot_clearance_mm=5.0)  # the roller meets no corner of the mouth
+    tolerance = Tolerance(center_distance_mm=0.05, crank_radius_mm=0.05)
+    m = Design(External(z, offset_mm=offset), size=clear, tolerance=tolerance).mechanism
+    jumps = []
+    for one, other in itertools.product((1.0, -1.0), repeat=2):
+        _, jump = beside_the_centre(z, offset, one * 0.05 / (100.0 * m.ratio), other * 5e-4)
+        jumps.append(0 if mp.im(jump) else abs(jump))  # complex where the circle misses the axis
+    near(abs(entry_impacts(m).only.jump), max(jumps), 1e-11)
 
 
 @pytest.mark.parametrize("axes", [40.0, 90.0, 120.0])
@@ -234,6 +258,39 @@ def test_force_of_a_stiff_contact_is_that_of_the_pin():
     design = Design(External(6), size=soft_pin, load=load, material_wheel=WheelMaterial(**hard))
     k = 3 * 210e3 * mp.pi * mp.mpf("0.02") ** 4 / 64 / mp.mpf(9) ** 3 * 1000
     near(force_of(design.mechanism, 0.02), 0.02 * 2 * mp.pi * mp.sqrt(k * mp.mpf("1.2")), 1e-3)
+
+
+# bending moments over the force, from the plate, a away from the roller's middle: by statics, and
+# for a fixed pin with level ends
+MOMENTS = {
+    "cantilever": lambda x, a: a - x,
+    "supported": lambda x, a: x / 2,
+    "fixed": lambda x, a: x / 2 - a / 4,
+}
+
+
+@pytest.mark.parametrize("held", MOMENTS)
+@pytest.mark.parametrize(("pin_mm", "d"), [(6.0, 6.0), (0.0, 16.4), (None, 8.0)])
+def test_force_counts_how_the_pin_is_held(held, pin_mm, d):
+    """The pin's energy in bending is the impact's; without a pin it is the roller that bends.
+
+    The default pin is half as thick as the roller, 8.2 mm, rounded to 8.
+    """
+    size = Size(
+        face_width_mm=18.0, roller_radius_mm=8.2, pin_mm=pin_mm, pin_gap_mm=1.5, pin_held=held
+    )
+    design = Design(External(6), size=size, load=Load(inertia_kgm2=1.2))
+    a, inertia = mp.mpf("10.5"), mp.pi * mp.mpf(d) ** 4 / 64
+    half = mp.quad(lambda x: MOMENTS[held](x, a) ** 2, [0, a]) / (210e3 * inertia)
+    give = half if held == "cantilever" else 2 * half  # mm/N: the other half bends alike
+    press = mp.mpf("3.84e-5") / mp.mpf(18) ** mp.mpf("0.8")  # steel on steel
+    energy = mp.mpf("1.2") * (mp.mpf("0.02") * 2 * mp.pi) ** 2 / 2 * 1000  # N mm
+
+    def left(Q):
+        pressed = press * mp.mpf("0.9") / mp.mpf("1.9") * Q ** mp.mpf("1.9")
+        return pressed + give * Q * Q / 2 - energy
+
+    near(force_of(design.mechanism, 0.02), mp.findroot(left, 500), 1e-12)
 
 
 def test_force_and_impulse_need_something_to_strike():

@@ -14,7 +14,7 @@ from words import Spec, Wheel
 from geneva_cli.app import app
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.kerf import offset, paths
-from geneva_cli.curves.measure import area
+from geneva_cli.curves.moments import area
 from geneva_cli.curves.plates import Plate, plates
 from geneva_cli.curves.shapes import Arc, Circle, Cubic, Line, about, backwards, closed
 from geneva_cli.design import load

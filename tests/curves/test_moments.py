@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geneva_cli.curves.measure import area, turned
-from geneva_cli.curves.moments import moments, total
+from geneva_cli.curves.measure import turned
+from geneva_cli.curves.moments import area, moments, total
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, about, backwards, closed
 
 mp = mpmath.mp.clone()

@@ -15,6 +15,7 @@ from itertools import pairwise
 import machine_witness
 import numpy as np
 import pytest
+from load_states import state
 from witness import mp, to_degrees, to_radians
 from words import Spec, load
 
@@ -23,7 +24,6 @@ from geneva_cli.analysis.peaks import QUANTITIES, worst
 from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics import registry
-from geneva_cli.loads.loads import state
 from geneva_cli.machine.both_ways import backwards
 from geneva_cli.machine.drives.transmission import Transmission
 from geneva_cli.machine.mechanism import build

@@ -30,7 +30,7 @@ from sampling import some
 from shapely.geometry import Polygon
 
 from geneva_cli.curves.drawing import Drawing, extent
-from geneva_cli.curves.measure import area
+from geneva_cli.curves.moments import area
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import dxf, svg

@@ -18,7 +18,7 @@ from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.edges import Edge
 from geneva_cli.curves.inset import inset, lines_and_arcs
 from geneva_cli.curves.mass import mass_properties
-from geneva_cli.curves.measure import with_material_left
+from geneva_cli.curves.moments import with_material_left
 from geneva_cli.curves.plates import Plate, plates
 from geneva_cli.curves.shapes import Arc, Circle, Cubic, Line, as_contour, closed
 from geneva_cli.errors import GenevaError

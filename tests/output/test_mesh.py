@@ -18,7 +18,8 @@ from hypothesis import strategies as st
 from geneva_cli import Design, External, Size, Spherical
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.mass import face
-from geneva_cli.curves.measure import area, bounds
+from geneva_cli.curves.measure import bounds
+from geneva_cli.curves.moments import area
 from geneva_cli.curves.plates import Plate, Shell, solids
 from geneva_cli.curves.shapes import Arc, Circle, Cubic, Line, closed
 from geneva_cli.design import load

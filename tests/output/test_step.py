@@ -17,7 +17,7 @@ from witness import mp
 
 from geneva_cli import Design, External, Size
 from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.measure import area
+from geneva_cli.curves.moments import area
 from geneva_cli.curves.plates import Group, Member, Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, about, backwards, closed
 from geneva_cli.design import load

@@ -8,7 +8,7 @@ from step_witness import File, Solid
 from test_arm import polygon
 
 from geneva_cli import Design, External, Size, Spherical
-from geneva_cli.curves.measure import area
+from geneva_cli.curves.moments import area
 from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.drawings.model import PartsModel

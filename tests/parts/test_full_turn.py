@@ -21,7 +21,8 @@ from words import LAWS, Motion, load
 
 from geneva_cli.collisions import gaps
 from geneva_cli.collisions.full_turn import FullTurn, full_turn
-from geneva_cli.collisions.gaps import Gaps, WorkLimit
+from geneva_cli.collisions.gaps import Gaps
+from geneva_cli.collisions.machine_parts import WorkLimit
 from geneva_cli.collisions.smallest import positions
 from geneva_cli.curves.measure import turned as turned_contour
 from geneva_cli.curves.shapes import Arc, Contour, Line, Segment, about, closed

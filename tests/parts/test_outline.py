@@ -20,8 +20,8 @@ from shapely.geometry import LineString, Point, Polygon
 from words import LAWS, Drive, Motion, Spec, Wheel
 
 from geneva_cli.collisions.full_turn import full_turn
-from geneva_cli.curves.measure import area
 from geneva_cli.curves.measure import turned as turn
+from geneva_cli.curves.moments import area
 from geneva_cli.curves.shapes import Arc, Contour
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.motion import Motion as Given

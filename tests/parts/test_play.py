@@ -19,7 +19,8 @@ from words import Motion, load
 
 from geneva_cli.collisions.free_angles import free_angles
 from geneva_cli.collisions.full_turn import full_turn
-from geneva_cli.collisions.gaps import Gaps, WorkLimit
+from geneva_cli.collisions.gaps import Gaps
+from geneva_cli.collisions.machine_parts import WorkLimit
 from geneva_cli.collisions.play import windows
 from geneva_cli.outlines.outlines import Outlines, outlines
 from geneva_cli.verdict.checks.registry import turn_checks

@@ -10,7 +10,8 @@ from drawing_witness import vertices
 from step_witness import File
 
 from geneva_cli import Crank, Design, Size, Spherical
-from geneva_cli.curves.measure import area, segment_length
+from geneva_cli.curves.measure import segment_length
+from geneva_cli.curves.moments import area
 from geneva_cli.curves.plates import solids
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.curves.sphere_arcs import SphereArcs

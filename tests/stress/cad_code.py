@@ -1,8 +1,8 @@
-"""The code of the manual's page cad-code, run: `tests/stress/cad_code.py`; `make cad` installs
+"""Run the code of the manual's page cad-code: `tests/stress/cad_code.py`; `make cad` installs
 build123d for it.
 
-Solids of build123d have the volumes of their closed forms, and the lengths of their arcs and lines
-are those of the drawing: the kernel joins arcs of one circle. FreeCAD's console and OpenSCAD take
+Solids of build123d must have the volumes of their closed forms, and the lengths of their arcs and
+lines those of the drawing: the kernel joins arcs of one circle. FreeCAD's console and OpenSCAD take
 part if they are installed.
 """
 
@@ -32,7 +32,7 @@ DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 
 
 def code():
-    """The page's blocks of Python: the functions, what goes on with them, and the macro."""
+    """The page's blocks of Python: the functions, the code that uses them, and the macro."""
     return re.findall(r"^```python\n(.*?)^```$", page("cad-code"), re.S | re.M)
 
 
@@ -49,7 +49,7 @@ def lengths(plate):
 
 
 def of_build123d(functions):
-    """Every flat part of every design: how many solids, and the greatest error of a volume."""
+    """Check the solids of every flat part of every design; print the greatest error of a volume."""
     checked, worst, edges = 0, 0.0, Counter()
     for path in DESIGNS:
         design = load(str(path))
@@ -65,15 +65,15 @@ def of_build123d(functions):
                 edges += Counter(e.geom_type for e in low)
                 assert solid.is_valid and error < SAME, (path.stem, name, error)
                 for kind, length in lengths(plate).items():
-                    found = sum(e.length for e in low if e.geom_type == kind)
-                    assert abs(found - length) < SAME * (length + 1.0), (path.stem, name, kind)
+                    total = sum(e.length for e in low if e.geom_type == kind)
+                    assert abs(total - length) < SAME * (length + 1.0), (path.stem, name, kind)
                 checked, worst = checked + 1, max(worst, error)
     counts = ", ".join(f"{n} {kind.name}" for kind, n in edges.items())
     print(f"build123d: {checked} solids, volumes within {worst:.1e}; {counts}")
 
 
 def page_goes_on(functions, goes_on):
-    """The page's own example: the file that it writes has a hole more."""
+    """Check the page's example: its file has one more hole."""
     exec(goes_on, functions)
     wheel, lighter = functions["wheel"], import_step("lighter.step")
     hole = wheel.volume - lighter.volume
@@ -82,7 +82,7 @@ def page_goes_on(functions, goes_on):
 
 
 def of_freecad(macro):
-    """The macro's function in FreeCAD's console: names and volumes of all solids."""
+    """Run the macro in FreeCAD's console; check names and volumes of all solids."""
     program = shutil.which("freecadcmd") or shutil.which("FreeCADCmd")
     if not program:
         print("FreeCAD is not installed: left out")
@@ -106,7 +106,7 @@ def of_freecad(macro):
 
 
 def of_openscad():
-    """Parts rendered by OpenSCAD have the volume of the mesh that we write, and are closed."""
+    """Check that parts rendered by OpenSCAD are closed and have the volumes of our meshes."""
     if not shutil.which("openscad"):
         print("OpenSCAD is not installed: left out")
         return

@@ -1,4 +1,4 @@
-"""Every peak and load is certified: all designs, then random machines, a thousand of each kind.
+"""Certify every peak and load of all designs, then of a thousand random machines of each kind.
 
 `python tests/stress/certify.py --runs 10500`. A peak that its certificate does not confirm is a
 bug. One that is `not proved` is counted: its peak may be narrower than balls can enclose.
@@ -28,20 +28,20 @@ TRIES = 100  # for a machine of a kind; two of three texts are refused, of epicy
 
 
 def confirmed(mechanism):
-    """In a word: whether all peaks of a machine are proved; raises for one that is wrong."""
+    """Return "proved", or the number of peaks without a proof; raise for a wrong peak."""
     peaks, open_ = worst(mechanism), 0
     for quantity in QUANTITIES:
         # about doubles: extreme proportions magnify the rounding of a decimal
-        found = certificate(mechanism, quantity, decimals=False)
+        proof = certificate(mechanism, quantity, decimals=False)
         peak = getattr(peaks, quantity)
-        if found.proved:
-            assert found.confirms(*peak), f"{peak} against {found.text} {found.places}"
-        open_ += not found.proved
+        if proof.proved:
+            assert proof.confirms(*peak), f"{peak} against {proof.text} {proof.places}"
+        open_ += not proof.proved
         decimals = certificate(mechanism, quantity)
         if decimals.proved:
-            below = found.low <= decimals.high * (1.0 + NEAR)
-            above = not found.proved or decimals.low <= found.high * (1.0 + NEAR)
-            assert below and above, f"{decimals.text} against {found.text}"
+            below = proof.low <= decimals.high * (1.0 + NEAR)
+            above = not proof.proved or decimals.low <= proof.high * (1.0 + NEAR)
+            assert below and above, f"{decimals.text} against {proof.text}"
     for name in LOADS:
         if not_proved(mechanism, name):
             continue
@@ -49,16 +49,16 @@ def confirmed(mechanism):
             peak = greatest(mechanism, name)
         except GenevaError:
             break  # a motion that is too uneven has no loads
-        found = certificate(mechanism, name)
-        if found.proved:
-            near = found.low * (1.0 - LOST) <= peak.max <= found.high * (1.0 + LOST)
-            assert near, f"{name}: {peak} against {found.text} {found.places}"
-        open_ += not found.proved
+        proof = certificate(mechanism, name)
+        if proof.proved:
+            near = proof.low * (1.0 - LOST) <= peak.max <= proof.high * (1.0 + LOST)
+            assert near, f"{name}: {peak} against {proof.text} {proof.places}"
+        open_ += not proof.proved
     return f"{open_} not proved" if open_ else "proved"
 
 
 def text_of(rng):
-    """A machine of any kind, each as often; the last text if all are refused."""
+    """The text of a machine of a random kind; the last one tried if all are refused."""
     kind = rng.choice(list(DRIVES))
     texts = (machine_text(rng, kind) for _ in range(TRIES))
     for text in texts:
@@ -68,12 +68,12 @@ def text_of(rng):
 
 
 def one(text):
-    """A machine's kind and how its certificates ended."""
+    """Return a machine's kind and the result of its certificates."""
     with in_time(SECONDS):
-        found = read(text.encode())
-        if isinstance(found, str):
+        machine = read(text.encode())
+        if isinstance(machine, str):
             return "refused"
-        return f"{found.spec.drive.NAME} {confirmed(found)}"
+        return f"{machine.spec.drive.NAME} {confirmed(machine)}"
 
 
 if __name__ == "__main__":

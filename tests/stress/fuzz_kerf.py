@@ -24,10 +24,10 @@ def case(rng):
     return corners, 10.0 ** rng.uniform(-2.0, 1.0), rng.random() < 0.5
 
 
-def one(given):
-    """How a case ended."""
+def one(arguments):
+    """Return the result of a case in a word."""
     with in_time(SECONDS):
-        return tried(*given)
+        return tried(*arguments)
 
 
 if __name__ == "__main__":

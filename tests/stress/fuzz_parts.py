@@ -1,10 +1,10 @@
 """Random machines with their parts: `python tests/stress/fuzz_parts.py --runs 20000 --jobs 2`.
 
 Every gearing, drive and law, several rollers, offset slots, unequal steps, and all the keys of
-``[size]``, ``[load]`` and ``[limits]``, mostly near what a designer would write, now and then far
-from it. All that the commands print is made of each: peaks, motion, report, checks with the full
-turn, and every part as points and as a drawing, in arcs and in cubics. A machine is refused with a
-place in its spec, or else every number of it is finite, without a warning, in its time.
+``[size]``, ``[load]`` and ``[limits]``, mostly near values that a designer would write, sometimes
+far from them. All results of the commands are computed for each: peaks, motion, report, checks with
+the full turn, and every part as points and as a drawing, in arcs and in cubics. A machine is
+refused with a place in its spec, or else every number is finite, without a warning, in time.
 """
 
 import sys
@@ -22,44 +22,44 @@ from geneva_cli.study.batch import Verdict, checks_table
 from geneva_cli.table import flat
 from geneva_cli.verdict.advice import judged
 
-SECONDS = 30  # of one machine with all that is made of it
+SECONDS = 30  # for all results of one machine
 TOLERANCE = 0.01  # mm at L = 100, of the drawings
 # The radius of a straight line; and loads that nothing bounds, where the report says so.
 BOUNDLESS = {"curvature_radius_mm", "value"}
 
 
 def tried(make, *args, jumps=False):
-    """A table made and looked at; None where it is refused, and the spec's key or option named."""
+    """A checked table; None if it is refused with the spec's key or an option."""
     try:
-        found = make(*args)
+        table = make(*args)
     except GenevaError as error:
         assert error.key or "--" in str(error), f"no place: {error}"
         return None
-    sound(found, found.names if jumps else BOUNDLESS)
-    return found
+    sound(table, table.names if jumps else BOUNDLESS)
+    return table
 
 
 def one(text):
-    """All that is made of one spec; how it ended, in a word."""
+    """Compute all results of one spec; return how it ended, in a word."""
     with strictly(SECONDS):
-        found = read(text.encode())
-        if isinstance(found, str):
+        machine = read(text.encode())
+        if isinstance(machine, str):
             return "refused"
-        consistent(found)
-        sound_motion(found, (97,))
+        consistent(machine)
+        sound_motion(machine, (97,))
         # loads that would be rounding are refused
-        jumps = found.spec.wheel.JUMPS
-        tried(lambda: flat(Design.of(found.spec).report.table), jumps=jumps)
-        tried(lambda: checks_table([Verdict("", checks=tuple(judged(found)))]))
-        tolerance = TOLERANCE * found.center_distance_mm / 100.0
+        jumps = machine.spec.wheel.JUMPS
+        tried(lambda: flat(Design.of(machine.spec).report.table), jumps=jumps)
+        tried(lambda: checks_table([Verdict("", checks=tuple(judged(machine)))]))
+        tolerance = TOLERANCE * machine.center_distance_mm / 100.0
         for part in PARTS:
             try:
-                listed = is_table(found, part, False)
+                listed = is_table(machine, part, False)
             except GenevaError:  # a part of other machines
                 continue
             for samples in (None, 33, 50) if listed else ():
-                tried(part_table, found, part, tolerance, samples)
-        drawn = PartsModel(found)
+                tried(part_table, machine, part, tolerance, samples)
+        drawn = PartsModel(machine)
         try:
             drawn.parts  # noqa: B018 - made here, once for all parts
         except GenevaError as error:

@@ -59,7 +59,7 @@ def places(found, rng):
 
 
 def require_no_less_play(found, rng, widths, recesses):
-    """Returns how many wheels there were: those are missing that have no horn."""
+    """Return the number of wheels; those without a horn are left out."""
     at = places(found, rng)
     # Walls of curved slots are known to ``fine``; those of the same slots are the same.
     curved = any(e.slot.curved for e in found.assembly.kinds)
@@ -92,9 +92,9 @@ def require_no_less(play, less, one, at):
         assert (play >= enough).all(), (less, play, at, one.sizes)
 
 
-def one(given):
-    """How a case, a seed and the machine's keys, ended."""
-    seed, case = given
+def one(arguments):
+    """Return the result of a case, a seed and the machine's keys."""
+    seed, case = arguments
     with in_time(SECONDS):
         try:
             found = made.__wrapped__(**case)

@@ -20,50 +20,50 @@ from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.sheets import dxf, pdf, svg
 
-SECONDS = 60  # of one sheet and what is looked at on it
+SECONDS = 60  # for one sheet and its checks
 TOLERANCE = 0.01  # mm at L = 100, of the walls
 # Walls that are drawn coarser than the list of parts takes them move a thin wheel's mass so far.
 CLOSE = 5e-3
 
 
 def one(text):
-    """The sheet of one spec; how it ended, in a word."""
+    """Draw and check the sheet of one spec; return how it ended, in a word."""
     with strictly(SECONDS):
-        found = read(text.encode())
-        if isinstance(found, str):
+        machine = read(text.encode())
+        if isinstance(machine, str):
             return "refused"
-        design = Design.of(found.spec)
+        design = Design.of(machine.spec)
         try:
-            coarse = TOLERANCE * found.center_distance_mm / 100.0
-            made = design.sheet(coarse, units=("mm", "inch")[len(text) % 2])
+            coarse = TOLERANCE * machine.center_distance_mm / 100.0
+            sheet = design.sheet(coarse, units=("mm", "inch")[len(text) % 2])
         except GenevaError as error:
             # of a machine that jams, walls may leap: `profile` refuses it before it draws
             known = error.key or "--" in str(error) or "roller and slot overlap" in str(error)
             assert known, f"no place: {error}"
             return "no sheet"
-        assert overlaps(made) == []
-        assert beyond(made) == []
+        assert overlaps(sheet) == []
+        assert beyond(sheet) == []
         # A tiny wheel may have no place free of crossings. A rack of 24 slots behind elliptical
         # gears is drawn at 1:10. It has 109 dimensions, and up to 8 leaders and balloons of its
         # small parts cross another one there. Each can be followed.
-        assert len(crossings(made)) <= max(4, len(made.measures) // 13)
-        assert_measured(made)
-        if found.spec.wheel.FLAT and made.units == "mm":
-            assert_as_listed(made, list(design.part_table("parts").to_rows()), CLOSE)
-        written(made)
+        assert len(crossings(sheet)) <= max(4, len(sheet.measures) // 13)
+        assert_measured(sheet)
+        if machine.spec.wheel.FLAT and sheet.units == "mm":
+            assert_as_listed(sheet, list(design.part_table("parts").to_rows()), CLOSE)
+        written(sheet)
         return "sheet"
 
 
-def written(made):
-    """Read by others: each text is in the SVG, each dimension in the DXF, one page in the PDF."""
-    tree = ElementTree.fromstring("".join(svg.chunks(made)))
+def written(sheet):
+    """Check the files with other readers: texts in SVG, dimensions in DXF, one page in PDF."""
+    tree = ElementTree.fromstring("".join(svg.chunks(sheet)))
     shown = {"".join(node.itertext()) for node in tree.iter() if node.tag.endswith("}text")}
-    assert {label.text for label in made.texts} <= shown
-    drawing = ezdxf.read(io.StringIO("".join(dxf.chunks(made))))
+    assert {label.text for label in sheet.texts} <= shown
+    drawing = ezdxf.read(io.StringIO("".join(dxf.chunks(sheet))))
     assert not drawing.audit().errors
-    spans = [m for m in made.measures if m.kind != "note"]
+    spans = [m for m in sheet.measures if m.kind != "note"]
     assert len(drawing.modelspace().query("DIMENSION")) == len(spans), DIMENSION
-    page = "".join(pdf.chunks(made))
+    page = "".join(pdf.chunks(sheet))
     assert page.startswith("%PDF-")
     assert page.rstrip().endswith("%%EOF")
     for at, number in offsets(page):

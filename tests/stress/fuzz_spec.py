@@ -1,4 +1,4 @@
-"""Random specs, and what must hold of each: `python tests/stress/fuzz_spec.py --runs 1000000`.
+"""Random specs, and the requirements on each: `python tests/stress/fuzz_spec.py --runs 1000000`.
 
 Text goes through the program's own reader, as from standard input: it either makes a machine, whose
 motion is then computed, or is refused in one printable line that begins with its place. Four kinds
@@ -150,20 +150,20 @@ def read(data):
     try:
         return design.load("-").mechanism
     except GenevaError as error:
-        said = str(error)
-        place = PLACE.match(said)
-        assert place, f"no place in: {said}"
-        # What is shown passes errors.clean; here only its length and its line are looked at.
-        assert len(said) < 2000, f"{len(said)} characters: {said[:200]}"
+        message = str(error)
+        place = PLACE.match(message)
+        assert place, f"no place in: {message}"
+        # errors.clean makes it printable; its length and its line are checked here
+        assert len(message) < 2000, f"{len(message)} characters: {message[:200]}"
         lines = max(data.count(b"\n"), data.count(b"\r")) + 2
-        assert int(place[3] or 0) <= max(lines, 20), said
-        return said
+        assert int(place[3] or 0) <= max(lines, 20), message
+        return message
     finally:
         sys.stdin = stdin
 
 
 def consistent(mechanism):
-    """What holds of every machine: rest at both ends, a whole step, an ascending window."""
+    """Check what every machine has: rest at both ends, a whole step, an ascending window."""
     for engagement in mechanism.engagements:
         assert engagement.entry_deg < engagement.exit_deg
         b = engagement.half_step
@@ -177,7 +177,7 @@ def consistent(mechanism):
 
 
 def sound(table, boundless=()):
-    """Every number of a table is one, and finite but in the columns that may be without bound."""
+    """Check that no number of a table is NaN, and that only ``boundless`` columns are infinite."""
     for name, column in zip(table.names, table.columns, strict=True):
         values = [v for v in np.asarray(column, dtype=object).ravel() if isinstance(v, float)]
         assert not any(v != v for v in values), f"{name} is nan"
@@ -186,20 +186,20 @@ def sound(table, boundless=()):
 
 
 def sound_motion(mechanism, samples=()):
-    """Every number of peaks and motion is one, and finite but where the wheel's speed jumps."""
+    """Check the numbers of peaks and motion; they are finite unless the wheel's speed jumps."""
     for table in (flat(peaks_table(mechanism)), *(motion_table(mechanism, n) for n in samples)):
         sound(table, table.names if mechanism.spec.wheel.JUMPS else ())
 
 
 def one(text):
-    """All of the motion of one spec; how it ended, in a word."""
+    """Compute the motion of one spec; return how it ended, in a word."""
     data = text if isinstance(text, bytes) else text.encode("utf-8", "surrogatepass")
     with strictly(SECONDS):
-        found = read(data)
-        if isinstance(found, str):
+        machine = read(data)
+        if isinstance(machine, str):
             return "refused"
-        consistent(found)
-        sound_motion(found, (33, 50))  # with mid-motion among them, and without
+        consistent(machine)
+        sound_motion(machine, (33, 50))  # with mid-motion among them, and without
         return "machine"
 
 

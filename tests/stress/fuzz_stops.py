@@ -24,7 +24,7 @@ from geneva_cli.errors import GenevaError
 SECONDS = 30  # of one machine
 LAWS = ("modified-sine", "cycloidal", "modified-trapezoid", "3-4-5", "harmonic")
 PLACES, DENSE = 80, 1500  # positions of the wheel in each motion and dwell
-LOOKS = 40  # turns of the wheel, short of a stop
+TURNS = 40  # angles of the wheel that are tried before a stop
 ROUNDING = 1e-10  # mm: of gaps of some hundred mm
 PAST = 1e-5  # radians: what grazes at 100 mm overlaps by some 1e-7 mm more, as much as counts
 SCAN = 1.002  # times the play: a peak lies between two positions of the search
@@ -36,8 +36,8 @@ def require_first_contacts(parts, at_deg):
     gaps, pose = parts.gaps, parts.gaps.pose(at_deg)
     apart = smallest_clearance(gaps, pose, np.zeros(len(at_deg)), gaps.near) + parts.close >= 0.0
     most = math.radians(search_deg(parts))
-    many = gaps.pose(np.tile(at_deg, LOOKS))
-    share = np.linspace(0.0, 1.0, LOOKS)[:, None]
+    many = gaps.pose(np.tile(at_deg, TURNS))
+    share = np.linspace(0.0, 1.0, TURNS)[:, None]
     for way, free in zip((-1.0, 1.0), free_angles(parts, at_deg), strict=True):
         turned = np.where(apart, share * free, 0.0)
         gap = smallest_clearance(gaps, many, way * turned.ravel(), gaps.near).reshape(turned.shape)
@@ -60,9 +60,9 @@ def require_largest_plays(parts):
     assert play.max() <= max(SCAN * either, noise), (turn.ahead, turn.behind)
 
 
-def one(given):
-    """How a case ended: its machine's keys, and the step of the weights that place the joints."""
-    seed, step, case = given
+def one(arguments):
+    """Return the result of a case: a seed, the step of the joints' weights, the machine's keys."""
+    seed, step, case = arguments
     with in_time(SECONDS), mock.patch("geneva_cli.curves.fit.path.WEIGHT", step):
         try:
             parts = made.__wrapped__(**case)

@@ -1,4 +1,4 @@
-"""What the fuzzers share: a case in its own time, and long runs that can be stopped and taken up.
+"""Shared by the fuzzers: a case with a time limit, and long runs that can be stopped and resumed.
 
 A run is of numbered cases; each makes its own random numbers from its number, so that any of them
 is made again by `--first N --runs 1`, in any order and by any process.
@@ -21,13 +21,13 @@ import warnings
 LAW = "".join(f"{i / 10},{(i / 10) ** 2 * (3 - i / 5)}\n" for i in range(11))
 # i = 1 - 0.3 cos(input), to what a person writes
 RATIOS = "".join(f"{x},{1 - 0.3 * math.cos(math.radians(x)):.9f}\n" for x in range(0, 361, 15))
-FILES = {"law.csv": LAW, "ratio.csv": RATIOS}  # what a spec may name
+FILES = {"law.csv": LAW, "ratio.csv": RATIOS}  # which a spec may name
 MEMORY = 2**30  # bytes of data that a process of a long run may hold
 
 
 @contextlib.contextmanager
 def in_time(seconds):
-    """TimeoutError where something takes longer, of the processor's time: others may be busy."""
+    """Raise TimeoutError after ``seconds`` of processor time; other processes do not count."""
 
     def stop(number, frame):
         raise TimeoutError(f"more than {seconds} s")
@@ -43,7 +43,7 @@ def in_time(seconds):
 
 @contextlib.contextmanager
 def strictly(seconds):
-    """As ``in_time``; and what would be a warning is an error."""
+    """Limit the time as ``in_time`` does, and turn warnings into errors."""
     with in_time(seconds), warnings.catch_warnings():
         warnings.simplefilter("error")
         yield
@@ -69,7 +69,7 @@ def numbers(seed, case):
 
 
 def _place(error):
-    """The function in which an error was raised: failures of one place are counted together."""
+    """The function that raised an error: failures of one place are counted together."""
     last = error.__traceback__
     while last.tb_next:
         last = last.tb_next
@@ -78,7 +78,7 @@ def _place(error):
 
 
 def _batch(job):
-    """Cases one after another: how many ended how, and the first failure of each sort."""
+    """Run cases one after another; return the number of each result, and the first failures."""
     make, one, seed, start, count, bounded = job
     if bounded:  # for the process of a long run, not for the one of the tests
         resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, MEMORY))
@@ -89,7 +89,7 @@ def _batch(job):
             try:
                 end = one(text)
             except Exception as error:
-                # A time-out strikes anywhere: its place says nothing.
+                # the place of a time-out is random
                 slow = isinstance(error, TimeoutError)
                 what = "TimeoutError" if slow else f"{type(error).__name__} in {_place(error)}"
                 first = failed.setdefault(what, [0, case, str(error)[:400], repr(text)])
@@ -102,7 +102,7 @@ def _batch(job):
 def campaign(name, make, one, batch):
     """Parse the command line and run: ``make(rng)`` is a case's text, ``one(text)`` tries it.
 
-    ``one`` says in a word how it ended, and raises where that was wrong. Returns the exit status.
+    ``one`` returns the result in a word, and raises for a failure. Returns the exit status.
     """
     parser = argparse.ArgumentParser()
     parser.add_argument("--runs", type=int, default=10 * batch)
@@ -125,12 +125,12 @@ def campaign(name, make, one, batch):
             state["seconds"] = before + time.perf_counter() - start
             for end, count in ends.items():
                 state["ends"][end] = state["ends"].get(end, 0) + count
-            for what, found in failed.items():
+            for what, first in failed.items():
                 if what not in state["failed"]:
-                    print(f"case {found[1]}: {what}: {found[2]}\n{found[3]}\n", flush=True)
-                    state["failed"][what] = found
+                    print(f"case {first[1]}: {what}: {first[2]}\n{first[3]}\n", flush=True)
+                    state["failed"][what] = first
                 else:
-                    state["failed"][what][0] += found[0]
+                    state["failed"][what][0] += first[0]
             if options.state:
                 with open(options.state + ".new", "w") as file:
                     json.dump(state, file, indent=1)
@@ -138,7 +138,7 @@ def campaign(name, make, one, batch):
             if options.seconds and time.perf_counter() - start > options.seconds:
                 pool.terminate()
                 break
-    counts = {what: found[0] for what, found in state["failed"].items()}
+    counts = {what: first[0] for what, first in state["failed"].items()}
     done = state["next"] - options.first
     print(f"{name}: {done} of {options.runs} cases, {state['seconds']:.0f} s; {state['ends']}")
     print(f"failures: {counts}", file=sys.stderr if counts else sys.stdout)

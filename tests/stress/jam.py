@@ -1,12 +1,12 @@
 """DXF files of flat designs, racks and counters in a physics engine, Chipmunk: `make jam`.
 
-The engine is told nothing of where the wheel should be: its outline, read from the file, is a free
-body on a pivot, or a rack's in a groove, moved by contact alone. Crank and rollers, from the other
-file, are carried round as the design's own drive carries them, for two turns; of several cranks
-each from its own place. A counter has two planes: wide teeth on the rim, all teeth on the driver's
-two. The wheel must go where the program says, off by no more than the play that the program says,
-and nothing may be squeezed: that is a jam. A roller too large for its slot, or a rim too large for
-its pinion, must be found to jam. `make jam` installs the engine (pymunk); ten minutes.
+The engine does not know the wheel's motion. The wheel's outline, read from the file, is a free body
+on a pivot, or a rack's in a groove, which contact alone moves. Crank and rollers, from the other
+file, move as the design's drive moves them, for two turns; each of several cranks from its own
+place. A counter has two planes: wide teeth meet the rim, and all teeth meet the driver's two. The
+wheel's angle must be that of the program, within the program's play, and no parts may be squeezed,
+which is a jam. A roller too large for its slot, or a rim too large for its pinion, must jam. `make
+jam` installs the engine (pymunk); ten minutes.
 """
 
 import argparse
@@ -30,23 +30,23 @@ from geneva_cli.outlines.counter_play import counter_play
 from geneva_cli.output import draw
 
 TURNS = 2
-STEPS = 7200  # a turn: a roller 50 mm from its axis goes 0.04 mm in one
+STEPS = 7200  # a turn: a roller 50 mm from its axis moves 0.04 mm in one
 CLEARANCE = 1e-3  # of the centre distance, in slot and lock, where the spec has none
 # Of the centre distance: outlines are chains of round rods whose outer sides are the outline.
 # Two of them are pushed apart the right way while their middles have not passed each other.
 ROD = 1e-3
 SAGITTA = 5e-5  # of the centre distance, between an arc and the rods' chords
 SLOP = 1e-6  # of the centre distance, by which the engine lets bodies overlap in contact
-LEFT = 0.5  # the share of an overlap that the engine leaves after a step
+LEFT = 0.5  # the fraction of an overlap that the engine leaves after a step
 HEAVY = 1e15  # the wheel's mass to its inertia, 1: no push moves its axis, which is a pivot
-# Parts that meet with some speed overlap by what they go in a step before the engine parts them:
+# Parts that meet at some speed overlap by their travel in a step before the engine parts them:
 # up to 1.8e-4 of the centre distance and 0.035 degrees in the designs.
-SQUEEZED = 5e-4  # of the centre distance: no such overlap, but a jam
+SQUEEZED = 5e-4  # of the centre distance: a larger overlap is a jam
 LOST = 0.05  # degrees beyond the play
 
 
 def outlines(path, layer, flat):
-    """The region inside of the closed curves on a layer, and its circles as (centre, radius)."""
+    """The region inside the closed curves on a layer, and its circles as (centre, radius)."""
     region = shapely.Polygon()
     for inside in contours(path, layer, flat):
         region = region.symmetric_difference(inside)
@@ -109,7 +109,7 @@ class Sliding(pymunk.Body):
 
 
 class Simulation:
-    """Bodies of the engine: a free wheel, and what is carried round."""
+    """Bodies of the engine: a free wheel, and bodies with given motions."""
 
     def __init__(self, L, wheel, at, true):
         """``at`` are the input angles of a turn's steps, ``true`` the wheel's, radians."""
@@ -136,7 +136,7 @@ class Simulation:
             self.space.add(shape)
 
     def _set(self, step):
-        """Put what is carried at a step of a turn, on its way to the next."""
+        """Place the carried bodies at a step of a turn, with their speeds to the next."""
         for body, angle, place in self.carried:
             body.angle, body.position = angle[step], tuple(place[step])
             body.angular_velocity = angle[step + 1] - angle[step]
@@ -145,16 +145,17 @@ class Simulation:
     def run(self, turns=TURNS):
         """The wheel's angles, radians, at all steps of some turns, and the deepest overlap, mm.
 
-        What holds the wheel at rest where no locking disc does is in no file: it is held in place.
-        Nor are a gear's teeth: it is turned where they turn it, and let go with its speed.
+        Without a locking disc no file has the part that holds the wheel at rest: it is held in
+        place. No file has the teeth of gears: the wheel is turned where they turn it, and released
+        with its speed.
         """
         self.wheel.put(float(self.true[0]), 0.0)
-        went, deepest = [], 0.0
+        angles, deepest = [], 0.0
 
         def deep(arbiter):
             nonlocal deepest
-            found = min((p.distance for p in arbiter.contact_point_set.points), default=0.0)
-            deepest = max(deepest, -found)
+            gap = min((p.distance for p in arbiter.contact_point_set.points), default=0.0)
+            deepest = max(deepest, -gap)
 
         for turn in range(turns):
             for step in range(STEPS):
@@ -165,17 +166,17 @@ class Simulation:
                     speed = self.true[step + 1] - self.true[step]
                     self.wheel.put(self.place(turn, step), speed)
                 self.space.step(1.0)
-                went.append(self.wheel.place)
+                angles.append(self.wheel.place)
                 self.wheel.each_arbiter(deep)
-        return np.array(went), deepest
+        return np.array(angles), deepest
 
     def place(self, turn, step):
-        """Where the program says that the wheel is, radians."""
+        """The wheel's angle by the program, radians."""
         return self.true[step] + turn * self.each
 
     @property
     def each(self):
-        """What the wheel turns in each turn, radians."""
+        """The wheel's angle in each turn, radians."""
         return self.true[-1] - self.true[0]
 
 
@@ -214,7 +215,7 @@ def cranked(design, folder, larger=0.0):
         path = assembly.pin(number, at)
         if np.ptp(np.hypot(*(path - (L, 0.0)).T)) < 1e-9 * L:
             out.space.add(*(pymunk.Circle(body, radius + larger, centre) for body in cranks))
-        else:  # what carries it is no part of the crank's file
+        else:  # the crank's file lacks the part that carries it
             body = out.carry(np.zeros(len(path)), path)
             out.space.add(pymunk.Circle(body, radius + larger))
     return out, proof.turn.play
@@ -246,20 +247,20 @@ def counted(design, folder, larger=0.0):
 
 
 class Free(NamedTuple):
-    """How far a wheel can turn on and back at input angles, degrees."""
+    """Play of a wheel on and back at input angles, degrees."""
 
     input_deg: np.ndarray
     on: np.ndarray
     back: np.ndarray
 
 
-def left_play(machine, play, went):
-    """By how much the wheel left its play at most, degrees, and the input angle, degrees."""
+def beyond_play(machine, play, angles):
+    """The wheel's greatest error beyond its play, and the input angle, degrees."""
     worst = (0.0, 0.0)
-    for turn in range(len(went) // STEPS):
+    for turn in range(len(angles) // STEPS):
         true = machine.true[1:] + turn * machine.each
-        off = np.degrees(went[turn * STEPS : (turn + 1) * STEPS] - true)
-        # where the play was taken, the less of the two steps beside it: it may open all at once
+        off = np.degrees(angles[turn * STEPS : (turn + 1) * STEPS] - true)
+        # the lesser of the two steps beside a sampled play, as it may open suddenly
         after = np.clip(np.searchsorted(machine.at[1:], play.input_deg), 1, STEPS - 1)
         for way, free in ((1.0, play.on), (-1.0, play.back)):
             out = np.minimum(way * off[after - 1], way * off[after]) - free
@@ -269,7 +270,7 @@ def left_play(machine, play, went):
 
 
 def widened(path):
-    """A design with clearances, and the settings that gave them."""
+    """A design with clearances, from the spec or else of ``CLEARANCE``."""
     size, L = load(str(path)).spec.size, load(str(path)).mechanism.center_distance_mm
     keys = ("slot_clearance_mm", "lock_clearance_mm")
     return load(
@@ -278,7 +279,7 @@ def widened(path):
 
 
 def turned(path, folder):
-    """What is wrong with a design's files, as a list of texts, and a line that says how it went."""
+    """Return the faults of a design's files as a list of texts, and a line with the results."""
     design = widened(path)
     if design.spec.wheel.PARTS == "counter":
         simulated, spare = counted, design.spec.size.lock_clearance_mm
@@ -286,8 +287,8 @@ def turned(path, folder):
         simulated = cranked
         spare = design.parts_model.parts.sizes.half_width - design.mechanism.roller_radius_mm
     machine, play = simulated(design, folder)
-    went, deepest = machine.run()
-    out, at = left_play(machine, play, went)
+    angles, deepest = machine.run()
+    out, at = beyond_play(machine, play, angles)
     limit = SQUEEZED * machine.L
     faults = []
     if deepest > limit:
@@ -295,7 +296,7 @@ def turned(path, folder):
     if out > LOST:
         faults.append(f"left its play by {out:.3g} deg at {at:.2f}")
     if simulated(design, folder, spare + 2.0 * limit)[0].run(1)[1] <= limit:
-        faults.append("a roller or rim that is too large was not found out")
+        faults.append("a roller or rim that is too large did not jam")
     line = (
         f"{path.stem:24} {STEPS * TURNS} steps, {len(machine.space.shapes)} rods, "
         f"overlap {deepest / machine.L:.1e} L, play left by {out:.4f} deg at {at:.1f}"
@@ -306,9 +307,9 @@ def turned(path, folder):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("designs", nargs="*", type=Path)
-    given = parser.parse_args()
+    options = parser.parse_args()
     bad = 0
-    for path in given.designs or sorted(repo.DESIGNS.glob("*.toml")):
+    for path in options.designs or sorted(repo.DESIGNS.glob("*.toml")):
         try:
             if load(str(path)).spec.wheel.PARTS == "ball":  # which no engine of the plane has
                 raise GenevaError("its parts turn on a sphere")

@@ -1,9 +1,9 @@
-"""Mutated specs, and whether JSON Schema and the reader say the same of them.
+"""Compare JSON Schema with the reader on mutated specs.
 
     python tests/stress/schema_agrees.py [TOOL ...]
 
-The schema may refuse nothing that the reader takes. What the reader refuses and the schema takes
-must be a matter of several keys, never of one value alone. Each TOOL, a command that is given the
+The schema must accept all that the reader accepts. A spec that only the reader refuses must be
+wrong in several keys together, never in one value alone. Each TOOL, a command that is given the
 schema's file and a folder of specs, is compared with the schema: `make editors`.
 """
 
@@ -31,7 +31,7 @@ from geneva_cli.specfile.template import KINDS, template
 from geneva_cli.specfile.tree import spec_of
 
 SPECS = 2000
-# editors' checkers, each said to take a spec by a status of 0
+# editors' checkers; each accepts a spec with exit status 0
 TOOLS = {
     "taplo": lambda schema, spec: ["taplo", "check", "--schema", f"file://{schema}", spec],
     "tombi": lambda schema, spec: ["tombi", "lint", "--offline", spec],
@@ -87,20 +87,20 @@ def changed(rng, text):
 
 
 def of_one_value(tree, error):
-    """Whether what the reader says is of one value: its key alone does not take it."""
+    """True if the reader refuses one value: its key alone does not accept it."""
     table, *_, key = error.key if error.key and len(error.key) > 1 else ("", "")
-    given = tree.get(table)
+    values = tree.get(table)
     for part in error.key[1:-1] if error.key else ():
-        given = given[part]
-    if not isinstance(given, dict) or key not in given:
+        values = values[part]
+    if not isinstance(values, dict) or key not in values:
         return False
-    value = given[key]
+    value = values[key]
     if isinstance(value, float) and value.is_integer():
         value = int(value)  # 6.0 is whole to JSON Schema
     kinds = (
-        registry.gearing(given.get("gearing", "external")) if table == "wheel" else None,
-        registry.drive(given.get("kind", "crank")) if table == "drive" else None,
-        registry.law(given["law"]) if "law" in given else None,
+        registry.gearing(values.get("gearing", "external")) if table == "wheel" else None,
+        registry.drive(values.get("kind", "crank")) if table == "drive" else None,
+        registry.law(values["law"]) if "law" in values else None,
         PLAIN.get(".".join(part for part in error.key[:-1] if isinstance(part, str))),
     )
     for kind in filter(None, kinds):
@@ -114,7 +114,7 @@ def of_one_value(tree, error):
 
 
 def read(tree):
-    """What the reader refuses, or None."""
+    """The reader's error for a spec, or None."""
     try:
         spec_of(tree, "spec.toml")
     except GenevaError as error:
@@ -123,7 +123,7 @@ def read(tree):
 
 
 def disagreement(text):
-    """What schema and reader say differently of a spec, or nothing."""
+    """The disagreement of schema and reader on a spec; empty if they agree."""
     tree = tomllib.loads(text)
     refused = read(tree)
     faults = [error.message[:200] for error in validator().iter_errors(tree)]
@@ -135,7 +135,7 @@ def disagreement(text):
 
 
 def compare(tools, folder, texts):
-    """How often each tool says another thing than the schema; every such spec is printed."""
+    """Count the disagreements of each tool with the schema, and print those specs."""
     Path(folder, FILE).write_text(json.dumps(schema()))
     wrong = dict.fromkeys(tools, 0)
     for i, text in enumerate(texts):
@@ -158,17 +158,17 @@ def main(tools):
         os.chdir(folder)
         for name, content in FILES.items():
             Path(folder, name).write_text(content)
-        said = [(text, disagreement(text)) for text in texts]
+        results = [(text, disagreement(text)) for text in texts]
         wrong = compare(tools, folder, texts)
-    for text, what in said:
+    for text, what in results:
         if what:
             print(f"--- {what}\n{text}")
     fine = sum(validator().is_valid(tomllib.loads(text)) for text in texts)
     print(f"{SPECS} specs, {fine} of them sound to the schema")
-    print(f"reader against schema: {sum(bool(what) for _, what in said)} disagree")
+    print(f"reader against schema: {sum(bool(what) for _, what in results)} disagree")
     for tool, count in wrong.items():
         print(f"{tool} against schema: {count} disagree")
-    sys.exit(any(what for _, what in said) or any(wrong.values()))
+    sys.exit(any(what for _, what in results) or any(wrong.values()))
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
-"""Every design's STEP files read by a CAD kernel, OpenCASCADE: `tests/stress/solids_in_cad.py`.
+"""Read every design's STEP files with a CAD kernel, OpenCASCADE: `tests/stress/solids_in_cad.py`.
 
-Each solid must be valid and closed, with the name, colour, volume, centroid and inertia that it
-has in closed form. An assembly's parts must stand where the drawing has them, and share no space
-but that of press fits, with plain and with turned shafts. `--set KEY=VALUE` changes all designs,
+Each solid must be valid and closed, with the name, colour, volume, centroid and inertia of its
+closed form. An assembly's parts must be at the places of the drawing, and share no space but that
+of press fits, with plain and with turned shafts. `--set KEY=VALUE` changes all designs,
 and `--pictures DIR` also draws each file from three sides. `make cad` runs it, some minutes, and
 installs the kernel (0.5 GB).
 """
@@ -51,7 +51,7 @@ from geneva_cli.output.inks import INKS
 from geneva_cli.output.step import chunks
 
 PARTS = ("wheel", "crank", "arm", "assembly")
-STEPS = 1e-13  # relative, asked of the kernel
+STEPS = 1e-13  # relative accuracy requested from the kernel
 SAME = 1e-12  # relative: the kernel integrates over faces by Gauss's points, to rounding
 # The same of shells: on a sphere whose poles are elsewhere the kernel fits curves of its own to a
 # face's edges, some 1e-5 mm off; with a pole in its middle a cap comes to 1e-13.
@@ -66,7 +66,7 @@ BORED = 1e-9
 
 
 def placed(part, at=(0.0, 0.0, 0.0), turn=((1, 0, 0), (0, 1, 0), (0, 0, 1))):
-    """Each solid with where its origin is, and a matrix that turns it to how it stands there."""
+    """Each solid with the place of its origin, and the matrix of its rotation there."""
     at, turn = np.array(at), np.array(turn)
     if not isinstance(part, Group):
         yield part, at, turn
@@ -125,7 +125,7 @@ def name_of(label):
 
 
 def differs(one, at, turn, name, colour, body):
-    """Relative errors of volume, centroid and inertia; raises where more is wrong."""
+    """Relative errors of volume, centroid and inertia; raises if name, colour or shape is wrong."""
     assert name == one.name, name
     srgb = "#" + "".join(
         f"{round(255 * _srgb(c)):02x}" for c in (colour.Red(), colour.Green(), colour.Blue())
@@ -147,7 +147,7 @@ def differs(one, at, turn, name, colour, body):
 
 
 def properties(one):
-    """Volume, centroid and polar moment of a solid in its own frame, and how far it reaches."""
+    """Volume, centroid and polar moment of a solid in its own frame, and its reach."""
     if isinstance(one, Stack):
         steps = [properties(plate) for plate in one.plates]
         volume = sum(step[0] for step in steps)
@@ -226,7 +226,7 @@ def overlaps(found, pressed):
 
 
 def carries(built):
-    """Whether the machine has an arm, which carries rollers on pins; gears have none."""
+    """True if the machine has an arm, which carries rollers on pins; gears have none."""
     return getattr(built, "arm", None) is not None
 
 
@@ -235,13 +235,13 @@ def main():
     parser.add_argument("--pictures", metavar="DIR")
     parser.add_argument("--designs", nargs="*")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
-    given = parser.parse_args()
-    paths = given.designs or sorted(map(str, (repo.ROOT / "designs").glob("*.toml")))
+    options = parser.parse_args()
+    paths = options.designs or sorted(map(str, (repo.ROOT / "designs").glob("*.toml")))
     bad = 0
     for path in paths:
         name = Path(path).stem
         try:
-            design = load(path, given.set)
+            design = load(path, options.set)
             proof = design.drawn(0.001, "assembly")
         except GenevaError as error:
             print(f"{name:24} {str(error).partition(': ')[2][:70]}")
@@ -250,11 +250,11 @@ def main():
             if part == "arm" and not carries(proof.built):
                 continue
             for curves in ("arcs", "spline"):
-                bad += not one(design, proof, name, part, curves, given.pictures)
+                bad += not one(design, proof, name, part, curves, options.pictures)
         try:
-            turned = load(path, [*given.set, "size.shafts=turned"])
+            turned = load(path, [*options.set, "size.shafts=turned"])
             proof = turned.drawn(0.001, "assembly")
-            bad += not one(turned, proof, f"{name}, turned", "assembly", "arcs", given.pictures)
+            bad += not one(turned, proof, f"{name}, turned", "assembly", "arcs", options.pictures)
         except GenevaError as error:
             print(f"{name:24} {str(error).partition(': ')[2][:70]}")
     return 1 if bad else 0
@@ -310,7 +310,7 @@ def one(design, proof, name, part, curves, pictures):
 
 
 def has_cubics(plate):
-    """Whether a plate is bounded by cubics: pitch curves of gears are, whatever the slots are."""
+    """True if cubics bound a plate, as they do gears' pitch curves, whatever the slots are."""
     outline = plate.outline if isinstance(plate, Plate) else None
     return isinstance(outline, Contour) and any(isinstance(p, Cubic) for p in outline.segments)
 

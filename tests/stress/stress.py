@@ -35,18 +35,18 @@ from exact.curved import chords, curved, law_files
 from exact.fronts import FRONTS
 from exact.laws import law_cases
 from exact.others import OTHERS, others
-from exact.rates import DIGITS, SIGN
+from exact.rates import DIGITS
 from exact.straight import arrays, ratio_files, several, straight
 from exact.table import LIMIT, Table
 from witness import LAWS as LAW_WITNESSES
-from witness import mp
+from witness import SIGN, mp
 from words import LAWS
 
 from geneva_cli.kinematics.registry import DRIVES, GEARINGS
 
 
 def missing():
-    """What the registries hold and nobody has written a witness for."""
+    """List the kinds in the registries that have no witness."""
     # a gear sector is a straight slot and a straight line: test_gear_sector.py has its witness;
     # a carousel is a plain crank seen from its carrier: test_carousel.py; a rack has closed forms:
     # test_machines.py; a counter's pinion moves in a straight line: test_counter.py
@@ -57,7 +57,7 @@ def missing():
 
 
 def parts(sample):
-    """What the table is made of: each part's name, and a function that fills the table with it."""
+    """The parts of the table: for each name a function that fills the table."""
     out = {}
     for kind in DRIVES:
         if kind in FRONTS:
@@ -81,7 +81,7 @@ def parts(sample):
 
 
 def fill(table, part, sample):
-    """One part, with every floating-point flag an error in the program's own share of the work."""
+    """Add one part; floating-point flags are errors in the program's own work."""
     before = np.geterr()
     with mp.workdps(DIGITS), warnings.catch_warnings(), np.errstate(all="ignore"):
         warnings.simplefilter("error")
@@ -91,7 +91,7 @@ def fill(table, part, sample):
 
 
 def run(sample):
-    """The whole table; faults and missing witnesses are in it."""
+    """Return the whole table, with faults and missing witnesses."""
     table = Table()
     for name, part in parts(sample).items():
         start = time.perf_counter()

@@ -3,15 +3,14 @@
     stress_many.py [--designs N] [--machine NAME]... [--seconds S] [--seed N]
 
 Random designs of every machine (those of tests/design_arrays.py). Each design's greatest velocity
-and acceleration is held against a scan of its own that knows no Newton and no bracket: a peak is
-missed where a place of the scan has more. Of some designs the size is compared with 50 digits, at
-the place where it is said to be. One row a machine; the exit status is 1 where one is missed, or an
-error is above 1e-14. A million designs of one machine take one to four minutes; with ``--seconds``
-a machine gets so much time and no more.
+and acceleration is compared with a dense scan: a peak is missed where a place of the scan has more.
+Of some designs the size is compared with 50 digits, at the place of the peak. One row a machine;
+the exit status is 1 where one is missed, or an error is above 1e-14. A million designs of one
+machine take one to four minutes; with ``--seconds`` a machine gets so much time and no more.
 
-The scan has few places, and they are others in each design: one anywhere in each of some equal
-parts, and some at distances of all orders of magnitude from the motion's ends and from the peaks
-found. What some hundred designs would hide, a peak ever so narrow, a million show.
+The scan has few places, which differ from design to design: one anywhere in each of some equal
+parts, and some at distances of all orders of magnitude from the motion's ends and from the peaks.
+A very narrow peak, which some hundred designs would hide, shows in a million.
 """
 
 import math
@@ -32,8 +31,8 @@ NAMES = ("velocity", "acceleration")
 CHUNK = 10_000  # designs built together
 BLOCK = 256  # designs scanned together: their numbers stay in the processor's cache
 PLACES = 256  # of a whole motion; of half of one that is symmetric, half as many
-NEAREST = 1e-9  # share of a span: the nearest place to what the scan looks at closely
-MORE = 1e-12  # a place of the scan has more by this share: above what rounding does to either
+NEAREST = 1e-9  # fraction of a span: the least distance of a place from an end or a peak
+MORE = 1e-12  # relative: a place of the scan exceeds the peak by more than rounding
 # The same of a wheel that turns v times as fast as its input, because the pin passes so near its
 # centre: a rounding of the keys counts there 5 v times in the velocity, 10 v in the acceleration.
 # The slider-crank of crank 40 mm, rod 48.96976390030376, height 8.558560903106624, point 80 at 90
@@ -47,18 +46,18 @@ WITHOUT = ("gears by points", "gear sector", "gear sector, any ratio", "four-bar
 
 
 class Row(NamedTuple):
-    """What was found of a machine."""
+    """Result for a machine."""
 
     machine: str
     designs: int
     missed: int
-    short: float  # greatest share by which a place of the scan has more
+    short: float  # greatest relative excess of a place of the scan
     worst: float | None  # greatest relative error against 50 digits
     seconds: float
 
 
 def stressed(name, count, seed=12, places=PLACES, witnessed=WITNESSED, seconds=math.inf):
-    """One machine. Designs that cannot be built are drawn again."""
+    """Compare one machine. Designs that cannot be built are drawn again."""
     start = time.process_time()
     spec, rules = MACHINES[name]
     random = np.random.default_rng(seed)
@@ -67,11 +66,11 @@ def stressed(name, count, seed=12, places=PLACES, witnessed=WITNESSED, seconds=m
     while done < count and time.process_time() - start < seconds:
         varied = drawn(rules, min(CHUNK, 2 * (count - done) + 20), seed)
         seed += 1
-        found = many(spec, varied)
-        if found.machine is None:
+        batch = many(spec, varied)
+        if batch.machine is None:
             continue
-        which = found.which[: count - done]
-        some = taken(found.machine, np.arange(len(which))[: len(found.which)])
+        which = batch.which[: count - done]
+        some = taken(batch.machine, np.arange(len(which))[: len(batch.which)])
         for j, engagement in enumerate(some.engagements):
             peaks = motion_peaks(engagement.motion, NAMES)
             over = beyond(engagement.motion, peaks, len(which), places, random)
@@ -90,18 +89,18 @@ def stressed(name, count, seed=12, places=PLACES, witnessed=WITNESSED, seconds=m
 
 
 def beyond(motion, peaks, count, places, random):
-    """By what share the greatest of a scan is above the sizes told: (count,)."""
+    """Relative excess of the greatest of a scan over the peaks: (count,)."""
     whole = not motion.symmetric
     ends = [motion.entry_deg, motion.exit_deg if whole else 0.0]
     a, b = (np.broadcast_to(np.reshape(x, (-1, 1)), (count, 1)) for x in ends)
-    told = [[np.broadcast_to(v, (count,)) for v in peaks[name]] for name in NAMES]
-    near = [np.clip(at[:, None], a, b) for _, at in told]
+    sizes = [[np.broadcast_to(v, (count,)) for v in peaks[name]] for name in NAMES]
+    near = [np.clip(at[:, None], a, b) for _, at in sizes]
     out = np.full(count, -np.inf)
     for i in range(0, count, BLOCK):
         part = slice(i, i + BLOCK)
         x = scanned(a[part], b[part], [x[part] for x in near], places >> (not whole), random)
         p = taken(motion, part)(np.asfortranarray(x), 2).derivatives()
-        for k, (size, _) in enumerate(told, 1):
+        for k, (size, _) in enumerate(sizes, 1):
             most = np.abs(np.broadcast_to(p[k], x.shape)).max(axis=1)
             out[part] = np.maximum(out[part], most / size[part] - 1.0)
     return out
@@ -120,10 +119,10 @@ def scanned(a, b, near, places, random):
 
 
 def errors(true, peaks, row):
-    """Relative errors of the sizes at their places, beyond what rounding these moves the size by.
+    """Relative errors of the sizes at their places, less the effect of rounding the places.
 
-    That counts where the greatest is a jump at an end: of an inside wheel of 3 slots and A = 0.9079
-    a unit in the last place of the entry's angle moves it by 3.4e-14.
+    That effect counts where the greatest is a jump at an end: of an inside wheel of 3 slots and A =
+    0.9079 a unit in the last place of the entry's angle moves it by 3.4e-14.
     """
     for name in NAMES:
         size, at = (float(np.ravel(v)[row if np.size(v) > 1 else 0]) for v in peaks[name])
@@ -133,11 +132,11 @@ def errors(true, peaks, row):
 
 
 def main():
-    asked = options(__doc__)
+    chosen = options(__doc__)
     print(f"{'machine':26}{'designs':>10}{'missed':>8}{'short':>10}{'error':>10}{'CPU s':>8}")
     wrong = False
-    for name in asked.machine:
-        row = stressed(name, asked.designs, asked.seed, seconds=asked.seconds)
+    for name in chosen.machine:
+        row = stressed(name, chosen.designs, chosen.seed, seconds=chosen.seconds)
         error = "-" if row.worst is None else f"{row.worst:.1e}"
         print(
             f"{name:26}{row.designs:>10}{row.missed:>8}{row.short:>10.1e}{error:>10}"

@@ -2,12 +2,12 @@
 
     stress_sweep.py [--one-of N] [--pairs N] [--machine NAME]... [--seconds S] [--seed N]
 
-Of every machine (those of tests/sweep_keys.py) numeric keys vary alone, and are given as lists of
-equal values: all of the wheel, drive and motion, and one of four of the other tables, whose keys
-all machines have; --one-of 1 takes all. Each machine draws its own, so that 43 machines together
-take each key some ten times: 35 minutes instead of 90. Of all pairs of keys some are drawn, and
-vary together. Every quantity that a sweep has of arrays is held against that of each design alone.
-One row a machine; what differs follows it, and the exit status is then 1.
+For every machine (those of tests/sweep_keys.py) each numeric key varies alone, and is also a list
+of equal values. These are all keys of wheel, drive and motion, and one of four keys of the other
+tables, which all machines have; --one-of 1 takes all. Each machine draws its own, so that 43
+machines together take each key some ten times: 35 minutes instead of 90. Some pairs of keys are
+drawn, and vary together. Every quantity that a sweep computes as a batch is compared with that of
+each design alone. One row a machine, then its differences; the exit status is 1 if there are any.
 """
 
 import argparse
@@ -21,7 +21,7 @@ from sweep_keys import NAMES, apart, base, built, keys, off
 
 
 def variations(spec, pairs, draw, one_of):
-    """What varies, one sweep after the other: keys, and their values in each design."""
+    """Yield the varied keys of one sweep after the other, and their values in each design."""
     known = {key: pair for key in keys(spec) if (pair := apart(spec, key))}
     common = sorted(key for key in known if not key.startswith(("wheel.", "drive.", "motion.")))
     left_out = {*common} - {*draw.sample(common, math.ceil(len(common) / one_of))}
@@ -37,10 +37,10 @@ def variations(spec, pairs, draw, one_of):
 
 
 def stressed(name, pairs, one_of, seconds=math.inf, seed=5):
-    """How many sweeps of a machine were held against single designs, and what differs."""
+    """Count the sweeps of a machine, and list their differences from single designs."""
     spec, start, count, wrong = base(name), time.process_time(), 0, []
     for varied in variations(spec, pairs, random.Random(f"{name} {seed}"), one_of):
-        wrong += [f"{varied}: {said}" for said in off(spec, varied)]
+        wrong += [f"{varied}: {text}" for text in off(spec, varied)]
         count += 1
         if time.process_time() - start > seconds:
             break
@@ -54,14 +54,16 @@ def main():
     parser.add_argument("--machine", action="append", choices=NAMES)
     parser.add_argument("--seconds", type=float, default=math.inf, help="for each machine, of CPU")
     parser.add_argument("--seed", type=int, default=5, help="of the keys and pairs drawn")
-    asked = parser.parse_args()
+    chosen = parser.parse_args()
     warnings.simplefilter("error")
     print(f"{'machine':26}{'sweeps':>8}{'differ':>8}{'CPU s':>8}")
     differ = False
-    for name in asked.machine or NAMES:
-        count, wrong, seconds = stressed(name, asked.pairs, asked.one_of, asked.seconds, asked.seed)
+    for name in chosen.machine or NAMES:
+        count, wrong, seconds = stressed(
+            name, chosen.pairs, chosen.one_of, chosen.seconds, chosen.seed
+        )
         print(f"{name:26}{count:>8}{len(wrong):>8}{seconds:>8.0f}", flush=True)
-        print(*[f"  {said}" for said in wrong], sep="\n", end="\n" * bool(wrong))
+        print(*[f"  {text}" for text in wrong], sep="\n", end="\n" * bool(wrong))
         differ |= bool(wrong)
     sys.exit(differ)
 

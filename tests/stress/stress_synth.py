@@ -1,4 +1,4 @@
-"""Rows of `geneva synth` over wishes and wheels, written, checked and exported: `make stress`.
+"""Rows of `geneva synth` for random requirements, written, checked and exported: `make stress`.
 
 A row that says yes must pass every check and be cut; one that says no is counted by its reason.
 """
@@ -19,7 +19,7 @@ from geneva_cli.synthesis.search import search
 from geneva_cli.synthesis.written import chosen
 
 ROWS = 105  # as many as the trial in which an older synth's specs failed 27 times
-WISHES = (
+REQUIREMENTS = (
     {"tau": "1/3"},
     {"tau": "0.6"},
     {"tau": "1/5"},
@@ -35,40 +35,43 @@ SLOTS = (3, 4, 5, 6, 8, 10, 12, 16, 20)
 LAWS = ("modified-sine", "cycloidal", "modified-trapezoid", "3-4-5")
 
 
-def row(some, folder):
-    """What became of one row: how it was said, and whether check and export agree."""
-    options = {**some.choice(WISHES), "z": str(some.choice(SLOTS)), "law": some.choice(LAWS)}
+def row(draw, folder):
+    """Return how one row is marked, and its fault if check and export contradict that."""
+    options = {**draw.choice(REQUIREMENTS), "z": str(draw.choice(SLOTS)), "law": draw.choice(LAWS)}
     target = read_target(**options)
     try:
-        found = search(target)
+        ranking = search(target)
     except GenevaError:
         return "out of reach", ""
-    number = some.randint(1, min(len(found.rows), 40))
-    said = found.rows[number - 1].candidate.parts
-    if said is None:
+    number = draw.randint(1, min(len(ranking.rows), 40))
+    parts = ranking.rows[number - 1].candidate.parts
+    if parts is None:
         return "not drawn", ""
-    made, text = chosen(found, number, some.random() < 0.5)
+    machine, text = chosen(ranking, number, draw.random() < 0.5)
     file, wheel = folder / "spec.toml", folder / "wheel.dxf"
     file.write_text(text, encoding="utf-8")
     failing = [c.name for c in load(str(file)).checks if c.passes is False]
-    if made.trouble:
-        return f"no: {made.trouble}", "" if failing or said != "maybe" else f"{options} {number}"
+    if machine.trouble:
+        return (
+            f"no: {machine.trouble}",
+            "" if failing or parts != "maybe" else f"{options} {number}",
+        )
     cut = CliRunner().invoke(app, ["profile", str(file), "--part", "wheel", "-o", str(wheel)])
     wrong = failing or cut.exit_code
     return "yes", f"{options} {number}: {failing} {cut.stderr}" if wrong else ""
 
 
 def main(rows=ROWS, seed=1):
-    """So many rows; exit 1 where one is not what it says."""
-    some, told, faults = random.Random(seed), Counter(), []
+    """Try so many rows; return 1 if one has a fault."""
+    draw, marks, faults = random.Random(seed), Counter(), []
     with tempfile.TemporaryDirectory() as folder:
         for _ in range(rows):
-            what, fault = row(some, Path(folder))
-            told[what] += 1
+            what, fault = row(draw, Path(folder))
+            marks[what] += 1
             if fault:
                 faults.append(fault)
                 print(fault, flush=True)
-    for what, times in told.most_common():
+    for what, times in marks.most_common():
         print(f"{times:5}  {what}")
     return 1 if faults else 0
 

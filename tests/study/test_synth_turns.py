@@ -20,7 +20,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.synthesis import turns
 from geneva_cli.synthesis.built import built, built_together
 from geneva_cli.synthesis.parts import USUAL, exact, parts, with_roller
-from geneva_cli.synthesis.parts_data import gap_at_rest, parts_data
+from geneva_cli.synthesis.parts_data import distances_at_rest, parts_data
 from geneva_cli.synthesis.reading import read_target
 from geneva_cli.synthesis.search import search
 from geneva_cli.synthesis.turns import Failure, Turns, same_turn
@@ -117,7 +117,8 @@ def test_the_gap_of_a_wheel_at_rest(four_bar, share):
     at = parts.assembly.start_deg + (rest - parts.assembly.start_deg) % 360.0
     drawn = parts.gaps.rollers(parts.gaps.pose(at)).min()
     sizes = parts.sizes
-    seen = gap_at_rest(parts_data(four_bar).back, sizes.rim, sizes.half_width, sizes.roller)
+    back = parts_data(four_bar).back
+    seen = distances_at_rest(*back, sizes.rim, sizes.half_width).min() - sizes.roller
     assert seen == pytest.approx(drawn, abs=1e-9 * L)
 
 

@@ -224,4 +224,4 @@ def test_a_slot_that_drives_from_one_wall_leaves_the_wheel_free() -> None:
     """Just inside an offset slot's mouth there is no wall yet on the roller's other side."""
     (said,) = turn_warnings(PartsModel(load(str(DESIGNS / "offset-slots.toml"))))
     assert re.match(r"in its slot the wheel is free ahead by 6\.49\d* deg at -61\.\d+ deg", said)
-    assert not turn_warnings(PartsModel(load(str(DESIGNS / "limits.toml"))))
+    assert not list(turn_warnings(PartsModel(load(str(DESIGNS / "limits.toml")))))

@@ -7,7 +7,7 @@ panels of a batch of motions are computed together; a single motion is a batch o
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -100,9 +100,7 @@ def panels_of(derivatives: Derivatives, breaks: Array) -> Panels:
         top[rest] = order - 1
         if not len(rest):
             break
-    motion = np.concatenate([part.motion for part in parts])
-    edges = np.concatenate([part.edges for part in parts])
-    values = np.concatenate([part.values for part in parts], axis=1)
+    motion, edges, values = _joined(parts)
     order_ = np.lexsort((edges[:, 0], motion))
     motion, (left, right), values = motion[order_], edges[order_].T, values[:, order_]
     series = matrix_product(values, SERIES.T)
@@ -158,16 +156,14 @@ def _refined(
         middle = rest.mean(axis=1)
         halves = (np.stack((rest[:, 0], middle), 1), np.stack((middle, rest[:, 1]), 1))
         open_, motion = np.concatenate(halves), np.concatenate((of, of))
-    every = _Refined(
-        np.concatenate([part.motion for part in closed]),
-        np.concatenate([part.edges for part in closed]),
-        np.concatenate([part.values for part in closed], axis=1),
-    )
-    kept = ~many[every.motion]
-    return (
-        _Refined(every.motion[kept], every.edges[kept], every.values[:, kept]),
-        np.flatnonzero(many),
-    )
+    motion, edges, values = _joined(closed)
+    kept = ~many[motion]
+    return _Refined(motion[kept], edges[kept], values[:, kept]), np.flatnonzero(many)
+
+
+def _joined(parts: Sequence[_Refined]) -> _Refined:
+    motion, edges, values = zip(*parts, strict=True)
+    return _Refined(np.concatenate(motion), np.concatenate(edges), np.concatenate(values, axis=1))
 
 
 def _stays(tail: Array, before: Array) -> Mask:

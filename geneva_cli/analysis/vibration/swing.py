@@ -9,40 +9,22 @@ motion is an integral of f e^(p (1 - u)) over 0..1, where f is a derivative of t
 each panel f is a Legendre series. The moments of e^(p (1 - u)) with Legendre's polynomials are
 spherical Bessel functions of q = -p h, with h half the panel's width.
 
-For small q they are computed by a power series, otherwise by Miller's downward recurrence. If |q|
-exceeds the number of terms, the upward recurrence is stable and needs only the panels' ends
-(Filon's method). The 0/0 of textbook forms does not occur.
+They are computed by Miller's downward recurrence. If |q| exceeds the number of terms, the upward
+recurrence is stable and needs only the panels' ends (Filon's method). The 0/0 of textbook forms
+does not occur.
 """
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.vibration.panels import TERMS, Panels
-from geneva_cli.numerics.arrays import Array, Complex, Whole, matrix_product
+from geneva_cli.numerics.arrays import Array, Complex, Whole
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-
-SMALL, POWERS = 0.5, 20  # up to this |q| a power series of so many terms
-# moments of Legendre's polynomials with (x - 1)^k / k!, for e^(q (x - 1)): zero for k < n
-_MOMENTS = np.array(
-    [
-        [
-            (-1.0) ** (n + k)
-            * (2 ** (k + 1) * math.factorial(k))
-            / (math.factorial(k - n) * math.factorial(k + n + 1))
-            if k >= n
-            else 0.0
-            for k in range(POWERS)
-        ]
-        for n in range(TERMS)
-    ]
-)
 
 
 class Swing(NamedTuple):
@@ -119,14 +101,17 @@ def _integral(panels: Panels, order: int, motion: Whole, swing: Swing) -> Comple
     series = panels.series[order - 1, panel]
     # Without damping q = -i omega h, and all recurrences are real in omega h.
     unit = 1.0 if swing.damping.any() else -1j
-    size = np.abs(p) * h
-    reduced: Array | Complex = -p * h if unit == 1.0 else size
+    # an integral over a smaller |q| is that over 1e-15, to rounding
+    reach = np.maximum(h, 1e-15 / np.abs(p))
+    size = np.abs(p) * reach
+    reduced: Array | Complex = -p * reach if unit == 1.0 else size
     out: Complex = np.empty(len(of), dtype=complex)
     after = each.after(1.0 - panels.right[panel])
     large = size >= TERMS  # there the upward recurrence is stable
-    for here, moments in ((size < SMALL, _by_powers), ((size >= SMALL) & ~large, _by_recurrence)):
+    # apart, since 56 terms of a |q| below 1e-8 overflow, and 32 of 1e-15 do not
+    for here in (size < 0.5, (size >= 0.5) & ~large):
         if here.any():
-            out[here] = moments(reduced[here], unit, series[here]) * h[here] * after[here]
+            out[here] = _by_recurrence(reduced[here], unit, series[here]) * h[here] * after[here]
     if large.any():
         some = Swing(each.ratio[large], each.damping[large])
         one, other = _by_ends(reduced[large], unit, series[large])
@@ -139,16 +124,6 @@ def _sums(terms: NDArray[np.inexact], series: Array) -> Complex:
     """Sums over the terms: of (terms, pairs) times (pairs, terms)."""
     out: Complex = np.einsum("tp,pt->p", terms, series)
     return out
-
-
-def _by_powers(reduced: Array | Complex, unit: complex, series: Array) -> Complex:
-    """Integrals of f e^(q (x - 1)) by powers of q, with the oscillators' q and the panels' f."""
-    q: Complex = np.multiply(reduced, unit, dtype=complex)
-    total: Complex = q * 0.0 * series[:, 0]
-    for c in matrix_product(series, _MOMENTS).T[::-1]:
-        total *= q
-        total += c
-    return total
 
 
 def _by_recurrence(reduced: Array | Complex, unit: complex, series: Array) -> Complex:

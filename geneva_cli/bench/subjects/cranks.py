@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
@@ -101,15 +100,10 @@ def secants(d: Proportions, n: int) -> Any:
     return scanned(d, n, root)
 
 
-def _has_find_root() -> bool:
-    """Return True if SciPy is 1.15 or later."""
-    return find_spec("scipy.optimize.elementwise") is not None
-
-
 def subject(quick: bool) -> Subject:
     """Every method on one set of designs."""
     # name, function of a block of designs, sizes
-    vectorised: list[tuple[str, Callable[[Proportions, int], Any], tuple[int, ...]]] = [
+    vectorised: list[tuple[str, Callable[..., Any], tuple[int, ...]]] = [
         ("vectorised grid", grid, (33, 101, 1001)),
         ("vectorised grid + parabola", parabola, (9, 17, 33, 101, 301)),
         ("vectorised scan + SciPy find_root", find_root, (17, 33)),
@@ -118,35 +112,23 @@ def subject(quick: bool) -> Subject:
     count = 2_000 if quick else 100_000
     designs = CrankDesigns(count)
     methods = [
-        Method(name, n, partial(designs.arrays.blocks, partial(_sized, method, n)))
+        Method(name, n, partial(designs.arrays.blocks, partial(method, n=n)))
         for name, method, sizes in vectorised
-        if method is not find_root or _has_find_root()
         for n in (sizes[:2] if quick else sizes)
     ]
     sample = 5 if quick else 50  # designs of which a loop is run
     for numeric in () if quick else NUMERIC:
         size = numeric.sizes[2]
-        methods.append(
-            Method(
-                f"loop: {numeric.name} (extrapolated from {sample})",
-                size,
-                partial(_loop, designs, numeric.run, int(size) if size >= 1.0 else size, sample),
-                times=count / sample,
-            )
-        )
+        name = f"loop: {numeric.name} (extrapolated from {sample})"
+        loop = partial(_loop, designs, numeric.run, size, sample)
+        methods.append(Method(name, size, loop, times=count / sample))
     absent = missing("numba")
     if not absent:
         methods.append(Method("numba, loop over designs", None, partial(_compiled, designs)))
     sign, l, _, _ = designs.arrays
     rest = one_minus_sin_pi(1, designs.z)
-    methods.append(
-        Method(
-            "ours",
-            None,
-            lambda: acceleration_peaks(wheels(sign, l, rest, designs.A))[0],
-            True,
-        )
-    )
+    ours = lambda: acceleration_peaks(wheels(sign, l, rest, designs.A))[0]  # noqa: E731
+    methods.append(Method("ours", None, ours, True))
     task = task_of_many(f"{count} designs", count, designs.error, methods)
     return Subject(
         f"Peak acceleration of {count} side-crank designs",
@@ -162,10 +144,6 @@ def _compiled(designs: CrankDesigns) -> Any:
     out = np.empty(len(A))
     by_numba(looped)(sign, l, A, out)
     return out
-
-
-def _sized(method: Callable[[Proportions, int], Any], n: int, d: Proportions) -> Any:
-    return method(d, n)
 
 
 def _loop(

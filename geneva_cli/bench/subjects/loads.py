@@ -30,7 +30,11 @@ def script(x: Array) -> tuple[Array, ...]:
     D = 1.0 - 2.0 * l * cosine + l * l
     velocity = l * (cosine - l) / D
     torque = 1.2 * SPEED**2 * (-l * (1.0 - l * l) * sine / D**2) + 20.0
-    rho, along = L * np.sqrt(D), L * l * sine / np.sqrt(D)
+    return _under(torque, velocity, L * np.sqrt(D), L * l * sine / np.sqrt(D))
+
+
+def _under(torque: Array, velocity: Array, rho: Array, along: Array) -> tuple[Array, ...]:
+    """Torque, force and input torque of a roller at ``rho``, m, that slides ``along`` its slot."""
     rubs = along + np.sign(torque) * (1.0 + velocity) * RADIUS
     force = np.abs(torque) / (rho - RADIUS * FRICTION * np.sign(rubs))
     return torque, force, torque * velocity + FRICTION * force * np.abs(rubs)
@@ -43,9 +47,7 @@ def differences(x: Array) -> tuple[Array, ...]:
     velocity = np.gradient(np.arctan2(l * sine, 1.0 - l * cosine), x)
     torque = 1.2 * SPEED**2 * np.gradient(velocity, x) + 20.0
     rho = L * np.sqrt(1.0 - 2.0 * l * cosine + l * l)
-    rubs = np.gradient(rho, x) + np.sign(torque) * (1.0 + velocity) * RADIUS
-    force = np.abs(torque) / (rho - RADIUS * FRICTION * np.sign(rubs))
-    return torque, force, torque * velocity + FRICTION * force * np.abs(rubs)
+    return _under(torque, velocity, rho, np.gradient(rho, x))
 
 
 def subject(quick: bool) -> Subject:

@@ -181,17 +181,11 @@ def _kind_task(kind: VariedMachine, count: int) -> Task:
     motion = build(kind.spec.with_(kind.key, value)).engagements[0].motion
     angles = np.linspace(motion.entry_deg, motion.exit_deg, count)
     angles[1] = 0.5 * (angles[0] + angles[1])  # not its own mirror image: no half is copied
-    radians, formula = np.radians(angles), kind.formula and partial(kind.formula, value)
-    methods = [
-        *(
-            [
-                Method(
-                    "a handbook's formulas, in blocks", count, partial(_in_blocks, formula, radians)
-                )
-            ]
-            if formula
-            else []
-        ),
+    methods = []
+    if kind.formula:
+        script = partial(_in_blocks, partial(kind.formula, value), np.radians(angles))
+        methods.append(Method("a handbook's formulas, in blocks", count, script))
+    methods += [
         Method("jets, whole arrays", count, lambda: _jet_rates(motion, angles)),
         Method("ours", count, lambda: motion.derivatives(angles, ORDERS), True),
     ]

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from functools import partial
-from typing import Any
 
 from geneva_cli.analysis.peaks import peak as program
 from geneva_cli.bench.formulas import Proportions, acceleration
@@ -38,7 +36,7 @@ def _task(z: int, gearing: str, A: float, quick: bool) -> Task:
     wheel = registry.gearing(gearing)(z)
     d = Proportions.of(wheel.SIGN, z, A)
     methods = [
-        Method(numeric.name, size, partial(_run, numeric.run, d, size))
+        Method(numeric.name, size, partial(numeric.run, d, size))
         for numeric in NUMERIC
         for size in (numeric.sizes[:2] if quick else numeric.sizes)
     ]
@@ -70,7 +68,3 @@ def _task(z: int, gearing: str, A: float, quick: bool) -> Task:
         lambda peak: relative(peak, acceleration_peak(z, gearing, A)),
         methods,
     )
-
-
-def _run(method: Callable[[Proportions, Any], float], d: Proportions, size: float) -> float:
-    return method(d, int(size) if size >= 1.0 else size)

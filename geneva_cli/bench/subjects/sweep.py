@@ -91,10 +91,7 @@ def _task(request: QuantityRequest, loaded: LoadedMachine, friction: float, quic
         size=kind.spec.size.replace(face_width_mm=10.0, slot_clearance_mm=0.01),
         load=Load(1.0, loaded.torque_Nm if friction else 0.0, friction=friction),
         shaft=Shaft(
-            stiffness_Nm_rad=5e3,
-            damping_ratio=0.02,
-            wheel_diameter_mm=20.0,
-            wheel_overhang_mm=30.0,
+            stiffness_Nm_rad=5e3, damping_ratio=0.02, wheel_diameter_mm=20.0, wheel_overhang_mm=30.0
         ),
         tolerance=Tolerance(crank_radius_mm=0.02, slot_width_mm=0.02),
     )

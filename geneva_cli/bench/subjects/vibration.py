@@ -82,22 +82,13 @@ def closed(ratio: Array, damping: float, _: int = 0) -> Array:
 def _exponentials(m: Any, pi: Any, p: Any) -> Any:
     """Integral of the unit law times e^(p (1 - u)), with a module's exp."""
     total = 0.0
-    for a, b, rate, phase in ((_fraction(pi, v) for v in piece) for piece in _thirds()):
+    for piece in LAW_PIECES:
+        a, b, rate, phase = (pi / pi * round(24 * v) / 24 for v in piece)  # in the digits of pi
         for side in (1, -1):
             k = 1j * side * rate * pi
             at = m.exp(1j * side * phase * pi) / (2j * side)
             total = total + at * m.exp(p) * (m.exp((k - p) * b) - m.exp((k - p) * a)) / (k - p)
     return total
-
-
-def _thirds() -> list[tuple[tuple[int, int], ...]]:
-    """The pieces in whole numbers: a quotient each."""
-    return [tuple((round(24 * v), 24) for v in piece) for piece in LAW_PIECES]
-
-
-def _fraction(pi: Any, value: tuple[int, int]) -> Any:
-    """A quotient in the arithmetic of ``pi``."""
-    return pi / pi * value[0] / value[1]
 
 
 @cache

@@ -25,7 +25,6 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from geneva_cli.analysis.contact import Contact
 from geneva_cli.analysis.forces import QuantityValue, guide_lever
 from geneva_cli.analysis.guide_place import guide_place
 from geneva_cli.analysis.instant import Instant
@@ -40,10 +39,10 @@ class EndForce(NamedTuple):
 
     side: float  # 1 for one end, -1 for the other
 
-    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
+    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
         """The square, and the grip that bounds it."""
         rub = i.slides * i.case.friction
-        lever = guide_lever(i.case, at, i.drives, i.slides) * i.drives
+        lever = guide_lever(i.case, i.at, i.drives, i.slides) * i.drives
         force = i.forces.force * (lever * (0.5 * self.side / i.case.guide_half) + 0.5 * rub)
         return QuantityValue(force * force, i.grip)
 

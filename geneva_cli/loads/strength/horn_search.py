@@ -12,9 +12,10 @@ from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from geneva_cli.analysis.contact import NEAR_CUSP
+from geneva_cli.analysis.contact import NEAR_CUSP, contact, contact_values
+from geneva_cli.analysis.forces import load_case
+from geneva_cli.analysis.instant import bounded_loads
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.loads.loads import state
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Number, Whole, array, parameter
@@ -165,9 +166,10 @@ def _stress(
     mechanism: Mechanism, side: HornSide, width: float, x: Array, sections: Array
 ) -> UnitStress:
     """Stresses under the machine's load: 0 where the other horn bears."""
-    loads = state(mechanism, side.whole, squeezed(x - side.ahead_deg))
-    bears = np.asarray(loads.torque_Nm) * side.end < 0.0
-    force = np.atleast_2d(np.where(bears, loads.pin_force_N, 0.0))
+    at = contact_values(contact(side.whole, squeezed(x - side.ahead_deg), reactions=False))
+    loads = bounded_loads(load_case(mechanism), at)
+    bears = np.asarray(loads.wheel_torque_Nm) * side.end < 0.0
+    force = np.atleast_2d(np.where(bears, np.abs(loads.pin_force_N), 0.0))
     own = np.flatnonzero(bears.any(axis=0) if bears.ndim > 1 else bears)  # elsewhere it is 0
     unit = side.unit_stress(x[:, own], sections, width)
     m = max(len(force), len(unit.stress))

@@ -27,7 +27,7 @@ from __future__ import annotations
 
 import math
 from functools import reduce
-from typing import NamedTuple, cast
+from typing import NamedTuple
 
 import numpy as np
 
@@ -36,31 +36,26 @@ from geneva_cli.analysis.locking import Lock
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.materials import wheel_material
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import all_true, blocks, choose_record, only_of, parameter
+from geneva_cli.numerics.arrays import all_true, blocks, choose_record, parameter
 from geneva_cli.numerics.jet import Array, Number
 
 
 class LockUnderTorque(NamedTuple):
-    """A lock under a torque; None for values that are not known.
-
-    (m,) each for m designs, with NaN for values that are not known.
-    """
+    """Locks of m designs under a torque, (m,) each; NaN for values that are not known."""
 
     on: str  # part where disc and recess touch, as in ``LockContact``
     torque_Nm: float
     force_N: float
-    contact_stress_MPa: float | None  # Hertz; None for a sharp edge, and without clearance
+    contact_stress_MPa: float  # Hertz; NaN for a sharp edge, and without clearance
     pressure_MPa: float  # after wear
     horn_stress_MPa: float  # bending
     play_deg: float
-    approach_deg: float | None
+    approach_deg: float
     bending_deg: float
 
     @property
-    def deflection_deg(self) -> float | None:
-        """Sum of all three parts; None if the approach is not known."""
-        if self.approach_deg is None:
-            return None
+    def deflection_deg(self) -> float:
+        """Sum of all three parts; NaN if the approach is not known."""
         return self.play_deg + self.approach_deg + self.bending_deg
 
 
@@ -84,20 +79,6 @@ def held_torque_Nm(mechanism: Mechanism) -> float:
     from geneva_cli.analysis.unbalance import held_unbalance_Nm
 
     return held + parameter(held_unbalance_Nm(mechanism))
-
-
-def lock(
-    mechanism: Mechanism, half_width_mm: float, by: Lock, width_mm: float
-) -> LockUnderTorque | None:
-    """The lock of a machine whose parts have these radii and width, with its weakest horn.
-
-    None without a torque to hold.
-    """
-    batch = loaded_locks(mechanism, half_width_mm, by, width_mm)
-    if batch is None:
-        return None
-    on, *rows = batch
-    return LockUnderTorque(on, *cast("list[float]", only_of(rows)))
 
 
 def loaded_locks(

@@ -22,7 +22,6 @@ import numpy as np
 from geneva_cli.analysis.contact import Contact, contact, is_straight
 from geneva_cli.analysis.forces import Forces, LoadCase, load_case, sliding
 from geneva_cli.analysis.load_functions import (
-    NO_MORE,
     LoadBatch,
     LoadFunctions,
     SignFunctions,
@@ -83,7 +82,7 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
 
 def passage_integrals(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPassage:
     """Integrals over one motion of m designs: (m,) each."""
-    every = load_batch(engagement, case, (FORCE,), NO_MORE)
+    every = load_batch(engagement, case, (FORCE,))
     (rows,) = of_groups(every, lambda some, n: (_integrals(some, n, half),))
     return SlotPassage(*map(parameter, rows))
 
@@ -92,9 +91,7 @@ def _integrals(every: LoadBatch, n: int, half: float) -> Array:
     """Integrals of n designs, one row each; infinite if the force has no bound."""
     engagement = every.engagement
     # the integrals are bounded where the force is
-    load = LoadFunctions(
-        every, (FORCE,), ("slides", "along") if turns_back(engagement) else ("slides",)
-    )
+    load = LoadFunctions(every, ("slides", "along") if turns_back(engagement) else ("slides",))
     pieces = search(SignFunctions(load), spans_of(engagement, n), n, False, w=load.spread).stretches
     design, _, (a, b), positive = to_mid_motion(engagement, pieces, n)
     own = np.flatnonzero(half * (a + b) >= 0.0)
@@ -102,7 +99,7 @@ def _integrals(every: LoadBatch, n: int, half: float) -> Array:
     signs = dict(zip(load.kinds, np.where(positive, 1.0, -1.0)[..., None], strict=True))
 
     def rows(x: Array, which: Whole) -> Array:
-        some, case, _ = taken(every, design[which]) if n > 1 else every
+        some, case, *_ = taken(every, design[which]) if n > 1 else every
         drives, slides = (
             signs[kind][which] if kind in signs else 1.0 for kind in ("drives", "slides")
         )

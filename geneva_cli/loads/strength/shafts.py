@@ -34,24 +34,23 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.contact import Contact
 from geneva_cli.analysis.forces import QuantityValue
 from geneva_cli.analysis.instant import Instant
 from geneva_cli.analysis.load_functions import LoadQuantity
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
-from geneva_cli.numerics.arrays import N, only_of, parameter
+from geneva_cli.numerics.arrays import N, parameter
 from geneva_cli.numerics.jet import Array, Jet, Number, sqrt
 from geneva_cli.spec.tables import Shaft
 
 if TYPE_CHECKING:
     # The squared bending moment of a shaft, (N m)², with an overhang in metres, and its torque.
-    ShaftForces = Callable[[Instant[Jet], Contact[Jet], Number], tuple[Jet, Jet]]
+    ShaftForces = Callable[[Instant[Jet], Number], tuple[Jet, Jet]]
 
 
 class ShaftStress(NamedTuple):
-    """Results for a shaft over its cycle; None for unknown values; (m,) each for m designs."""
+    """Results for the shafts of m designs over their cycles, (m,) each; None for unknown values."""
 
     moment_Nm: float  # greatest sqrt((Kb M)² + (Kt T)²)
     at_deg: float
@@ -96,24 +95,24 @@ def least_diameter_mm(moment_Nm: N, allowed_MPa: N) -> N:
     return diameter
 
 
-def on_wheel(i: Instant[Jet], at: Contact[Jet], overhang: Number) -> tuple[Jet, Jet]:
+def on_wheel(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
     """Squared bending moment of the wheel's shaft, and torque: the loads from slot and wheel."""
     return i.wheel_bearing_N * i.wheel_bearing_N * (overhang * overhang), i.wheel_torque_Nm
 
 
-def on_crank(i: Instant[Jet], at: Contact[Jet], overhang: Number) -> tuple[Jet, Jet]:
+def on_crank(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
     """Squared bending moment and torque of a crank that is or turns with the input shaft."""
     return i.crank_bearing_squared * (overhang * overhang), i.input_torque_Nm
 
 
-def on_driven_crank(i: Instant[Jet], at: Contact[Jet], overhang: Number) -> tuple[Jet, Jet]:
+def on_driven_crank(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
     """Squared bending moment and torque of the shaft of a crank behind a transmission.
 
     It turns at another rate than the input, that of the roller's body. The torque differs
     accordingly, since the power is equal.
     """
-    bent, torque = on_crank(i, at, overhang)
-    return bent, torque / (at.spin + at.velocity * at.arm)
+    bent, torque = on_crank(i, overhang)
+    return bent, torque / (i.at.spin + i.at.velocity * i.at.arm)
 
 
 class _Axis(NamedTuple):
@@ -124,14 +123,15 @@ class _Axis(NamedTuple):
     across: Jet
 
 
-def on_sphere_wheel(i: Instant[Jet], at: Contact[Jet], overhang: Number) -> tuple[Jet, Jet]:
+def on_sphere_wheel(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
     """Squared bending moment of the wheel's shaft, and torque; the overhang beyond L in metres."""
-    axis = _Axis(at.arm, at.lever * -1.0, at.lever * 0.0)
+    axis = _Axis(i.at.arm, i.at.lever * -1.0, i.at.lever * 0.0)
     return _bending_squared(i, axis, overhang), i.wheel_torque_Nm
 
 
-def on_sphere_crank(i: Instant[Jet], at: Contact[Jet], overhang: Number) -> tuple[Jet, Jet]:
+def on_sphere_crank(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
     """Squared bending moment of the crank's shaft, and torque; the overhang beyond L in metres."""
+    at = i.at
     away = at.velocity * at.lever
     spin = at.spin + at.velocity * at.arm  # of the crank about the roller's axis
     rate = sqrt(at.along * at.along + away * away + spin * spin)
@@ -170,9 +170,9 @@ class Moment(NamedTuple):
     bending: float
     torsion: float
 
-    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
+    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
         """The square, and the grip that bounds it."""
-        square, torque = self.loaded(i, at, self.overhang)
+        square, torque = self.loaded(i, self.overhang)
         turned = torque * self.torsion
         return QuantityValue(square * (self.bending * self.bending) + turned * turned, i.grip)
 
@@ -182,48 +182,30 @@ class Torque(NamedTuple):
 
     loaded: ShaftForces
 
-    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
+    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
         """The squared torque, and the grip that bounds it."""
-        _, torque = self.loaded(i, at, 0.0)
+        _, torque = self.loaded(i, 0.0)
         return QuantityValue(torque * torque, i.grip)
-
-
-def shaft(mechanism: Mechanism, ends: ShaftDimensions, loaded: ShaftForces) -> ShaftStress | None:
-    """A shaft under the force and torque of a cycle; None without an overhang or without a load.
-
-    Moments are infinite if the force has no bound.
-    """
-    batch = shafts_under_load(mechanism, ends, loaded)
-    if batch is None:
-        return None
-    moment, at_deg, *rest = only_of(batch)
-    assert moment is not None and at_deg is not None
-    return ShaftStress(moment, at_deg, *rest)
 
 
 def shafts_under_load(
     mechanism: Mechanism, ends: ShaftDimensions, loaded: ShaftForces
 ) -> ShaftStress | None:
-    """Shafts of m designs; None if none has an overhang or a load."""
+    """Shafts of m designs under the force and torque of a cycle; infinite without a bound.
+
+    None if no design has an overhang or a load.
+    """
     if ends.overhang_mm is None or not mechanism.spec.is_loaded:
         return None
-    own = _wanted(mechanism, ends, loaded)
-    both, turned = load_peaks(mechanism, tuple(own), own).values()
-    return _turned(mechanism, ends, both.max, both.at_deg, turned.max)
-
-
-def _wanted(
-    mechanism: Mechanism, ends: ShaftDimensions, loaded: ShaftForces
-) -> dict[str, LoadQuantity]:
-    """The squares of the equivalent moment and of the torque."""
     table = mechanism.spec.shaft
-    assert ends.overhang_mm is not None
     factors = table.bending_factor, table.torsion_factor
     moment = Moment(loaded, ends.overhang_mm / 1000.0, *factors)
-    return {"moment": moment, "torque": Torque(loaded)}
+    own: dict[str, LoadQuantity] = {"moment": moment, "torque": Torque(loaded)}
+    both, turned = load_peaks(mechanism, tuple(own), own).values()
+    return _stress_of(mechanism, ends, both.max, both.at_deg, turned.max)
 
 
-def _turned(
+def _stress_of(
     mechanism: Mechanism,
     ends: ShaftDimensions,
     square: Array,

@@ -14,9 +14,10 @@ from typing import NamedTuple
 
 from geneva_cli.curves.cross_holes import CrossHole, Opening
 from geneva_cli.curves.inset import away, inset, lines_and_arcs
-from geneva_cli.curves.measure import fraction_at, with_material_left
+from geneva_cli.curves.measure import fraction_at
+from geneva_cli.curves.moments import oriented
 from geneva_cli.curves.plates import Plate
-from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, as_contour
+from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment
 from geneva_cli.output.mesh.polygons import (
     Triangle,
     arc_chords,
@@ -68,11 +69,8 @@ def plate_mesh(plate: Plate, tolerance: float) -> Surface:
     >>> len(plate_mesh(disc, 0.1).triangles)  # 50 chords: 2 x 48 in the faces, 2 x 50 in the wall
     196
     """
-    contours = [
-        with_material_left(as_contour(shape), i == 0)
-        for i, shape in enumerate(plate_contours(plate))
-    ]
-    return _PlateMesh(plate, contours, tolerance).surface()
+    outline, *holes = plate_contours(plate)
+    return _PlateMesh(plate, oriented(outline, holes), tolerance).surface()
 
 
 class _PlateMesh:

@@ -7,7 +7,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from geneva_cli.curves.measure import STRAIGHT, at, with_material_left
+from geneva_cli.curves.measure import STRAIGHT, at
+from geneva_cli.curves.moments import with_material_left
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Point, Segment, two_arcs
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.ezdxf_alone import earcut

@@ -74,8 +74,7 @@ def _moved(place: Place) -> str:
 def _solid(solid: Solid, tolerance: float) -> str:
     if isinstance(solid, Shell):
         return _polyhedron(shell_mesh(solid, tolerance))
-    plates = [solid] if isinstance(solid, Plate) else solid.plates
-    return "".join(_plate(plate, tolerance) for plate in plates)
+    return "".join(_plate(plate, tolerance) for plate in solid.plates)
 
 
 def _plate(plate: Plate, tolerance: float) -> str:

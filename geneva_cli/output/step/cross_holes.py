@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from geneva_cli.curves.cross_holes import CrossHole, Opening
-from geneva_cli.curves.measure import with_material_left
+from geneva_cli.curves.moments import with_material_left
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Circle, Shape
 from geneva_cli.output.step.curves import smooth_curve

@@ -21,6 +21,7 @@ import numpy as np
 
 from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Whole
 from geneva_cli.numerics.jet import Jet, atan2, sin_cos, sqrt
+from geneva_cli.synthesis.parts_data import distances_at_rest
 
 
 class FourBarLinks(NamedTuple):
@@ -164,12 +165,10 @@ def _passes(place: Complex, r: Array, b: Number) -> Mask:
 
     Lengths are over the distance of the slots' mouths from the wheel's axis, and a slot points
     along the real axis. The wheel ends at hypot(1, r), where slots as wide as the roller leave
-    corners at (1, r). Next to a slot the rim is nearest; in front of it, a corner is.
+    corners at (1, r).
     """
     d, angle = np.abs(place), np.abs((np.angle(place) + b) % (2.0 * b) - b)
-    along, across, rim = d * np.cos(angle), d * np.sin(angle), np.hypot(1.0, r)
-    corner = np.hypot(along - 1.0, across - r)
-    gap = np.where(across * rim < r * d, corner, d - rim) - r
+    away = distances_at_rest(d * np.cos(angle), d * np.sin(angle), np.hypot(1.0, r), r)
     touch = 1e-6  # a roller that leaves its slot is this near to it
-    clear: Mask = np.all((gap >= -touch) & (d > 1.0), axis=1)
+    clear: Mask = np.all((away - r >= -touch) & (d > 1.0), axis=1)
     return clear

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import cache, partial
 from typing import NamedTuple
 
+from geneva_cli.analysis.law_values import characteristic
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.laws.law import Law
 from geneva_cli.kinematics.motion import Motion
@@ -18,6 +19,7 @@ from geneva_cli.kinematics.wheels.gearing import Gearing
 from geneva_cli.machine.drives.cam import Cam
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.tolerances import MARGIN
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.target import Target
 from geneva_cli.synthesis.families import closed
@@ -27,6 +29,7 @@ from geneva_cli.synthesis.families.family import (
     allowed_motions,
     allows,
     closed_span,
+    longest_deg,
     machine,
     natural_deg,
     only,
@@ -46,7 +49,8 @@ def with_laws(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     """Curved slots and cams with each law.
 
     In a range of motions the longest is the gentlest, and the plain crank's own is added. With
-    bounds or another goal, every motion of the range is possible.
+    bounds or another goal, every motion of the range is possible. Below a limit of acceleration
+    alone, the motion nearest to the plain crank's is best; the law's peak gives it in closed form.
     """
     lines = [
         line
@@ -63,25 +67,46 @@ def with_laws(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
 def _lines(target: Target, wheel: Gearing, law: str) -> tuple[_LawMachines, _LawMachines]:
     """Curved slots, and cams, of a wheel and a law."""
     natural, until = natural_deg(wheel), partial(_until_parallel, wheel)
+    step, cost = 2.0 * math.pi / wheel.z, characteristic(standard(law))
+    limit = target.acceleration_max
+    least = closed.law_motion_deg(step, cost.acceleration, limit * (1.0 - MARGIN)) if limit else 0.0
+    fast = cost.velocity * step if wheel.SIGN < 0.0 else 0.0
+
+    def matched(motion: float) -> float:
+        """The motion, or a longer one for a wheel that is too quick for curved slots inside.
+
+        Where it turns half as fast as the crank, R/L is 1; at 0.45 it is 9/11.
+        """
+        return math.degrees(fast / 0.45) if fast >= 0.5 * math.radians(motion) else motion
+
     make, grooved = partial(curved, target, wheel, law), partial(cam, target, wheel, law)
-    return _LawMachines(target, natural, make, lambda motion: motion), _LawMachines(
-        target, natural, grooved, until
+    same = lambda motion: motion  # noqa: E731
+    return (
+        _LawMachines(target, natural, make, same, least, matched),
+        _LawMachines(target, natural, grooved, until, least, same),
     )
 
 
 class _LawMachines(NamedTuple):
     """Machines of one wheel and law: ``make`` takes the number of rollers and the motion.
 
-    ``reached`` limits a range of motions to those that exist.
+    ``reached`` limits a range of motions to those that exist. ``least`` is the motion with which
+    the law's peak keeps a limit of acceleration; ``possible`` is the nearest motion that exists.
     """
 
     target: Target
     natural: float
     make: Callable[[int, float], Spec]
     reached: Callable[[AllowedSpan], AllowedSpan]
+    least: float
+    possible: Callable[[float], float]
 
     def families(self, more: Sequence[Spec]) -> Iterator[Family]:
         """The families, including those with ``more`` rollers than the plain wheel takes."""
+        if self.target.only_acceleration:
+            every = [*rollers(self.target, self.natural), *(spec.drive.rollers for spec in more)]
+            yield from map(self._below, every)
+            return
         for m in rollers(self.target, self.natural):
             free = self._motions(m)
             if free is None:
@@ -97,11 +122,20 @@ class _LawMachines(NamedTuple):
 
     def some(self, m: int) -> list[Spec]:
         """The gentlest machine of m rollers and, in a range, some others."""
+        if self.target.only_acceleration:
+            return [self.make(m, self._below(m).best)]
         free = self._motions(m)
         if not free:
             return []
         low, high = free
         return [self.make(m, x) for x in dict.fromkeys((high, 0.5 * (low + high), low))]
+
+    def _below(self, m: int) -> Family:
+        """The machines below a limit of acceleration; the nearest to the plain crank is best."""
+        most = longest_deg(m)
+        best = self.possible(max(self.least, min(self.natural, most)))
+        family = partial(self.make, m)
+        return Family(family, self.least, max(most, best), plain=self.natural, best=best)
 
     def _motions(self, m: int) -> AllowedSpan | None:
         allowed = closed_span(allowed_motions(self.target, m, self.natural), m)

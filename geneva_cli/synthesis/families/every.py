@@ -14,7 +14,6 @@ from geneva_cli.kinematics.wheels.gearing import Gearing
 from geneva_cli.machine.drives.carousel import Carousel
 from geneva_cli.machine.spec import Spec
 from geneva_cli.study.target import Target
-from geneva_cli.synthesis.families.below import laws_below
 from geneva_cli.synthesis.families.curved import with_laws
 from geneva_cli.synthesis.families.family import (
     Family,
@@ -73,11 +72,10 @@ def kinds(target: Target) -> list[tuple[Kind, Target]]:
     if target.wheels:
         return [(carousels, one) for one in each]
     alone = target.only_acceleration
-    laws = laws_below if alone else with_laws
     return [
         (four_bars, target),
         *((_straight, one.by_bounds if alone else one) for one in each),
-        *((laws, one._replace(laws=(law,))) for law in target.laws for one in each),
+        *((with_laws, one._replace(laws=(law,))) for law in target.laws for one in each),
     ]
 
 

@@ -7,7 +7,7 @@ differently. On a sphere the angle between the shafts determines the motion.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
 
 from geneva_cli.kinematics.wheels.classic import half_motion_deg, rollers_max
@@ -109,31 +109,14 @@ def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
     has_one = target.rollers in (None, 1)
     motion = closed_span(allowed_motions(target, 1, natural), 1) if has_one else None
     if motion is not None and not (motion.exact and allows(motion, natural)):
-        yield from _in_front(target, wheel, natural, motion)
+        plain_too = 0.0 if allows(motion, natural) else math.nan
+        limits = AllowedSpan(-closed.PARAMETER_MAX, closed.PARAMETER_MAX)
+        for make, parameter in ((side_crank, closed.side_crank), (gears, closed.eccentricity)):
+            span = AllowedSpan(*(parameter(natural, x) for x in motion)).within(limits)
+            if not span.empty:
+                yield Family(partial(make, target, wheel), *span, known=plain_too, plain=0.0)
     if wheel.SHELLS:
         yield from _inclined(target, wheel)
-
-
-def _in_front(
-    target: Target, wheel: Gearing, natural: float, motion: AllowedSpan
-) -> Iterator[Family]:
-    yield from _between(partial(side_crank, target, wheel), closed.side_crank, natural, motion)
-    yield from _between(partial(gears, target, wheel), closed.eccentricity, natural, motion)
-
-
-def _between(
-    make: Callable[[float], Spec],
-    inverse: Callable[[float, float], float],
-    natural: float,
-    motion: AllowedSpan,
-) -> Iterator[Family]:
-    """A drive whose parameter increases with its motion, up to its limits."""
-    low, high = (inverse(natural, x) for x in motion)
-    if low <= closed.PARAMETER_MAX and high >= -closed.PARAMETER_MAX:
-        plain_too = 0.0 if allows(motion, natural) else math.nan
-        yield Family(
-            make, max(low, -closed.PARAMETER_MAX), min(high, closed.PARAMETER_MAX), plain_too, 0.0
-        )
 
 
 def _inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
@@ -144,18 +127,10 @@ def _inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
         free = closed_span(allowed_motions(target, m, 180.0), m)
         if free is None or (free.exact and allows(free, 180.0)):
             continue
-
-        make = partial(_on_axes, target, wheel, m)
-        low, high = (closed.axes(z, x) for x in free)
-        if low <= 180.0 - closed.AXES_MIN_DEG and high >= closed.AXES_MIN_DEG:
+        span = AllowedSpan(*(closed.axes(z, x) for x in free)).within(closed.AXES)
+        if not span.empty:
             right = 90.0 if allows(free, 180.0) else math.nan
-            yield Family(
-                make,
-                max(low, closed.AXES_MIN_DEG),
-                min(high, 180.0 - closed.AXES_MIN_DEG),
-                right,
-                90.0,
-            )
+            yield Family(partial(_on_axes, target, wheel, m), *span, known=right, plain=90.0)
 
 
 def _on_axes(target: Target, wheel: Gearing, m: int, axes: float) -> Spec:

@@ -27,7 +27,6 @@ from geneva_cli.machine.many import many
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.study.batches import columns
-from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.sweep.constraints import Objective
 from geneva_cli.study.target import Target
 from geneva_cli.synthesis.families import closed
@@ -63,9 +62,6 @@ def _gears(phase: str) -> _InFront:
     low, high = (0.0, closed.PARAMETER_MAX) if phase == "slow" else (-closed.PARAMETER_MAX, 0.0)
     make = lambda e: EllipticalGears(eccentricity=abs(e), phase=phase)  # noqa: E731
     return _InFront(make, "drive.eccentricity", closed.eccentricity, low, high)
-
-
-AXES = AllowedSpan(closed.AXES_MIN_DEG, 180.0 - closed.AXES_MIN_DEG)
 
 
 def two_numbers(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
@@ -146,7 +142,7 @@ class _TwoNumberSearch:
         """The motion angle, the shafts' angle and the drive's parameter of a wheel's place."""
         motions = self.motions[i]
         motion = motions.low + (motions.high - motions.low) * float(u)
-        axes = AXES.low + (AXES.high - AXES.low) * float(v)
+        axes = closed.AXES.low + (closed.AXES.high - closed.AXES.low) * float(v)
         natural = closed.axes_motion(self.wheels[i].z, axes)
         return motion, axes, self.drive.parameter(natural, motion)
 

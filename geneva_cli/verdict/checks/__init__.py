@@ -30,10 +30,7 @@ if TYPE_CHECKING:
 
 
 def checks(
-    mechanism: Mechanism,
-    model: PartsModel | None = None,
-    parts: bool = True,
-    turned: bool = True,
+    mechanism: Mechanism, model: PartsModel | None = None, parts: bool = True, turned: bool = True
 ) -> list[Check]:
     """Every check of one design: its motion, its parts unless left out, its own ``[limits]``.
 
@@ -120,7 +117,7 @@ def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iter
     yield from rows
     if not turned or parts is None:
         return
-    from geneva_cli.collisions.gaps import WorkLimit
+    from geneva_cli.collisions.machine_parts import WorkLimit
 
     try:
         turn = model.turn

@@ -30,13 +30,7 @@ def _arm_check(
 ) -> Check | None:
     """The check, if the spec sets a key of the arm: its default dimensions always pass."""
     size = parts.mechanism.spec.size
-    keys = (
-        "arm_bore_mm",
-        "arm_hub_mm",
-        "arm_eye_mm",
-        "press_fit_mm",
-        "lock_bolts",
-    )
+    keys = ("arm_bore_mm", "arm_hub_mm", "arm_eye_mm", "press_fit_mm", "lock_bolts")
     if not (has_shape(size, "crank") or any(vars(size)[key] for key in keys)):
         return None
     return at_least(name, lambda: measure(parts.arm) if parts.arm else None, limit)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geneva_cli.collisions.certificate import Certificate, certificate, tolerance_mm
-from geneva_cli.collisions.gaps import WorkLimit
+from geneva_cli.collisions.machine_parts import WorkLimit
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.outlines.travel import UNKNOWN
 from geneva_cli.verdict.checks.check import Check, compared

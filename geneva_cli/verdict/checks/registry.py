@@ -126,10 +126,7 @@ STANDING = {
     "flat": STATIC,
     "ball": SPHERE,
     "rack": RACK,
-    "counter": {
-        "cut_plate_mm": "process:thickest_of_counter",
-        "parts": "process:plates_built",
-    },
+    "counter": {"cut_plate_mm": "process:thickest_of_counter", "parts": "process:plates_built"},
 }
 # Checks of plates or shells in a whole turn.
 TURNING: Checks = {
@@ -145,9 +142,7 @@ TURNING: Checks = {
     "motion_play_mm": "play:motion",
 }
 # Of flat parts at every angle of the turn, made for a design's own answer.
-PROOFS: Checks = {
-    "gap_proved_mm": "proved:least_gap",
-}
+PROOFS: Checks = {"gap_proved_mm": "proved:least_gap"}
 
 
 def checks_before_turn() -> tuple[str, ...]:

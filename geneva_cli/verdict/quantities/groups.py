@@ -300,11 +300,7 @@ REPORT = (
         )
         for shaft in ("wheel_shaft", "crank_shaft")
     ),
-    _group(
-        "strength.arm",
-        "thickness_mm stress_MPa allowed_MPa margin",
-        batch="strength:arm",
-    ),
+    _group("strength.arm", "thickness_mm stress_MPa allowed_MPa margin", batch="strength:arm"),
     _group("strength.arm", "least_thickness_mm", batch="strength:arm_thickness"),
     *(
         _group(
@@ -353,10 +349,7 @@ STUDY = (
         "loads:sizing",
     ),
     QuantityGroup(
-        "checks",
-        checks_before_turn(),
-        "quantities.single:values_before_turn",
-        makes_parts=True,
+        "checks", checks_before_turn(), "quantities.single:values_before_turn", makes_parts=True
     ),
     QuantityGroup(
         "checks",

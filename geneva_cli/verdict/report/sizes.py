@@ -11,32 +11,7 @@ from geneva_cli.loads import loads
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import scalar
 from geneva_cli.verdict.quantities.designs import Values
-from geneva_cli.verdict.quantities.groups import ECHOED, INPUTS
-
-_SPHERE = [
-    f"sizes.{name}"
-    for name in (
-        "axes_deg",
-        "sphere_radius_mm",
-        "crank_arm_mm",
-        "slot_mouth_polar_deg",
-        "slot_bottom_polar_deg",
-    )
-]
-_FLAT = [
-    f"sizes.{name}"
-    for name in (
-        "center_distance_mm",
-        "crank_radius_mm",
-        "ratio",
-        "slot_width_mm",
-        "slot_mouth_radius_mm",
-        "slot_bottom_radius_mm",
-        "wheel_radius_mm",
-        "rim_radius_mm",
-        "pressure_angle_max_deg",
-    )
-]
+from geneva_cli.verdict.quantities.groups import ECHOED, INPUTS, own_names
 
 
 def sizes(model: PartsModel) -> Values:
@@ -44,14 +19,18 @@ def sizes(model: PartsModel) -> Values:
 
     The rim is None if the spec's sizes leave no wheel; the slots too if no wheel is drawn.
     """
+    own = (
+        _sphere_sizes(model.mechanism) if model.mechanism.spec.wheel.SHELLS else _flat_sizes(model)
+    )
+    return {**dict.fromkeys(own_names("sizes")), **own}
+
+
+def _flat_sizes(model: PartsModel) -> Values:
     mechanism = model.mechanism
     spec = mechanism.spec
     L, r = mechanism.center_distance_mm, mechanism.roller_radius_mm
-    if spec.wheel.SHELLS:
-        return _sphere_sizes(mechanism, L, r)
     toothed, clear = spec.wheel.toothed, spec.size.allowances.slot_clearance_mm
     return {
-        **dict.fromkeys(_SPHERE),
         "sizes.center_distance_mm": L,
         "sizes.crank_radius_mm": mechanism.ratio * L,
         "sizes.ratio": mechanism.ratio,
@@ -85,16 +64,15 @@ def _cut_radii(model: PartsModel) -> Values:
     }
 
 
-def _sphere_sizes(mechanism: Mechanism, L: float, r: float) -> Values:
+def _sphere_sizes(mechanism: Mechanism) -> Values:
     """Sizes of a spherical wheel: the slot is a meridian between two polar angles."""
-    engagement = mechanism.engagements[0]
+    engagement, L = mechanism.engagements[0], mechanism.center_distance_mm
     mouth, bottom = (engagement.slot(x, 0)[0].c[0] for x in (engagement.entry_deg, 0.0))
     return {
-        **dict.fromkeys(_FLAT),
         **{f"sizes.{key}": value for key, value in mechanism.spec.wheel.own_sizes.items()},
         "sizes.sphere_radius_mm": L,
         "sizes.crank_arm_mm": mechanism.ratio * L,
-        "sizes.roller_radius_mm": r,
+        "sizes.roller_radius_mm": mechanism.roller_radius_mm,
         "sizes.clearances_from": mechanism.spec.size.allowances.source,
         "sizes.slot_mouth_polar_deg": math.degrees(mouth),
         "sizes.slot_bottom_polar_deg": math.degrees(bottom),

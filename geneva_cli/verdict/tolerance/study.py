@@ -20,7 +20,12 @@ from geneva_cli.analysis.tolerance.dimensions import (
 )
 from geneva_cli.analysis.tolerance.entry_jump import entry_jumps
 from geneva_cli.analysis.tolerance.motion_error import WorstErrors, motion_errors
-from geneva_cli.analysis.tolerance.random_machines import Spread, random_machines, spread
+from geneva_cli.analysis.tolerance.random_machines import (
+    RandomMachines,
+    Spread,
+    random_machines,
+    spread,
+)
 from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst
 from geneva_cli.curves.shapes import Arc, Contour
 from geneva_cli.drawings.model import PartsModel
@@ -76,7 +81,7 @@ def study(mechanism: Mechanism, model: PartsModel, samples: int, seed: int) -> S
     machines = Draws(tuple(sizes), normal, seed)
     at_worst = (farthest[0], farthest[2], farthest[3]) if farthest else None
     drawn = random_machines(machines, samples, lock, at_worst, jumps)
-    dwell = motion = at_deg = entry = None
+    dwell = motion = at_deg = None
     if lock:
         worst = _greatest(lock(ends).angle.arrays()[0]) + use["slot_angle_deg"]
         dwell = spread(lambda by: lock(by).angle + by.slot_angle_deg, sizes, worst, drawn.dwell)
@@ -98,14 +103,8 @@ def study(mechanism: Mechanism, model: PartsModel, samples: int, seed: int) -> S
                 "motion_play is not known: curved slots are computed for a path without errors",
             )
         )
-    if jumps:
-        jump = drawn.jump
-        worst_jump = entry_jumps_worst(mechanism, use)
-        assert worst_jump is not None  # there are slots to enter
-        mouth = mouth_jumps_worst(mechanism).item()
-        mean, deviation = float(jump.mean()), float(jump.std())
-        entry = EntryJumps(float(worst_jump[0]), mean, deviation, drawn.missed, mouth)
-    else:
+    entry = _entry(mechanism, use, drawn) if jumps else None
+    if entry is None:
         warnings.append(
             Notice(
                 "not-known",
@@ -117,6 +116,15 @@ def study(mechanism: Mechanism, model: PartsModel, samples: int, seed: int) -> S
         what = "not every machine turns" if clearances.turns is False else "no turn was computed"
         warnings.append(Notice("not-every-machine-turns", f"{what}: {clearances.why}"))
     return Study(dwell, motion, at_deg, entry, clearances, drawn.jams, tuple(warnings))
+
+
+def _entry(mechanism: Mechanism, use: dict[str, float], drawn: RandomMachines) -> EntryJumps:
+    """The jumps at entry of a machine whose roller runs along its slot there."""
+    worst = entry_jumps_worst(mechanism, use)
+    assert worst is not None  # there are slots to enter
+    mouth = mouth_jumps_worst(mechanism).item()
+    mean, deviation = float(drawn.jump.mean()), float(drawn.jump.std())
+    return EntryJumps(float(worst[0]), mean, deviation, drawn.missed, mouth)
 
 
 def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:

@@ -4,9 +4,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from witness import mp
+from witness import mp, to_radians
 
-from exact.rates import DIGITS, radians
+from exact.rates import DIGITS
 from exact.table import strictly, ulps, unit
 
 NAMES = ("position", "velocity", "acceleration", "jerk")
@@ -122,7 +122,7 @@ def compare_peaks(table, machine, got, exact, half, where, more=None):
         row = f"peak {name}"
         error = ulps([p.max], [size], unit(size))
         table.add((machine, row), error, more[name] if more else 1.0, where)
-        at = radians(p.at_deg)
+        at = to_radians(p.at_deg)
         u = unit(half)
         nearest = min(places, key=lambda c: abs(c.x - at))
         error = ulps([0.0], [(at - nearest.x)], u)

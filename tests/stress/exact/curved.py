@@ -4,13 +4,13 @@ import math
 
 import numpy as np
 from witness import LAWS as LAW_WITNESSES
-from witness import krasniqi, mp
+from witness import SIGN, krasniqi, mp, to_radians
 from words import Motion, law
 
 from exact.compared import NAMES, PEAKS, Found, angles, compare, compare_peaks
 from exact.fronts import FRONTS, Plain, drive_cases, from_file, spec_of
 from exact.laws import Points, Series, point_cases
-from exact.rates import SIGN, exactly, radians, variations
+from exact.rates import exactly, variations
 from exact.table import LIMIT, strictly, ulps, unit
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
@@ -18,7 +18,7 @@ from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.law_motion import MOTION_MIN
 from geneva_cli.layout.slot_profile import slot
 from geneva_cli.layout.slot_sampling import nodes
-from geneva_cli.machine import spec as given
+from geneva_cli.machine import spec as machine_spec
 from geneva_cli.machine.mechanism import build
 
 
@@ -27,7 +27,7 @@ def law_files(table, sample):
     for u, s in point_cases(sample):
         series = Points(u, s)
         read_points = from_file(zip(u, s, strict=True), registry.law("table"), "points")
-        motion = given.Motion(law("table", read_points), alpha0_deg=-10.0)
+        motion = machine_spec.Motion(law("table", read_points), alpha0_deg=-10.0)
         mechanism = strictly(build, spec_of(6, "external", "crank", (), 1, motion))
         where = f"{len(u)} points, the second {u[1]!r},{s[1]!r}"
         args = (series, series.peaks(), (), Plain, "external", 6, None, where)
@@ -90,8 +90,8 @@ def curved_one(table, name, shape, series, top, z, gearing, kind, values, sample
 def laid_out(table, machine, mechanism, series, top, values, front, gearing, z, ratio, where):
     """Motion, peaks and slot for the motion angle that the program has."""
     engagement = mechanism.engagements[0]
-    whole, step = radians(engagement.motion_deg), 2 * mp.pi / z
-    entry = radians(engagement.entry_deg)
+    whole, step = to_radians(engagement.motion_deg), 2 * mp.pi / z
+    entry = to_radians(engagement.entry_deg)
 
     def at(x):
         s = series.at((x - entry) / whole)
@@ -103,7 +103,7 @@ def laid_out(table, machine, mechanism, series, top, values, front, gearing, z, 
     u = (x - engagement.entry_deg) / engagement.motion_deg
     for j in joints:
         x, u = x[np.abs(u - j) > 1e-12], u[np.abs(u - j) > 1e-12]
-    exact = [at(radians(v)) for v in x]
+    exact = [at(to_radians(v)) for v in x]
     scale = {"position": step, "power": step**2 / whole**3}
     scale |= {n: step / whole**k for k, n in enumerate(NAMES) if k}
     size = {n: top[n][0] * scale[n] for n in (*NAMES, "power")}
@@ -163,7 +163,7 @@ def slot_points(table, machine, mechanism, x, exact, values, front, gearing, z, 
     wheel = max(abs(float(e[0])) for e in exact)
     curve = pitch_curve(values, front, gearing, l)
     L = mp.mpf(mechanism.center_distance_mm)
-    points = [curve(radians(v), e[0], e[1]) for v, e in zip(x, exact, strict=True)]
+    points = [curve(to_radians(v), e[0], e[1]) for v, e in zip(x, exact, strict=True)]
     far = unit(L * max(abs(p) for p, _ in points))
     got = strictly(slot, mechanism, x)
     if not (np.isfinite(got.left).all() and np.isfinite(got.right).all()):
@@ -175,8 +175,8 @@ def slot_points(table, machine, mechanism, x, exact, values, front, gearing, z, 
     place = [f"{where} at {v:.17g}" for v in x]
     near = []
     for (p, _), v, e, d in zip(points, x, exact, own, strict=True):
-        steps = [s * radians(d) for s in (-1, 1)]
-        near.append((p, [curve(radians(v) + s, e[0] + s * e[1], e[1])[0] for s in steps]))
+        steps = [s * to_radians(d) for s in (-1, 1)]
+        near.append((p, [curve(to_radians(v) + s, e[0] + s * e[1], e[1])[0] for s in steps]))
     for i, part in enumerate(("real", "imag")):
         # the whole change: its first order can vanish where the second is large
         c = (
@@ -188,7 +188,7 @@ def slot_points(table, machine, mechanism, x, exact, values, front, gearing, z, 
         for moved, v in zip(variations(values, h), values, strict=True):
             other = pitch_curve(moved, front, gearing, l)
             by = [
-                abs(float(L * getattr(other(radians(a), e[0], e[1])[0] - p, part) / h))
+                abs(float(L * getattr(other(to_radians(a), e[0], e[1])[0] - p, part) / h))
                 for a, e, (p, _) in zip(x, exact, points, strict=True)
             ]
             c = np.maximum(c, np.array(by) * math.ulp(float(v)) / far)
@@ -217,11 +217,11 @@ def chord_case(table, name, L, tolerance, rng):
     got = strictly(slot, mechanism, x).centre
     engagement, series = mechanism.engagements[0], Series(LAW_WITNESSES[name])
     curve = pitch_curve((), Plain, "external", mp.mpf(1) / 2)
-    whole, entry = radians(engagement.motion_deg), radians(engagement.entry_deg)
+    whole, entry = to_radians(engagement.motion_deg), to_radians(engagement.entry_deg)
     for i in rng.sample(range(len(x) - 1), min(len(x) - 1, 12)):
         a, b = (mp.mpc(*got[k].tolist()) for k in (i, i + 1))
         for t in (0.21, 0.44, 0.5, 0.57, 0.83):  # not the sixteenths that the program looks at
-            at = radians(x[i]) + (radians(x[i + 1]) - radians(x[i])) * t
+            at = to_radians(x[i]) + (to_radians(x[i + 1]) - to_radians(x[i])) * t
             s = series.at((at - entry) / whole)
             p = L * curve(at, 2 * mp.pi / 6 * (s[0] - mp.mpf(1) / 2), 0)[0]
             along = (p - a) * mp.conj(b - a) / abs(b - a) if b != a else 0

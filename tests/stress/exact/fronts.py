@@ -9,10 +9,10 @@ from itertools import pairwise
 import numpy as np
 import spline_witness
 from spline_witness import derivatives
-from witness import mp
+from witness import mp, to_radians
 from words import Spec, Wheel, points
 
-from exact.rates import DIGITS, NEAR_1, angle_rates, radians
+from exact.rates import DIGITS, NEAR_1, angle_rates
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.registry import DRIVES
 from geneva_cli.spec.tables import Size
@@ -156,7 +156,7 @@ class RatioFile:
         """Knots, and of each piece the coefficients of the ratio and the crank's angle before."""
         if values not in self.known:
             if not self.known:
-                x = [radians(v) for v in self.deg]
+                x = [to_radians(v) for v in self.deg]
                 self.spline = spline_witness.Spline(x, [*values, values[0]], True)
             out, whole = [], mp.mpf(0)
             for (a, b), c in zip(pairwise(self.spline.x), self.spline.pieces(values), strict=True):
@@ -205,7 +205,7 @@ class RatioFile:
 
 def ratio_case(deg, ratio):
     """Degrees and ratios, of a mean of 1 over the turn as the program wants it."""
-    x, y = [radians(v) for v in deg], [mp.mpf(v) for v in ratio]
+    x, y = [to_radians(v) for v in deg], [mp.mpf(v) for v in ratio]
     spline = spline_witness.Spline(x, [*y, y[0]], True)
     whole = mp.mpf(0)
     for (a, b), c in zip(pairwise(x), spline.pieces(), strict=True):

@@ -6,11 +6,11 @@ import tempfile
 import machine_witness
 import numpy as np
 from test_machines import CASES, ON_PATH
-from witness import mp
+from witness import mp, to_radians
 from words import LAWS, load
 
 from exact.compared import NAMES, PEAKS, PICK, angles, compare
-from exact.rates import NEAR_1, radians
+from exact.rates import NEAR_1
 from exact.table import strictly, ulps, unit
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
@@ -177,7 +177,7 @@ def size_moves(w, moved, pick, deg, turned):
     """What one unit of a place, of the engagement's own or of a key moves a size by there."""
     size, slope = pick((*w.derivatives(deg), 0))[:2]
     by_keys = [abs(abs(pick((*m.derivatives(deg), 0))[0]) - abs(size)) for m in moved]
-    return max([abs(slope) * radians(max(math.ulp(deg), turned)), *by_keys])
+    return max([abs(slope) * to_radians(max(math.ulp(deg), turned)), *by_keys])
 
 
 def greatest_top(w, pick, x, exact, at_deg, told):
@@ -185,7 +185,7 @@ def greatest_top(w, pick, x, exact, at_deg, told):
     here, known = (at_deg, told), [pick((*e, 0))[:2] for e in exact]
     for a, b, (p, s), (q, t) in zip(x, x[1:], known, known[1:], strict=False):
         # no cubic with these slopes has a higher top
-        reach = max(abs(p), abs(q)) + radians(b - a) * max(abs(s), abs(t))
+        reach = max(abs(p), abs(q)) + to_radians(b - a) * max(abs(s), abs(t))
         if s * t < 0 < p * s and not a <= at_deg <= b and reach > told:
             top = mp.findroot(
                 lambda v: pick((*w.derivatives(v), 0))[1],

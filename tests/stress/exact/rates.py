@@ -1,15 +1,10 @@
-"""Derivatives up to the fifth, and angles, in mpmath."""
+"""Derivatives up to the fifth in mpmath, and variations of a drive's values."""
 
 from witness import mp
 
 DIGITS = 120  # A within 1e-12 of 1 costs a fourth derivative four times 12 of them, and more
-BESIDE = mp.mpf(10) ** -60  # of a knot: on one side of it, and at it by any digit asked for
-SIGN = {"external": 1, "internal": -1}
+BESIDE = mp.mpf(10) ** -60  # distance from a knot, on one side of it, below any digit compared
 NEAR_1 = [1.0 - t for t in (1e-3, 1e-6, 1e-9, 1e-12)]
-
-
-def radians(deg):
-    return mp.mpf(float(deg)) * mp.pi / 180
 
 
 def angle_rates(Q):
@@ -23,24 +18,6 @@ def angle_rates(Q):
         e - 5 * a * d - 10 * b * c + 20 * a**2 * c + 30 * a * b**2 - 60 * a**3 * b + 24 * a**5,
     )
     return (mp.arg(Q[0]), *[x.imag for x in u])
-
-
-def chain(g, f):
-    """Derivatives 0..5 of g(f(x)) (Faà di Bruno)."""
-    g0, g1, g2, g3, g4, g5 = g
-    _, a, b, c, d, e = f
-    return (
-        g0,
-        g1 * a,
-        g2 * a**2 + g1 * b,
-        g3 * a**3 + 3 * g2 * a * b + g1 * c,
-        g4 * a**4 + 6 * g3 * a**2 * b + g2 * (4 * a * c + 3 * b**2) + g1 * d,
-        g5 * a**5
-        + 10 * g4 * a**3 * b
-        + g3 * (10 * a**2 * c + 15 * a * b**2)
-        + g2 * (5 * a * d + 10 * b * c)
-        + g1 * e,
-    )
 
 
 def exactly(values):

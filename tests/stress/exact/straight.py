@@ -3,11 +3,11 @@
 import math
 
 import numpy as np
-from witness import mp
+from witness import SIGN, chain, mp, to_radians
 
 from exact.compared import NAMES, PEAKS, PICK, angles, candidates, compare, compare_peaks, greatest
 from exact.fronts import FRONTS, RatioFile, ratio_cases, spec_of, textbook_wheel
-from exact.rates import BESIDE, SIGN, angle_rates, chain, exactly, radians, variations
+from exact.rates import BESIDE, angle_rates, exactly, variations
 from exact.table import strictly, ulps, unit
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
@@ -98,11 +98,11 @@ def straight_one(table, z, gearing, kind, values, m):
         place = where + (f" engagement {j + 1}" if m > 1 else "")
         w = Straight(z, gearing, kind, values, 2 * mp.pi * j / m)
         x = angles(engagement)
-        exact = [w.at(radians(v)) for v in x]
+        exact = [w.at(to_radians(v)) for v in x]
         # A tiny step of each value: 1e-40 is far above 120 digits and far below 1 - A.
         h = mp.mpf(10) ** -40
         others = [w.varied(i, h) for i in range(len(values))]
-        moved = [[o.at(radians(v)) for v in x] for o in others]
+        moved = [[o.at(to_radians(v)) for v in x] for o in others]
         peak_of, more = {}, {}
         mid = math.ulp(engagement.mid_deg)
         crank = [w.half * (mp.mpf(i) / 24 - 1) for i in range(49)]
@@ -154,7 +154,7 @@ def _with_values(w, name, found, values, h, mid_deg):
     if not found.shift:
         return found
     slope, bend = PICK[name](w.at(found.x))[1:]
-    shift = max(found.shift, radians(mid_deg))
+    shift = max(found.shift, to_radians(mid_deg))
     for i, v in enumerate(values):
         by = (PICK[name](w.varied(i, h).at(found.x))[1] - slope) / h
         shift = max(shift, abs(by / bend) * math.ulp(v))
@@ -191,7 +191,7 @@ def arrays(table, sample):
             if g < 0:
                 x = sorted({*x, *[180.0 - v for v in x]})
             x = np.array([*[-v for v in x[::-1]], 0.0, *x])
-            C = [g * mp.mpf(l) * mp.expj(-g * radians(v)) for v in x]
+            C = [g * mp.mpf(l) * mp.expj(-g * to_radians(v)) for v in x]
             turn = -1j * g
             exact = [angle_rates((1 - c, *[-c * turn**n for n in range(1, 6)])) for c in C]
             got = strictly(ClassicArrays(float(g), l, rest).derivatives, x, (0, 1, 2, 3))
