@@ -170,13 +170,13 @@ class Gaps:
             out = np.minimum(out, _least(len(turn), owner, signed, near))
         return out
 
-    def swept(self, number: int, step_deg: float, every: int = 1) -> tuple[Array, Array]:
+    def swept(self, number: int, step_deg: float) -> tuple[Array, Array]:
         """Return the wheel's points that enter the locking disc during one motion, as x and y, mm.
 
         They are in the crank's frame. The wheel is placed at steps of ``step_deg`` degrees of the
-        input, or at each ``every``-th of them.
+        input.
         """
-        at = swept_deg(self.assembly, number, step_deg)[::every]
+        at = swept_deg(self.assembly, number, step_deg)
         turn, pose = self.assembly.wheel(at), self.assembly.crank(at)
         # 2^19 points of the wheel at a time fit into the cache
         step = max(1, (1 << 19) // len(self._wheel_points[0]))

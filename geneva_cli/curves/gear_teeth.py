@@ -152,6 +152,12 @@ class RoundTeeth(NamedTuple):
         return self.opening or self.radius - rack.module * (rack.dedendum - rack.shift)
 
     @property
+    def flank_end(self) -> float:
+        """Length of the base circle's tangent to the inner end of a gear's flank, mm."""
+        sine = math.sin(self.rack.angle)
+        return self.radius * sine - self.rack.straight / sine
+
+    @property
     def step(self) -> float:
         """Angle from tooth to tooth, radians."""
         return self.rack.pitch / self.radius
@@ -187,17 +193,24 @@ class RoundTeeth(NamedTuple):
             from_middle = self.rack.corner[0] / self.radius
         return about(ORIGIN, self.root, from_middle, self.step + gap - 2.0 * from_middle)
 
-    def _tooth(self, write: Writer) -> list[Segment]:
+    def sides(self, write: Writer) -> tuple[list[Segment], list[Segment]]:
+        """Return both sides of a tooth about the x axis: before its tip, and after it."""
         rack, pitch = self.rack, circle(self.radius)
-        first, last = rack.corner[0], rack.end
-        top, end = self.half_angle(self.tip), self.roll(self.tangent(self.tip))
-        return [
-            *write(fillet(pitch, rack, 0.0, -1), first, last),
-            *write(flank(pitch, rack, 0.0, -1), -last, -end),
-            about(ORIGIN, self.tip, -top, 2.0 * top),
-            *write(flank(pitch, rack, 0.0, 1), end, last),
-            *write(fillet(pitch, rack, 0.0, 1), -last, -first),
-        ]
+        first, last, end = rack.corner[0], rack.end, self.roll(self.tangent(self.tip))
+        return (
+            [
+                *write(fillet(pitch, rack, 0.0, -1), first, last),
+                *write(flank(pitch, rack, 0.0, -1), -last, -end),
+            ],
+            [
+                *write(flank(pitch, rack, 0.0, 1), end, last),
+                *write(fillet(pitch, rack, 0.0, 1), -last, -first),
+            ],
+        )
+
+    def _tooth(self, write: Writer) -> list[Segment]:
+        (before, after), top = self.sides(write), self.half_angle(self.tip)
+        return [*before, about(ORIGIN, self.tip, -top, 2.0 * top), *after]
 
     def _space(self, write: Writer) -> list[Segment]:
         """Return a ring's space: its corners are arcs that touch the flank and the root circle."""

@@ -49,6 +49,12 @@ def bounds(shape: Shape) -> Box:
     return _box(p for segment in shape.segments for p in _extremes(segment))
 
 
+def bounds_of(shapes: Iterable[Shape]) -> Box:
+    """Smallest box around some shapes."""
+    boxes = [bounds(shape) for shape in shapes]
+    return _box(corner for box in boxes for corner in (box[:2], box[2:]))
+
+
 def segment_length(segment: Segment) -> float:
     """Length of a line or arc; of a cubic that of its control polygon, which is no shorter."""
     if isinstance(segment, Cubic):
@@ -158,6 +164,11 @@ def turned(shape: S, radians: float, centre: Point = (0.0, 0.0)) -> S:
         return x + c * u - s * v, y + s * u + c * v
 
     return mapped(shape, point)
+
+
+def turned_pieces(pieces: Iterable[Segment], radians: float) -> tuple[Segment, ...]:
+    """Rotate pieces of an outline about the origin, counterclockwise."""
+    return turned(Contour("", tuple(pieces), closed=False), radians).segments
 
 
 def _mapped(segment: Segment, point: Callable[[Point], Point]) -> Segment:

@@ -193,6 +193,12 @@ def cross(a: Vector, b: Vector) -> Vector:
     )
 
 
+def combined(one: Vector, a: float, other: Vector, b: float) -> Vector:
+    """The sum of two vectors, each times a number."""
+    x, y, z = (a * p + b * q for p, q in zip(one, other, strict=True))
+    return x, y, z
+
+
 def unit(v: Vector) -> Vector:
     """Unit vector in the direction of a vector."""
     length = math.hypot(*v)

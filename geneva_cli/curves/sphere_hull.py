@@ -9,7 +9,16 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from geneva_cli.curves.sphere import Region, SphereArc, Vector, cross, dot, square_to, unit
+from geneva_cli.curves.sphere import (
+    Region,
+    SphereArc,
+    Vector,
+    combined,
+    cross,
+    dot,
+    square_to,
+    unit,
+)
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 
 
@@ -23,7 +32,7 @@ class Cap(NamedTuple):
     def region(self) -> Region:
         """The cap as a region."""
         sideways = square_to(self.middle)
-        rim = _sum(self.middle, math.cos(self.angle), sideways, math.sin(self.angle))
+        rim = combined(self.middle, math.cos(self.angle), sideways, math.sin(self.angle))
         return Region((SphereArc(self.middle, self.angle, rim, rim),), self.middle)
 
 
@@ -67,7 +76,7 @@ def _tangents(i: int, caps: Sequence[Cap]) -> Iterator[Tangent]:
         pole = _pole(caps[i], caps[j]) if j != i else None
         if pole is None or any(dot(pole, c.middle) < math.sin(c.angle) - SAME_LENGTH for c in caps):
             continue
-        ends = [unit(_sum(caps[k].middle, 1.0, pole, -math.sin(caps[k].angle))) for k in (i, j)]
+        ends = [unit(combined(caps[k].middle, 1.0, pole, -math.sin(caps[k].angle))) for k in (i, j)]
         candidates.append((dot(*ends), Tangent(pole, j, *ends)))
     for near, one in candidates:
         if not any(far < near and _same(one.pole, other.pole) for far, other in candidates):
@@ -88,8 +97,8 @@ def _pole(one: Cap, other: Cap) -> Vector | None:
     left = (1.0 - (a * s + b * t)) / square
     if left <= SAME_LENGTH * SAME_LENGTH:
         return None  # one cap holds the other
-    both = _sum(one.middle, a, other.middle, b)
-    return unit(_sum(both, 1.0, cross(one.middle, other.middle), math.sqrt(left)))
+    both = combined(one.middle, a, other.middle, b)
+    return unit(combined(both, 1.0, cross(one.middle, other.middle), math.sqrt(left)))
 
 
 def _turn(middle: Vector, start: Vector, end: Vector) -> float:
@@ -99,8 +108,3 @@ def _turn(middle: Vector, start: Vector, end: Vector) -> float:
 
 def _same(one: Vector, other: Vector) -> bool:
     return math.dist(one, other) < SAME_LENGTH
-
-
-def _sum(one: Vector, a: float, other: Vector, b: float) -> Vector:
-    x, y, z = (a * p + b * q for p, q in zip(one, other, strict=True))
-    return x, y, z

@@ -18,7 +18,7 @@ from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape, about
 from geneva_cli.drawings.part_drawings import PITCH, pitch_lines
 from geneva_cli.kinematics.layout import Joint
 from geneva_cli.layout.link_positions import links_at
-from geneva_cli.layout.projection import circle_key, once, outlines_of, placed, shapes, titled
+from geneva_cli.layout.projection import once, outlines_of, placed, shapes, titled, uncovered
 from geneva_cli.layout.roller_paths import roller_reaches
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -41,7 +41,10 @@ def machine(parts: FlatParts) -> Drawing:
     drawn += _links(parts)
     drawn += outlines_of(Group("", parts.gear_pair))
     drawn += shapes(parts.first)
-    drawn += _standing(parts, drawn)
+    drawn += [
+        shape._replace(layer=STANDING) if isinstance(shape, Circle) else shape
+        for shape in uncovered(parts.standing, drawn)
+    ]
     drawn += _roller_lines(parts)
     L = outlines.assembly.L
     look = Annotations((LevelDistance((0.0, 0.0), (L, 0.0), "L"),), tuple(_turns(outlines)))
@@ -58,16 +61,6 @@ def _links(parts: FlatParts) -> Iterator[Shape]:
     blanks = list(shapes(parts.round_gears))
     yield from (shape for shape in blanks if shape.layer == PITCH)
     yield from (shape._replace(layer=LINK) for shape in blanks if shape.layer != PITCH)
-
-
-def _standing(parts: FlatParts, drawn: list[Shape]) -> list[Shape]:
-    """Return the plates that stand still: outlines, grooves, and holes not covered by a bore."""
-    seen = {circle_key(shape) for shape in drawn if isinstance(shape, Circle)}
-    return [
-        shape._replace(layer=STANDING) if isinstance(shape, Circle) else shape
-        for shape in shapes(parts.standing)
-        if not (isinstance(shape, Circle) and circle_key(shape) in seen)
-    ]
 
 
 def _turns(parts: Outlines) -> Iterator[Arc]:

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from geneva_cli.collisions.machine_parts import MachineParts, WorkLimit
     from geneva_cli.layout.assembly import Assembly
     from geneva_cli.layout.plain_sizes import Sizes
-    from geneva_cli.layout.roller_paths import RollerPaths
     from geneva_cli.layout.stressed import Stressed
     from geneva_cli.outlines.outlines import Outlines
     from geneva_cli.outlines.rack_outlines import RackOutlines
@@ -97,13 +96,6 @@ class PartsModel:
         from geneva_cli.layout.assembly import assembly
 
         return self.known.assembly if self.known else assembly(self.mechanism)
-
-    @cached_property
-    def paths(self) -> RollerPaths:
-        """The paths of the rollers, which do not depend on sizes."""
-        from geneva_cli.layout.roller_paths import roller_paths
-
-        return roller_paths(self.assembly)
 
     @cached_property
     def sizes(self) -> Sizes:
@@ -194,8 +186,8 @@ class PartsKind(ABC):
         """Return what is turned to find collisions. Raises GenevaError where there is none."""
 
     def all_built(self, model: PartsModel) -> NamedBuilds:
-        """Return names and functions of all parts: those of links and gears are flat."""
-        return [("wheel and crank", lambda: model.built), ("all parts", lambda: model.flat)]
+        """Return names and functions of all parts."""
+        return [("all parts", lambda: model.built)]
 
     def known(self, model: PartsModel, assembly: Assembly) -> Known:
         """Return the outlines or shells of a machine of the same sizes, with its assembly."""
@@ -227,10 +219,6 @@ class Flat(PartsKind):
         """Return the outlines."""
         return model.outlines
 
-    def all_built(self, model: PartsModel) -> NamedBuilds:
-        """Return name and function of all parts."""
-        return [("all parts", lambda: model.flat)]
-
     def known(self, model: PartsModel, assembly: Assembly) -> Known:
         """Return the outlines with an assembly."""
         return model.outlines.over(assembly), None
@@ -259,6 +247,10 @@ class Ball(PartsKind):
     def turned(self, model: PartsModel) -> Shells:
         """Return the shells."""
         return model.shells
+
+    def all_built(self, model: PartsModel) -> NamedBuilds:
+        """Return names and functions of the shells, and of links and gears."""
+        return _before_links(model)
 
     def known(self, model: PartsModel, assembly: Assembly) -> Known:
         """Return the shells with an assembly."""
@@ -303,7 +295,7 @@ class Rack(PartsKind):
     def all_built(self, model: PartsModel) -> NamedBuilds:
         """Return names and functions of all parts; its frame holds its gears, but not links."""
         framed = model.mechanism.spec.has_parts
-        return [("all parts", lambda: model.built)] if framed else super().all_built(model)
+        return super().all_built(model) if framed else _before_links(model)
 
     def turned(self, model: PartsModel) -> RackOutlines:
         """Return the outlines of the rack and its crank."""
@@ -349,10 +341,6 @@ class Counter(PartsKind):
         """Raise GenevaError: the free angles of teeth are checks of their own."""
         raise GenevaError("a counter has no rollers to turn", ("wheel", "gearing"))
 
-    def all_built(self, model: PartsModel) -> NamedBuilds:
-        """Return name and function of all parts."""
-        return [("all parts", lambda: model.built)]
-
     def dimensions(self, model: PartsModel) -> Iterator[Dimension | Missing]:
         """Yield the dimensions of teeth and rim."""
 
@@ -380,12 +368,13 @@ class Unbuilt(PartsKind):
         return [("all parts", lambda: model.flat)]
 
 
+def _before_links(model: PartsModel) -> NamedBuilds:
+    """Return names and functions of all parts where those of links and gears are flat."""
+    return [("wheel and crank", lambda: model.built), ("all parts", lambda: model.flat)]
+
+
 def kind_of(mechanism: Mechanism) -> PartsKind:
     """Return the kind of a machine's parts."""
-    kinds: dict[str, type[PartsKind]] = {
-        "flat": Flat,
-        "ball": Ball,
-        "rack": Rack,
-        "counter": Counter,
-    }
+    kinds: dict[str, type[PartsKind]]
+    kinds = {"flat": Flat, "ball": Ball, "rack": Rack, "counter": Counter}
     return kinds.get(mechanism.spec.wheel.PARTS, Unbuilt)()

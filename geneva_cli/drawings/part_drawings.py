@@ -121,20 +121,16 @@ def gears(parts: FlatParts | RackParts) -> Drawing:
     from geneva_cli.layout.gear_curves import required_gears
     from geneva_cli.parts.gear_pair import FINE
 
-    mechanism = parts.mechanism
-    if mechanism.spec.drive.TOOTHED and not mechanism.spec.gears:
-        members = parts.round_gears
-        about_crank = _moved(members, -mechanism.center_distance_mm)
-        name, drawn = "gears", tuple(once(shapes(about_crank)))
-    else:
+    mechanism, name = parts.mechanism, "gears"
+    round_only = mechanism.spec.drive.TOOTHED and not mechanism.spec.gears
+    if not round_only:
         pair = required_gears(mechanism)
-        name = "gears"
         if mechanism.spec.size.gear_module_mm is None:
             name = "pitch curves of the gears"
             parts = parts.finer(FINE[parts.curves] * pair.distance_mm)
-        members = *parts.round_gears, *parts.gear_pair
-        about_crank = _moved(members, -mechanism.center_distance_mm)
-        drawn = tuple(once(shapes(about_crank)))
+    members = *parts.round_gears, *parts.gear_pair
+    about_crank = _moved(members, -mechanism.center_distance_mm)
+    drawn = tuple(once(shapes(about_crank)))
     title, ends = titled(mechanism, name), [one.at for one in about_crank]
     line = Contour(PITCH, (Line(min(ends), max(ends)),), closed=False)
     return Drawing(title, (*drawn, line), solid=Group(title, members))
@@ -176,10 +172,10 @@ def _pitch_line(parts: FlatParts, engagement: Engagement) -> Contour:
         ends = [(float(p[0]), float(p[1])) for p in (mouth, end)]
         return Contour(PITCH, (Line(*ends),), closed=False)
     from geneva_cli.curves import fit
-    from geneva_cli.outlines.walls.ways import parallel
+    from geneva_cli.outlines.walls.path_walls import parallel
 
     pieces: list[Segment] = []
     for a, b in ((engagement.entry_deg, 0.0), (0.0, engagement.exit_deg)):
-        way = parallel(assembly, engagement, 0.0, b > 0.0)
-        pieces += fit.KINDS[parts.curves](way, a, b, fine)
+        path = parallel(assembly, engagement, 0.0, b > 0.0)
+        pieces += fit.KINDS[parts.curves](path, a, b, fine)
     return Contour(PITCH, joined(pieces), closed=False)

@@ -10,11 +10,11 @@ sphere inwards from the wheel's outer face.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.curves.mass import MM, solid_properties
-from geneva_cli.curves.measure import bounds
+from geneva_cli.curves.measure import bounds_of
 from geneva_cli.curves.plates import Part, Shell, Solid
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.kinematics.layout import Dimension, Pivot
@@ -99,6 +99,7 @@ def part_rows(spec: Spec, parts: Iterable[Part], outside: float | None = None) -
         is_rod = solid.layer in ("ROLLER", "SHAFT")
         name, material = ("roller", roller_material) if is_rod else ("wheel", wheel_material)
         density = material(spec).density_kgm3
+        heights = {one.low for one in kind if not isinstance(one, Shell)}
         yield {
             "row": "part",
             "name": solid.name,
@@ -106,13 +107,8 @@ def part_rows(spec: Spec, parts: Iterable[Part], outside: float | None = None) -
             "material": f"material.{name}",
             "density_kgm3": density,
             **_properties(solid, density, outside),
-            **({} if _at_one_height(kind) else {"z_low_mm": None, "z_high_mm": None}),
+            **({} if len(heights) < 2 else {"z_low_mm": None, "z_high_mm": None}),
         }
-
-
-def _at_one_height(kind: Sequence[Solid]) -> bool:
-    """Return True if parts of a kind have the same height along the axis."""
-    return len({one.low for one in kind if not isinstance(one, Shell)}) < 2
 
 
 def _properties(solid: Solid, density: float, outside: float | None) -> Row:
@@ -120,9 +116,8 @@ def _properties(solid: Solid, density: float, outside: float | None) -> Row:
     row: Row = {}
     if not isinstance(solid, Shell):
         low, high = solid.low, solid.high
-        boxes = [bounds(shape) for shape in outlines_of(solid)]
-        wide = max(box.x1 for box in boxes) - min(box.x0 for box in boxes)
-        deep = max(box.y1 for box in boxes) - min(box.y0 for box in boxes)
+        x0, y0, x1, y1 = bounds_of(outlines_of(solid))
+        wide, deep = x1 - x0, y1 - y0
         body = solid_properties(solid, density)
         mass, inertia = body.mass_kg, body.inertia_kgm2
         if outside is None:

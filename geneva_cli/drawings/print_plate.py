@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.measure import bounds
+from geneva_cli.curves.measure import bounds_of
 from geneva_cli.curves.plates import Group, Member, Plate, Shell, Stack, lowered, solids
 from geneva_cli.drawings.sheet.pack import packed_apart
 from geneva_cli.drawings.sheet.view import Block
@@ -53,7 +53,4 @@ def _laid(whole: list[Plate | Stack]) -> list[Member]:
 
 def _block(part: Plate | Stack) -> Block:
     """Return the box around a part, seen from above."""
-    boxes = [bounds(shape) for shape in outlines_of(part)]
-    least = min(box.x0 for box in boxes), min(box.y0 for box in boxes)
-    most = max(box.x1 for box in boxes), max(box.y1 for box in boxes)
-    return Block(*least, *most, (), ())
+    return Block(*bounds_of(outlines_of(part)), (), ())

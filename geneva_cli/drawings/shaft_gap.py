@@ -24,7 +24,7 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.gear_pair import PITCH, gear_span, pitch_radii
+from geneva_cli.parts.gear_pair import PITCH, gear_seats, pitch_radii
 from geneva_cli.parts.pair_teeth import pair_teeth
 from geneva_cli.parts.rack_parts import RackParts
 
@@ -140,12 +140,11 @@ def _noncircular(mechanism: Mechanism, drawn: Outlines | None) -> Iterator[Ring]
     pair, x = mechanism.spec.gears, mechanism.gear_shaft.x_mm
     if pair is None:
         return
-    (_, driven), (_, driver) = pitch_radii(pair)
-    if teeth := pair_teeth(pair, mechanism.spec.size):
-        driven, driver = driven + teeth.tips[0], driver + teeth.tips[1]
-    low, high = gear_span(mechanism, drawn)
-    yield Ring("driven gear", PITCH, (x, 0.0), 0.0, driven, low, high)
-    yield Ring("driver gear", PITCH, (x + pair.distance_mm, 0.0), 0.0, driver, low, high)
+    teeth, places = pair_teeth(pair, mechanism.spec.size), (x, x + pair.distance_mm)
+    tips = teeth.tips if teeth else (0.0, 0.0)
+    gears = zip(gear_seats(mechanism, drawn), places, pitch_radii(pair), tips, strict=True)
+    for seat, place, (_, pitch), tip in gears:
+        yield Ring(seat.part, PITCH, (place, 0.0), 0.0, pitch + tip, seat.low, seat.high)
 
 
 def _rings_of(members: Iterable[Member]) -> list[Ring]:

@@ -72,10 +72,6 @@ class Ball(NamedTuple):
         length = size.wheel_hub_length_mm
         return (self.arm_span_mm[1] if length is None else outside + length) - inside
 
-    def out(self, height_mm: float) -> float:
-        """Return the distance from the centre to a height above the wheel's lower face."""
-        return self.span_mm[1] - height_mm
-
     @property
     def slot_end(self) -> float:
         """The polar angle up to which the slots reach inwards."""

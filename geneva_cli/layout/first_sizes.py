@@ -83,7 +83,10 @@ def first_sizes(mechanism: Mechanism, sized: Sized) -> FirstSizes | None:
     for d in bores_from(usual.crank_shaft.diameter, reach):  # half of it is left as a wall
         tried = spec.replace(size=size.replace(arm_bore_mm=size.arm_bore_mm or d))
         parts = _stressed(tried, sized, loads) or parts
-        if parts and (size.arm_bore_mm or _shaft_holds(tried, parts, loads)):
+        if parts and (
+            size.arm_bore_mm
+            or shaft_holds_both(tried, "crank", parts.crank_shaft, loads.crank_N, loads.crank_Nm)
+        ):
             break
     parts = parts or usual
     thick = max(parts.contact, float(parts.arm.thickness))
@@ -96,8 +99,3 @@ def _stressed(spec: Spec, sized: Sized, loads: PartLoads) -> Stressed | None:
     except GenevaError:
         return None  # the check of the parts reports the error
     return stressed(*flat) if flat else None
-
-
-def _shaft_holds(spec: Spec, parts: Stressed, loads: PartLoads) -> bool:
-    """Return True if the first crank's shaft holds force and torque, greatest at once."""
-    return shaft_holds_both(spec, "crank", parts.crank_shaft, loads.crank_N, loads.crank_Nm)

@@ -62,7 +62,7 @@ def limits(nominal_mm: float, fit: str) -> tuple[int, int] | None:
     >>> limits(20.0, "H7"), limits(20.0, "g6"), limits(20.0, "h6")
     ((21, 0), (-7, -20), (0, -13))
     """
-    row = next((row for row in ISO_286 if 0.0 < nominal_mm <= row.up_to), None)
+    row = _range_of(nominal_mm)
     if row is None:
         return None
     # up to 500 mm a hole P7 has as much interference as a shaft p6 (ISO 286-1, 4.3.2.5)
@@ -85,10 +85,14 @@ def loosest_mm(nominal_mm: float) -> float | None:
     >>> loosest_mm(24.0)
     0.37
     """
-    row = next((row for row in ISO_286 if 0.0 < nominal_mm <= row.up_to), None)
+    row = _range_of(nominal_mm)
     if row is None or row.it11 is None or row.c is None:
         return None
     return (2 * row.it11 + row.c) / 1000.0
+
+
+def _range_of(nominal_mm: float) -> SizeRange | None:
+    return next((row for row in ISO_286 if 0.0 < nominal_mm <= row.up_to), None)
 
 
 def toleranced(nominal_mm: float, shown: str, fit: str) -> str:

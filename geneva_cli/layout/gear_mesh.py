@@ -88,6 +88,36 @@ class GearMesh(NamedTuple):
         yield Dimension("gears' contact ratio", self.contact_ratio)
 
 
+def with_tips(
+    one: RoundTeeth, other: RoundTeeth, shifts: tuple[float, float], distance: float, angle: float
+) -> tuple[RoundTeeth, RoundTeeth]:
+    """Return two outer gears at a distance of their axes, mm, with tips.
+
+    A tip ends a quarter of a module from the other gear's root, and no farther out than the other
+    gear's flank reaches. ``angle`` is the pressure angle at work, radians.
+    """
+    far, module = distance * math.sin(angle), one.rack.module
+    tips = [
+        min(
+            distance - against.radius + module * (1.0 - shift),
+            math.hypot(own.base, far - against.flank_end),
+        )
+        for own, against, shift in ((one, other, shifts[1]), (other, one, shifts[0]))
+    ]
+    return one._replace(tip=tips[0]), other._replace(tip=tips[1])
+
+
+def contact_ratio(small: RoundTeeth, large: RoundTeeth, distance: float, angle: float) -> float:
+    """Return the mean number of teeth in contact of two gears, or of a gear in a ring.
+
+    It is the length of the line of action between their tips, over the pitch of the base circles.
+    """
+    sign, rack = -1.0 if large.opening else 1.0, small.rack
+    path = small.tangent(small.tip) - sign * distance * math.sin(angle)
+    path += sign * large.tangent(large.opening or large.tip)
+    return path / (rack.pitch * math.cos(rack.angle))
+
+
 def gear_mesh(driver: Link, driven: Link, at: tuple[Point, Point], size: Size) -> GearMesh:
     """Return the teeth of two links that are gears in mesh, about axes at two points.
 
@@ -163,10 +193,7 @@ class _Pair:
         small, large = self._teeth(shifts, off, angle)
         for teeth, link in ((small, self.small), (large, self.large)):
             self._refuse(teeth, link)
-        far = self.distance * math.sin(angle)
-        path = small.tangent(small.tip) - self.sign * far
-        path += self.sign * large.tangent(large.opening or large.tip)
-        contact = path / (self.rack.pitch * math.cos(self.rack.angle))
+        contact = contact_ratio(small, large, self.distance, angle)
         if contact < 1.0:
             raise self._error(f"teeth lose contact: their contact ratio would be {contact:.3g}")
         lower = 0.0
@@ -210,32 +237,17 @@ class _Pair:
         """Return the teeth of the smaller and the larger gear."""
         m, a = self.module, self.distance
         racks = Rack(m, shifts[0] - off), Rack(m, shifts[1] - self.sign * off)
-        radii = tuple(0.5 * m * count for count in self.counts)
-        # where the flanks end, from the base circle along the line of action
-        ends = tuple(
-            r * math.sin(rack.angle) - rack.straight / math.sin(rack.angle)
-            for r, rack in zip(radii, racks, strict=True)
-        )
-        far, bases = a * math.sin(angle), [r * math.cos(self.rack.angle) for r in radii]
-        if self.ring:
-            tip = radii[0] + m * (1.0 + shifts[0])
-            opening = max(radii[1] - m * (1.0 - shifts[1]), math.hypot(bases[1], far + ends[0]))
-            root = radii[1] + m * (self.rack.dedendum + racks[1].shift)
-            return RoundTeeth(racks[0], radii[0], tip), RoundTeeth(
-                racks[1], radii[1], root, opening
-            )
         small, large = (
-            RoundTeeth(
-                racks[k],
-                radii[k],
-                min(
-                    a - radii[1 - k] + m * (1.0 - shifts[1 - k]),
-                    math.hypot(bases[k], far - ends[1 - k]),
-                ),
-            )
-            for k in (0, 1)
+            RoundTeeth(rack, 0.5 * m * count, 0.0)
+            for rack, count in zip(racks, self.counts, strict=True)
         )
-        return small, large
+        if not self.ring:
+            return with_tips(small, large, shifts, a, angle)
+        small = small._replace(tip=small.radius + m * (1.0 + shifts[0]))
+        reached = math.hypot(large.base, a * math.sin(angle) + small.flank_end)
+        opening = max(large.radius - m * (1.0 - shifts[1]), reached)
+        root = large.radius + m * (self.rack.dedendum + large.rack.shift)
+        return small, large._replace(tip=root, opening=opening)
 
     def _refuse(self, teeth: RoundTeeth, link: Link) -> None:
         """Raise GenevaError for teeth that are undercut, pointed or shifted too far."""

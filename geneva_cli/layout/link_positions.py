@@ -4,11 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+import numpy as np
+
 from geneva_cli.curves.shapes import Point
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
+
+
+def turn_deg(mechanism: Mechanism) -> Array:
+    """Return input angles of a whole turn, a quarter of a degree apart; 0 is in the middle."""
+    turns = mechanism.spec.turns
+    return np.linspace(-180.0 * turns, 180.0 * turns, 1440 * turns + 1)
 
 
 def links_at(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
@@ -64,8 +72,6 @@ def _deepest(mechanism: Mechanism, own: Iterable[Link]) -> int:
 
 def gear_plane(mechanism: Mechanism) -> int:
     """Return the number of the plane of noncircular gears: below the arm and the drive's links."""
-    import numpy as np
-
     return 1 + _deepest(mechanism, _own_links(mechanism, np.zeros(1)))
 
 

@@ -132,29 +132,22 @@ def _bored(
 
 
 def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
-    spec = assembly.full.spec
+    spec, end, wall = assembly.full.spec, sizes.slot_end, sizes.wall_min
     size = spec.size
     fixed = size.wheel_bore_mm is not None or spec.shaft.wheel_diameter_mm is not None
     if fixed or not sizes.wheel_bore:
         return sizes
-    end, wall = sizes.slot_end, sizes.wall_min
     # a third of the wheel up to its slots is left as a wall
-    within = within_hub(size, "wheel")
-    most = min(end * 2.0 / 3.0, end - wall, within)
+    most = min(end * 2.0 / 3.0, end - wall, within_hub(size, "wheel"))
     trial = sizes
     for d in bores_from(2.0 * sizes.wheel_bore, 2.0 * most):
-        trial = _with_wheel_bore(assembly, sizes, 0.5 * d)
+        reach, hub = wheel_reach_and_hub(size, 0.5 * d, wall, end)
+        trial = sizes._replace(wheel_bore=0.5 * d, wheel_reach=reach, wheel_hub=hub)
         parts = stressed(assembly, trial)
         shaft = shaft_holds_both(spec, "wheel", parts.wheel_shaft, loads.wheel_N, loads.wheel_Nm)
         if shaft and key_holds(spec, parts.wheel_key, loads.wheel_Nm):
             break
     return trial
-
-
-def _with_wheel_bore(assembly: Assembly, sizes: Sizes, bore: float) -> Sizes:
-    size = assembly.full.spec.size
-    reach, hub = wheel_reach_and_hub(size, bore, sizes.wall_min, sizes.slot_end)
-    return sizes._replace(wheel_bore=bore, wheel_reach=reach, wheel_hub=hub)
 
 
 def _crank_bored(

@@ -65,6 +65,20 @@ def pin_radius(size: Size, r: float, parts: Sizes | None = None) -> float:
     return parts.pin if parts else 0.5 * size.pin_diameter(r, rounded_below)
 
 
+def plane_span(
+    plane: int, gap: float, first: float, link: float, washer: float
+) -> tuple[float, float]:
+    """Return lower and upper end, along the axis, of parts in a plane below the wheel's, mm.
+
+    The first plane is ``gap`` mm below the wheel and ``first`` mm thick. Those below it are
+    ``link`` mm thick, with washers between.
+    """
+    high = -gap
+    if plane > 1:
+        high -= first + washer + (plane - 2) * (link + washer)
+    return high - (first if plane == 1 else link), high
+
+
 def half_or(diameter: float | None, default: float) -> float:
     """Return half of a diameter, or the default radius if that is None."""
     return default if diameter is None else 0.5 * diameter

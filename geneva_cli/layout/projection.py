@@ -63,13 +63,16 @@ def with_frame(moving: Iterable[Member], standing: Iterable[Member]) -> tuple[Sh
     Holes of the latter that shafts and bores cover are left out.
     """
     drawn = list(shapes(moving))
-    seen = {circle_key(shape) for shape in drawn if isinstance(shape, Circle)}
-    fixed = [
-        shape._replace(layer="FRAME")
-        for shape in shapes(standing)
-        if not (isinstance(shape, Circle) and circle_key(shape) in seen)
-    ]
+    fixed = [shape._replace(layer="FRAME") for shape in uncovered(standing, drawn)]
     return tuple(once([*drawn, *fixed]))
+
+
+def uncovered(standing: Iterable[Member], drawn: Iterable[Shape]) -> Iterator[Shape]:
+    """Yield the outlines of parts that stand, without holes where a circle is drawn already."""
+    seen = {circle_key(shape) for shape in drawn if isinstance(shape, Circle)}
+    for shape in shapes(standing):
+        if not (isinstance(shape, Circle) and circle_key(shape) in seen):
+            yield shape
 
 
 def once(shapes: Iterable[Shape]) -> Iterator[Shape]:

@@ -32,8 +32,9 @@ def reliefs(assembly: Assembly) -> list[Relief]:
     """Return the reliefs around the crank: directions of the line of centres in motions."""
     unordered = []
     for i, (engagement, behind) in enumerate(assembly.motions):
-        ends = [behind + engagement.entry_deg, behind + engagement.exit_deg]
-        start, end = sorted(_lock_directions(assembly, behind, ends))
+        middle = assembly.lock(behind)
+        ends = (assembly.lock(behind + at) for at in (engagement.entry_deg, engagement.exit_deg))
+        start, end = sorted(middle + math.remainder(x - middle, math.tau) for x in ends)
         unordered.append(Relief(start, end, i))
     first = unordered[0].start
     out = []
@@ -41,12 +42,6 @@ def reliefs(assembly: Assembly) -> list[Relief]:
         start = first + (one.start - first + SAME_ANGLE) % math.tau - SAME_ANGLE
         out.append(one._replace(start=start, end=start + one.end - one.start))
     return sorted(out)
-
-
-def _lock_directions(assembly: Assembly, middle: float, ends: list[float]) -> list[float]:
-    """Return the directions at the input angles ``ends``, within half a turn of ``middle``'s."""
-    centre = assembly.lock(middle)
-    return [centre + math.remainder(assembly.lock(end) - centre, math.tau) for end in ends]
 
 
 def arc_floor(assembly: Assembly, lock: float) -> float:

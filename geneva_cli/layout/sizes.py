@@ -78,8 +78,22 @@ def sizes(
     ``known`` are its roller paths, and ``loads`` those on its parts, if computed already.
     Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
     """
-    spec, L = assembly.mechanism.spec, assembly.L
-    path, kinds = known or roller_paths(assembly), assembly.kinds
+    usual, space = _usual(assembly, known or roller_paths(assembly))
+    out = usual
+    if assembly.full.spec.is_loaded:
+        # without a load none is needed
+        from geneva_cli.layout.first_sizes import first_sizes
+        from geneva_cli.layout.load_sizes import load_sizes
+
+        out = load_sizes(assembly, usual, space, loads, first_sizes(assembly.full, sized))
+    _refuse(assembly, out)
+    _refuse_hubs(assembly.mechanism.spec.size, out)
+    return out
+
+
+def _usual(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
+    """Return the sizes without a load, and the radius about the crank's axis inside the relief."""
+    spec, L, kinds = assembly.mechanism.spec, assembly.L, assembly.kinds
     size, r = spec.size, assembly.mechanism.roller_radius_mm
     allowed = size.allowances
     w = r + allowed.slot_clearance_mm
@@ -107,7 +121,7 @@ def sizes(
     wheel_reach, wheel_hub = wheel_reach_and_hub(size, wheel_bore, wall, end)
     crank_reach, crank_hub = crank_reach_and_hub(size, bore, wall)
     thick, pin = drawn_thicknesses(size, L), pin_radius(size, r)
-    out = Sizes(
+    usual = Sizes(
         roller=r,
         half_width=w,
         rim=rim,
@@ -132,15 +146,7 @@ def sizes(
         arm_thickness=thick.arm,
         link_thickness=thick.link,
     )
-    if assembly.full.spec.is_loaded:
-        # without a load none is needed
-        from geneva_cli.layout.first_sizes import first_sizes
-        from geneva_cli.layout.load_sizes import load_sizes
-
-        out = load_sizes(assembly, out, within, loads, first_sizes(assembly.full, sized))
-    _refuse(assembly, out)
-    _refuse_hubs(size, out)
-    return out
+    return usual, within
 
 
 def built(mechanism: Mechanism) -> Size:

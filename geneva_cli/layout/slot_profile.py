@@ -43,10 +43,9 @@ class SlotProfile(NamedTuple):
 def slot(mechanism: Mechanism, input_deg: Array) -> SlotProfile:
     """Return the slot of a mechanism at ascending input angles of its first engagement."""
     engagement, L = mechanism.engagements[0].through, mechanism.center_distance_mm
-    back = retraces(engagement)
-    input_deg = _snapped(input_deg, back)
-    at = pitch_at(engagement, input_deg, back)
-    side = _side(engagement, input_deg, at, back)
+    input_deg = _snapped(engagement, input_deg)
+    at = pitch_at(engagement, input_deg)
+    side = _side(engagement, input_deg, at)
     with np.errstate(divide="ignore", invalid="ignore"):
         radius = L * side * np.divide(at.speed, at.turning)
     straight = engagement.slot.axis(engagement.entry_deg) is not None
@@ -62,24 +61,24 @@ def slot(mechanism: Mechanism, input_deg: Array) -> SlotProfile:
 def flanks(mechanism: Mechanism, input_deg: Array) -> tuple[Array, Array, Array]:
     """Return the pitch curve and both flanks at input angles, mm, (n, 2) each."""
     engagement = mechanism.engagements[0].through
-    back = retraces(engagement)
-    input_deg = _snapped(input_deg, back)
-    at = heading_at(engagement, input_deg, back)
-    return _offsets(mechanism, at, _side(engagement, input_deg, at, back))
+    input_deg = _snapped(engagement, input_deg)
+    at = heading_at(engagement, input_deg)
+    return _offsets(mechanism, at, _side(engagement, input_deg, at))
 
 
-def _snapped(input_deg: Array, back: bool) -> Array:
+def _snapped(engagement: Engagement, input_deg: Array) -> Array:
     """Return input angles, with those near a retracing mid-motion set to exactly 0."""
-    return np.where(np.abs(input_deg) < SAME_INPUT_DEG, 0.0, input_deg) if back else input_deg
+    near = (np.abs(input_deg) < SAME_INPUT_DEG) & retraces(engagement)
+    return np.where(near, 0.0, input_deg)
 
 
-def _side(engagement: Engagement, input_deg: Array, at: PinHeading | Pitch, back: bool) -> Array:
+def _side(engagement: Engagement, input_deg: Array, at: PinHeading | Pitch) -> Array:
     """Return 1, or -1 where the pin leaves on the path on which it came.
 
     Its travel is reversed after mid-motion; the flanks keep the sides that they had at entry.
     """
     if engagement.slot.axis(engagement.entry_deg) is None:
-        return np.where(back & (input_deg > 0.0), -1.0, 1.0)
+        return np.where(retraces(engagement) & (input_deg > 0.0), -1.0, 1.0)
     first = pin_heading(engagement, engagement.entry_deg)
     ahead = at.tangent_x * first.tangent_x + at.tangent_y * first.tangent_y
     return np.where(ahead < 0.0, -1.0, 1.0)
@@ -96,21 +95,21 @@ def _offsets(
     return centre, centre + offset * normal, centre - offset * normal
 
 
-def pitch_at(engagement: Engagement, input_deg: Array, back: bool) -> Pitch:
+def pitch_at(engagement: Engagement, input_deg: Array) -> Pitch:
     """Return the pitch curve, with its limit at a retracing mid-motion."""
-    return _with_limit(pitch, engagement, input_deg, back)
+    return _with_limit(pitch, engagement, input_deg)
 
 
-def heading_at(engagement: Engagement, input_deg: Array, back: bool) -> PinHeading:
+def heading_at(engagement: Engagement, input_deg: Array) -> PinHeading:
     """Return the pin's path in the wheel, with its limit at a retracing mid-motion."""
-    return _with_limit(pin_heading, engagement, input_deg, back)
+    return _with_limit(pin_heading, engagement, input_deg)
 
 
 def _with_limit(
-    of: Callable[[Engagement, Number], T], engagement: Engagement, input_deg: Array, back: bool
+    of: Callable[[Engagement, Number], T], engagement: Engagement, input_deg: Array
 ) -> T:
     middle = np.abs(input_deg) < SAME_INPUT_DEG
-    if not back or not middle.any():
+    if not middle.any() or not retraces(engagement):
         return of(engagement, input_deg)
     # any regular place stands in for mid-motion
     at = of(engagement, np.where(middle, 0.5 * engagement.entry_deg, input_deg))

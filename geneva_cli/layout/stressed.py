@@ -18,7 +18,7 @@ from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.bores import reach_or_bore
 from geneva_cli.layout.keyways import key
 from geneva_cli.layout.link_positions import gear_plane, links_at
-from geneva_cli.layout.plain_sizes import Sizes, half_or
+from geneva_cli.layout.plain_sizes import Sizes, half_or, plane_span
 from geneva_cli.layout.reliefs import is_whole, sectors
 from geneva_cli.layout.roller_paths import roller_reaches
 from geneva_cli.loads.strength.arm import ArmDimensions
@@ -52,14 +52,13 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     spec = assembly.full.spec
     size = spec.size
     contact = value_or(size.face_width_mm, sizes.wheel_thickness)
-    end = ShaftEnd(_to_frame(assembly, sizes), sizes.arm_thickness, assembly.L)
     crank = sizes.arm_bore or sizes.crank_bore
-    hub = size.wheel_hub_mm is not None or size.wheel_hub_length_mm is not None
-    length = (
-        value_or(size.wheel_hub_length_mm, size.allowances.pin_gap_mm + sizes.arm_thickness)
-        if hub
-        else 0.0
-    )
+    requested = size.wheel_hub_mm is not None or size.wheel_hub_length_mm is not None
+    length = 0.0  # of the wheel's hub
+    if requested and sizes.wheel_hub > sizes.wheel_bore:
+        usual = size.allowances.pin_gap_mm + sizes.arm_thickness
+        length = value_or(size.wheel_hub_length_mm, usual)
+    end = ShaftEnd(_to_frame(assembly, sizes, length), sizes.arm_thickness, assembly.L)
     return Stressed(
         contact,
         2.0 * sizes.pin,
@@ -100,15 +99,26 @@ def shaft_of(spec: Spec, part: str, bore: float, end: ShaftEnd) -> ShaftSize:
     return ShaftSize(value_or(own[0], diameter), value_or(own[1], overhang))
 
 
-def _to_frame(assembly: Assembly, sizes: Sizes) -> float:
-    """Return the distance of the frame's upper face from the middle of the wheel's thickness."""
-    size, machine = assembly.full.spec.size, assembly.full
-    planes = [link.plane for link in links_at(machine, np.zeros(1))]
-    planes += [gear_plane(machine)] if machine.spec.gears else []
-    below = (max(planes, default=1) - 1) * (sizes.link_thickness + size.washer_mm)
-    down = size.allowances.pin_gap_mm + sizes.arm_thickness + below
-    down = max(down, size.wheel_hub_length_mm or 0.0)
-    return 0.5 * sizes.wheel_thickness + down + size.washer_mm
+def _to_frame(assembly: Assembly, sizes: Sizes, hub_mm: float) -> float:
+    """Return the distance of the frame's upper face from the middle of the wheel's thickness.
+
+    The frame lies a washer below the lowest of the wheel's hub, which is ``hub_mm`` long, the arm,
+    links, gears, and the base of a groove's plate.
+    """
+    machine, spec = assembly.full, assembly.full.spec
+    gap, arm, washer = spec.size.allowances.pin_gap_mm, sizes.arm_thickness, spec.size.washer_mm
+    first = arm if spec.drive.ONE_ARM else sizes.link_thickness
+
+    def low(plane: int) -> float:
+        return plane_span(plane, gap, first, sizes.link_thickness, washer)[0]
+
+    lows = [-hub_mm, -gap - (arm if sizes.arm_bore else 0.0)]
+    lows += [low(link.plane) for link in links_at(machine, np.zeros(1))]
+    if spec.gears:
+        lows.append(low(gear_plane(machine)))
+    if machine.engagements[0].groove is not None:  # as ``groove_plate`` has its base
+        lows.append(low(3) if spec.drive_before else low(2) - arm)
+    return 0.5 * sizes.wheel_thickness - min(lows) + washer
 
 
 def _arm(assembly: Assembly, sizes: Sizes, contact: float) -> ArmDimensions:
@@ -129,7 +139,7 @@ def _arm(assembly: Assembly, sizes: Sizes, contact: float) -> ArmDimensions:
 
 
 def lock_of(where: Assembly, size: Sizes) -> Lock:
-    """Return the lock of parts of these sizes, in its narrowest sector."""
+    """Return the lock of parts of these sizes, in its narrowest sector between two reliefs."""
     half = min((0.5 * (end - start) for start, end in sectors(where)), default=math.nan)
     edge = where.full.spec.size.lock_edge_mm or 0.0
     return Lock(where.L, where.sign, size.lock, size.recess, size.rim, half, edge)

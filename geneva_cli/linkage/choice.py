@@ -1,6 +1,6 @@
 """Choice among the wheels that a roller path can drive: the gentlest, or the requested one.
 
-The gentlest has the least peak velocity. A few points of each wheel give bounds of its peak.
+The gentlest has the least peak velocity. The samples of each wheel give bounds of its peak.
 """
 
 from __future__ import annotations
@@ -47,18 +47,17 @@ def chosen(path: RollerPath, wheels: PathWheels, wanted: Number | None = None) -
 def _peaks(path: RollerPath, wheels: PathWheels) -> Array:
     """Peak velocities of several wheels per design, accurate enough to know the least.
 
-    A few points of a wheel bound its peak. The wheel of each design with the least velocity so far
-    comes first. If the bounds do not decide which wheel has the least peak, those wheels are
-    sampled more closely.
+    If their bounds do not decide which wheel has the least peak, those wheels are sampled more
+    closely.
     """
-    which, velocity = wheels.which, wheels.velocity
-    known = _Velocities(velocity.copy(), np.full(len(which), np.inf), wheels.phi.copy())
-    order = np.lexsort((velocity, which))
-    open_ = order[np.append(True, np.diff(which[order]) != 0)]
-    for _ in range(20):  # each round narrows to three of eight intervals, 8e-9 in nineteen
+    known = _Velocities(wheels.least.copy(), wheels.most.copy(), wheels.phi.copy())
+    open_ = _open_peaks(wheels.which, known)
+    # Intervals: many of the whole motion, which may have several peaks; then eight about the
+    # greatest velocity, of which each round leaves three. Rounding spoils means over a millionth.
+    for count in (64, *[8] * 9):
         if not len(open_):
             break
-        near = _velocities(path, wheels.taken(open_), known.bracket[open_])
+        near = _velocities(path, wheels.taken(open_), known.bracket[open_], count)
         near = near._replace(least=np.maximum(near.least, known.least[open_]))
         near = near._replace(most=np.minimum(near.most, known.most[open_]))
         for all_, some in zip(known, near, strict=True):
@@ -85,25 +84,24 @@ class _Velocities(NamedTuple):
     bracket: Array
 
 
-def _velocities(path: RollerPath, wheels: PathWheels, between: Array) -> _Velocities:
-    """Peak velocities between crank angles (n, 2)."""
+def _velocities(path: RollerPath, wheels: PathWheels, between: Array, count: int) -> _Velocities:
+    """Peak velocities between crank angles (n, 2), by samples of ``count`` intervals."""
     bounds: _Velocities = joined(
         [
-            _block_velocities(path.roughly(wheels.which[i]), wheels.phi[i], between[i])
+            _block_velocities(path.roughly(wheels.which[i]), wheels.phi[i], between[i], count)
             for i in blocks(len(between), 256)  # 256 wheels stay in the processor's cache
         ]
     )
     return bounds
 
 
-def _block_velocities(path: RollerPath, phi: Array, between: Array) -> _Velocities:
+def _block_velocities(path: RollerPath, phi: Array, between: Array, count: int) -> _Velocities:
     """Peak velocities of a block of wheels, each with its path."""
     ends = points(path, phi)
     (p, q), (t, u) = ends.p.T, ends.t.T
     rho = np.abs(q - p) / np.abs(t + u)
     centre = (0.5 * ((p + rho * t) + (q - rho * u)))[:, None]
     low, high = between[:, :1], between[:, 1:]
-    count = 8  # intervals
     phi = low + (high - low) * (np.arange(count + 1) / count)
     x, y = path.at(phi, 1)
     ray = x.c[0] + 1j * y.c[0] - centre

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.kinematics.paths.course import PinCourse, PlacedWheel, leaves_slot
+from geneva_cli.kinematics.paths.course import PinCourse, PlacedWheel, leaves_slot, peak_bounds
 from geneva_cli.kinematics.paths.pairs import DOUBLE_ROOT_SLOPE, EndPairs, newton, pairs, residual
 from geneva_cli.kinematics.paths.samples import PathSamples, blocks, joined, points, sampled
 from geneva_cli.kinematics.roller_path import RollerPath
@@ -24,14 +24,15 @@ class PathWheels(NamedTuple):
     """Wheels of the designs numbered in ``which``.
 
     ``phi`` holds the crank angles at entry and exit in two columns. ``sense`` is the direction in
-    which the wheel turns on the path's own axes. ``velocity`` is the greatest one at samples of the
-    path: the peak is no less.
+    which the wheel turns on the path's own axes. The peak velocity is between ``least`` and
+    ``most``.
     """
 
     which: Whole
     phi: Array
     sense: Array
-    velocity: Array
+    least: Array
+    most: Array
 
     def taken(self, where: Which) -> PathWheels:
         """Select some of the wheels."""
@@ -151,9 +152,10 @@ def _block_followed(
     before = np.count_nonzero(samples.at.phi[row, :-1] <= entry, axis=1)
     column = before[:, None] + np.arange(count)
     turned = column >= count
-    at = samples.at.at_samples(row[:, None], column - count * turned)
-    since = at.phi - entry + math.tau * turned
-    course = wheel.course(at)
+    place = row[:, None] * (count + 1) + column - count * turned
+    phi, *motions = (x.take(place) for x in samples.at[:4])
+    since = phi - entry + math.tau * turned
+    course = wheel.course(*motions)
     inside = since < motion
     good = np.where(inside, (course.moment > 0.0) & (course.short > 0.0), course.short < 0.0)
     at_entry = (since < SAME_ENTRY) | (since > math.tau - SAME_ENTRY)
@@ -161,7 +163,7 @@ def _block_followed(
     kept = np.flatnonzero(good.all(axis=1))
     # add the ends to the samples, and the entry again a turn later
     wheel, ends, since, motion = wheel.taken(kept), ends.taken(kept), since[kept], motion[kept]
-    limits = wheel.course(ends.at)
+    limits = wheel.course(ends.at.p, ends.at.v, ends.at.a)
     limits = limits._replace(moment=0.0 * limits.moment, short=0.0 * limits.short)
     exit_ = np.count_nonzero(inside[kept], axis=1)[:, None] + 1
     node = np.arange(-1, count + 2) - (np.arange(count + 3) > exit_)
@@ -173,7 +175,7 @@ def _block_followed(
     full = PinCourse._make(
         np.hstack((x[kept], y)).take(node) for x, y in zip(course, limits, strict=True)
     )
-    moment = np.where(nodes <= motion, full.moment, 0.0)
-    velocity = (moment / (wheel.square - full.short)).max(axis=1)
-    stays = ~leaves_slot(path, wheel, ends, nodes, full, motion)
-    return PathWheels(ends.which[stays], ends.at.phi[stays], wheel.sense[stays, 0], velocity[stays])
+    every = PathWheels(
+        ends.which, ends.at.phi, wheel.sense[:, 0], *peak_bounds(nodes, motion, wheel, full)
+    )
+    return every.taken(~leaves_slot(path, wheel, ends, nodes, full, motion))

@@ -83,7 +83,7 @@ class FlatPairs:
         return self.gaps.assembly.L
 
     def beyond(self, points: Array) -> Array:
-        """Return the distance of points (n, 2) from the level that the wheel reaches, mm."""
+        """Return the distance of points (..., 2) from the level that the wheel reaches, mm."""
         return self.gaps.assembly.sign * (self.moves.level(points) - self.rim)
 
 
@@ -247,7 +247,5 @@ class Lock:
         pieces = self.pieces
         c, s = np.cos(crank)[:, None], np.sin(crank)[:, None]
         x, y = self.reach.L + c * pieces.ox - s * pieces.oy, s * pieces.ox + c * pieces.oy
-        level = self.reach.moves.level(np.stack((x, y), axis=-1))
-        beyond = self.reach.gaps.assembly.sign * (level - self.reach.rim)
         moved = self.disc * on.crank[:, None] + self.reach.apart
-        return beyond - pieces.size <= moved
+        return self.reach.beyond(np.stack((x, y), axis=-1)) - pieces.size <= moved

@@ -24,10 +24,10 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.curves.gear_teeth import Rack, RoundTeeth, Writer, circle, fillet, involute
-from geneva_cli.curves.measure import turned
-from geneva_cli.curves.shapes import ORIGIN, Arc, Contour, Segment, about, closed
+from geneva_cli.curves.measure import turned_pieces
+from geneva_cli.curves.shapes import ORIGIN, Contour, Segment, about, closed
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.gear_mesh import GearMesh, ToothedGear
+from geneva_cli.layout.gear_mesh import GearMesh, ToothedGear, contact_ratio, with_tips
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.roots import boundary
@@ -45,8 +45,7 @@ class CounterSizes(NamedTuple):
     shifts: tuple[float, float]  # of driver and pinion in modules, without backlash
     pressure_angle: float  # at work
     contact_ratio: float  # of number wheels and pinions
-    touch: float  # radius of the circle that touches the wide teeth at rest
-    rim: float
+    rim: float  # radius
 
     @property
     def half_space(self) -> float:
@@ -59,10 +58,9 @@ def counter_sizes(mechanism: Mechanism) -> CounterSizes:
     spec, L = mechanism.spec, mechanism.center_distance_mm
     z = spec.wheel.z
     large = round(2 * z * mechanism.ratio / (1.0 - mechanism.ratio))
-    mesh = _meshing((large, 2 * z), L, spec.size.gear_backlash_mm)
-    number, pinion = mesh.number, mesh.pinion
-    touch = _touching_circle(pinion, L)
-    rim = touch - spec.size.allowances.lock_clearance_mm
+    counts, backlash_mm = (large, 2 * z), spec.size.gear_backlash_mm
+    number, pinion, shifts, angle, contact = _meshing(counts, L, backlash_mm)
+    rim = _touching_circle(pinion, L) - spec.size.allowances.lock_clearance_mm
     driver = number._replace(tip=min(number.tip, rim))
     if driver.tip <= driver.base or rim <= L - pinion.tip:
         raise GenevaError(
@@ -71,9 +69,7 @@ def counter_sizes(mechanism: Mechanism) -> CounterSizes:
             "lock_clearance_mm",
             ("wheel", "z"),
         )
-    return CounterSizes(
-        driver, number, pinion, L, mesh.shifts, mesh.pressure_angle, mesh.contact_ratio, touch, rim
-    )
+    return CounterSizes(driver, number, pinion, L, shifts, angle, contact, rim)
 
 
 def counter_mesh(sizes: CounterSizes) -> GearMesh:
@@ -94,20 +90,13 @@ def counter_mesh(sizes: CounterSizes) -> GearMesh:
     return GearMesh(gears, sizes.pressure_angle, sizes.contact_ratio)
 
 
-class _Meshing(NamedTuple):
-    """The whole teeth of a number wheel and a pinion in mesh."""
+def _meshing(
+    counts: tuple[int, int], L: float, backlash_mm: float
+) -> tuple[RoundTeeth, RoundTeeth, tuple[float, float], float, float]:
+    """Return the teeth of number wheel and pinion by their numbers, and how they mesh.
 
-    number: RoundTeeth
-    pinion: RoundTeeth
-    shifts: tuple[float, float]  # in modules, without backlash
-    pressure_angle: float  # at work, radians
-    contact_ratio: float
-
-
-def _meshing(counts: tuple[int, int], L: float, backlash_mm: float) -> _Meshing:
-    """Return the teeth of number wheel and pinion, by their numbers.
-
-    Raises GenevaError, naming the key, for teeth that lose contact.
+    That is their shifts in modules without backlash, the pressure angle at work, radians, and the
+    contact ratio. Raises GenevaError, naming the key, for teeth that lose contact.
     """
     plain, total = Rack(1.0), sum(counts)
     # modules by which a backlash along the pitch circles at work thins both, a half each
@@ -119,29 +108,18 @@ def _meshing(counts: tuple[int, int], L: float, backlash_mm: float) -> _Meshing:
     rolled = involute(plain.angle) + 2.0 * sum(shifts) * math.tan(plain.angle) / total
     angle = boundary(lambda w: involute(w) <= rolled, plain.angle, 1.2)
     m = 2.0 * L * math.cos(angle) / (total * math.cos(plain.angle))
-    racks = [Rack(m, x - thinner) for x in shifts]
-    radii = [0.5 * m * count for count in counts]
-    # a quarter of a module from the other gear's root, and no farther than its flank reaches
-    ends = [
-        radii[k] * math.sin(r.angle) - r.straight / math.sin(r.angle) for k, r in enumerate(racks)
-    ]
-    bases, far = [r * math.cos(plain.angle) for r in radii], L * math.sin(angle)
-    tips = [
-        min(
-            L - radii[1 - k] + m * (1.0 - shifts[1 - k]),
-            math.hypot(bases[k], far - ends[1 - k]),
-        )
-        for k in (0, 1)
-    ]
+    number, pinion = (
+        RoundTeeth(Rack(m, x - thinner), 0.5 * m * count, 0.0)
+        for x, count in zip(shifts, counts, strict=True)
+    )
+    number, pinion = with_tips(number, pinion, shifts, L, angle)
     contact = 0.0
-    if all(tip > base for tip, base in zip(tips, bases, strict=True)):
-        tips = [_blunt(racks[k], radii[k], tips[k]) for k in (0, 1)]
-        both = [RoundTeeth(racks[k], radii[k], tips[k]) for k in (0, 1)]
-        path = sum(teeth.tangent(teeth.tip) for teeth in both) - far
-        contact = path / (math.pi * m * math.cos(plain.angle))
+    if number.tip > number.base and pinion.tip > pinion.base:
+        number, pinion = _blunt(number), _blunt(pinion)
+        contact = contact_ratio(number, pinion, L, angle)
     if contact < 1.0:
         raise _lost_contact(backlash_mm, counts[0], max(0.0, contact))
-    return _Meshing(both[0], both[1], shifts, angle, contact)
+    return number, pinion, shifts, angle, contact
 
 
 def _lost_contact(backlash_mm: float, teeth: int, contact: float) -> GenevaError:
@@ -157,10 +135,11 @@ def _lost_contact(backlash_mm: float, teeth: int, contact: float) -> GenevaError
     )
 
 
-def _blunt(rack: Rack, radius: float, tip: float) -> float:
-    """Return the radius of tips that keep the least thickness, at most ``tip``."""
-    teeth = RoundTeeth(rack, radius, tip)
-    return boundary(lambda r: teeth.thickness(r) >= rack.least_tip, radius, tip)
+def _blunt(teeth: RoundTeeth) -> RoundTeeth:
+    """Return teeth that end where they still have the least thickness."""
+    least = teeth.rack.least_tip
+    tip = boundary(lambda r: teeth.thickness(r) >= least, teeth.radius, teeth.tip)
+    return teeth._replace(tip=tip)
 
 
 def _touching_circle(pinion: RoundTeeth, L: float) -> float:
@@ -173,9 +152,8 @@ def _touching_circle(pinion: RoundTeeth, L: float) -> float:
     """
     rack, base = pinion.rack, pinion.base
     begins = pinion.step - pinion.half_angle(base)
-    shortest = pinion.radius * math.sin(rack.angle) - rack.straight / math.sin(rack.angle)
     along = base * (math.acos(base / L) - begins)
-    along = min(max(along, shortest), pinion.tangent(pinion.tip))
+    along = min(max(along, pinion.flank_end), pinion.tangent(pinion.tip))
     r = math.hypot(base, along)
     least = math.sqrt(L * L + r * r - 2.0 * L * r * math.cos(pinion.step - pinion.half_angle(r)))
     return min(least, L - pinion.root - 0.1 * rack.module)
@@ -200,62 +178,33 @@ def half_angles(teeth: RoundTeeth, r: Array) -> Array:
 def driver_teeth(sizes: CounterSizes, write: Writer) -> Contour:
     """Return the driver's two teeth on its root circle, to either side of the x axis."""
     teeth, half = sizes.driver, sizes.half_space
-    one = Contour(CRANK, tuple(teeth.one(write)), closed=False)
-    between = Contour(CRANK, (teeth.between(),), closed=False)
-    pieces = [*turned(one, -half).segments, *turned(between, -half).segments]
-    pieces += turned(one, half).segments
-    from_middle = teeth.rack.corner[0] / teeth.radius
-    start = half + from_middle
+    one = teeth.one(write)
+    pieces = *turned_pieces([*one, teeth.between()], -half), *turned_pieces(one, half)
+    start = half + teeth.rack.corner[0] / teeth.radius
     return closed(CRANK, [*pieces, about(ORIGIN, teeth.root, start, math.tau - 2.0 * start)])
 
 
 def driver_rim(sizes: CounterSizes, write: Writer) -> Contour:
     """Return the locking rim, whose gap is the space between the driver's two teeth."""
     teeth, half = sizes.driver._replace(tip=sizes.rim), sizes.half_space
-    before, after = _sides(teeth, write)
-    between = Contour(CRANK, (teeth.between(),), closed=False)
-    pieces = [*turned(after, -half).segments, *turned(between, -half).segments]
-    pieces += turned(before, half).segments
+    before, after = teeth.sides(write)
+    pieces = *turned_pieces([*after, teeth.between()], -half), *turned_pieces(before, half)
     start = half - teeth.half_angle(sizes.rim)
     return closed(CRANK, [*pieces, about(ORIGIN, sizes.rim, start, math.tau - 2.0 * start)])
 
 
-def _sides(teeth: RoundTeeth, write: Writer) -> tuple[Contour, Contour]:
-    """Return both sides of a tooth about the x axis, without its tip."""
-    pieces = teeth.one(write)
-    (tip,) = (i for i, piece in enumerate(pieces) if _is_tip(piece, teeth.tip))
-    before, after = pieces[:tip], pieces[tip + 1 :]
-    return Contour(CRANK, tuple(before), False), Contour(CRANK, tuple(after), False)
-
-
-def _is_tip(piece: Segment, radius: float) -> bool:
-    """True for an arc about the origin at a radius."""
-    if not isinstance(piece, Arc):
-        return False
-    return all(math.isclose(math.hypot(*end), radius) for end in (piece.start, piece.end))
-
-
 def pinion_teeth(sizes: CounterSizes, wide: bool, write: Writer) -> Contour:
     """Return the pinion in the plane of its wide teeth alone, or in that of all teeth."""
-    teeth, each = sizes.pinion, 2 if wide else 1
-    one = Contour(WHEEL, tuple(teeth.one(write)), closed=False)
-    between = Contour(WHEEL, (teeth.between((each - 1) * teeth.step),), closed=False)
-    pieces: list[Segment] = []
-    for k in range(0, round(math.tau / teeth.step), each):
-        pieces += turned(one, k * teeth.step).segments
-        pieces += turned(between, k * teeth.step).segments
-    return closed(WHEEL, pieces)
+    return closed(WHEEL, _all_round(sizes.pinion, write, 0.0, 2 if wide else 1))
 
 
 def number_teeth(sizes: CounterSizes, write: Writer) -> Contour:
     """Return the gear of the number wheel, whose space is about the x axis, as the driver's."""
-    teeth = sizes.number
-    both = [
-        Contour(CRANK, tuple(teeth.one(write)), False),
-        Contour(CRANK, (teeth.between(),), False),
-    ]
-    pieces: list[Segment] = []
-    for k in range(round(math.tau / teeth.step)):
-        for one in both:
-            pieces += turned(one, sizes.half_space + k * teeth.step).segments
-    return closed(CRANK, pieces)
+    return closed(CRANK, _all_round(sizes.number, write, sizes.half_space))
+
+
+def _all_round(teeth: RoundTeeth, write: Writer, first: float, each: int = 1) -> list[Segment]:
+    """Return the outline of a gear from its first tooth on, with every ``each``-th tooth."""
+    tooth = [*teeth.one(write), teeth.between((each - 1) * teeth.step)]
+    turns = [first + k * teeth.step for k in range(0, round(math.tau / teeth.step), each)]
+    return [piece for turn in turns for piece in turned_pieces(tooth, turn)]

@@ -34,7 +34,7 @@ def crank_contours(
 ) -> list[Contour]:
     """Return the locking disc with one kind of relief: ``"arc"`` or ``"sector"``.
 
-    ``swept(i, every)`` are points where the wheel enters the disc in the i-th motion. Where the
+    ``swept(i)`` are points where the wheel enters the disc in the i-th motion. Where the
     wheel sweeps over the crank's axis, as an internal wheel does, only locking sectors are left.
     The crank carries them next to the wheel's plane. They keep ``spare`` mm more distance from the
     wheel.
@@ -44,7 +44,6 @@ def crank_contours(
     around = reliefs(assembly)
     if relief == "sector":
         around = merged([_widened(sizes, one, swept) for one in around])
-    cut = _arc if relief == "arc" else _sector
     if sum(one.end - one.start for one in around) > math.tau - SAME_ANGLE:
         raise GenevaError(
             "nothing is left of the locking disc: its reliefs go all the way round; use fewer "
@@ -53,7 +52,7 @@ def crank_contours(
         )
     segments: list[Segment] = []
     for one, after in followed(around):
-        segments += cut(assembly, sizes, one)
+        segments += [_arc(sizes, one)] if relief == "arc" else _sector(assembly, sizes, one)
         if after - one.end > SAME_ANGLE:
             segments.append(about((0.0, 0.0), sizes.lock, one.end, after - one.end))
     return [closed(LAYER, segments)]
@@ -62,7 +61,7 @@ def crank_contours(
 def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:
     """Return a relief as wide as the wheel needs: offset slots turn horns past its edges."""
     middle = 0.5 * (one.start + one.end)
-    beyond = towards(*swept(one.motion, 1), middle + math.pi, math.pi - one.half)
+    beyond = towards(*swept(one.motion), middle + math.pi, math.pi - one.half)
     off = polar_points(*beyond, middle).direction
     spare = sizes.relief / sizes.lock
     low, high = float(off.min(initial=0.0)), float(off.max(initial=0.0))
@@ -94,7 +93,7 @@ def rollers_gap(assembly: Assembly, sizes: Sizes) -> float | None:
     return min(math.dist(one, other) for one, other in pairs) - 2.0 * sizes.roller
 
 
-def _arc(assembly: Assembly, sizes: Sizes, relief: Relief) -> list[Segment]:
+def _arc(sizes: Sizes, relief: Relief) -> Segment:
     """Return one arc that meets the disc at right angles at both ends.
 
     For a radial slot entered without shock it is the triangle of wheel, crank and roller at entry,
@@ -111,7 +110,7 @@ def _arc(assembly: Assembly, sizes: Sizes, relief: Relief) -> list[Segment]:
     away, radius = sizes.lock / math.cos(relief.half), sizes.lock * math.tan(relief.half)
     centre = away * math.cos(middle), away * math.sin(middle)
     half = math.pi / 2.0 - relief.half
-    return [about(centre, radius, middle + math.pi + half, -2.0 * half)]
+    return about(centre, radius, middle + math.pi + half, -2.0 * half)
 
 
 def _sector(assembly: Assembly, sizes: Sizes, relief: Relief) -> list[Segment]:

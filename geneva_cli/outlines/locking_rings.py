@@ -7,6 +7,7 @@ internal wheels, and for some external ones.
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from collections.abc import Callable
 from functools import cache
 from typing import NamedTuple, TypeAlias
@@ -19,15 +20,12 @@ from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.reliefs import sectors
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.numerics.tolerances import CLEARLY, SAME_ANGLE, SAME_LENGTH
+from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 
-# Points of the wheel inside the disc in one motion, at each so many of its positions: x and y
-# in the crank's frame.
-Swept: TypeAlias = Callable[[int, int], tuple[Array, Array]]
+# points of the wheel inside the disc in one motion: x and y in the crank's frame
+Swept: TypeAlias = Callable[[int], tuple[Array, Array]]
 
 LAYER = "CRANK"
-EDGE = 0.035  # radians, two degrees: width of the range that counts as a sector's edge
-THINNEST = 0.1  # least thickness of a locking sector, as a fraction of the disc's radius
 
 
 class PolarPoints(NamedTuple):
@@ -61,30 +59,18 @@ def rings(assembly: Assembly, sizes: Sizes, swept: Swept, spare: float) -> list[
 
     Raises GenevaError where nothing is left of one.
     """
-
-    @cache
-    def reached(every: int) -> tuple[Array, Array]:
-        x, y = zip(*(swept(i, every) for i in range(len(assembly.motions))), strict=True)
-        return np.concatenate(x), np.concatenate(y)
+    x, y = map(np.concatenate, zip(*map(swept, range(len(assembly.motions))), strict=True))
 
     def ring(start: float, end: float) -> Contour:
         middle, whole = 0.5 * (end + start), 0.5 * (end - start)
-
-        @cache
-        def wheel(every: int) -> PolarPoints:
-            return polar_points(*towards(*reached(every), middle, whole), middle)
+        wheel = polar_points(*towards(x, y, middle, whole), middle)
 
         @cache
         def arc(half: float) -> tuple[float, float]:
-            return inner_arc(sizes, half, wheel(1), spare)
+            return inner_arc(sizes, half, wheel, spare)
 
-        def clears(half: float) -> bool:
-            # every 16th position shows most collisions
-            if beyond(sizes, wheel(16), half) or beyond(sizes, wheel(1), half):
-                return False
-            return max(arc(half)) < (1.0 - THINNEST) * sizes.lock
-
-        half = widest(whole, clears)
+        # the least thickness of a sector is a tenth of the disc's radius
+        half = widest(whole, lambda half: max(arc(half)) < 0.9 * sizes.lock)
         if half is None:
             raise GenevaError(
                 "the wheel sweeps over the whole locking sector: a smaller roller, or another "
@@ -100,29 +86,13 @@ def widest(whole: float, clears: Callable[[float], bool]) -> float | None:
     """Return half the width of the widest locking sector that clears the wheel, up to ``whole``.
 
     Steps are a fiftieth of ``whole``. None if none of at least a fifth of it clears the wheel.
+    Narrower sectors clear the wheel where a wider one does.
     """
-    return next((half for k in range(40) if clears(half := (1.0 - 0.02 * k) * whole)), None)
-
-
-def beyond(sizes: Sizes, wheel: PolarPoints, half: float) -> bool:
-    """Return True if no inner arc of a sector can clear some points of the wheel within its limit.
-
-    Then no arc clears all of them either. On a circle about a point ahead, distances from the axis
-    increase towards that direction. Suppose that an arc meets both edges within the limit, and
-    passes beyond a point ahead that lies beyond the limit. Then its middle lies beyond the limit
-    too. The edges are farther out than the points near them.
-    """
-    limit, offset = CLEARLY * (1.0 - THINNEST) * sizes.lock, np.abs(wheel.direction)
-    inside = CLEARLY * offset < half
-    if (wheel.radius[inside & (offset <= 0.5 * math.pi)] >= limit).any():
-        return True
-    at_edge = wheel.radius[inside & (offset > half - EDGE / CLEARLY)]
-    return bool((at_edge + _spare(sizes, at_edge) >= limit).any())
-
-
-def _spare(sizes: Sizes, at_edge: Array) -> Array:
-    """Return the distance of the edges beyond the farthest point near them."""
-    return np.minimum(sizes.relief, (sizes.lock - at_edge) / 3.0)
+    if clears(whole):  # as most do
+        return whole
+    halves = [(1.0 - 0.02 * k) * whole for k in range(1, 40)]
+    first = bisect_left(halves, True, key=clears)
+    return halves[first] if first < len(halves) else None
 
 
 def _ring(sizes: Sizes, middle: float, half: float, edge: float, floor: float) -> Contour:
@@ -144,7 +114,7 @@ def inner_arc(sizes: Sizes, half: float, wheel: PolarPoints, more: float) -> tup
     """
     inside = np.abs(wheel.direction) < half
     radius, off = wheel.radius[inside], wheel.direction[inside]
-    at_edge = float(radius[np.abs(off) > half - EDGE].max(initial=0.0))
+    at_edge = float(radius[np.abs(off) > half - 0.035].max(initial=0.0))  # within two degrees
     spare = min(sizes.relief, (sizes.lock - at_edge) / 3.0) + more
     edge = max(at_edge + spare, 0.01 * sizes.lock)  # no sector is pointed down to the axis
     ex, ey = edge * math.cos(half), edge * math.sin(half)

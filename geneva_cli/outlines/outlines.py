@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from functools import cache
+from functools import cache, lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -100,8 +100,9 @@ def outlines(mechanism: Mechanism, tolerance: float = 0.0) -> Outlines:
     return drawn(where, sizes(where), tolerance)
 
 
+@lru_cache(maxsize=2)  # the lock's dimensions and the parts are of one machine
 def drawn(assembly: Assembly, sizes: Sizes, tolerance: float = 0.0) -> Outlines:
-    """Return the outlines of an assembly with known sizes, within ``tolerance`` mm."""
+    """Return the cached outlines of an assembly with known sizes, within ``tolerance`` mm."""
     kinds, L = assembly.kinds, assembly.L
     fine = max(0.5 * CURVED * L, tolerance)
     walls = {engagement: slot_walls(assembly, sizes, engagement, fine) for engagement in kinds}
@@ -135,12 +136,11 @@ def _relieved(bare: Gaps, sizes: Sizes, close: float) -> tuple[list[Contour], st
         return [], "none", bare
     requested = assembly.mechanism.spec.size.relief
     whole = is_whole(assembly, sizes)
-    swept = cache(lambda i, every: bare.swept(i, SWEPT_DEG, every))
+    swept = cache(lambda i: bare.swept(i, SWEPT_DEG))
     if whole and not requested and not without_lock(assembly) and has_arcs(assembly, sizes.lock):
         crank = crank_contours(assembly, sizes, "arc", swept)
         gaps = bare.with_crank(crank)
-        # every 16th position shows most reliefs that collide
-        if all(_overlap(gaps, close, every) <= close for every in (16, 1)):
+        if _overlap(gaps, close) <= close:
             return crank, "arc", gaps
     kind, spare = requested or "sector", 0.0
     crank = crank_contours(assembly, sizes, kind, swept)
@@ -156,17 +156,16 @@ def _relieved(bare: Gaps, sizes: Sizes, close: float) -> tuple[list[Contour], st
     return crank, kind, gaps
 
 
-def _overlap(gaps: Gaps, close: float, every: int = 1) -> float:
+def _overlap(gaps: Gaps, close: float) -> float:
     """Return the greatest overlap of crank and wheel in all motions, mm.
 
-    Only each ``every``-th position is computed. Gaps wider than ``close`` count as ``close``.
+    Gaps wider than ``close`` count as ``close``.
     """
     least = 0.0
     for engagement, behind in gaps.assembly.motions:
         count = 2 + int(engagement.motion_deg / SWEPT_DEG)
-        at = (
-            behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count) + 0.3 * SWEPT_DEG
-        )[::every]
+        at = np.linspace(engagement.entry_deg, engagement.exit_deg, count)
+        at = behind + at + 0.3 * SWEPT_DEG
         # without the rollers, which lock nothing
         pose = Pose(gaps.assembly.wheel(at), gaps.assembly.crank(at), np.empty((len(at), 0, 2)))
         least = min(least, float(gaps.locking(pose, near=close).min()))

@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from geneva_cli.curves.sphere import Region, SphereArc, Vector, opposite, place
+from geneva_cli.curves.sphere import Region, SphereArc, Vector, combined, opposite, place
 from geneva_cli.layout.ball import Ball
 from geneva_cli.numerics.arrays import Array
 
@@ -27,11 +27,12 @@ def wheel_regions(ball: Ball, inner: float) -> list[Region]:
     b, z = ball.half_step, ball.z
     between = [place(_end(ball), (2 * k - 1) * b) for k in range(z)]
     ends = [place(inner, (2 * k - 1) * b) for k in range(z)]
-    return [
-        _region(ball, 2 * k * b, (between[k], between[after]), (ends[k], ends[after]), inner)
-        for k in range(z)
-        for after in ((k + 1) % z,)
-    ]
+    regions = []
+    for k in range(z):
+        after = (k + 1) % z
+        sides = (between[k], between[after]), (ends[k], ends[after])
+        regions.append(_region(ball, 2 * k * b, *sides, inner))
+    return regions
 
 
 def web_angle(ball: Ball) -> float:
@@ -115,6 +116,4 @@ def _recess(ball: Ball, azimuth: float, start: Vector, end: Vector) -> SphereArc
 
 def _offset(at: Vector, across: Vector, angle: float) -> Vector:
     """Return the point at an angle from ``at`` along the great circle towards ``across``."""
-    c, s = math.cos(angle), math.sin(angle)
-    x, y, z = (c * p + s * q for p, q in zip(at, across, strict=True))
-    return x, y, z
+    return combined(at, math.cos(angle), across, math.sin(angle))

@@ -82,8 +82,8 @@ def clearances_before(outlines: Outlines, stop: WheelStop, past_deg: float = 0.0
     parts = Gaps(assembly, outlines.sizes, outlines.wheel, outlines.crank)
     z = assembly.full.spec.wheel.z
     turns = np.array([-(z // 2), z - 1 - z // 2])  # of the two engagements, in the drawings
-    way = np.linspace(stop.crank_deg - 180.0, stop.crank_deg + past_deg, 361)
-    at = 360.0 * turns[:, None] + np.array([[-1.0], [1.0]]) * way
+    before_deg = np.linspace(stop.crank_deg - 180.0, stop.crank_deg + past_deg, 361)
+    at = 360.0 * turns[:, None] + np.array([[-1.0], [1.0]]) * before_deg
     return parts.locking(parts.pose(at.ravel())).reshape(at.shape)
 
 

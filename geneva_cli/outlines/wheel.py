@@ -42,7 +42,7 @@ def wheel_contour(
         between = _between(assembly, direction, around[following][1])
         ends = segments[-1].end, walls[following][0].start
         if convex and i == len(around) // 2:
-            segments.append(_face(*ends))
+            segments.append(_about((0.0, 0.0), *ends, 1.0))
         else:
             segments += _rim(assembly, sizes, *ends, between)
     return closed(LAYER, segments)
@@ -83,12 +83,6 @@ def _between(assembly: Assembly, start: float, end: float) -> float:
         for at in assembly.rests
         if (off := (at - start) % math.tau) < span or span == 0.0
     )
-
-
-def _face(start: Point, end: Point) -> Arc:
-    """Return the convex face from one slot's corner to the next, which is as far out."""
-    turn = (math.atan2(end[1], end[0]) - math.atan2(start[1], start[0])) % math.tau
-    return Arc(start, end, math.tan(0.25 * turn))
 
 
 def _rim(assembly: Assembly, sizes: Sizes, start: Point, end: Point, at: float) -> list[Segment]:
@@ -143,7 +137,7 @@ def _on(radius: float, angle: float) -> Point:
 
 
 def _about(axis: Point, start: Point, end: Point, sense: float) -> Arc:
-    """Return an arc about the crank's axis, counterclockwise (+1) or clockwise (-1)."""
+    """Return an arc about an axis, counterclockwise (+1) or clockwise (-1)."""
     a, b = (math.atan2(y - axis[1], x - axis[0]) for x, y in (start, end))
     sweep = sense * (sense * (b - a) % math.tau)
     return Arc(start, end, math.tan(0.25 * sweep))

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
-from geneva_cli.curves.plates import Member, Plate
+from geneva_cli.curves.plates import Member
 from geneva_cli.curves.shapes import Point
 from geneva_cli.kinematics.layout import AxisPlace
 from geneva_cli.layout.link_positions import same
@@ -18,7 +18,7 @@ from geneva_cli.parts.arm import crank_arm, has_arm
 from geneva_cli.parts.link_shafts import carried, link_shafts
 from geneva_cli.parts.links import Links
 from geneva_cli.parts.planes import crank_stop
-from geneva_cli.parts.shaft import Ends, Seat, Shaft
+from geneva_cli.parts.shaft import Ends, Seat, Shaft, seat_of
 from geneva_cli.parts.shafts import crank_shaft_radius, shafts, wheel_shaft_radius
 
 
@@ -38,9 +38,9 @@ def all_shafts(
         here = (axis for axis in bars.axes if same(axis.at, at, L))
         seats = [seat for axis in here for seat in carried(bars, axis, first, L)]
         if mechanism.spec.gears and same(at, mechanism.gear_shaft.at, L):
-            from geneva_cli.parts.gear_pair import NAMES, gear_span
+            from geneva_cli.parts.gear_pair import gear_seats
 
-            seats.append(Seat(NAMES[0], *gear_span(mechanism, outlines)))
+            seats += gear_seats(mechanism, outlines)[:1]
         return tuple(sorted(seats, key=lambda seat: seat.low))
 
     if outlines:
@@ -77,12 +77,12 @@ def passing(
     mechanism: Mechanism, outlines: Outlines | None, bars: Links, others: Iterable[Member]
 ) -> Iterator[Seat]:
     """Yield links, gears and other parts: their names, lower and upper faces."""
-    gears = (gear.member for gear in bars.gears)
-    yield from map(_span, (*bars.cut, *bars.joined, *gears, *others))
+    yield from (seat_of(one.part) for one in (*bars.cut, *bars.joined, *others))
+    yield from (seat_of(gear.plate) for gear in bars.gears)
     if mechanism.spec.gears:
-        from geneva_cli.parts.gear_pair import NAMES, gear_span
+        from geneva_cli.parts.gear_pair import gear_seats
 
-        yield from (Seat(name, *gear_span(mechanism, outlines)) for name in NAMES)
+        yield from gear_seats(mechanism, outlines)
 
 
 def passing_arm(outlines: Outlines, own: Iterable[Shaft]) -> Iterator[Seat]:
@@ -97,8 +97,3 @@ def passing_arm(outlines: Outlines, own: Iterable[Shaft]) -> Iterator[Seat]:
     for one in own:
         if one.part == "wheel" and away < 0.5 * shoulder_mm(one):
             yield Seat("arm", high - outlines.sizes.arm_thickness, high)
-
-
-def _span(member: Member) -> Seat:
-    assert isinstance(member.part, Plate)
-    return Seat(member.part.name, member.part.low, member.part.high)

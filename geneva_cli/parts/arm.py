@@ -72,7 +72,7 @@ def crank_arm(parts: Outlines) -> CrankArm:
     # the wheel's hub stands on the roller's side, where the arm's end passes below the wheel
     passing = arm_passing(assembly, sizes, max(away))
     standing = 0.0 if is_whole(assembly, sizes) else sizes.lock  # the sectors stand on the hub
-    radius, wall = shaft_bore(parts), sizes.wall_min
+    radius, wall = sizes.arm_bore, sizes.wall_min
     form = bore_of(spec.size, "crank", radius)
     hub, eye = hub_and_eye(spec.size, wall, hole, radius, passing, standing)
     if form.reach + hole >= min(away):
@@ -87,11 +87,6 @@ def crank_arm(parts: Outlines) -> CrankArm:
     about += [Circle(LAYER, c.centre, eye_about(c.radius, bolted)) for c in screwed]
     bored = form.shape(HOLES, keyway_direction(assembly))
     return CrankArm(convex_hull(LAYER, about), bored, pins, screwed, hub, eye, passing - eye)
-
-
-def shaft_bore(parts: Outlines) -> float:
-    """Return the radius of the shaft's bore, which goes through the disc or ends in the arm."""
-    return parts.sizes.arm_bore
 
 
 def bolts(parts: Outlines) -> list[Circle]:
@@ -130,7 +125,7 @@ def _leave_walls(parts: Outlines, screwed: list[Circle]) -> bool:
     size = assembly.mechanism.spec.size
     wall = wall_of_bolts(size, sizes.wall_min)
     pins = [Circle(HOLES, c, pin_hole(size, sizes.pin)) for c in roller_centres(assembly)]
-    shaft = Circle(HOLES, (0.0, 0.0), bore_of(size, "crank", shaft_bore(parts)).reach)
+    shaft = Circle(HOLES, (0.0, 0.0), bore_of(size, "crank", sizes.arm_bore).reach)
     eye = max(math.hypot(*c.centre) + eye_about(c.radius, wall) for c in screwed)
     passing = assembly.L - max(sizes.wheel_bore, sizes.wheel_hub) >= eye or assembly.sign < 0.0
     apart = least_wall([shaft, *pins, *screwed]) >= wall
@@ -148,7 +143,7 @@ def _widest(parts: Outlines, at: list[float]) -> tuple[float, float]:
     a = np.asarray(at)
     points = [np.outer(radii, f(a)).ravel() for f in (np.cos, np.sin)]
     walls = -Polyarc(parts.crank).signed(np.column_stack(points)).reshape(len(radii), len(at))
-    inner = shaft_bore(parts) if has_arm(parts) else parts.sizes.crank_bore
+    inner = parts.sizes.arm_bore if has_arm(parts) else parts.sizes.crank_bore
     nearest = np.minimum(walls, radii[:, None] - inner).min(axis=1)
     best = int(nearest.argmax())
     return float(radii[best]), max(0.0, float(nearest[best]))

@@ -61,23 +61,15 @@ class CounterParts(EdgedParts):
         return self.writer(1e-9 * self.sizes.distance)
 
     @cached_property
-    def _pinion_hole(self) -> Shape:
-        # below a tooth, where the wall is thickest
-        return bore(self.mechanism, self.sizes, "wheel").shape("BORE", math.pi)
-
-    @cached_property
     def _driver_bore(self) -> Bore:
         return bore(self.mechanism, self.sizes, "crank")
 
     @cached_property
-    def _number_hole(self) -> Shape:
-        turned = self.mechanism.spec.size.shafts == "turned"
-        return self._driver_bore.running(turned).shape("BORE", 0.0)
-
-    @cached_property
     def pinions(self) -> tuple[Member, ...]:
         """The pinions, from the lowest up; each has a wide tooth between the driver's two."""
-        tall, write, hole = self.heights, self._write, (self._pinion_hole,)
+        tall, write = self.heights, self._write
+        # the bore's shape is below a tooth, where the wall is thickest
+        hole = (bore(self.mechanism, self.sizes, "wheel").shape("BORE", math.pi),)
         all_teeth = pinion_teeth(self.sizes, False, write)
         wide_teeth = pinion_teeth(self.sizes, True, write)
         members = []
@@ -92,7 +84,8 @@ class CounterParts(EdgedParts):
     @cached_property
     def number_wheels(self) -> tuple[Member, ...]:
         """The number wheels but the driver, from the lowest up."""
-        tall, hole = self.heights, self._number_hole
+        tall, turned = self.heights, self.mechanism.spec.size.shafts == "turned"
+        hole = self._driver_bore.running(turned).shape("BORE", 0.0)
         gear, members = number_teeth(self.sizes, self._write), []
         for k in range(tall.pinions):
             high = k * tall.pitch + tall.tooth

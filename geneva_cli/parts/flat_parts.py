@@ -26,7 +26,7 @@ from geneva_cli.outlines.wheel import wheel_contour
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
 from geneva_cli.parts.edged_parts import EdgedParts, FrameAndShafts
 from geneva_cli.parts.frame import framed
-from geneva_cli.parts.link_sizes import places
+from geneva_cli.parts.link_sizes import places, point_at_zero
 from geneva_cli.parts.links import Links, drawn_links
 from geneva_cli.parts.plates import arm_plate, locking_plates, roller_plates, wheel_part
 from geneva_cli.parts.shafts import crank_hub
@@ -139,7 +139,7 @@ class FlatParts(EdgedParts):
     def _on_links(self) -> tuple[Point, ...]:
         """Return the centres of rollers on links in the plane below the wheel."""
         return tuple(
-            (float(joint[0].real), float(joint[0].imag))
+            point_at_zero(joint)
             for link in links_at(self.mechanism, np.zeros(1))
             for joint, kind in zip(places(link), link.kinds, strict=True)
             if link.plane == 1 and kind in (Joint.ROLLER, Joint.CARRIED)
@@ -159,8 +159,11 @@ class FlatParts(EdgedParts):
     def hub_radii(self, part: str) -> tuple[float, float]:
         """Return the radii of the bore and the hub of a part, "wheel" or "crank", mm."""
         sizes = self.outlines.sizes
-        hubs = {"wheel": sizes.wheel_hub, "crank": sizes.crank_hub}
-        return {"wheel": sizes.wheel_bore, "crank": sizes.crank_bore}[part], hubs[part]
+        radii = {
+            "wheel": (sizes.wheel_bore, sizes.wheel_hub),
+            "crank": (sizes.crank_bore, sizes.crank_hub),
+        }
+        return radii[part]
 
     @cached_property
     def crank(self) -> Member:
@@ -234,11 +237,6 @@ class FlatParts(EdgedParts):
         return tuple(one for mesh in meshes if mesh for one in mesh.layout)
 
     @cached_property
-    def round_gears(self) -> tuple[Member, ...]:
-        """Those gears in the machine."""
-        return tuple(gear.member for gear in self.toothed)
-
-    @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
         """The noncircular gears in front of a crank, with teeth or up to their pitch curves."""
         if self.mechanism.spec.gears is None:
@@ -269,7 +267,7 @@ class FlatParts(EdgedParts):
             return ()
         from geneva_cli.parts.groove_plate import groove_stack
 
-        stack = groove_stack(self.outlines, self._base, self.links, self.groove[:2])
+        stack = groove_stack(self._base, self.links, self.groove[:2])
         return self._edged(Member(plate, (self.outlines.assembly.L, 0.0)) for plate in stack)
 
     @cached_property

@@ -12,7 +12,7 @@ as thick.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from typing import TypeAlias
 
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate, Stack
@@ -41,14 +41,9 @@ from geneva_cli.parts.mounted_plate import (
     require_walls,
     shaft_hole,
 )
+from geneva_cli.parts.shaft import Seat
 
-
-class Screwed(NamedTuple):
-    """A screw's hole in the frame, and the part that it fixes, with its lower face."""
-
-    hole: Circle
-    part: str
-    low: float
+Screwed: TypeAlias = tuple[Circle, Plate]  # a screw's hole in the frame, and the part that it fixes
 
 
 def framed(
@@ -70,18 +65,12 @@ def framed(
             "parallel, so one plate cannot hold them"
         )
     size, L = mechanism.spec.size, mechanism.center_distance_mm
-    lows = [base.low] if base else []
-    if mechanism.spec.gears:
-        from geneva_cli.parts.gear_pair import gear_span
-
-        lows.append(gear_span(mechanism, outlines)[0])
-    drawn = outlines.sizes if outlines else None
-    thick = drawn_thicknesses(size, L, drawn).arm
-    free = min([_lowest(mechanism, outlines, bars), *lows]) - size.washer_mm
-    top = free - shoulder_length(size, L)
-    own = list(all_shafts(mechanism, outlines, bars, top - thick, first))
     others = (*first, *([Member(base)] if base else []))
     adjacent = list(passing(mechanism, outlines, bars, others))
+    free = _lowest(mechanism, outlines, adjacent) - size.washer_mm
+    top = free - shoulder_length(size, L)
+    thick = drawn_thicknesses(size, L, outlines.sizes if outlines else None).arm
+    own = list(all_shafts(mechanism, outlines, bars, top - thick, first))
     if size.shafts == "turned" and outlines:
         adjacent += passing_arm(outlines, own)
     axles, bottom = built_shafts(size, own, adjacent, (top - thick, top, free))
@@ -89,17 +78,18 @@ def framed(
     drilled = list(_drilled(mechanism, axles, places, top))
     require_walls(drilled, wall_min(size, L), axles)
     fixed = [*_fixed(bars), *(_mounted(base, L) if base else ())]
-    holes = [*drilled, *(one.hole for one in fixed)]
-    spacers = [_spacer(one, top) for one in fixed if one.low - top > SAME_LENGTH * L]
-    # The frame contains every axis, drilled or not.
-    within = [*holes, *(Circle(HOLES, at, 0.0) for at in ((0.0, 0.0), *places))]
+    holes = [*drilled, *(hole for hole, _ in fixed)]
+    near = SAME_LENGTH * L
+    spacers = [_spacer(hole, part, top) for hole, part in fixed if part.low - top > near]
     eye = corner_radius(size, L)
     if mechanism.frame > 0.0:
         reach = max(c.radius for c in holes) + eye
         eyes = [Circle(LAYER, at, reach) for at in places]
         plate = Plate("carrier", LAYER, convex_hull(LAYER, eyes), tuple(holes), bottom, top)
-        return FrameAndShafts(plate, tuple(outside_links(axles, bars, L)))
-    plate = mounted_plate(holes, within, eye, (bottom, top))
+    else:
+        # a frame contains every axis, drilled or not
+        within = [*holes, *(Circle(HOLES, at, 0.0) for at in (ORIGIN, *places))]
+        plate = mounted_plate(holes, within, eye, (bottom, top))
     return FrameAndShafts(plate, tuple(outside_links(axles, bars, L)), tuple(spacers))
 
 
@@ -145,37 +135,29 @@ def _fixed(bars: Links) -> Iterator[Screwed]:
     """Yield the screws of parts that are fixed to the frame, such as a guide or a gear."""
     for member in bars.cut:
         if isinstance(member.part, Plate) and member.part.name in bars.standing:
-            yield from (_screwed(hole, member.part) for hole in placed_holes(member))
+            yield from ((hole, member.part) for hole in placed_holes(member))
     for gear in bars.gears:
         for hole in gear.bolts:
             (x, y), (u, v) = gear.at, hole.centre
-            yield _screwed(Circle(HOLES, (x + u, y + v), hole.radius), gear.plate)
+            yield Circle(HOLES, (x + u, y + v), hole.radius), gear.plate
 
 
 def _mounted(base: Plate, L: float) -> Iterator[Screwed]:
     """Yield the screws of a plate about the crank's axis."""
     holes = placed_holes(Member(base, (L, 0.0)))
-    yield from (_screwed(hole, base) for hole in holes if not same(hole.centre, (L, 0.0), L))
+    yield from ((hole, base) for hole in holes if not same(hole.centre, (L, 0.0), L))
 
 
-def _screwed(hole: Circle, plate: Plate) -> Screwed:
-    return Screwed(hole, plate.name, plate.low)
-
-
-def _spacer(one: Screwed, top: float) -> Member:
+def _spacer(screw: Circle, part: Plate, top: float) -> Member:
     """Return the ring about a screw, twice as wide, between the frame and the fixed part."""
-    r = one.hole.radius
-    outline, bore = Circle(LAYER, ORIGIN, 2.0 * r), Circle(HOLES, ORIGIN, r)
-    plate = Plate(f"spacer of the {one.part}", LAYER, outline, (bore,), top, one.low)
-    return Member(plate, one.hole.centre)
+    outline, bore = Circle(LAYER, ORIGIN, 2.0 * screw.radius), screw._replace(centre=ORIGIN)
+    plate = Plate(f"spacer of the {part.name}", LAYER, outline, (bore,), top, part.low)
+    return Member(plate, screw.centre)
 
 
-def _lowest(mechanism: Mechanism, parts: Outlines | None, bars: Links) -> float:
-    """Return the lowest point of the moving parts, along the axis."""
-    size = mechanism.spec.size
-    under = [one.part.low for one in (*bars.cut, *bars.joined) if isinstance(one.part, Plate)]
-    under += [gear.plate.low for gear in bars.gears]
+def _lowest(mechanism: Mechanism, parts: Outlines | None, others: Sequence[Seat]) -> float:
+    """Return the lowest point, along the axis, of the wheel's hub, the arm, and other parts."""
     hub = wheel_hub(parts.assembly, parts.sizes) if parts else None
-    under += [hub.low] if hub else []
     arm = parts.sizes.arm_thickness if parts and has_arm(parts) else 0.0
-    return min([*under, -size.allowances.pin_gap_mm - arm])
+    stands = -mechanism.spec.size.allowances.pin_gap_mm
+    return min([stands - arm, *([hub.low] if hub else []), *(one.low for one in others)])

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from geneva_cli.curves.gear_teeth import Writer
 from geneva_cli.curves.hole_walls import plate_wall
-from geneva_cli.curves.measure import turned
+from geneva_cli.curves.measure import turned_pieces
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import (
     ORIGIN,
@@ -130,22 +130,19 @@ def _toothed(gear: ToothedGear, hub: float, write: Writer) -> Contour:
 
     ``hub`` is the radius of the outline between sectors.
     """
-    one, step = Contour(RIM, tuple(gear.teeth.one(write)), closed=False), gear.teeth.step
-    last = one
-    if gear.last_tip:
-        lower = gear.teeth._replace(tip=gear.last_tip)
-        last = Contour(RIM, tuple(lower.one(write)), closed=False)
-    between = Contour(RIM, (gear.teeth.between(),), closed=False)
+    one, step = gear.teeth.one(write), gear.teeth.step
+    last = gear.teeth._replace(tip=gear.last_tip).one(write) if gear.last_tip else one
+    between = [gear.teeth.between()]
     pieces: list[Segment] = []
     for sector, after in zip(gear.middles, (*gear.middles[1:], gear.middles[0]), strict=True):
         for k, middle in enumerate(sector):
             at_end = k + 1 == len(sector)
-            pieces += turned(last if at_end else one, middle).segments
+            pieces += turned_pieces(last if at_end else one, middle)
             if not (at_end and hub):
-                pieces += turned(between, middle).segments
+                pieces += turned_pieces(between, middle)
         if hub:
             end = math.atan2(*reversed(pieces[-1].end))
-            start = math.atan2(*reversed(turned(one, after[0]).segments[0].start))
+            start = math.atan2(*reversed(turned_pieces(one, after[0])[0].start))
             back = about(ORIGIN, hub, end, (start - end) % math.tau)
             rise = about(ORIGIN, gear.teeth.root, start, step).start
             pieces += [Line(pieces[-1].end, back.start), back, Line(back.end, rise)]

@@ -39,9 +39,10 @@ THIN = 1e-6  # of the axes' distance: a pitch curve nearer to its axis encloses 
 FINE = {"arcs": 8e-9, "cubics": 2e-9}
 
 
-def gear_span(mechanism: Mechanism, parts: Outlines | None) -> tuple[float, float]:
-    """Return lower and upper end of the gears along the axis, in a plane below all links."""
-    return link_sizes(mechanism, [], parts).span(gear_plane(mechanism))
+def gear_seats(mechanism: Mechanism, parts: Outlines | None) -> list[Seat]:
+    """Return where driven gear and driver sit on their shafts, in a plane below all links."""
+    ends = link_sizes(mechanism, [], parts).span(gear_plane(mechanism))
+    return [Seat(name, *ends) for name in NAMES]
 
 
 def gear_pair(
@@ -63,18 +64,17 @@ def gear_pair(
     # teeth are spaced along the pitch curves, whose lengths must agree better than the teeth
     fine = FINE["cubics"] if mechanism.spec.size.gear_module_mm is None else 1e-6
     write = writer(fine * pair.distance_mm)
-    low, high = gear_span(mechanism, parts)
     sense = mechanism.gear_shaft.sense
     layer, outlines = CUT, [gear.outline(write) for gear in pair_with_teeth(mechanism)]
     if not outlines:
         both = driven_curve(pair, sense), driver_curve(pair, sense)
         layer, outlines = PITCH, [list(write(curve, -np.pi, np.pi)) for curve in both]
     members = []
-    bores = gear_bores(mechanism, parts, on_crank)
-    for name, pieces, (at, bore) in zip(NAMES, outlines, bores, strict=True):
+    seats, bores = gear_seats(mechanism, parts), gear_bores(mechanism, parts, on_crank)
+    for seat, pieces, (at, bore) in zip(seats, outlines, bores, strict=True):
         outline = closed(layer, pieces)
         holes = (Circle(BORE, (0.0, 0.0), bore),) if bore else ()
-        members.append(Member(Plate(name, layer, outline, holes, low, high), at))
+        members.append(Member(Plate(seat.part, layer, outline, holes, seat.low, seat.high), at))
     return tuple(members)
 
 
@@ -125,16 +125,14 @@ def gear_shafts(
         return
     size = mechanism.spec.size
     (first, wide), (at, radius) = _shafts(mechanism, parts, on_crank)
-    low, high = gear_span(mechanism, parts)
+    driven, driver = gear_seats(mechanism, parts)
     at_crank = same(first, mechanism.crank_shaft.at, mechanism.center_distance_mm)
     if at_crank and not (ends.crank_has_one or _on_links(mechanism, parts)):
-        reach = shaft_ends(size, "crank", ends.lowest, high)
-        driven = (Seat(NAMES[0], low, high),)
-        yield Shaft("crank's shaft", "crank", RoundBore(wide), driven, *reach, first)
-    bored = _driver_bore(mechanism, parts) > 0.0
-    top = high if bored else low  # one piece with the gear above it
-    seats = (Seat(NAMES[1], low, high),) if bored else ()
-    yield Shaft(f"{NAMES[1]}'s shaft", NAMES[1], RoundBore(radius), seats, ends.lowest, top, at)
+        reach = shaft_ends(size, "crank", ends.lowest, driven.high)
+        yield Shaft("crank's shaft", "crank", RoundBore(wide), (driven,), *reach, first)
+    name, bore, bored = driver.part, RoundBore(radius), _driver_bore(mechanism, parts) > 0.0
+    seats, top = ((driver,), driver.high) if bored else ((), driver.low)  # or one piece with it
+    yield Shaft(f"{name}'s shaft", name, bore, seats, ends.lowest, top, at)
 
 
 def _shafts(

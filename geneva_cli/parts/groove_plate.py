@@ -79,7 +79,7 @@ def groove_base(parts: Outlines, bars: Links) -> Plate:
 
 
 def groove_stack(
-    parts: Outlines, base: Plate, bars: Links, flanks: tuple[Contour, Contour]
+    base: Plate, bars: Links, flanks: tuple[Contour, Contour]
 ) -> tuple[Plate, Plate, Plate]:
     """Return base, ring and island; ``flanks`` are those of the groove."""
     assert bars.sizes is not None

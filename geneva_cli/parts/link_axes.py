@@ -15,7 +15,7 @@ import numpy as np
 from geneva_cli.curves.shapes import Point
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.parts.link_sizes import places
+from geneva_cli.parts.link_sizes import places, point_at_zero
 
 
 class LinkAxis(NamedTuple):
@@ -41,6 +41,6 @@ def axes(links: Iterable[Link], near: float) -> Iterator[LinkAxis]:
         path = left[0][2]
         here = [one for one in left if bool(np.abs(one[2] - path).max() < near)]
         left = [one for one in left if not bool(np.abs(one[2] - path).max() < near)]
-        z = complex(path[len(path) // 2])
+        at = point_at_zero(path)
         names, kinds, _ = zip(*here, strict=True)
-        yield LinkAxis(names, kinds, (z.real, z.imag), bool(np.abs(path - z).max() < near))
+        yield LinkAxis(names, kinds, at, bool(np.abs(path - complex(*at)).max() < near))

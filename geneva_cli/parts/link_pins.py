@@ -14,7 +14,7 @@ from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.parts.link_sizes import LinkSizes, places
+from geneva_cli.parts.link_sizes import LinkSizes, places, point_at_zero
 
 LAYER, ROLLER = "LINK", "ROLLER"
 
@@ -22,7 +22,7 @@ LAYER, ROLLER = "LINK", "ROLLER"
 class SharedJoint(NamedTuple):
     """Links that share a joint at all input angles: the joint's path, their names and planes."""
 
-    way: Array  # complex points
+    path: Array  # complex points
     names: tuple[str, ...]
     planes: tuple[int, ...]
 
@@ -48,8 +48,7 @@ def joined(links: Iterable[Link], near: float) -> list[SharedJoint]:
 def pins(links: Iterable[Link], sizes: LinkSizes, near: float) -> Iterator[Member]:
     """Yield each pin that joins links, with the washers and spacers on it."""
     for one in joined(links, near):
-        z = complex(one.way[len(one.way) // 2])  # at input angle 0
-        where = z.real, z.imag
+        where = point_at_zero(one.path)
         spans = [sizes.span(plane) for plane in one.planes]
         origin = (0.0, 0.0)
         hole = Circle(LAYER, origin, sizes.pin)
@@ -73,8 +72,7 @@ def rollers(
     pin, hole, whole = (Circle(ROLLER, (0.0, 0.0), r) for r in (pin_radius, bored, roller))
     for link in links:
         for at, kind in zip(places(link), link.kinds, strict=True):
-            z = complex(at[len(at) // 2])
-            where = z.real, z.imag
+            where = point_at_zero(at)
             if kind is Joint.ROLLER and link.plane > 1:
                 low, high = sizes.span(link.plane - 1)
                 below = sizes.span(link.plane)[0]

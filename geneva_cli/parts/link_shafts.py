@@ -19,7 +19,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.link_axes import LinkAxis
 from geneva_cli.parts.links import Links, placed_holes
-from geneva_cli.parts.shaft import Ends, Seat, Shaft, shaft_ends
+from geneva_cli.parts.shaft import Ends, Seat, Shaft, seat_of, shaft_ends
 
 
 def link_shafts(
@@ -56,20 +56,13 @@ def carried(bars: Links, axis: LinkAxis, others: Iterable[Member], L: float) -> 
 
     ``others`` are plates that turn with a link: the locking disc on a first crank.
     """
-    for member in bars.cut:
-        if isinstance(member.part, Plate) and member.part.name in axis.names:
-            yield _seat(member.part)
+    yield from (seat_of(plate) for plate in bars.plates if plate.name in axis.names)
     for gear in bars.gears:
         if gear.name in axis.names and not gear.teeth.inside:
-            yield _seat(gear.plate)
+            yield seat_of(gear.plate)
     for member in others:
         if any(same(hole.centre, axis.at, L) for hole in placed_holes(member)):
-            assert isinstance(member.part, Plate)
-            yield _seat(member.part)
-
-
-def _seat(plate: Plate) -> Seat:
-    return Seat(plate.name, plate.low, plate.high)
+            yield seat_of(member.part)
 
 
 def outside_links(shafts: Iterable[Member], bars: Links, L: float) -> Iterator[Member]:

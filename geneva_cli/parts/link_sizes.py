@@ -12,17 +12,18 @@ from typing import NamedTuple
 
 import numpy as np
 
+from geneva_cli.curves.shapes import Point
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.layout.arm_sizes import HUB, pin_hole
-from geneva_cli.layout.plain_sizes import drawn_thicknesses, half_or, pin_radius
+from geneva_cli.layout.plain_sizes import drawn_thicknesses, half_or, pin_radius, plane_span
 from geneva_cli.layout.sizes import sized
 from geneva_cli.machine.least_wall import eye_about, wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.parts.arm import has_arm, shaft_bore
+from geneva_cli.parts.arm import has_arm
 from geneva_cli.spec.tables import Size
 
 SLOT_MARGIN = 0.25  # distance from a block to the end of its slot, as a fraction of the pin's hole
@@ -73,10 +74,7 @@ class LinkSizes(NamedTuple):
 
     def span(self, plane: int) -> tuple[float, float]:
         """Return lower and upper end, along the axis, of links in a plane below the wheel's."""
-        high = -self.gap
-        if plane > 1:
-            high -= self.arm + self.washer + (plane - 2) * (self.thickness + self.washer)
-        return high - (self.arm if plane == 1 else self.thickness), high
+        return plane_span(plane, self.gap, self.arm, self.thickness, self.washer)
 
 
 def link_sizes(
@@ -100,25 +98,7 @@ def link_sizes(
     stands = first.pin if first else pin_radius(size, mechanism.roller_radius_mm, drawn)
     own = None if size.link_bore_mm is None else 0.5 * size.link_bore_mm
     roller = pin_hole(size, stands) if stands else 0.0
-    nearest = min((distance for link in links for distance in _pin_distances(link)), default=L)
-    # a fifth of the distance to the next joint leaves eyes and a gap between
-    pin = (
-        rounded_radius(min(L / 40.0, 0.2 * nearest))
-        if size.link_pin_mm is None
-        else size.link_pin_mm / 2
-    )
-    eye = half_or(size.link_width_mm, eye_about(pin, wall))
-    if eye <= pin:
-        raise GenevaError(
-            f"link_width_mm = {2.0 * eye:g}: it must be above {2.0 * pin:.6g}, the pins' diameter",
-            ("size", "link_width_mm"),
-        )
-    if pin <= 0.5 * size.allowances.shaft_fit_mm:
-        raise GenevaError(
-            f"shaft_fit_mm = {size.allowances.shaft_fit_mm:g}: it leaves no pin in the links' "
-            f"holes of {2.0 * pin:.6g} mm",
-            ("size", "shaft_fit_mm"),
-        )
+    pin, eye = _pin_and_eye(size, links, wall, L)
     limit = _eye_limit(mechanism, links)
     arm = thick.arm if spec.drive.ONE_ARM else thick.link
     return LinkSizes(
@@ -138,6 +118,26 @@ def link_sizes(
     )
 
 
+def _pin_and_eye(size: Size, links: Iterable[Link], wall: float, L: float) -> tuple[float, float]:
+    """Return the radii of the pins between links, and of the plate around them."""
+    nearest = min((distance for link in links for distance in _pin_distances(link)), default=L)
+    # a fifth of the distance to the next joint leaves eyes and a gap between
+    pin = half_or(size.link_pin_mm, rounded_radius(min(L / 40.0, 0.2 * nearest)))
+    eye = half_or(size.link_width_mm, eye_about(pin, wall))
+    if eye <= pin:
+        raise GenevaError(
+            f"link_width_mm = {2.0 * eye:g}: it must be above {2.0 * pin:.6g}, the pins' diameter",
+            ("size", "link_width_mm"),
+        )
+    if pin <= 0.5 * size.allowances.shaft_fit_mm:
+        raise GenevaError(
+            f"shaft_fit_mm = {size.allowances.shaft_fit_mm:g}: it leaves no pin in the links' "
+            f"holes of {2.0 * pin:.6g} mm",
+            ("size", "shaft_fit_mm"),
+        )
+    return pin, eye
+
+
 def _crank_shaft(mechanism: Mechanism, parts: Outlines | None) -> float | None:
     """Return the radius of the crank's shaft: of arm, locking disc or spec; None for none.
 
@@ -145,7 +145,7 @@ def _crank_shaft(mechanism: Mechanism, parts: Outlines | None) -> float | None:
     """
     refuse_hexagon(mechanism.spec.size, "crank")
     if parts and has_arm(parts):
-        return shaft_bore(parts)
+        return parts.sizes.arm_bore
     if parts and parts.sizes.crank_bore:
         return parts.sizes.crank_bore
     diameter = mechanism.spec.shaft.crank_diameter_mm
@@ -156,6 +156,12 @@ def places(link: Link) -> list[Array]:
     """Return the joints of a link as complex numbers x + iy (n,), by the input angle."""
     still = 0.0 * link.joints[0][0]
     return [np.asarray(x + still + 1j * (y + still)) for x, y in link.joints]
+
+
+def point_at_zero(path: Array) -> Point:
+    """Return the point of a path at input angle 0, in the middle of its angles."""
+    z = complex(path[len(path) // 2])
+    return z.real, z.imag
 
 
 def _pin_distances(link: Link) -> Iterator[float]:

@@ -20,13 +20,20 @@ from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint, Link
-from geneva_cli.layout.link_positions import links_at, same
+from geneva_cli.layout.link_positions import links_at, same, turn_deg
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.link_axes import LinkAxis
-from geneva_cli.parts.link_sizes import SLOT_MARGIN, LinkSizes, link_sizes, places, refuse_hexagon
+from geneva_cli.parts.link_sizes import (
+    SLOT_MARGIN,
+    LinkSizes,
+    link_sizes,
+    places,
+    point_at_zero,
+    refuse_hexagon,
+)
 
 if TYPE_CHECKING:
     from geneva_cli.layout.gear_mesh import GearMesh
@@ -90,10 +97,7 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
 
     Raises GenevaError, naming the key, for sizes that leave no plate around a hole.
     """
-    turns = mechanism.spec.turns
-    # a quarter of a degree apart; 0 is one of them
-    turn = np.linspace(-180.0 * turns, 180.0 * turns, 1440 * turns + 1)
-    links = links_at(mechanism, turn)
+    links = links_at(mechanism, turn_deg(mechanism))
     if not links:
         return Links()
     from geneva_cli.parts.link_axes import axes as axes_of
@@ -200,7 +204,7 @@ def _gears(
     from geneva_cli.parts.gear_blanks import link_gear
 
     L, size = mechanism.center_distance_mm, mechanism.spec.size
-    at = [_axis(link) for link in links]
+    at = [point_at_zero(*places(link)) for link in links]
     mesh = None
     if mechanism.spec.drive.TOOTHED and size.gear_module_mm is not None:
         driver, driven = links
@@ -220,18 +224,10 @@ def _gears(
     ]
 
 
-def _axis(link: Link) -> Point:
-    """Return the axis of a gear at input angle 0."""
-    (path,) = places(link)
-    z = complex(path[len(path) // 2])
-    return z.real, z.imag
-
-
 def _bar(link: Link, sizes: LinkSizes, L: float) -> _UnboredLink:
     """Return a link without bores for shafts, and the blocks that slide along it."""
-    middle = len(link.joints[0][0]) // 2  # input angle 0
     joints = places(link)
-    at = [complex(joint[middle]) for joint in joints]
+    at = [complex(*point_at_zero(joint)) for joint in joints]
     ahead = at[1] - at[0]
     unit = ahead / abs(ahead) if abs(ahead) > SAME_LENGTH * L else 1.0
     own = tuple((z - at[0]) / unit for z in at)

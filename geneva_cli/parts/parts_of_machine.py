@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
+from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
 if TYPE_CHECKING:
@@ -35,6 +36,11 @@ class PartsOfMachine(ABC):
     def toothed(self) -> tuple[Gear, ...]:
         """Gears with round pitch circles, with teeth if they have a module; none without."""
         return ()
+
+    @cached_property
+    def round_gears(self) -> tuple[Member, ...]:
+        """Those gears in the machine."""
+        return tuple(gear.member for gear in self.toothed)
 
     @property
     def outside_mm(self) -> float | None:

@@ -20,7 +20,7 @@ from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour
 from geneva_cli.kinematics.layout import Joint, Link
-from geneva_cli.layout.link_positions import gear_plane, links_at, same
+from geneva_cli.layout.link_positions import gear_plane, links_at, same, turn_deg
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
@@ -29,8 +29,6 @@ from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.link_sizes import LinkSizes, places
 from geneva_cli.parts.links import Links
 from geneva_cli.parts.shafts import wheel_shaft_ends, wheel_shaft_radius
-
-LOOKS = 1440  # input angles in a turn: the error of a gap is quadratic in their distance
 
 
 class Meeting(NamedTuple):
@@ -47,7 +45,7 @@ class Round(NamedTuple):
 
     name: str
     plane: int
-    way: Array  # complex positions, one at each input angle
+    path: Array  # complex positions, one at each input angle
     radius: float
 
 
@@ -55,7 +53,7 @@ class Planes(NamedTuple):
     """The least gap of all in a whole turn, and that of the crank's shaft to its bearings."""
 
     nearest: Meeting | None
-    way_out: Meeting | None  # None where the shaft is free
+    blocked: Meeting | None  # None where the shaft is free
 
 
 def planes(parts: Outlines, bars: Links, spacers: Iterable[Member] = ()) -> Planes:
@@ -65,8 +63,7 @@ def planes(parts: Outlines, bars: Links, spacers: Iterable[Member] = ()) -> Plan
     its frame.
     """
     mechanism = parts.assembly.full
-    turns = mechanism.spec.turns
-    turn = np.linspace(-180.0 * turns, 180.0 * turns, LOOKS * turns + 1)
+    turn = turn_deg(mechanism)  # the error of a gap is quadratic in their distance
     links_and_gears = links_at(mechanism, turn)
     links = [link for link in links_and_gears if not link.radius_mm]
     if not links_and_gears:
@@ -75,20 +72,17 @@ def planes(parts: Outlines, bars: Links, spacers: Iterable[Member] = ()) -> Plan
     geared = list(_gears(parts, bars, links_and_gears, turn))
     if not links:
         return Planes(min(geared, default=None), None)
-    outlines = _outlines(bars)
-    shaft = _Shaft(parts, links, outlines, bars)
+    shaft = _Shaft(parts, links, bars)
     passing = [*_passing(parts, links, bars.sizes, turn), *shaft.between()]
     passing += _standing(parts, bars, spacers, turn)
     met = [
-        _meeting(link, outlines[link.name], one, turn)
+        _meeting(link, shaft.outlines[link.name], one, turn)
         for link in links
         for one in passing
         if one.plane == link.plane
     ]
     met += geared
-    out = shaft.way_out(turn)
-    blocked = out if out is not None and out.gap < 0.0 else None
-    return Planes(min(met, default=None), blocked)
+    return Planes(min(met, default=None), None if shaft.through else shaft.blocked(turn))
 
 
 def _gears(parts: Outlines, bars: Links, links: tuple[Link, ...], turn: Array) -> Iterator[Meeting]:
@@ -118,21 +112,14 @@ def _gears(parts: Outlines, bars: Links, links: tuple[Link, ...], turn: Array) -
 def crank_stop(parts: Outlines, bars: Links) -> float | None:
     """Return the height at which a link stops the crank's shaft downwards; None if none does."""
     mechanism = parts.assembly.full
-    turn = np.linspace(-180.0, 180.0, LOOKS + 1) * mechanism.spec.turns
+    turn = turn_deg(mechanism)
     links = [link for link in links_at(mechanism, turn) if not link.radius_mm]
     if not links or bars.sizes is None:
         return None
-    shaft = _Shaft(parts, links, _outlines(bars), bars)
-    blocked = shaft.below(turn)
-    if blocked is None or blocked.gap >= 0.0:
+    shaft = _Shaft(parts, links, bars)
+    if shaft.blocked(turn) is None:
         return None
     return bars.sizes.span(max(shaft.carries))[0] if max(shaft.carries) else -bars.sizes.gap
-
-
-def _outlines(bars: Links) -> dict[str, Contour]:
-    return {
-        plate.name: plate.outline for plate in bars.plates if isinstance(plate.outline, Contour)
-    }
 
 
 def _passing(parts: Outlines, links: list[Link], sizes: LinkSizes, turn: Array) -> Iterator[Round]:
@@ -143,7 +130,7 @@ def _passing(parts: Outlines, links: list[Link], sizes: LinkSizes, turn: Array) 
         for plane in range(min(one.planes) + 1, max(one.planes)):
             if plane not in one.planes:
                 name = f"the pin of {' and '.join(one.names)}"
-                yield Round(name, plane, one.way, sizes.ring)
+                yield Round(name, plane, one.path, sizes.ring)
 
 
 def _standing(
@@ -186,17 +173,14 @@ def _on_wheel(parts: Outlines, links: list[Link], sizes: LinkSizes, axis: Array)
 class _Shaft:
     """The crank's shaft: the planes in which it carries something; 0 is the wheel's plane."""
 
-    def __init__(
-        self,
-        parts: Outlines,
-        links: list[Link],
-        outlines: dict[str, Contour],
-        bars: Links,
-    ) -> None:
+    def __init__(self, parts: Outlines, links: list[Link], bars: Links) -> None:
         L, sizes = parts.assembly.L, bars.sizes
         assert sizes is not None
-        self.links, self.outlines = links, outlines
-        self.way = places(links[0])[0] * 0.0 + L
+        self.links = links
+        self.outlines = {
+            plate.name: plate.outline for plate in bars.plates if isinstance(plate.outline, Contour)
+        }
+        self.path = places(links[0])[0] * 0.0 + L
         self.carries: set[int] = set()
         for link in links:
             at, kind = places(link)[0], link.kinds[0]
@@ -216,7 +200,7 @@ class _Shaft:
         self.reached = {link.plane for link in links if sizes.span(link.plane)[1] > ends}
 
     def _in(self, plane: int) -> Round:
-        return Round("the crank's shaft", plane, self.way, self.radius)
+        return Round("the crank's shaft", plane, self.path, self.radius)
 
     def between(self) -> Iterator[Round]:
         """Yield the shaft in the planes that it must cross, or that the spec extends it to."""
@@ -226,21 +210,15 @@ class _Shaft:
                 if plane not in self.carries:
                     yield self._in(plane)
 
-    def way_out(self, turn: Array) -> Meeting | None:
-        """Return the shaft's least gap on the way to its bearings; None if it meets nothing."""
-        return None if self.through else self.below(turn)
-
-    def below(self, turn: Array) -> Meeting | None:
-        """Return the shaft's least gap to the links below all that it carries; None without any."""
-        if not self.carries:
-            return None
-        deepest = max(self.carries)
-        met = [
+    def blocked(self, turn: Array) -> Meeting | None:
+        """Return the deepest overlap with links below all that the shaft carries; None if free."""
+        deepest = max(self.carries, default=math.inf)
+        met = (
             _meeting(link, self.outlines[link.name], self._in(link.plane), turn)
             for link in self.links
             if link.plane > deepest
-        ]
-        return min(met, default=None)
+        )
+        return min((one for one in met if one.gap < 0.0), default=None)
 
 
 def _meeting(link: Link, outline: Contour, one: Round, turn: Array) -> Meeting:
@@ -248,7 +226,7 @@ def _meeting(link: Link, outline: Contour, one: Round, turn: Array) -> Meeting:
     ahead = joints[1] - joints[0]
     size = np.abs(ahead)
     unit = np.where(size > 0.0, ahead / np.where(size > 0.0, size, 1.0), 1.0)
-    own = (one.way - joints[0]) / unit
+    own = (one.path - joints[0]) / unit
     gaps = Polyarc([outline]).signed(np.column_stack((own.real, own.imag))) - one.radius
     least = int(np.argmin(gaps))
     return Meeting(float(gaps[least]), float(turn[least]), link.name, one.name)

@@ -29,7 +29,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.rack import RackSizes, rack_ends, rack_sizes, slot_places
 from geneva_cli.parts.built_shafts import built_shafts
 from geneva_cli.parts.edged_parts import FrameAndShafts
-from geneva_cli.parts.gear_pair import NAMES, gear_shafts, gear_span
+from geneva_cli.parts.gear_pair import gear_seats, gear_shafts
 from geneva_cli.parts.mounted_plate import (
     HOLES,
     LAYER,
@@ -60,7 +60,7 @@ def rack_frame(mechanism: Mechanism) -> RackFrame:
     size, R = mechanism.spec.size, mechanism.center_distance_mm
     thick, gap = drawn_thicknesses(size, R), size.allowances.pin_gap_mm
     arm = -gap - thick.arm
-    low = gear_span(mechanism, None)[0] if mechanism.spec.gears else arm
+    low = gear_seats(mechanism, None)[0].low if mechanism.spec.gears else arm
     top = low - size.washer_mm
     if has_arm(mechanism) or mechanism.spec.gears:
         top -= shoulder_length(size, 2.0 * R)  # as on a wheel of 6 slots, whose L is 2 R
@@ -107,7 +107,7 @@ def _shafts(mechanism: Mechanism, heights: RackFrame) -> Iterator[Shaft]:
         radius, axis = rack_bore(mechanism), mechanism.crank_shaft.at
         if size.shafts == "turned":  # a rack's crank has its bore in the arm: errors name that key
             bearing_up_to(2.0 * radius, "crank's shaft", "arm_bore_mm")
-        driven = (Seat(NAMES[0], *gear_span(mechanism, None)),) if geared else ()
+        driven = gear_seats(mechanism, None)[:1] if geared else []
         seats = (*driven, Seat("crank", heights.arm, heights.stands))
         low, high = shaft_ends(size, "crank", heights.plain, heights.stands)
         bore = bore_of(size, "crank", radius)

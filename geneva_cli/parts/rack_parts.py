@@ -89,11 +89,6 @@ class RackParts(EdgedParts):
         """The noncircular gears that turn the crank, with teeth or up to their pitch curves."""
         return gear_pair(self.mechanism, None, self.writer, shaft_radius(self.mechanism))
 
-    @property
-    def round_gears(self) -> tuple[Member, ...]:
-        """None: no drive of a rack has gears with pitch circles."""
-        return ()
-
     @cached_property
     def guide(self) -> tuple[Member, ...]:
         """Rail, wall and cover of the guide."""

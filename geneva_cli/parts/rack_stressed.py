@@ -17,7 +17,7 @@ from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.rack_arm import crank_arm, rack_bore
-from geneva_cli.parts.rack_frame import has_arm, rack_frame
+from geneva_cli.parts.rack_frame import has_arm, rack_frame, shaft_radius
 from geneva_cli.spec.default_sizes import value_or
 
 
@@ -25,7 +25,7 @@ def rack_stressed(mechanism: Mechanism) -> Stressed:
     """Return the dimensions of a machine's parts. Raises GenevaError where they do not fit."""
     size, heights = mechanism.spec.size, rack_frame(mechanism)
     contact = value_or(size.face_width_mm, heights.rack)
-    bore = rack_bore(mechanism) if has_arm(mechanism) else 0.0
+    bore = shaft_radius(mechanism)
     thick = heights.stands - heights.arm
     to_frame = 0.5 * heights.rack - (heights.low - size.washer_mm)
     end = ShaftEnd(to_frame, thick, 2.0 * mechanism.center_distance_mm)  # shoulders as on L = 2 R

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from geneva_cli.curves.plates import Member, Plate
+from geneva_cli.curves.plates import Member, Part, Plate
 from geneva_cli.curves.shapes import Point
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bores import Bore, fitted
@@ -19,6 +19,12 @@ class Seat(NamedTuple):
     part: str
     low: float
     high: float
+
+
+def seat_of(part: Part) -> Seat:
+    """Return where a plate sits."""
+    assert isinstance(part, Plate)
+    return Seat(part.name, part.low, part.high)
 
 
 class Shaft(NamedTuple):

@@ -25,7 +25,7 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.crank import crank_circles, is_whole
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import HUB, about_axis, wheel_hub
-from geneva_cli.parts.arm import has_arm, shaft_bore
+from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.shaft import Seat, Shaft, shaft_ends
 
 
@@ -87,9 +87,10 @@ def shafts(
     radius = crank_shaft_radius(parts)
     if radius:
         bore, at = bore_of(size, "crank", radius), (assembly.L, 0.0)
-        low, high = crank_shaft_ends(parts, lowest if stop is None else stop)
+        on_crank = _on_crank(parts)
+        low, high = shaft_ends(size, "crank", lowest if stop is None else stop, on_crank[1])
         turn = 0.0 if bore.is_plain else float(assembly.crank(still)[0])
-        seats = (*carried(at), Seat("crank", *_on_crank(parts)))
+        seats = (*carried(at), Seat("crank", *on_crank))
         direction = keyway_direction(assembly)
         one = Shaft("crank's shaft", "crank", bore, seats, low, high, at, direction, turn)
         yield one._replace(ends_here=parts.sizes.crank_bore == 0.0)
@@ -102,7 +103,10 @@ def _on_wheel(parts: Outlines) -> tuple[float, float]:
 
 
 def _on_crank(parts: Outlines) -> tuple[float, float]:
-    """Return the lower and upper end of what the crank's shaft carries, along the axis."""
+    """Return the lower and upper end of what the crank's shaft carries, along the axis.
+
+    The upper end is in the arm, or in a bored locking disc or its hub.
+    """
     size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
     on_arm = 0.0 - size.allowances.pin_gap_mm  # no -0.0
     high = on_arm
@@ -137,9 +141,4 @@ def _has_gear(parts: Outlines) -> bool:
 
 def crank_shaft_radius(parts: Outlines) -> float:
     """Return the radius of the shaft of arm and locking disc; 0 if it carries only links."""
-    return shaft_bore(parts) if has_arm(parts) else parts.sizes.crank_bore
-
-
-def crank_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
-    """Return the ends of the crank's shaft: upper end in the arm, or in a bored locking disc."""
-    return shaft_ends(parts.assembly.mechanism.spec.size, "crank", lowest, _on_crank(parts)[1])
+    return parts.sizes.arm_bore if has_arm(parts) else parts.sizes.crank_bore

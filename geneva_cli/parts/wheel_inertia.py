@@ -26,8 +26,8 @@ def wheel_body(mechanism: Mechanism) -> MassProperties | None:
 
     J = rho h Ip, where Ip is the polar moment of the area inside the outline without its bores, by
     Green's theorem. It is exact for lines and arcs, and accurate to some millionths for curved
-    slots. On a sphere it is that of the shell and its hub. Raises GenevaError where the machine has
-    no parts, or its sizes leave none.
+    slots. Chamfers and roundings of edges are not counted. On a sphere it is that of the shell and
+    its hub. Raises GenevaError where the machine has no parts, or its sizes leave none.
     """
     spec = mechanism.spec
     if spec.size.wheel_thickness_mm is None and spec.size.face_width_mm is None:
@@ -74,7 +74,8 @@ def _contour(where: Assembly, size: Sizes) -> Moments:
     slots = {engagement: _slot(where, size, engagement) for engagement in where.kinds}
     mouths = {engagement: mouth for engagement, (mouth, _) in slots.items()}
     around = [slots[engagement][1].turned(direction) for engagement, direction in where.slots]
-    return total((moments(wheel_contour(where, size, mouths)), *around))
+    closed = wheel_contour(where, size, mouths, where.full.spec.wheel.stopped)
+    return total((moments(closed), *around))
 
 
 def _slot(where: Assembly, size: Sizes, engagement: Engagement) -> tuple[Contour, Moments]:

@@ -14,8 +14,10 @@ import numpy as np
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.drawings.model import kind_of
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.sizes import Layout, sized
-from geneva_cli.layout.stressed import Stressed, lock_of, stressed
+from geneva_cli.layout.stressed import Stressed, stressed
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
 from geneva_cli.machine.many import alone, designs_in
@@ -23,6 +25,7 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.numerics.jet import Array
+from geneva_cli.outlines.cut_lock import cut_lock
 from geneva_cli.outlines.rack import rack_sizes
 
 
@@ -43,10 +46,13 @@ def design_lock_sizes(mechanism: Mechanism) -> LockSizes | None:
 
 def layouts_lock_sizes(layouts: Sequence[Layout | None]) -> LockSizes | None:
     """The sizes of designs whose parts are laid out; None if none has a lock."""
-    columns = number_columns(
-        [(one[1].half_width, *lock_of(*one)) if one and one[1].lock else None for one in layouts]
-    )
+    columns = number_columns([_lock(*one) if one and one[1].lock else None for one in layouts])
     return LockSizes(columns[0], Lock(*columns[1:])) if columns else None
+
+
+def _lock(where: Assembly, size: Sizes) -> tuple[float, ...]:
+    """Half the slot's width, and the lock as it is cut."""
+    return size.half_width, *cut_lock(where, size)
 
 
 def number_columns(rows: Sequence[Sequence[float] | None]) -> list[float] | None:

@@ -8,9 +8,10 @@ import pytest
 from scipy.optimize import root
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.paths.boxes import _turned_between
+from geneva_cli.kinematics.paths.boxes import _overlaps
 from geneva_cli.kinematics.paths.pairs import pairs
 from geneva_cli.kinematics.paths.samples import PathSamples, points
+from geneva_cli.linkage.choice import chosen
 from geneva_cli.linkage.wheels import wheels
 from geneva_cli.machine.drives.four_bar import FourBar
 
@@ -148,26 +149,61 @@ def test_a_pair_is_found_though_newton_leads_out_of_its_box():
     assert drives(path, b, 1.0, *near)
 
 
+def peak(path, wheels, i):
+    """Greatest velocity at 20,001 even angles of the i-th wheel."""
+    p, v = pin(path, wheels.phi[i])
+    t = v / abs(v)
+    centre = p[0] + ((p[1] - p[0]) / (t[0] + t[1])).real * t[0]
+    p, v = pin(path, np.linspace(*wheels.phi[i], 20_001))
+    return abs((v / (p - centre)).imag).max()
+
+
+# the last has two wheels whose peaks differ by 1 %, and one of them has two nearly equal peaks
+TWO_PEAKS = FourBar(
+    crank_mm=44.4868,
+    ground_mm=76.9857,
+    coupler_mm=118.422,
+    rocker_mm=86.0199,
+    point_mm=25.0925,
+    point_deg=104.568,
+    branch="-",
+)
+
+
+@pytest.mark.parametrize(("keys", "z"), [*four_bars(6, 5), (TWO_PEAKS, 6)])
+def test_the_chosen_wheel_has_the_least_peak(keys, z):
+    path = keys.roller_path
+    found = wheels(path, np.array([[math.pi / z]])).wheels
+    peaks = [peak(path, found, i) for i in range(len(found.which))]
+    for size, least, most in zip(peaks, found.least, found.most, strict=True):
+        assert least <= size * (1.0 + 1e-6)  # the grid may miss the peak by a step's square
+        assert size <= most
+    best = chosen(path, found)
+    assert [peaks[i] for i in best] == [min(peaks, default=0.0)][: len(peaks)]
+
+
 @pytest.mark.parametrize("turns", [1.0, 0.0, -1.0])
 def test_exits_are_those_of_a_comparison_of_all_pairs(turns):
     """Of angles that rise, swing or fall over a turn, with some intervals left out."""
     random = np.random.default_rng(3)
     rows, count = 5, 40
     along = np.arange(count) / count
-    angle = math.tau * turns * along + random.uniform(-2.0, 2.0, (rows, count))
-    low = np.hstack((angle, angle + math.tau * turns))
-    high = low + np.tile(random.uniform(0.0, 0.4, (rows, count)), 2)
-    use = np.tile(random.random((rows, count)) < 0.7, 2)
-    wanted = random.uniform(1.0, 2.5, rows)
+    whole = np.full((rows, 1), math.tau * turns)
+    angle = whole * along + random.uniform(-2.0, 2.0, (rows, count))
+    entries, exits = [
+        (low, low + random.uniform(0.0, 0.4, (rows, count)))
+        for low in (angle + random.uniform(1.0, 2.5, (rows, 1)), angle)
+    ]
+    use = random.random((rows, count)) < 0.7
     expected = {
-        (row * 2 * count + i, row * 2 * count + j)
+        (row, row * count + i, row * count + j % count, j // count)
         for row in range(rows)
-        for i in np.flatnonzero(use[row, :count])
+        for i in np.flatnonzero(use[row])
         for j in range(i + 1, i + count)
-        if use[row, j]
-        and low[row, j] <= high[row, i] + wanted[row]
-        and high[row, j] >= low[row, i] + wanted[row]
+        if use[row, j % count]
+        and exits[0][row, j % count] + whole[row, 0] * (j // count) <= entries[1][row, i]
+        and exits[1][row, j % count] + whole[row, 0] * (j // count) >= entries[0][row, i]
     }
-    found = list(zip(*(x.tolist() for x in _turned_between(use, low, high, wanted)), strict=True))
+    found = list(zip(*(x.tolist() for x in _overlaps(use, entries, exits, whole)), strict=True))
     assert len(found) == len(set(found)) > 20
     assert set(found) == expected

@@ -204,7 +204,7 @@ def test_the_rim_touches_the_wide_teeth():
         unwound = pinion.base * np.exp(1j * (begins + roll)) * (1.0 - 1j * roll)
         least = min(abs(unwound - L).min(), L - pinion.root - 0.1 * rack.module)
         # points are 1e-4 mm apart, and the circle is 40 mm wide or more: 1e-8/80
-        assert sizes.touch == pytest.approx(least, abs=1e-9)
+        assert sizes.rim == pytest.approx(least, abs=1e-9)  # without a lock_clearance_mm
 
 
 @pytest.mark.parametrize("backlash", [0.0, 0.05, 0.5])

@@ -12,6 +12,8 @@ from geneva_cli.curves.hole_walls import least_wall
 from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.sizes import machine_sizes
+from geneva_cli.layout.stressed import stressed
 from geneva_cli.machine.least_wall import wall_min
 
 # The pivots of the parts list whose shafts reach the frame, of each kind of drive. The crank of a
@@ -38,6 +40,40 @@ def made(name):
 def rows(design, row):
     table = design.part_table("parts").to_rows()
     return {one["name"]: one for one in table if one["row"] == row}
+
+
+@pytest.mark.parametrize("shafts", ["plain", "turned"])
+@pytest.mark.parametrize(
+    ("name", "size"),
+    [
+        ("turret", {}),
+        ("turret", {"pin_mm": 0.0}),
+        ("turret", {"wheel_hub_mm": 30.0, "wheel_hub_length_mm": 40.0}),
+        ("cam-geneva", {}),
+        ("cam-geneva", {"arm_thickness_mm": 15.0}),
+        ("four-bar-z4", {"link_thickness_mm": 20.0}),
+        ("epicyclic-z4", {"link_thickness_mm": 12.0}),
+        ("behind-gears", {}),
+        ("geneva-pair", {"link_bore_mm": 4.0}),
+        ("noncircular-gears", {}),
+    ],
+)
+def test_forces_on_shafts_have_their_levers_to_the_bearings_as_built(name, size, shafts):
+    """From the middle of the wheel to that of the frame, or of the ball bearing's seat in it."""
+    design = load(str(repo.DESIGNS / f"{name}.toml"))
+    for key, value in {**size, "shafts": shafts}.items():
+        design = design.with_(f"size.{key}", value)
+    parts, own = design.parts_model.flat, stressed(*machine_sizes(design.mechanism))
+    middle, frame = 0.5 * parts.outlines.sizes.wheel_thickness, parts.frame.part
+    for part, shaft in (("wheel", own.wheel_shaft), ("crank", own.crank_shaft)):
+        named = [one.part for one in parts.shafts if one.part.name == f"{part}'s shaft"]
+        if not named or named[0].low > frame.low:
+            continue  # it does not reach the frame
+        low, high = frame.low, frame.high
+        if shafts == "turned":
+            (seat,) = (step for step in named[0].plates if "bearing" in step.name)
+            low, high = seat.low, seat.high
+        assert shaft.overhang == pytest.approx(middle - 0.5 * (low + high), rel=1e-12)
 
 
 @pytest.mark.sampled(4)

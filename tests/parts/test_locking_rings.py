@@ -1,43 +1,38 @@
-"""Locking sectors without a middle: a few places of the wheel tell what does not clear."""
+"""Locking sectors without a middle: the widest that clear the wheel."""
 
 import math
 
 import numpy as np
+import pytest
 
 from geneva_cli.kinematics.laws.standard import ModifiedSine
 from geneva_cli.kinematics.motion import Motion
 from geneva_cli.kinematics.wheels.internal import Internal
-from geneva_cli.layout.assembly import assembly
-from geneva_cli.layout.sizes import sizes
 from geneva_cli.machine.drives.cam import Cam
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.outlines import locking_rings, outlines
-from geneva_cli.outlines.locking_rings import PolarPoints, beyond, inner_arc, polar_points, towards
+from geneva_cli.outlines.locking_rings import polar_points, towards
 
 
-def test_what_is_beyond_is_so_by_the_whole_arc_too():
-    """Some places say no only where all of them do: random ones, most of them near the disc."""
-    size = sizes(assembly(build(Spec(Internal(6)))))
-    limit, some = 0.9 * size.lock, np.random.default_rng(8)
-    told = []
-    for _ in range(2000):
-        half = some.uniform(0.2, 3.0)
-        radius = size.lock * (1.0 - some.exponential(0.3, 12)) ** 2
-        places = PolarPoints(radius, some.uniform(-math.pi, math.pi, 12))
-        told.append((beyond(size, places, half), max(inner_arc(size, half, places, 0.0)) < limit))
-    assert {(True, False), (False, True)} <= set(told)
-    assert (True, True) not in told
+@pytest.mark.parametrize(("z", "alpha0"), [(12, -30.0), (8, -30.0), (6, 0.0)])
+def test_a_sector_is_the_widest_of_all_that_clear_the_wheel(monkeypatch, z, alpha0):
+    """Every fiftieth of its width is tried, not only those that the halving meets."""
+    spec = Spec(Internal(z), Cam(), motion=Motion(ModifiedSine(), alpha0_deg=alpha0))
+    own, tried = outlines.outlines(build(spec)).crank, []
 
+    def widest_of_all(whole, clears):
+        fits = [half for k in range(40) if clears(half := (1.0 - 0.02 * k) * whole)]
+        tried.append((whole, fits))
+        return max(fits)
 
-def test_sectors_are_those_of_all_places(monkeypatch):
-    """Nothing is told from a few places that all of them would not."""
-    wheel = Internal(12)
-    motion = Motion(ModifiedSine(), alpha0_deg=-30.0)
-    spec = Spec(wheel, Cam(), motion=motion)
-    known = outlines.outlines(build(spec))
-    monkeypatch.setattr(locking_rings, "beyond", lambda *_: False)
-    assert outlines.outlines(build(spec)).crank == known.crank
+    monkeypatch.setattr(locking_rings, "widest", widest_of_all)
+    assert outlines.outlines(build(spec)).crank == own
+    assert tried
+    # narrower ones clear it too
+    assert all(
+        fits == [(1.0 - 0.02 * k) * whole for k in range(40)][-len(fits) :] for whole, fits in tried
+    )
 
 
 def test_places_towards_a_direction_are_all_that_are():

@@ -29,8 +29,8 @@ from geneva_cli.layout.assembly import assembly
 from geneva_cli.layout.sizes import sizes
 from geneva_cli.machine.mechanism import build
 from geneva_cli.outlines.outlines import CURVED, Outlines, outlines
+from geneva_cli.outlines.walls.path_walls import _free
 from geneva_cli.outlines.walls.straight import straight_walls
-from geneva_cli.outlines.walls.ways import _free
 from geneva_cli.outlines.wheel import EXTENDED_MOUTH, wheel_contour
 from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.checks.registry import turn_checks

@@ -546,8 +546,8 @@ class Swept:
         self.motions = []
         self.points = np.array([[r * math.cos(a), r * math.sin(a)] for r, a in polar]).T
 
-    def __call__(self, motion, every):
-        self.motions.append((motion, every))
+    def __call__(self, motion):
+        self.motions.append(motion)
         return tuple(self.points)
 
 
@@ -568,7 +568,7 @@ def test_a_relief_is_as_wide_as_the_wheel_reaches(at, start, end):
     wide = _widened(sizes, Relief(2.6, 3.4, 1), swept)
     # one digit of a direction is 4e-16
     assert wide == pytest.approx((start, end, 1), abs=2e-15)
-    assert swept.motions == [(1, 1)]
+    assert swept.motions == [1]
 
 
 @pytest.mark.parametrize("direction", [0.0, 2.0])

@@ -85,7 +85,7 @@ def test_a_shaft_that_cannot_get_out():
     outside = Design.of(Spec(Wheel(6), Drive("side-crank"), keys))
     (row,) = [c for c in outside.checks if c.name == "link_gap_mm"]
     assert (
-        row.passes and planes(outside.parts, outside.parts_model.flat.links).way_out is None
+        row.passes and planes(outside.parts, outside.parts_model.flat.links).blocked is None
     )  # through the locking disc
 
 
@@ -93,7 +93,7 @@ def test_a_shaft_that_cannot_get_out():
 def test_designs_are_clear(name):
     design = of(name)
     found = planes(design.parts, design.parts_model.flat.links)
-    assert found.way_out is None and found.nearest.gap > 0.0
+    assert found.blocked is None and found.nearest.gap > 0.0
 
 
 def test_links_with_walls_too_thin_are_told():

@@ -49,7 +49,9 @@ def polygon(points):
 
 
 @pytest.mark.sampled(2)
-@pytest.mark.parametrize("name", ["limits", "internal-z6", "press-curved", "offset-slots"])
+@pytest.mark.parametrize(
+    "name", ["limits", "internal-z6", "press-curved", "offset-slots", "geneva-stop"]
+)
 def test_the_plate_of_a_wheel_by_its_polygon(name):
     design = load(str(repo.DESIGNS / f"{name}.toml")).with_("size.face_width_mm", 20.0)
     design = design.with_("material.wheel.density_kgm3", 2700.0)

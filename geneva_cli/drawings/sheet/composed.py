@@ -82,36 +82,22 @@ def _composed(
     area = _inside(paper)
     if is_overfull(blocks, area):
         return None
-    own, shop = spec.drawing, workshop(spec.size.process)
     materials = [
-        _material(spec.material_wheel, wheel_material(spec), shop.stock),
+        _material(spec.material_wheel, wheel_material(spec), workshop(spec.size.process).stock),
         _material(spec.material_roller, roller_material(spec), Stock()),
     ]
-    rows_of_fields = (
-        {
-            "scale": scale_name(scale),
-            "mass": _mass(sum(r["mass_kg"] * r["count"] for r in rows)),
-            "material": materials[0] if len(set(materials)) == 1 else "see list",
-            "tolerances": shop.tolerances,
-            "units": f"{'mm' if is_metric() else 'inch'}, degrees",
-            "size": paper.name,
-            "sheet": "1/1",
-        },
-        {
-            "roughness": _rough(own.roughness_um) or _micro(shop.roughness),
-            "edges": edge_note(spec.size) or "free of burrs",
-            "faces that roll, slide, lock": _working(own),
-        },
-        {
-            "drawing number": own.number or "",
-            "revision": own.revision or "",
-            "date": own.date or "",
-            "author": own.author or "",
-        },
-    )
+    general = {
+        "scale": scale_name(scale),
+        "mass": _mass(sum(r["mass_kg"] * r["count"] for r in rows)),
+        "material": materials[0] if len(set(materials)) == 1 else "see list",
+        "tolerances": workshop(spec.size.process).tolerances,
+        "units": f"{'mm' if is_metric() else 'inch'}, degrees",
+        "size": paper.name,
+        "sheet": "1/1",
+    }
     head = spec.title or spec.wheel.title
     _, low, right, _ = area
-    corner = title_block(head, rows_of_fields).moved(right - TITLE_WIDTH, low)
+    corner = title_block(head, [general, *_fields(spec)]).moved(right - TITLE_WIDTH, low)
     items = _items(rows, materials)
     items = items.moved(right - items.width, corner.y1)
     placed = packed(blocks, [corner, items], area)
@@ -128,6 +114,19 @@ def _composed(
         tuple(m for b in all_blocks for m in b.measures),
         "mm" if is_metric() else "inch",
     )
+
+
+def _fields(spec: Spec) -> list[dict[str, str]]:
+    """Return the rows of the title block on surfaces, and on the drawing itself."""
+    own = spec.drawing
+    surfaces = {
+        "roughness": _rough(own.roughness_um) or _micro(workshop(spec.size.process).roughness),
+        "edges": edge_note(spec.size) or "free of burrs",
+        "faces that roll, slide, lock": _working(own),
+    }
+    names = {"drawing number": own.number, "revision": own.revision}
+    names |= {"date": own.date, "author": own.author}
+    return [surfaces, {name: text or "" for name, text in names.items()}]
 
 
 def _rough(roughness_um: float | None) -> str:

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cache, partial
 from typing import Any, NamedTuple
 
-from geneva_cli.curves.measure import bounds
+from geneva_cli.curves.measure import bounds, bounds_of
 from geneva_cli.curves.plates import Member, Plate, Stack, plates
 from geneva_cli.curves.shapes import Shape
 from geneva_cli.curves.sheet import Sheet
@@ -103,8 +103,7 @@ def section(shown: SheetContent, axes: Iterable[float], scale: float) -> View:
 
 def mark_items(view: View, shown: SheetContent) -> None:
     """Draw where the section is, and balloons of the items that it does not cut."""
-    boxes = [bounds(shape) for shape in shown.together]
-    ends = ((min(box.x0 for box in boxes), 0.0), (max(box.x1 for box in boxes), 0.0))
-    view.section(*ends, "A")
+    box = bounds_of(shown.together)
+    view.section((box.x0, 0.0), (box.x1, 0.0), "A")
     marked = {shown.items[face.plate] for face in shown.cut}
     balloons(view, shown.members, shown.items, marked)

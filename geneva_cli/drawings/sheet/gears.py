@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from geneva_cli.curves.measure import legs
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Shape
 from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.drawings.sheet import sized
@@ -83,15 +84,15 @@ def _sectors(view: View, gear: Gear, outline: Contour, pitch: str) -> None:
     toothed = [arc for arc in arcs if abs(arc.radius - gear.radius) < SAME_ON_SHEET]
     hub = [arc for arc in arcs if arc not in toothed]
     count = len(toothed)
-    view.of_arcs(toothed, times(count, pitch) if count > 1 else pitch, whole=True)
+    view.of_arcs(toothed, times(count, pitch), whole=True)
     view.of_arcs(hub, times(len(hub), sized.plain(hub[0].radius, "R ")))
-    legs = [(math.atan2(arc.start[1], arc.start[0]), arc.sweep) for arc in toothed]
+    ends = [legs(arc) for arc in toothed]
     wide = times(count, f"{number(gear.teeth.each_deg)}°")
-    view.angular([(a, a + sweep) for a, sweep in legs], gear.radius, gear.radius, wide)
+    view.angular(ends, gear.radius, gear.radius, wide)
     if count > 1:
         step = times(count, f"{number(360.0 / count)}°")
         turn = math.tau / count
-        view.angular([(a, a + turn) for a, _ in legs], gear.radius, gear.radius, step)
+        view.angular([(a, a + turn) for a, _ in ends], gear.radius, gear.radius, step)
 
 
 def draw_gears(

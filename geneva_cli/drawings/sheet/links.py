@@ -19,7 +19,7 @@ from geneva_cli.layout.link_positions import links_at, same
 from geneva_cli.layout.written import degrees, length
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
-from geneva_cli.parts.link_sizes import places
+from geneva_cli.parts.link_sizes import places, point_at_zero
 from geneva_cli.parts.links import Links, placed_holes
 
 UP = 0.5 * math.pi
@@ -66,12 +66,12 @@ def _base(view: View, plate: Plate, holes: list[Circle]) -> Point:
 
 def _pressed(mechanism: Mechanism) -> list[Point]:
     """Return the centres of rollers' pins at input angle 0, in a link or in its block."""
-    centres = []
-    for link in links_at(mechanism, np.zeros(1)):
-        for position, kind in zip(places(link), link.kinds, strict=True):
-            if kind in (Joint.ROLLER, Joint.CARRIED):
-                centres.append((float(position[0].real), float(position[0].imag)))
-    return centres
+    return [
+        point_at_zero(joint)
+        for link in links_at(mechanism, np.zeros(1))
+        for joint, kind in zip(places(link), link.kinds, strict=True)
+        if kind in (Joint.ROLLER, Joint.CARRIED)
+    ]
 
 
 def _places(view: View, holes: list[Circle], base: Point) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.view import Block, times
+from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.fits import Fits
 from geneva_cli.layout.written import coordinate, is_metric, length, number
 from geneva_cli.machine.mechanism import Mechanism
@@ -33,8 +34,8 @@ def tables(parts: Outlines, tolerance: float) -> list[Block]:
         count = sum(1 for one, _ in assembly.slots if one is engagement)
         symmetric = engagement.mirrored
 
-        def centre(x: Array, of: object = engagement) -> Array:
-            px, py = engagement.slot(x, 0)  # noqa: B023
+        def centre(x: Array, engagement: Engagement = engagement) -> Array:
+            px, py = engagement.slot(x, 0)
             return assembly.L * np.column_stack((px.c[0], py.c[0] + 0.0 * x))
 
         last = 0.0 if symmetric else engagement.exit_deg

@@ -8,7 +8,7 @@ from functools import partial
 
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Plate, plates
-from geneva_cli.curves.shapes import Arc, Contour
+from geneva_cli.curves.shapes import Arc, Circle, Contour
 from geneva_cli.curves.sheet import HIDDEN, OUTLINE, Sheet
 from geneva_cli.drawings.rack import assembly
 from geneva_cli.drawings.sheet import sized
@@ -64,10 +64,8 @@ def _views(
     yield from shafted(begin, parts.shafts)
     for plate in flat_plates((parts.bar, *parts.guide)):
         view = begin(plate.name)
-        first = min(plate.holes, key=lambda hole: bounds(hole).y0)
-        box = bounds(first)
-        at = 0.5 * (box.x0 + box.x1), 0.5 * (box.y0 + box.y1)
-        draw_frame(view, plate, at, "the lowest hole")
+        centres = [hole.centre for hole in plate.holes if isinstance(hole, Circle)]
+        draw_frame(view, plate, min(centres, key=lambda at: at[1]), "the lowest hole")
         yield view
     for plate in frames:
         view = begin(plate.name)

@@ -35,7 +35,7 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
     contour = next(s for s in edges if s.layer == wheel.layer)
     reach = sizes.outer or max(math.hypot(*s.start) for s in contour.segments)
     view.cross((0.0, 0.0), reach)
-    _axes(view, parts, reach)
+    _axes(view, parts)
     if sizes.recess:
         view.cross(_recess_centre(outlines), 0.0)
     arcs = [s for s in contour.segments if isinstance(s, Arc)]
@@ -61,7 +61,7 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
     bolted(view, screwed)
 
 
-def _axes(view: View, parts: FlatParts, reach: float) -> None:
+def _axes(view: View, parts: FlatParts) -> None:
     """Draw the axes of straight slots, and the roller's path in a curved one."""
     outlines = parts.outlines
     for i, (engagement, direction) in enumerate(outlines.assembly.slots):

@@ -15,7 +15,6 @@ import numpy as np
 
 from geneva_cli.curves.plates import Plate, plates, steps_of
 from geneva_cli.drawings.shaft_gap import ShaftGap, ring_gap
-from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.bores import around
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -65,7 +64,9 @@ def shaft_gap(parts: SphereParts) -> ShaftGap | None:
     )
     wheel, crank = ([s for p in some for s in _round(p)] for some in (on_wheel, on_crank))
     pairs = [*product(wheel, [*crank, *_crank_rings(parts)])]
-    pairs += [*product(crank, [_wheel_ring(ball)])]
+    inner = 0.0 if ball.opening_mm else ball.inner
+    ring = Sweep("wheel", False, inner, ball.rim, *ball.span_mm)
+    pairs += [(one, ring) for one in crank]
     near = SAME_LENGTH * ball.radius_mm
     return min(
         (
@@ -98,10 +99,6 @@ def _crank_rings(parts: SphereParts) -> Iterator[Sweep]:
         yield Sweep("locking sector", False, low, ball.lock, *ball.lock_span_mm)
     low, high = ball.arm - ball.roller, ball.arm + ball.roller
     yield Sweep("roller", False, low, high, ball.span_mm[0], out)
-
-
-def _wheel_ring(ball: Ball) -> Sweep:
-    return Sweep("wheel", False, 0.0 if ball.opening_mm else ball.inner, ball.rim, *ball.span_mm)
 
 
 def _gap(one: Sweep, other: Sweep, axes: float) -> float:

@@ -146,12 +146,11 @@ def _flat(whose: str, ball: Ball, cone: Cone, shapes: Sequence[Shape], scale: fl
     first, after = axes[:2]
     view.linear(*first, 0.0, sized.plain(math.dist(*first)), near=True)
     if near:
-        legs = sorted(math.atan2(line.start[1], line.start[0]) for line in (first, after))
-        text = degrees(abs(legs[1] - legs[0]), 4)
-        view.angular([(legs[0], legs[1])], far, far, times(ball.z - 1, text))
+        low, high = sorted(math.atan2(line.start[1], line.start[0]) for line in (first, after))
+        view.angular([(low, high)], far, far, times(ball.z - 1, degrees(high - low, 4)))
     else:
-        view.linear(first.start, after.start, 0.5 * math.pi, times(ball.z - 1, sized.plain(
-            abs(after.start[1] - first.start[1]))))  # fmt: skip
+        text = times(ball.z - 1, sized.plain(abs(after.start[1] - first.start[1])))
+        view.linear(first.start, after.start, 0.5 * math.pi, text)
     return view
 
 

@@ -1,260 +1,252 @@
-"""Boxes: an interval of a path for the entry and one for the exit that may contain a pair.
+"""Boxes: an arc of the path for the entry and one for the exit that may contain a pair.
 
-Cubics through values and slopes at the corners of a box show if it can contain a pair; see
+Each point of a pair lies on the line of their chord. Along an arc the line's angle and offset are
+cubics of the crank angle. They show if an entry and an exit can have a line in common; see
 ``pairs``.
 """
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, joined, points
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.numerics.arrays import Array, Mask, Number, Whole
+from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Whole
 
-THIRD = 1.0 / 3.0
 # Possible error of a quantity's cubics, as a fraction of their range in a box. It is ample: of
-# 122,000 wheels of random linkages none is lost with 0, and 4 % are with -0.05.
-CUBIC_ERROR = 0.1
-OVERLAP = 0.5  # fraction of a box's width by which its pair may lie outside it
+# 184,000 wheels of random linkages none is lost with 0, and 9 % are with -0.05.
+CUBIC_ERROR = 0.03
+OVERLAP = 0.5  # fraction of an arc's width by which its pair may lie outside it
+
+Span: TypeAlias = "tuple[Array, Array]"  # least and greatest angles
 
 
-class CrankInterval(NamedTuple):
-    """Intervals of crank angles: the points at both ends, and the turn between them.
+class Arcs(NamedTuple):
+    """Arcs of paths, and the lines of their points, as (angle, offset) in a plane.
 
-    Rows of a point are crank angle, position (x, y), unit tangent (x, y), speed and turn rate.
+    ``cubics`` are the Bernstein coefficients of both. ``strip`` is the vector from the first line
+    to the last, with the least and greatest cross product of it and the coefficients.
     """
 
-    ends: Array  # (7, 2, n)
-    turn: Array  # (n,)
+    phi: Array  # (n,), crank angle of the first point
+    width: Array  # (n,), crank angle from the first point to the last
+    cubics: Array  # (2, 4, n)
+    strip: Array  # (4, n)
 
-    def taken(self, where: Whole) -> CrankInterval:
-        """Select some of the intervals."""
-        return CrankInterval._make(part.take(where, axis=-1) for part in self)
+    def taken(self, where: Whole) -> Arcs:
+        """Select some of the arcs."""
+        return Arcs._make(part.take(where, axis=-1) for part in self)
 
-    @property
-    def phi(self) -> Array:
-        """Crank angles of both ends, (2, n)."""
-        phi: Array = self.ends[0]
-        return phi
+    def at(self, place: Array) -> tuple[Array, Array]:
+        """Lines at fractions of the width, and their slopes per width: (2, n)."""
+        rest, rows = 1.0 - place, self.cubics.swapaxes(0, 1)
+        a, b, c = (rows[i] * rest + rows[i + 1] * place for i in range(3))
+        a, b = a * rest + b * place, b * rest + c * place
+        return a * rest + b * place, 3.0 * (b - a)
 
-    @property
-    def width(self) -> Array:
-        """Crank angle from the first point to the last."""
-        first, last = self.phi
-        width: Array = last - first
-        return width
+    def turns(self, sense: Number) -> Mask:
+        """True if the tangent may turn against a wheel that turns in a direction."""
+        return (np.diff(self.cubics[0], axis=0) * sense).min(axis=0) <= 0.0
 
-    @property
-    def rates(self) -> Array:
-        """Rates at which the tangent turns at both ends, (2, n)."""
-        rates: Array = self.ends[6]
-        return rates
+    def angles(self, sign: float) -> Span:
+        """Least and greatest angle of the lines, times a sign."""
+        angle = sign * self.cubics[0]
+        low, high = angle.min(axis=0), angle.max(axis=0)
+        margin = CUBIC_ERROR * (high - low)
+        return low - margin, high + margin
 
 
 class Boxes(NamedTuple):
-    """Intervals for entry and exit; ``turn`` is the turn from the first entry to the first exit."""
+    """Arcs for entry and exit, whose lines may agree after a turn of the first exit's."""
 
     which: Whole
     sense: Array  # sense of rotation of the wheel
-    entry: CrankInterval
-    exit: CrankInterval
+    entry: Arcs
+    exit: Arcs
     turn: Array
+    origin: Complex  # point from which the offsets are measured
 
     def taken(self, where: Whole) -> Boxes:
         """Select some of the boxes."""
-        entry, exit_ = self.entry.taken(where), self.exit.taken(where)
-        return Boxes(self.which[where], self.sense[where], entry, exit_, self.turn[where])
+        which, sense, entry, exit_, turn, origin = self
+        sides = entry.taken(where), exit_.taken(where)
+        return Boxes(which[where], sense[where], *sides, turn[where], origin[where])
 
 
-def _span(width: Array, turn: Array, first: Array, last: Array) -> tuple[Array, Array]:
-    """Least and greatest Bernstein coefficient of an angle's cubic that changes by ``turn``."""
-    a, c = THIRD * width * first, turn - THIRD * width * last
-    low = np.minimum(np.minimum(a, c), np.minimum(turn, 0.0))
-    high = np.maximum(np.maximum(a, c), np.maximum(turn, 0.0))
-    margin = CUBIC_ERROR * (high - low)
-    return low - margin, high + margin
-
-
-def _against(width: Array, turn: Array, first: Array, last: Array, sense: Number) -> Mask:
-    """True if the tangent turns against the wheel anywhere in an interval."""
-    middle = 1.5 * turn / width - 0.25 * (first + last)
-    return np.minimum(np.minimum(first * sense, last * sense), middle * sense) <= 0.0
-
-
-def boxes_of(samples: PathSamples, wanted: Array) -> Boxes:
-    """Boxes between adjacent samples that may contain a pair."""
-    at, angle = samples.at, samples.angle
-    count = angle.shape[1] - 1
-    first, last = slice(None, -1), slice(1, None)
-    turn = angle[:, last] - angle[:, first]
-    numbers, to_next = _numbers(at), np.pad(turn, ((0, 0), (0, 1)))
-    width = at.phi[:, last] - at.phi[:, first]
-    rates = at.turn[:, first], at.turn[:, last]
-    low, high = (x + angle[:, first] for x in _span(width, turn, *rates))
-    whole = angle[:, -1:]  # a turn later; NaN if the linkage does not close for a full turn
-    possible = (width > 0.0) & np.isfinite(low + high + whole)
+def boxes_of(samples: PathSamples, b: Array) -> Boxes:
+    """Boxes between adjacent samples that may contain a pair; b are half index angles (m, 1)."""
+    at, lean = samples.at, 0.5 * math.pi - b[samples.which]
+    # Near a sharp bend all lines pass one point. Measured from there their offsets are small.
+    sharpest = np.abs(at.turn).argmax(axis=1)[:, None]
+    origin = np.take_along_axis(at.p, sharpest, axis=1)
+    angle = samples.angle + np.angle(at.t[:, :1])
+    # a turn later; NaN if the linkage does not close for a full turn
+    whole = angle[:, -1:] - angle[:, :1]
+    sides = []
+    for side in (-1.0, 1.0):
+        lines = _lines(at, angle, origin, side * lean)
+        sides.append(_arcs(at.phi[:, :-1], np.diff(at.phi), lines[..., :-1], lines[..., 1:]))
+    possible = (sides[0].width > 0.0) & np.isfinite(sides[0].cubics[0].sum(axis=0) + whole)
     parts = []
-    for sense in (1.0, -1.0):
-        use = possible & _against(width, turn, *rates, sense)
-        # spans of the tangent's turn against the wheel, over two turns of the crank
-        spans = (-high, -low) if sense > 0.0 else (low, high)
-        least, most = (np.hstack((x, x - sense * whole)) for x in spans)
-        entry, exit_ = _turned_between(np.hstack((use, use)), least, most, wanted)
-        row, entry = np.divmod(entry, 2 * count)
-        exit_ %= 2 * count
-        round_ = exit_ // count
-        exit_ %= count
-        start = angle[row, exit_] + whole[row, 0] * round_ - angle[row, entry]
-        one, two = (_interval(numbers, to_next, row * (count + 1) + of) for of in (entry, exit_))
-        two.phi[:] += math.tau * round_
-        every = Boxes(samples.which[row], np.full(len(row), sense), one, two, start)
-        parts.append(every.taken(np.flatnonzero(_corners(one, two).may_vanish())))
+    for sense, (entry, exit_) in ((1.0, sides), (-1.0, sides[::-1])):
+        use = possible & entry.turns(sense)
+        places = _overlaps(use, entry.angles(-sense), exit_.angles(-sense), -sense * whole)
+        one, two = (
+            Arcs._make(x.reshape(*x.shape[:-2], -1) for x in arcs) for arcs in (entry, exit_)
+        )
+        row, first, last, turns = places
+        turn = turns * whole.take(row)
+        strip, cubics = one.strip.take(first, axis=-1), two.cubics.take(last, axis=-1)
+        near = np.flatnonzero(_may_cross(strip, cubics, turn))
+        row, first, last, turns = places[:, near]
+        one, two = one.taken(first), two.taken(last)
+        two.phi[:] += math.tau * turns
+        box = (samples.which[row], np.full(len(row), sense), one, two, turn[near], origin[row, 0])
+        parts.append(_crossing(Boxes(*box)))
     boxes: Boxes = joined(parts, -1)
     return boxes
 
 
-def _turned_between(use: Mask, low: Array, high: Array, wanted: Array) -> tuple[Whole, Whole]:
-    """Places of entries in the first half of the rows, and of exits in a turn after each.
+def _lines(at: PathPoints, angle: Array, origin: Complex, lean: Array) -> Array:
+    """Angles and offsets of lines, and their slopes; ``lean`` is the angle from the tangent."""
+    from_origin = (at.p - origin) * (at.t * np.exp(1j * lean)).conj()
+    slope = -at.speed * np.sin(lean) - at.turn * from_origin.real
+    return np.stack((angle + lean, from_origin.imag, at.turn, slope))
 
-    Between the two a row's angle, whose spans are ``low`` to ``high``, may grow by ``wanted``.
+
+def _arcs(phi: Array, width: Array, first: Array, last: Array) -> Arcs:
+    """Arcs between points with lines ``first`` and ``last``."""
+    third = width / 3.0
+    ends = first[:2], first[:2] + third * first[2:], last[:2] - third * last[2:], last[:2]
+    cubics = np.stack(ends, axis=1)
+    along = last[:2] - first[:2]
+    across = along[0] * cubics[1] - along[1] * cubics[0]
+    return Arcs(phi, width, cubics, np.stack((*along, across.min(axis=0), across.max(axis=0))))
+
+
+def _may_cross(strip: Array, cubics: Array, turn: Array) -> Mask:
+    """True if an arc of lines turned by ``turn`` may cross the strip of another arc."""
+    across = strip[0] * cubics[1] - strip[1] * cubics[0]
+    past = strip[1] * turn
+    least, most = across.min(axis=0) - strip[3] - past, across.max(axis=0) - strip[2] - past
+    margin = CUBIC_ERROR * (most - least)
+    may: Mask = (least <= margin) & (most >= -margin)
+    return may
+
+
+def _crossing(boxes: Boxes) -> Boxes:
+    """Boxes whose exit may cross the entry's strip, and the other way round."""
+    entry, exit_, turn = boxes.entry, boxes.exit, boxes.turn
+    by_exit = _may_cross(entry.strip, exit_.cubics, turn)
+    return boxes.taken(np.flatnonzero(by_exit & _may_cross(exit_.strip, entry.cubics, -turn)))
+
+
+def _overlaps(use: Mask, entries: Span, exits: Span, whole: Array) -> Whole:
+    """Entries and exits in a turn after each whose angles overlap: row, entry, exit and turns.
+
+    Angles rise by ``whole`` in a turn. Entries and exits are numbered through all rows. ``turns``
+    is 1 for an exit in the turn after the entry's.
     """
-    place = np.flatnonzero(use)
-    row, column = np.divmod(place, use.shape[1])
-    low, high = low.ravel().take(place), high.ravel().take(place)
-    entry = np.flatnonzero(column < use.shape[1] // 2)
-    mine = row[entry]
-    least, most = low[entry] + wanted[mine], high[entry] + wanted[mine]
-    # The greatest end so far and the least start from here on rise in each row, and from row to row
-    # if each is set apart from the one before it. So a search in them bounds the exits of an entry.
-    apart = 1.0 + 2.0 * max(np.abs(low).max(initial=0.0), np.abs(high).max(initial=0.0))
-    ends = np.maximum.accumulate(high + apart * row)
-    starts = np.minimum.accumulate((low + apart * row)[::-1])[::-1]
-    error = 1e-9  # radians: more than rounding of a thousand rows
-    begin = np.searchsorted(ends, least + (apart * mine - error))
-    end = np.searchsorted(starts, most + (apart * mine + error), side="right")
-    begin = np.maximum(begin, entry + 1)
-    counts = np.maximum(np.minimum(end, entry + np.bincount(mine)[mine]) - begin, 0)
+    rows, count = use.shape
+    place = np.flatnonzero(np.hstack((use, use)))
+    row = place // (2 * count)
+    column = place - row * (2 * count)
+    turns = column >= count
+    own = place - count * (row + turns)  # number of the arc
+    later = whole.take(row) * turns
+    low, high = (x.take(own) + later for x in exits)
+    entry = np.flatnonzero(~turns)
+    mine, arc = row.take(entry), own.take(entry)
+    least, most = (x.take(arc) for x in entries)
+    # The greatest end so far and the least start from here on rise in each row. Counted in cells
+    # of the angle, they bound the exits of an entry.
+    cells = 4 * count
+    base = low.min(initial=0.0)
+    scale = (cells - 1) / max(high.max(initial=0.0) - base, 1e-9)
+
+    def cell(angle: Array, row: Whole) -> Whole:
+        return np.clip((angle - base) * scale, 0.0, cells - 1.0).astype(int) + cells * row
+
+    ends = np.maximum.accumulate(cell(high, row))
+    starts = np.minimum.accumulate(cell(low, row)[::-1])
+    below = np.zeros(rows * cells + 1, dtype=int)
+    np.cumsum(np.bincount(ends, minlength=rows * cells), out=below[1:])
+    up_to = np.cumsum(np.bincount(starts, minlength=rows * cells))
+    begin = np.maximum(below.take(cell(least, mine)), entry + 1)
+    end = np.minimum(up_to.take(cell(most, mine)), entry + np.bincount(mine)[mine])
+    counts = np.maximum(end - begin, 0)
     of = np.repeat(np.arange(len(entry)), counts)
     exit_ = np.arange(len(of)) + np.repeat(begin - (np.cumsum(counts) - counts), counts)
-    near = np.flatnonzero((low[exit_] <= most[of]) & (high[exit_] >= least[of]))
-    return place[entry[of[near]]], place[exit_[near]]
+    near = np.flatnonzero((low.take(exit_) <= most.take(of)) & (high.take(exit_) >= least.take(of)))
+    of, exit_ = of.take(near), exit_.take(near)
+    return np.stack((mine.take(of), arc.take(of), own.take(exit_), turns.take(exit_)))
 
 
-def _interval(numbers: Array, turn: Array, first: Whole) -> CrankInterval:
-    """Intervals that begin at some of the points, and end at the next."""
-    return CrankInterval(numbers.take((first, first + 1), axis=1), turn.take(first))
+class Crossings(NamedTuple):
+    """Crossings of the lines' cubics, and what the cubics show of a box."""
 
-
-def _numbers(at: PathPoints) -> Array:
-    """Numbers of points, in the rows of ``CrankInterval``."""
-    rows = (at.phi, at.p.real, at.p.imag, at.t.real, at.t.imag, at.speed, at.turn)
-    return np.stack([x.ravel() for x in rows])
-
-
-def _corners(entry: CrankInterval, exit_: CrankInterval) -> Corners:
-    """Component of the chord across the sum of tangents, at the corners of boxes."""
-    _, px, py, tx, ty, v, w = entry.ends[:, :, None]
-    _, qx, qy, ux, uy, v_out, w_out = exit_.ends[:, None]
-    cx, cy, q = qx - px, qy - py, ux * ty - uy * tx
-    by_entry = v * q + w * (cx * tx + cy * ty)
-    by_exit = v_out * q + w_out * (cx * ux + cy * uy)
-    away = cx * (ty + uy) - cy * (tx + ux)
-    return Corners(away, by_entry * entry.width, by_exit * exit_.width)
-
-
-class Corners(NamedTuple):
-    """A quantity at the corners of boxes (2, 2, n), and its slopes per width of the box.
-
-    The first index is 0 or 1 for the start or end of the entry's interval, the second for the exit.
-    """
-
-    value: Array
-    by_entry: Array
-    by_exit: Array
-
-    def may_vanish(self) -> Mask:
-        """True if the quantity may be 0 in the box, by cubics through values and slopes."""
-        outward = np.array([THIRD, -THIRD])[:, None]
-        e, x = self.by_entry * outward[:, None], self.by_exit * outward
-        least, most = (
-            f(f(self.value + g(e, 0.0) + g(x, 0.0), axis=0), axis=0)
-            for f, g in ((np.min, np.minimum), (np.max, np.maximum))
-        )
-        margin = CUBIC_ERROR * (most - least)
-        may: Mask = (least <= margin) & (most >= -margin)
-        return may
-
-
-class NewtonSteps(NamedTuple):
-    """Newton steps from the corners of a box, and the pair to which they lead."""
-
-    one: Mask  # True if all of them lead to one pair, in the box or near it
-    none: Mask  # True if bounds show that the box has no pair
+    one: Mask  # True if the box has one pair, near ``phi``
+    none: Mask  # True if the box has no pair
     phi: Array
 
 
-def newton_steps(boxes: Boxes, wanted: Array) -> NewtonSteps:
-    """Newton step from each corner of a box; if all lead to one place in it, it has one pair.
+def crossings(boxes: Boxes) -> Crossings:
+    """Crossings of the cubics of entry and exit.
 
-    If they lead to a place outside, it may still have a pair: the steps of opposite corners of a
-    sharp bend can agree by chance.
+    If the directions of the two in the plane of lines are apart, they cross once or not at all.
     """
     entry, exit_ = boxes.entry, boxes.exit
-    across, ahead = _corners(entry, exit_), np.array([0.0, 1.0])[:, None]
-    rest = boxes.turn + boxes.sense * wanted[boxes.which]
-    rest = rest + ahead * exit_.turn - ahead[:, None] * entry.turn
-    turn, turn_out = entry.rates[:, None] * -entry.width, exit_.rates * exit_.width
-    det = across.by_entry * turn_out - across.by_exit * turn
-    e = (rest * across.by_exit - across.value * turn_out) / det + ahead[:, None]
-    x = (across.value * turn - rest * across.by_entry) / det + ahead
-    # A sum of both quantities that hardly varies with one of the angles bounds the other one.
-    may = np.ones(len(det[0, 0]), dtype=bool)
-    for own, other in ((turn_out, across.by_exit), (turn, across.by_entry)):
-        c, d = own.sum(axis=(0, 1)), other.sum(axis=(0, 1))
-        pairs = zip(across, (rest, turn, turn_out), strict=True)
-        may &= Corners._make(c * f - d * g for f, g in pairs).may_vanish()
-    places = np.stack((e, x))  # side, corner, box; in widths of the box
-    middle = places.mean(axis=(1, 2))
-    apart = np.abs(places - middle[:, None, None]).max(axis=(0, 1, 2))
-    outside = np.abs(middle - 0.5).max(axis=0) - 0.5
-    phi = [x.phi[0] + of * x.width for x, of in zip((entry, exit_), middle, strict=True)]
-    # the corners agree if they lead to places within a tenth of the box's width
-    one = (apart <= 0.1) & (outside <= OVERLAP) & may
-    return NewtonSteps(one, ~may, np.stack(phi, axis=1))
+    x, y = np.diff(entry.cubics, axis=1)[:, :, None]
+    u, v = np.diff(exit_.cubics, axis=1)[:, None]
+    cross = x * v - y * u
+    cross *= np.sign(cross[1, 1])
+    # Curves that are nearly parallel somewhere may cross twice, within the error of the cubics.
+    once = cross.min(axis=(0, 1)) > 0.1 * cross.max(axis=(0, 1))
+    place, move = np.full((2, 2, len(once)), 0.5)  # fractions of the widths
+    for _ in range(3):  # Newton steps
+        (p, (x, y)), (q, (u, v)) = entry.at(place[0]), exit_.at(place[1])
+        off, up = q - p
+        off += boxes.turn
+        move = np.stack((off * v - up * u, off * y - up * x)) / (x * v - y * u)
+        place = np.clip(place + move, -OVERLAP, 1.0 + OVERLAP)
+    # Fractions of the widths: after a move by less than a twentieth the next would be below a
+    # hundredth. The pair itself may be off the crossing by 0.05, and a quarter is safe.
+    once &= np.abs(move).max(axis=0) < 0.05
+    inside = np.abs(place - 0.5).max(axis=0) <= 0.5 + 0.25
+    phi = [arcs.phi + of * arcs.width for arcs, of in zip((entry, exit_), place, strict=True)]
+    return Crossings(once & inside, once & ~inside, np.stack(phi, axis=1))
 
 
-def halved(path: RollerPath, boxes: Boxes, wanted: Array) -> Boxes:
+def halved(path: RollerPath, boxes: Boxes, b: Array) -> Boxes:
     """Cut each box into four and keep those that may contain a pair."""
     count = len(boxes.which)
-    both: CrankInterval = joined([boxes.entry, boxes.exit], -1)
-    halves = _halves(path, np.tile(boxes.which, 2), both)  # first and last, of entry and exit
-    start, end = halves.rates
-    low, high = _span(halves.width, halves.turn, start, end)
-    against = _against(halves.width, halves.turn, start, end, np.tile(boxes.sense, 4))
+    lean = boxes.sense * (b[boxes.which, 0] - 0.5 * math.pi)
+    which, origin, lean = np.tile(boxes.which, 2), np.tile(boxes.origin, 2), np.append(lean, -lean)
+    halves = _halves(path.roughly(which), joined([boxes.entry, boxes.exit], -1), origin, lean)
+    low, high = halves.angles(1.0)
+    turns = halves.turns(np.tile(boxes.sense, 4))
     box = np.tile(np.arange(count), 4)
     entry, exit_ = (box + 2 * count * np.repeat(of, count) for of in ((0, 0, 1, 1), (0, 1, 0, 1)))
     exit_ += count
-    # from the first entry of a quarter to its first exit
-    turned = np.concatenate((0.0 * both.turn, halves.turn[: 2 * count]))
-    turn = boxes.turn[box] + turned[exit_] - turned[entry]
-    target = -boxes.sense[box] * wanted[boxes.which[box]] - turn
-    near = (low[exit_] - high[entry] <= target) & (high[exit_] - low[entry] >= target)
-    may = np.flatnonzero(near & against[entry] & against[exit_])
-    sides = halves.taken(entry[may]), halves.taken(exit_[may])
-    box = box[may]
-    quarters = Boxes(boxes.which[box], boxes.sense[box], *sides, turn[may])
-    return quarters.taken(np.flatnonzero(_corners(*sides).may_vanish()))
+    turn = boxes.turn[box]
+    overlap = (low[exit_] + turn <= high[entry]) & (high[exit_] + turn >= low[entry])
+    may = np.flatnonzero(overlap & turns[entry] & turns[exit_])
+    one, two, box, turn = halves.taken(entry[may]), halves.taken(exit_[may]), box[may], turn[may]
+    return _crossing(Boxes(boxes.which[box], boxes.sense[box], one, two, turn, boxes.origin[box]))
 
 
-def _halves(path: RollerPath, which: Whole, whole: CrankInterval) -> CrankInterval:
-    """First halves of intervals, and after them the last halves."""
-    phi = 0.5 * (whole.phi[0] + whole.phi[1])
-    middle = _numbers(points(path.roughly(which), phi[:, None]))
-    first, last = whole.ends.swapaxes(0, 1)
-    ends = np.concatenate(((first, middle), (middle, last)), axis=-1).swapaxes(0, 1)
-    (a, c), (b, d) = ends[3:5]
-    return CrankInterval(ends, np.arctan2(a * d - b * c, a * c + b * d))
+def _halves(path: RollerPath, arcs: Arcs, origin: Complex, lean: Array) -> Arcs:
+    """First halves of arcs, and after them the last halves."""
+    width = 0.5 * arcs.width
+    at = points(path, (arcs.phi + width)[:, None]).taken((slice(None), 0))
+    angle, near = np.angle(at.t), arcs.at(np.full(len(width), 0.5))[0][0] - lean
+    middle = _lines(at, angle + math.tau * np.round((near - angle) / math.tau), origin, lean)
+    a, b, c, d = arcs.cubics.swapaxes(0, 1)
+    first, last = (np.concatenate((x, 3.0 * y / arcs.width)) for x, y in ((a, b - a), (d, d - c)))
+    halves: Arcs = joined(
+        [_arcs(arcs.phi, width, first, middle), _arcs(at.phi, width, middle, last)], -1
+    )
+    return halves

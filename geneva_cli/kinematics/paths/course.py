@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.kinematics.paths.pairs import EndPairs
-from geneva_cli.kinematics.paths.samples import PathPoints, points
+from geneva_cli.kinematics.paths.samples import points
 from geneva_cli.kinematics.roller_path import RollerPath
 from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Which
 from geneva_cli.numerics.tolerances import ROUNDED
@@ -39,12 +39,12 @@ class PlacedWheel(NamedTuple):
     square: Array  # squared distance from the centre to entry and exit
     sense: Array
 
-    def course(self, at: PathPoints) -> PinCourse:
-        """Both quantities at points of the path, one row per wheel."""
-        ray = (at.p - self.centre).conj()
-        moment, slope = (self.sense * (ray * x).imag for x in (at.v, at.a))
+    def course(self, p: Complex, v: Complex, a: Complex) -> PinCourse:
+        """Both quantities at places, velocities and accelerations of the pin; a row per wheel."""
+        ray = (p - self.centre).conj()
+        along, slope = ray * v, self.sense * (ray * a).imag
         short = self.square - (ray.real**2 + ray.imag**2)
-        return PinCourse(moment, slope, short, -2.0 * (ray * at.v).real)
+        return PinCourse(self.sense * along.imag, slope, short, -2.0 * along.real)
 
     def taken(self, where: Which) -> PlacedWheel:
         """Select some of the wheels."""
@@ -71,7 +71,8 @@ def leaves_slot(
         fraction = np.arange(9) / 8
         places = left[:, None] + (right - left)[:, None] * fraction
         phi = places + ends.at.phi[row, :1]
-        some = wheel.taken(row).course(points(path.roughly(ends.which[row]), phi))
+        at = points(path.roughly(ends.which[row]), phi)
+        some = wheel.taken(row).course(at.p, at.v, at.a)
         low, far = (x[row, None] for x in bar)
         wrong = np.where(
             inside[:, None], (some.moment < -low) | (some.short < -far), some.short > far
@@ -80,6 +81,21 @@ def leaves_slot(
         i, j = np.nonzero(_open(places, some, inside[:, None], low, far) & ~fails[row][:, None])
         row, left, right, inside = row[i], places[i, j], places[i, j + 1], inside[i]
     return fails
+
+
+def peak_bounds(
+    nodes: Array, motion: Array, wheel: PlacedWheel, course: PinCourse
+) -> tuple[Array, Array]:
+    """Bounds of wheels' peak velocities, by the cubics between samples ``nodes`` since entry."""
+    width, square = np.diff(nodes, axis=1), wheel.square - course.short
+    moments = _coefficients(width, course.moment, course.moment_slope)
+    squares = _coefficients(width, square, -course.short_slope)
+    inside = nodes[:, 1:] <= motion
+    least = most = np.where(inside, moments[0] / squares[0], 0.0)
+    # A quotient of cubics is between the quotients of their Bernstein coefficients.
+    for moment, square in zip(moments[1:3], squares[1:3], strict=True):
+        most = np.maximum(most, np.where(square > 0.0, moment / square, np.inf))
+    return least.max(axis=1), most.max(axis=1, where=inside, initial=0.0)
 
 
 def _open(places: Array, course: PinCourse, inside: Mask, low: Array, far: Array) -> Mask:
@@ -92,8 +108,12 @@ def _open(places: Array, course: PinCourse, inside: Mask, low: Array, far: Array
 
 def _least(width: Array, value: Array, slope: Array, sign: Number) -> Array:
     """Least Bernstein coefficient of a cubic between adjacent samples."""
-    third = 1.0 / 3.0
-    a, c = value[:, :-1], value[:, 1:]
-    b, d = a + third * width * slope[:, :-1], c - third * width * slope[:, 1:]
-    least: Array = np.minimum(np.minimum(sign * a, sign * b), np.minimum(sign * c, sign * d))
+    a, b, c, d = (sign * x for x in _coefficients(width, value, slope))
+    least: Array = np.minimum(np.minimum(a, b), np.minimum(c, d))
     return least
+
+
+def _coefficients(width: Array, value: Array, slope: Array) -> tuple[Array, Array, Array, Array]:
+    """Bernstein coefficients of cubics between adjacent samples."""
+    a, d, third = value[:, :-1], value[:, 1:], width / 3.0
+    return a, a + third * slope[:, :-1], d - third * slope[:, 1:], d

@@ -11,23 +11,27 @@ wheel's centre in one direction. So the tangent, seen from its ray, turns from -
 passing the ray again. From entry to exit it turns by pi - 2b in all, against the wheel. At each end
 it turns in that direction too, or not at all.
 
-The search uses boxes: an interval of crank angles between two samples for the entry, and one for
-the exit. The cubics through the samples' values and slopes bound two quantities in a box: the turn,
-and the chord's component across t1 + t2. A box in which either has only one sign is discarded. The
-others are halved, until both quantities change so evenly that Newton's method finds the only pair
-of the box. The cubics are no proof: a margin allows for their error. A bend within 1e-5 radians of
-the crank counts as a cusp, and pairs in it may be missed.
+Draw the line of the chord through each point of the path: as an entry at the angle pi/2 - b from
+the tangent to one side, as an exit to the other side. The points of a pair have one line in common.
+A line is a point in a plane of its angle and its offset from an origin. So entries and exits are
+two curves in that plane, and the pairs are the crossings of the curves.
+
+The search uses boxes: an arc of the path between two samples for the entry, and one for the exit.
+In the plane of lines an arc is a cubic through the values and slopes at its ends. A box is
+discarded if one of the cubics is on one side of the other. The rest are halved, until the
+directions of both cubics show that they cross once or not at all. Newton's method leads from the
+crossing to the pair. The cubics are no proof: a margin allows for their error. A bend within 1e-5
+radians of the crank counts as a cusp, and pairs in it may be missed.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.kinematics.paths.boxes import OVERLAP, Boxes, boxes_of, halved, newton_steps
+from geneva_cli.kinematics.paths.boxes import OVERLAP, Boxes, boxes_of, crossings, halved
 from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, joined, points
 from geneva_cli.kinematics.roller_path import RollerPath
 from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
@@ -73,19 +77,18 @@ class Residual(NamedTuple):
 
 def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> PairSearch:
     """All pairs for designs with half index angles b, (n, 1), from samples of their paths."""
-    wanted = math.pi - 2.0 * b[:, 0]
-    boxes = joined([boxes_of(some, wanted[some.which]) for some in samples], -1)
-    solved, halvings = [], 8  # of a box
+    boxes = joined([boxes_of(some, b) for some in samples], -1)
+    solved, halvings = [], 9  # of a box
     for depth in range(halvings + 1):
-        steps = newton_steps(boxes, wanted)
+        crossing = crossings(boxes)
         last = depth == halvings
-        tried = np.flatnonzero(steps.one | last)
-        ends, close = _solved(path, boxes.taken(tried), steps.phi[tried], b)
+        tried = np.flatnonzero(crossing.one | last)
+        ends, close = _solved(path, boxes.taken(tried), crossing.phi[tried], b)
         solved.append(ends.taken(close))
-        rest = np.concatenate((np.flatnonzero(~(steps.one | steps.none)), tried[~close]))
+        rest = np.concatenate((np.flatnonzero(~(crossing.one | crossing.none)), tried[~close]))
         if last or not len(rest):
             break
-        boxes = halved(path, boxes.taken(rest), wanted)
+        boxes = halved(path, boxes.taken(rest), b)
     ends = ends.taken(np.flatnonzero(~close))
     # a pair without a root whose index angle is this near, in radians, may be a double root
     near = np.flatnonzero(np.abs(residual(ends, b).excess) < 1e-5)
@@ -125,9 +128,9 @@ def newton(ends: EndPairs, rest: Residual) -> Array:
 
 def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[EndPairs, Mask]:
     """Newton's method from places in boxes: its end points, and a mask of those in their box."""
-    low, high = np.stack((boxes.entry.phi, boxes.exit.phi), axis=2)
-    width = high - low
-    phi = np.clip(phi, low - OVERLAP * width, high + OVERLAP * width)
+    low = np.stack((boxes.entry.phi, boxes.exit.phi), axis=1)
+    width = np.stack((boxes.entry.width, boxes.exit.width), axis=1)
+    high = low + width
     close = np.zeros(len(phi), dtype=bool)
     live = np.arange(len(phi))
     for _ in range(12):  # Newton steps

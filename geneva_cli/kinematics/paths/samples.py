@@ -2,8 +2,8 @@
 
 Between two samples the direction is the cubic of their directions and of the rates at which they
 turn. If that does not predict the turn to the next sample, the path is sampled again midway. It is
-so too if the rates differ by much, since they may predict the turn by chance. Both happen near a
-cusp.
+so too if the turn is large or the rates differ by much, since they may predict the turn by chance.
+All this happens near a cusp.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ def _complex(x: Array, y: Array, shape: tuple[int, ...]) -> Complex:
 
 def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
     """Samples of all ``count`` designs, in blocks with similar numbers of samples."""
-    steps = 48  # samples of a turn that every path has
+    steps = 24  # samples of a turn that every path has
     # Samples begin after 0.3 of a step: symmetrical paths have their cusps at 0 and at pi.
     phi = np.array([(i + 0.3) * (math.tau / steps) for i in range(steps + 1)])
     every = np.arange(count)
@@ -99,7 +99,7 @@ def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
     counts = np.bincount(whose, minlength=count)
     starts = np.cumsum(counts) - counts
     order = np.argsort(counts, kind="stable")
-    for part in blocks(count, 128):  # their samples and boxes stay in the processor's cache
+    for part in blocks(count, 192):  # their samples and boxes stay in the processor's cache
         which = order[part]
         width = np.arange(counts[which].max(initial=1))
         # After its own last sample a row repeats it.
@@ -130,7 +130,8 @@ def _turned(left: PathPoints, right: PathPoints) -> Array:
 def _missed(left: PathPoints, right: PathPoints, turned: Array) -> Mask:
     """True where the rates at two samples do not predict the turn between them."""
     half = 0.5 * (right.phi - left.phi)
-    wrong = np.abs(turned - half * (left.turn + right.turn)) > 0.05  # radians
+    # radians; an arc turns by less than a pair for three slots does, which is pi/3
+    wrong = (np.abs(turned - half * (left.turn + right.turn)) > 0.05) | (np.abs(turned) > 1.0)
     # Rates that differ this much belong to a sharp bend, whose turn they predict by chance only.
     return wrong | (half * np.abs(right.turn - left.turn) > 0.25)  # radians
 

@@ -22,7 +22,7 @@ from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.outlines.walls.joint import WallPlace, joint, points_at, runs
-from geneva_cli.outlines.walls.ways import Wall, walls
+from geneva_cli.outlines.walls.path_walls import Wall, walls
 
 
 class WallPiece(NamedTuple):

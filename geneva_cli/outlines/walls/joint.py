@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.numerics.arrays import Whole
-from geneva_cli.outlines.walls.ways import Wall
+from geneva_cli.outlines.walls.path_walls import Wall
 
 REACH = 3  # samples within which two walls meet
 

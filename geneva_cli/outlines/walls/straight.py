@@ -13,7 +13,7 @@ import math
 
 import numpy as np
 
-from geneva_cli.curves.measure import turned
+from geneva_cli.curves.measure import turned, turned_pieces
 from geneva_cli.curves.shapes import Arc, Contour, Line, Segment, about, joined
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
@@ -54,14 +54,11 @@ def straight_walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> 
         _refuse_crossed(apart)
         end = (bottom - w, 0.0)
         quarter = math.tan(math.pi / 8.0)  # the bulge of a quarter of a circle
-        begin = _at(-apart, first, Arc(first.end, end, -quarter))
+        begin = turned_pieces([first, Arc(first.end, end, -quarter)], -apart)
         between = about((0.0, 0.0), end[0], -apart, 2.0 * apart)
-        pieces = (*begin, between, *_at(apart, Arc(end, last.start, -quarter), last))
+        finish = turned_pieces([Arc(end, last.start, -quarter), last], apart)
+        pieces = (*begin, between, *finish)
     return turned(Contour("WHEEL", joined(pieces), closed=False), angle)
-
-
-def _at(direction: float, *pieces: Segment) -> tuple[Segment, ...]:
-    return turned(Contour("WHEEL", pieces, closed=False), direction).segments
 
 
 def _refuse_crossed(apart: float) -> None:

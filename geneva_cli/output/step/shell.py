@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from geneva_cli.curves.plates import Shell
 from geneva_cli.curves.round_holes import RoundHole
-from geneva_cli.curves.sphere import SphereArc, Vector, cross, opposite, square_to, unit
+from geneva_cli.curves.sphere import SphereArc, Vector, combined, cross, opposite, square_to, unit
 from geneva_cli.output.solid_part import require_thick
 from geneva_cli.output.step.entities import (
     Entities,
@@ -84,7 +84,7 @@ class _ShellWriter:
         file, q, axis = self.file, hole.radius, hole.axis
         back, ahead = opposite(axis), square_to(axis)
         heights = [math.sqrt((r - q) * (r + q)) for r in (self.shell.inner, self.shell.outer)]
-        points = [self._point(_ahead(axis, h, ahead, q), 1.0) for h in heights]
+        points = [self._point(combined(axis, h, ahead, q), 1.0) for h in heights]
         ends = [file.add(f"VERTEX_POINT('',{point})") for point in points]
         vector = file.shared(f"VECTOR('',{file.direction(*axis)},1.)")
         rise = edge(file, ends[0], ends[1], f"LINE('',{points[0]},{vector})", True)
@@ -182,11 +182,6 @@ class _ShellWriter:
 
 def _times(v: Vector, length: float) -> Vector:
     return v[0] * length, v[1] * length, v[2] * length
-
-
-def _ahead(v: Vector, length: float, across: Vector, by: float) -> Vector:
-    x, y, z = (length * p + by * q for p, q in zip(v, across, strict=True))
-    return x, y, z
 
 
 def _wide(arc: SphereArc) -> bool:

@@ -57,8 +57,8 @@ def links_gap(name: str, parts: FlatParts) -> Check | None:
     except GenevaError as error:
         return Check(name, None, "at least", 0.0, False, str(error))
     mechanism = parts.mechanism
-    if clearance.way_out is not None:
-        one = clearance.way_out
+    if clearance.blocked is not None:
+        one = clearance.blocked
         return Check(
             name,
             one.gap,

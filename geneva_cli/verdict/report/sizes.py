@@ -51,7 +51,9 @@ def _cut_radii(model: PartsModel) -> Values:
     spec = model.mechanism.spec
     inside = spec.wheel.SIGN < 0.0
     if spec.is_flat:
-        where, ends = model.assembly, model.paths.ends
+        from geneva_cli.layout.roller_paths import roller_paths
+
+        where, ends = model.assembly, roller_paths(model.assembly).ends
         mouth = max(where.L * scalar(s.entry_reach) for s in where.kinds)
         bottom = max(ends) if inside else min(ends)
         with suppress(GenevaError):  # ``parts.none`` gives the reason

@@ -52,14 +52,14 @@ def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall
     sections = [circles[0][1][::-1], _pitch(assembly, engagement, t), circles[1][1]]
     path = np.concatenate(sections)
     arcs: list[Wall] = []
-    for centre, way in circles:
-        radius = math.dist(centre, way[0])
-        angles = np.unwrap(np.arctan2(way[:, 1] - centre[1], way[:, 0] - centre[0]))
+    for centre, points in circles:
+        radius = math.dist(centre, points[0])
+        angles = np.unwrap(np.arctan2(points[:, 1] - centre[1], points[:, 0] - centre[0]))
         for side in (-w, w):
             arcs.append(_arc(path, near, centre, radius + side, np.sort(angles)))
     flanks: list[Wall] = []
     for part in (t[: middle + 1], t[middle:]):
-        at, outward = pitch_at(engagement, part, back) if back else None, bool(part[-1] > 0.0)
+        at, outward = pitch_at(engagement, part) if back else None, bool(part[-1] > 0.0)
         if outward and engagement.mirrored:
             flanks += [
                 _mirrored(flank, parallel(assembly, engagement, side, outward))
@@ -112,21 +112,18 @@ def _circle(
     # As far as the middle of the dwell, where the path of the next slot begins.
     ahead = math.atan2(-assembly.sign * centre[1], -assembly.sign * centre[0])
     rest_of_turn = math.pi - abs(math.remainder(start - ahead, math.tau))
+
+    def path(turn: Array) -> Array:
+        x, y = radius * np.cos(start + turn), radius * np.sin(start + turn)
+        return np.column_stack((centre[0] + x, centre[1] + y))
+
     # Seen from the resting wheel the crank turns against an external wheel, with an internal one.
     turn = -end * assembly.sign * np.linspace(0.0, rest_of_turn, 4 * CIRCLE_SAMPLES)
-    path = np.column_stack(
-        (centre[0] + radius * np.cos(start + turn), centre[1] + radius * np.sin(start + turn))
-    )
-    outside = assembly.sign * (np.hypot(*path.T) - sizes.rim) > 2.0 * sizes.half_width
-    count = int(np.argmax(outside)) + 1 if outside.any() else len(path)
+    outside = assembly.sign * (np.hypot(*path(turn).T) - sizes.rim) > 2.0 * sizes.half_width
+    whole = float(turn[np.argmax(outside)] if outside.any() else turn[-1])
     # As dense as the path in the slot: chords lie inside the circle, where one of its walls is.
-    whole = float(turn[count - 1])
     many = math.ceil(abs(whole) / math.sqrt(8.0 * FINE * assembly.L / radius)) + 1
-    turn = np.linspace(0.0, whole, max(CIRCLE_SAMPLES, many))
-    path = np.column_stack(
-        (centre[0] + radius * np.cos(start + turn), centre[1] + radius * np.sin(start + turn))
-    )
-    return centre, path
+    return centre, path(np.linspace(0.0, whole, max(CIRCLE_SAMPLES, many)))
 
 
 def _arc(
@@ -146,7 +143,7 @@ def parallel(assembly: Assembly, engagement: Engagement, side: float, outward: b
     back = retraces(engagement)
 
     def curve(t: Array) -> tuple[Array, Array]:
-        at = heading_at(engagement, t, back)
+        at = heading_at(engagement, t)
         # At mid-motion the tangent is the limit from the entry.
         turned = np.where(back & outward & (t == 0.0), -1.0, 1.0)
         tangent = np.column_stack((at.tangent_x * turned, at.tangent_y * turned))
@@ -187,7 +184,7 @@ def _pitch(assembly: Assembly, engagement: Engagement, t: Array) -> Array:
 
 def _tangent_in(engagement: Engagement) -> tuple[float, float]:
     """Return the roller's direction where it stops in the wheel at mid-motion."""
-    at = heading_at(engagement, np.zeros(1), True)
+    at = heading_at(engagement, np.zeros(1))
     return float(array(at.tangent_x)[0]), float(array(at.tangent_y)[0])
 
 

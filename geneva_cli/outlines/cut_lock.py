@@ -1,0 +1,47 @@
+"""The lock of a machine as its wheel and crank are cut."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+
+from geneva_cli.analysis.locking import Lock
+from geneva_cli.curves.shapes import Arc, Contour
+from geneva_cli.errors import GenevaError
+from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.plain_sizes import Sizes
+from geneva_cli.layout.reliefs import is_whole
+from geneva_cli.layout.stressed import lock_of
+from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.outlines.outlines import drawn
+
+
+def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
+    """Return the lock: the narrowest arc of the crank, and the corner that leaves the most play.
+
+    Beyond the axis of an internal wheel's crank, and where offset slots turn their horns past a
+    relief's edges, the wheel leaves less than a sector between two reliefs. The mouths of offset
+    slots and of unequal steps end at different radii, and so do the recesses between them.
+    """
+    lock, kinds = lock_of(assembly, sizes), assembly.kinds
+    if is_whole(assembly, sizes) and len(kinds) == 1 and not kinds[0].slot.offset:
+        return lock
+    try:
+        parts = drawn(assembly, sizes)
+    except GenevaError:  # the check of the parts reports the error
+        return lock
+    near = SAME_LENGTH * assembly.L
+
+    def arcs(contours: Iterable[Contour], radius: float, away: float) -> Iterator[Arc]:
+        """Yield the arcs of a radius whose centres are at a distance from the axis."""
+        pieces = (piece for contour in contours for piece in contour.segments)
+        for arc in (piece for piece in pieces if isinstance(piece, Arc)):
+            if abs(arc.radius - radius) < near and abs(math.hypot(*arc.centre) - away) < near:
+                yield arc
+
+    half = min([lock.half, *(0.5 * abs(a.sweep) for a in arcs(parts.crank, lock.lock, 0.0))])
+    recesses = arcs([parts.wheel], lock.recess, assembly.L)
+    corners = {math.hypot(*end) for one in recesses for end in (one.start, one.end)}
+    others = sorted(r for r in corners if abs(r - lock.corner) > near)  # than the widest mouth's
+    tried = [lock._replace(half=half, corner=r) for r in (lock.corner, *others)]
+    return max(tried, key=lambda one: float(one.contact().play))
