@@ -15,7 +15,7 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.numerics.latest import counted
 from geneva_cli.spec.schema import fields
 from geneva_cli.specfile.writer import keys_of
-from geneva_cli.study.batch import verdicts
+from geneva_cli.study.verdicts import verdicts
 from geneva_cli.verdict import advice
 from geneva_cli.verdict.advice import judged, rounded
 from geneva_cli.verdict.checks import Check, all_pass, checks
