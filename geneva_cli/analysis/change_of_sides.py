@@ -10,6 +10,8 @@ engagement's own mid-motion.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple, cast
 
 import numpy as np
@@ -20,7 +22,7 @@ from geneva_cli.kinematics.engagement import Engagement, WheelMotion
 from geneva_cli.machine.many import designs_in, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
-from geneva_cli.numerics.arrays import Whole, blocks, choose, joined, larger
+from geneva_cli.numerics.arrays import Mask, Whole, blocks, choose, joined, larger
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.newton import find_roots
 from geneva_cli.numerics.quadrature import rule
@@ -36,6 +38,18 @@ class WallImpacts(NamedTuple):
     from_deg: Array
     at_deg: Array
     speed: Array  # of the wheel against the slot, over the input's speed
+
+
+class _Coasts(NamedTuple):
+    """Impacts, and a mask of the wheels that cross their play.
+
+    The others may be struck by the wall that they left.
+    """
+
+    from_deg: Array
+    at_deg: Array
+    speed: Array
+    crosses: Mask
 
 
 class Changes(NamedTuple):
@@ -79,7 +93,7 @@ def impacts_of(engagement: Engagement, at: Changes, play: Array, drag: Array) ->
 
     ``drag`` is M_r / (I w²), (m, 1). A wheel coasts from the place where psi2 = -drag, slowed only
     by the drag. It is struck when it is ahead of the slot by the play, or behind if the torque
-    returns.
+    returns. If the torque returns before that, the wall that it left strikes it.
 
         >>> from geneva_cli import Design, External
         >>> [engagement] = Design(External(3)).mechanism.engagements
@@ -89,13 +103,23 @@ def impacts_of(engagement: Engagement, at: Changes, play: Array, drag: Array) ->
     """
     if not len(at.x):
         return WallImpacts(at.x, at.x, at.x)
+    end = np.ravel(taken(engagement.motion, at.which).exit_deg + 0.0 * at.x[:, None])
+    follows = np.append(at.which[1:] == at.which[:-1], False)
+    until = np.where(follows, np.append(at.x[1:], 0.0), end)
     parts = []
     for part in blocks(len(at.x), 256):  # the integrals of so many fit in the cache
-        parts.append(_impacts(engagement, Changes(at.which[part], at.x[part]), play[part], drag))
-    return joined(parts)
+        here = Changes(at.which[part], at.x[part])
+        parts.append(_impacts(engagement, here, until[part], play[part], drag))
+    coasts = joined(parts)
+    # a wheel that has not crossed its play leaves no other wall at the next change
+    coasts.speed[1:][follows[:-1] & ~coasts.crosses[:-1]] = np.nan
+    return WallImpacts(*coasts[:3])
 
 
-def _impacts(engagement: Engagement, at: Changes, play: Array, drag: Array) -> WallImpacts:
+def _impacts(
+    engagement: Engagement, at: Changes, until: Array, play: Array, drag: Array
+) -> _Coasts:
+    """Coasts from changes of sides; ``until`` are the next changes, or exits."""
     start = at.x[:, None]
 
     def gained(x: Array, live: Whole) -> tuple[Array, Array]:
@@ -103,20 +127,45 @@ def _impacts(engagement: Engagement, at: Changes, play: Array, drag: Array) -> W
         return _gained(taken(engagement.motion, of), start[live], drag[of], x[:, None])
 
     with np.errstate(all="ignore"):
+        every = np.arange(len(at.x))
         span = ((taken(engagement.motion, at.which).exit_deg - start) * DEGREE)[:, 0]
-        whole = gained(span, np.arange(len(span)))[0]
-        there = np.flatnonzero((play > 0.0) & (play <= abs(whole)))
+        # a wheel runs ahead of the slot, or behind, until the next change
+        turn = (until - at.x) * DEGREE
+        sense = np.copysign(1.0, gained(turn, every)[0])
+
+        def faster(x: Array, live: Whole) -> tuple[Array, Array]:
+            of = at.which[live]
+            place = start[live] + x[:, None] / DEGREE
+            torque = (taken(engagement.motion, of)(place, 2).arrays()[2] + drag[of])[:, 0]
+            return sense[live] * gained(x, live)[1], -sense[live] * torque
+
+        slows = np.flatnonzero(sense * gained(span, every)[1] < 0.0)
+        most = span.copy()  # where it is farthest from the wall that it left
+        most[slows] = find_roots(partial(_of, faster, slows), turn[slows], span[slows])
+        crosses = (play > 0.0) & (play <= sense * gained(most, every)[0])
+        returns = (play > 0.0) & ~crosses & (sense * gained(span, every)[0] < 0.0)
+        there = np.flatnonzero(crosses | returns)
+        gap = np.where(crosses, play, 0.0)
 
         def over(x: Array, live: Whole) -> tuple[Array, Array]:
-            ahead, faster = gained(x, there[live])
-            sense = np.copysign(1.0, ahead)
-            return sense * ahead - play[there[live]], sense * faster
+            ahead, speed = gained(x, there[live])
+            side = sense[there[live]]
+            return side * ahead - gap[there[live]], side * speed
 
         x, speed = np.full((2, len(span)), np.nan)
         if len(there):
-            x[there] = find_roots(over, np.zeros(len(there)), span[there])
+            low = np.where(crosses, 0.0, most)[there]
+            high = np.where(crosses, most, span)[there]
+            x[there] = find_roots(over, low, high)
             speed[there] = abs(gained(x[there], there)[1])
-    return WallImpacts(at.x, at.x + x / DEGREE, speed)
+    return _Coasts(at.x, at.x + x / DEGREE, speed, crosses)
+
+
+def _of(
+    function: Callable[[Array, Whole], tuple[Array, Array]], some: Whole, x: Array, live: Whole
+) -> tuple[Array, Array]:
+    """The function of some of the wheels, numbered anew."""
+    return function(x, some[live])
 
 
 def _gained(motion: WheelMotion, start: Array, drag: Array, x: Array) -> tuple[Array, Array]:

@@ -1,6 +1,7 @@
 """Shocks against closed forms and searches of 50 digits that know nothing of jets or anchors."""
 
 import itertools
+import math
 
 import mpmath as mp
 import numpy as np
@@ -300,3 +301,26 @@ def test_force_and_impulse_need_something_to_strike():
     loaded = Design(External(6), load=Load(inertia_kgm2=2.0)).mechanism
     assert force_of(loaded, 0.1) is None  # no line of contact
     assert impulse_Nms(loaded, -0.1) == pytest.approx(0.4 * float(mp.pi), rel=1e-15)
+
+
+def test_a_wheel_that_does_not_cross_its_play_is_struck_by_the_wall_it_left():
+    """A coast over a grid: the torque returns at 21.5 degrees, before the play is used up.
+
+    1e-4: the speed changes by 2e-5 of itself in a step of the grid.
+    """
+    b, drag, play = math.pi / 5.0, 2.22474143, 0.0042
+    ratio = math.sin(b)
+    x, step = np.linspace(-0.3 * math.pi, 0.3 * math.pi, 2_000_001, retstep=True)
+    D = 1.0 - 2.0 * ratio * np.cos(x) + ratio**2
+    torque = drag - ratio * (1.0 - ratio**2) * np.sin(x) / D**2
+    start = np.flatnonzero((torque[:-1] > 0.0) & (torque[1:] <= 0.0))[0]
+    speed = -np.cumsum(torque[start:]) * step
+    ahead = np.cumsum(speed) * step
+    assert ahead.max() < play  # the other wall is not reached
+    back = np.flatnonzero(ahead > 0.0)[-1]
+    (engagement,) = Design(External(5)).mechanism.engagements
+    at = change_of_sides.changes(engagement, np.array([[drag]]))
+    struck = change_of_sides.impacts_of(engagement, at, np.full(2, play), np.array([[drag]]))
+    assert struck.at_deg[0] == pytest.approx(math.degrees(x[start + back]), rel=1e-4)
+    assert struck.speed[0] == pytest.approx(-speed[back], rel=1e-4)
+    assert np.isnan(struck.speed[1])  # no wall is left at the second change
