@@ -1,5 +1,6 @@
 """Strength and life of whole designs: each check can fail and be mended, and what lacks is said."""
 
+import cmath
 import json
 import math
 import re
@@ -10,7 +11,7 @@ import repo
 from typer.testing import CliRunner
 from words import Drive, Motion, Spec, Wheel, load
 
-from geneva_cli import Design, design
+from geneva_cli import Cam, Design, Epicyclic, External, SideCrank, design
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle import cycle_of
@@ -253,6 +254,49 @@ def test_the_crank_shaft_takes_the_crank_s_torque(A):
     assert found["strength.crank_shaft.moment_Nm"] == pytest.approx(both, rel=1e-6)
     stress = 16e3 * both / (math.pi * 20.0**3)
     assert found["strength.crank_shaft.stress_MPa"] == pytest.approx(stress, rel=1e-6)
+
+
+def cycloid(turned):
+    """A wheel's angle that follows a cycloid, 60 degrees in 120 of the crank."""
+    u = turned / math.radians(120.0) + 0.5
+    return math.pi / 3.0 * u - math.sin(2.0 * math.pi * u) / 6.0
+
+
+def planet(turned):
+    """The angle of a wheel of four slots behind a planet round a sun, of 4 times its teeth."""
+    arm = (math.sqrt(0.5) + 0.01) * cmath.exp(1j * turned) + 0.01 * cmath.exp(5j * turned)
+    return -cmath.phase(1.0 - arm)
+
+
+@pytest.mark.parametrize(
+    ("wheel", "drive", "law", "angle", "half_deg"),
+    [
+        (External(6), Cam(), Motion("cycloidal"), cycloid, 60.0),
+        (External(4), Epicyclic(planet_ratio=0.01), None, planet, 45.0),
+    ],
+    ids=["cam", "epicyclic"],
+)
+def test_the_crank_shaft_behind_another_drive_turns_at_its_own_rate(
+    wheel, drive, law, angle, half_deg
+):
+    """The wheel's power over the rate of the shaft that a side-crank turns, at 2001 angles.
+
+    Derivatives are differences over 2e-4 radians, whose errors are some 1e-7 of them.
+    """
+    shaft = Shaft(crank_overhang_mm=0.0, crank_diameter_mm=30.0)
+    before = SideCrank(A=0.3, input_crank_mm=80.0)
+    found = Strength(
+        build(Spec(wheel, drive, None, law, load=Load(0.3, 5.0), shaft=shaft, drive_before=before))
+    )
+    w, h, most = 2.0 * math.pi, 1e-4, 0.0
+    for i in range(2001):
+        x = 1.2 * (i / 1000.0 - 1.0)
+        crank = [math.atan2(math.sin(y), 0.3 + math.cos(y)) for y in (x - h, x, x + h)]
+        if abs(crank[1]) < math.radians(half_deg):
+            first, here, last = map(angle, crank)
+            torque = 0.3 * w * w * (last - 2.0 * here + first) / (h * h) + 5.0
+            most = max(most, abs(torque * (last - first) / (crank[2] - crank[0])))
+    assert found["strength.crank_shaft.moment_Nm"] == pytest.approx(most, rel=1e-4)
 
 
 def test_margins():

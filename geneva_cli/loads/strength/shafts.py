@@ -101,18 +101,8 @@ def on_wheel(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
 
 
 def on_crank(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
-    """Squared bending moment and torque of a crank that is or turns with the input shaft."""
-    return i.crank_bearing_squared * (overhang * overhang), i.input_torque_Nm
-
-
-def on_driven_crank(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
-    """Squared bending moment and torque of the shaft of a crank behind a transmission.
-
-    It turns at another rate than the input, that of the roller's body. The torque differs
-    accordingly, since the power is equal.
-    """
-    bent, torque = on_crank(i, overhang)
-    return bent, torque / (i.at.spin + i.at.velocity * i.at.arm)
+    """Squared bending moment and torque of the crank's shaft: its power is that of the input."""
+    return i.crank_bearing_squared * (overhang * overhang), i.input_torque_Nm / i.at.crank
 
 
 class _Axis(NamedTuple):
@@ -157,9 +147,7 @@ def wheel_forces(spec: Spec) -> ShaftForces:
 
 def crank_forces(spec: Spec) -> ShaftForces:
     """The loads of the crank's shaft."""
-    if spec.wheel.SHELLS:
-        return on_sphere_crank
-    return on_driven_crank if spec.drive.CRANKED else on_crank
+    return on_sphere_crank if spec.wheel.SHELLS else on_crank
 
 
 class Moment(NamedTuple):
