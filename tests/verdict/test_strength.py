@@ -11,7 +11,7 @@ import repo
 from typer.testing import CliRunner
 from words import Drive, Motion, Spec, Wheel, load
 
-from geneva_cli import Cam, Design, Epicyclic, External, SideCrank, design
+from geneva_cli import Cam, Carousel, Design, Epicyclic, External, Internal, SideCrank, design
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle import cycle_of
@@ -297,6 +297,21 @@ def test_the_crank_shaft_behind_another_drive_turns_at_its_own_rate(
             torque = 0.3 * w * w * (last - 2.0 * here + first) / (h * h) + 5.0
             most = max(most, abs(torque * (last - first) / (crank[2] - crank[0])))
     assert found["strength.crank_shaft.moment_Nm"] == pytest.approx(most, rel=1e-4)
+
+
+@pytest.mark.parametrize(("wheel", "sense"), [(External(4), 1.0), (Internal(6), -1.0)])
+def test_the_finger_of_a_carousel_bears_the_slot_s_torque_alone(wheel, sense):
+    """The carrier, not the finger, turns the wheels round: psi' and psi'' of a plain crank."""
+    import numpy as np
+
+    b, w, shaft = math.pi / wheel.z, 2.0 * math.pi, Shaft(crank_overhang_mm=0.0)
+    found = Strength(build(Spec(wheel, Carousel(), load=Load(0.3, 5.0), shaft=shaft)))
+    half, l = 0.5 * math.pi - sense * b, math.sin(b)
+    x = np.linspace(-half, half, 200001)
+    square = 1.0 - 2.0 * sense * l * np.cos(x) + l * l
+    bend = -l * (1.0 - l * l) * np.sin(x) / square**2
+    torque = (0.3 * w * w * bend + 5.0) * l * (np.cos(x) - sense * l) / square
+    assert found["strength.crank_shaft.moment_Nm"] == pytest.approx(abs(torque).max(), rel=1e-8)
 
 
 def test_margins():

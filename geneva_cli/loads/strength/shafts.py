@@ -101,8 +101,8 @@ def on_wheel(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
 
 
 def on_crank(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
-    """Squared bending moment and torque of the crank's shaft: its power is that of the input."""
-    return i.crank_bearing_squared * (overhang * overhang), i.input_torque_Nm / i.at.crank
+    """Squared bending moment of the crank's shaft, and its torque."""
+    return i.crank_bearing_squared * (overhang * overhang), i.crank_torque_Nm
 
 
 class _Axis(NamedTuple):
