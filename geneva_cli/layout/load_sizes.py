@@ -133,6 +133,9 @@ def _bored(
 
 def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
     spec, end, wall = assembly.full.spec, sizes.slot_end, sizes.wall_min
+    torque, force = lock.dwell_torque_Nm(assembly.full), loads.wheel_N
+    if sizes.lock and torque.any():
+        force = max(force, lock.held_force_N(torque, lock_of(assembly, sizes)).item())
     size = spec.size
     fixed = size.wheel_bore_mm is not None or spec.shaft.wheel_diameter_mm is not None
     if fixed or not sizes.wheel_bore:
@@ -144,7 +147,7 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
         reach, hub = wheel_reach_and_hub(size, 0.5 * d, wall, end)
         trial = sizes._replace(wheel_bore=0.5 * d, wheel_reach=reach, wheel_hub=hub)
         parts = stressed(assembly, trial)
-        shaft = shaft_holds_both(spec, "wheel", parts.wheel_shaft, loads.wheel_N, loads.wheel_Nm)
+        shaft = shaft_holds_both(spec, "wheel", parts.wheel_shaft, force, loads.wheel_Nm)
         if shaft and key_holds(spec, parts.wheel_key, loads.wheel_Nm):
             break
     return trial
