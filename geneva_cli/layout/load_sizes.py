@@ -133,9 +133,7 @@ def _bored(
 
 def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
     spec, end, wall = assembly.full.spec, sizes.slot_end, sizes.wall_min
-    torque, force = lock.dwell_torque_Nm(assembly.full), loads.wheel_N
-    if sizes.lock and torque.any():
-        force = max(force, lock.held_force_N(torque, lock_of(assembly, sizes)).item())
+    force = max(loads.wheel_N, _held_force_N(assembly, sizes))
     size = spec.size
     fixed = size.wheel_bore_mm is not None or spec.shaft.wheel_diameter_mm is not None
     if fixed or not sizes.wheel_bore:
@@ -151,6 +149,14 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
         if shaft and key_holds(spec, parts.wheel_key, loads.wheel_Nm):
             break
     return trial
+
+
+def _held_force_N(assembly: Assembly, sizes: Sizes) -> float:
+    """Return the force between disc and wheel in the dwell; 0 without a torque or a disc."""
+    torque = lock.dwell_torque_Nm(assembly.full)
+    if not (sizes.lock and torque.any()):
+        return 0.0
+    return float(lock.held_force_N(torque, lock_of(assembly, sizes)).item())
 
 
 def _crank_bored(
@@ -193,5 +199,6 @@ def _with_crank_bore(assembly: Assembly, sizes: Sizes, bore: float) -> Sizes:
 
 def _crank_holds(assembly: Assembly, sizes: Sizes, loads: PartLoads, keyed: bool) -> bool:
     parts, spec = stressed(assembly, sizes), assembly.full.spec
-    shaft = shaft_holds_both(spec, "crank", parts.crank_shaft, loads.crank_N, loads.crank_Nm)
+    force = max(loads.crank_N, _held_force_N(assembly, sizes))
+    shaft = shaft_holds_both(spec, "crank", parts.crank_shaft, force, loads.crank_Nm)
     return shaft and (not keyed or key_holds(spec, parts.crank_key, loads.crank_Nm))

@@ -331,6 +331,8 @@ def test_the_wheel_s_shaft_and_key_bear_the_torque_of_the_dwell():
     pressure = 2.0 * 300e3 / (30.0 * 3.0 * 18.0)
     assert held["strength.wheel_key.pressure_MPa"] == pytest.approx(pressure, rel=1e-12)
     assert calm["strength.wheel_shaft.moment_Nm"] < 0.2 * most
+    bent = 1.5 * 0.030 * force  # the crank's shaft, which the force does not turn
+    assert held["strength.crank_shaft.moment_Nm"] == pytest.approx(bent, rel=1e-9)
 
 
 def test_default_bores_hold_the_torque_of_the_dwell():

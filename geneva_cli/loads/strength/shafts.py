@@ -183,6 +183,11 @@ class Held(NamedTuple):
     force_N: Array
     torque_Nm: Array
 
+    @property
+    def without_torque(self) -> Held:
+        """The same force on a shaft through which it passes."""
+        return self._replace(torque_Nm=0.0 * self.torque_Nm)
+
 
 def shafts_under_load(
     mechanism: Mechanism, ends: ShaftDimensions, loaded: ShaftForces, held: Held | None = None

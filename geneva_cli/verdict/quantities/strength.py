@@ -131,7 +131,8 @@ def wheel_shaft(of: Designs) -> Columns:
 def crank_shaft(of: Designs) -> Columns:
     """The crank's shaft."""
     ends = _drawn(of, shafts.crank_shaft(of.spec.shaft), "crank")
-    return _shaft(of, ends, shafts.crank_forces(of.spec))
+    held = under_load(of).held  # whose force passes through the crank's axis
+    return _shaft(of, ends, shafts.crank_forces(of.spec), held and held.without_torque)
 
 
 def _drawn(of: Designs, ends: shafts.ShaftDimensions, part: str) -> shafts.ShaftDimensions:
