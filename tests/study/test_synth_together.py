@@ -142,7 +142,7 @@ def test_bounds_hold_where_no_plain_crank_carries_the_rollers():
 def test_a_refusal_names_the_bounds_that_no_machine_keeps(bounds, unkept):
     """An internal wheel's peak velocity behind a side-crank is (1/3)/(1 + A), so 0.303 here.
 
-    It enters with a jump of 0.64. The modified sine has none, and C_v = 1.76 gives 60/250 C_v, 0.42.
+    It enters with a jump of 0.64. The modified sine has none, and a velocity of 60/250 C_v: 0.42.
     """
     target = {"motion_deg": "250", "z": "6", "internal": True, "subject_to": bounds}
     with pytest.raises(GenevaError, match=unkept):
