@@ -96,8 +96,8 @@ def alternative(design: Design, name: str, rotor: bool = False) -> Mechanism:
     steps = [t.index_deg for t in times if t.index_deg is not None]
     if not steps:
         raise GenevaError("--against: cam and servo turn a wheel, and this machine moves a rack")
-    motions = [round(t.motion_s, 12) for t in times]
-    if len({*zip(motions, [round(step, 9) for step in steps], strict=True)}) > 1:
+    spans = [(round(t.motion_s, 12), round(t.cycle_s, 12)) for t in times]
+    if len({*zip(spans, [round(step, 9) for step in steps], strict=True)}) > 1:
         raise GenevaError(
             "--against: this machine's engagements differ, and an alternative has one index a turn"
         )
