@@ -63,8 +63,7 @@ class Anchors(Batchable):
             low, high = int(index.min(initial=len(self) - 1)), int(index.max(initial=0))
             if low >= high:  # any anchor will do for no angles
                 return solve(self.each[high], input_deg)
-            designs = len(index) if index.ndim > 1 else 1
-            return solve(picked(index - low, self.each[low : high + 1], designs), input_deg)
+            return solve(picked(index - low, self.each[low : high + 1]), input_deg)
         return piecewise(input_deg, self.cuts, [partial(solve, one) for one in self.each])
 
 

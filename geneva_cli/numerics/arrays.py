@@ -161,20 +161,17 @@ def _chosen(condition: Mask, yes: object, no: object) -> object:
     return choose(condition, cast("Number", yes), cast("Number", no))
 
 
-def picked(index: Whole, records: Sequence[Record], designs: int = 1) -> Record:
+def picked(index: Whole, records: Sequence[Record]) -> Record:
     """The record of each index, (k,) or (n, k), its numbers as arrays where they differ.
 
     Records are tuples of the same shape; what they hold besides numbers is the same in all. Numbers
-    are floats, or arrays (n, 1) of n ``designs``.
+    are floats, or arrays: (n, 1) of n designs, or (1, 1) of a number that the designs share.
 
     >>> import numpy as np
     >>> picked(np.array([1, 0, 1]), ((1.0, 5.0), (2.0, 5.0)))
     (array([2., 1., 2.]), 5.0)
     """
     import numpy
-
-    # designs lie side by side in memory
-    at = index.T if designs == 1 else index.T * designs + numpy.arange(designs)
 
     def member(members: Sequence[object]) -> object:
         first = members[0]
@@ -186,7 +183,11 @@ def picked(index: Whole, records: Sequence[Record], designs: int = 1) -> Record:
             same = all(one == first for one in members)
             return first if same else numpy.array(members).take(index.T).T
         columns = numpy.broadcast_arrays(*cast("Sequence[Array]", members))
-        return numpy.concatenate(columns).reshape(-1).take(at).T
+        every, designs = numpy.concatenate(columns).reshape(-1), columns[0].size
+        at = index.T
+        if designs > 1:  # which lie side by side in memory
+            at = numpy.atleast_2d(index).T * designs + numpy.arange(designs)
+        return every.take(at).T
 
     return cast("Record", member(records))
 

@@ -8,7 +8,9 @@ own rotor, too.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from itertools import pairwise
 
 from geneva_cli.analysis.carried import inertia_kgm2, resisting_torque_Nm
 from geneva_cli.design import Design, load
@@ -96,8 +98,8 @@ def alternative(design: Design, name: str, rotor: bool = False) -> Mechanism:
     steps = [t.index_deg for t in times if t.index_deg is not None]
     if not steps:
         raise GenevaError("--against: cam and servo turn a wheel, and this machine moves a rack")
-    motions = [round(t.motion_s, 12) for t in times]
-    if len({*zip(motions, [round(step, 9) for step in steps], strict=True)}) > 1:
+    spans = [(round(t.motion_s, 12), round(t.cycle_s, 12)) for t in times]
+    if len({*zip(spans, [round(step, 9) for step in steps], strict=True)}) > 1:
         raise GenevaError(
             "--against: this machine's engagements differ, and an alternative has one index a turn"
         )
@@ -136,13 +138,41 @@ def _values(design: Design, name: str) -> dict[str, Cell]:
         return values
     motor = design.spec.motor
     rotating = alternative(design, name, rotor=True)
-    names = ("loads.torque_Nm.max", "loads.wheel_torque_Nm.rms", "cycle.power_W.max")
-    most, rms, power = pick(names).of(rotating)
+    most, power = pick(("loads.torque_Nm.max", "cycle.power_W.max")).of(rotating)
     values |= {
         "motor_torque_max_Nm": over(most, motor.gear_ratio),
-        "motor_torque_rms_Nm": over(rms, motor.gear_ratio),
+        "motor_torque_rms_Nm": _servo_rms_Nm(design) if most is not None else None,
         "power_max_W": power,
     }
     inertia = inertia_kgm2(design.spec)
     values["inertia_ratio"] = over(inertia, motor.inertia_kgm2 * motor.gear_ratio**2)
     return values
+
+
+def _servo_rms_Nm(design: Design) -> float:
+    """The root mean square of a servo's motor torque over a cycle.
+
+    The reducer's losses count whether the motor drives the load or brakes it. Torques are lines
+    between the law's breaks and the places where the load begins to drive.
+    """
+    motor, first, law = design.spec.motor, design.timings[0], LAWS["servo"]
+    unit = math.radians(first.index_deg or 0.0) / first.motion_s**2
+    inertia, resisting = inertia_kgm2(design.spec), resisting_torque_Nm(design.spec)
+    mean = 0.0
+    for low, high in pairwise((0.0, *law.breaks, 1.0)):
+        middle, slope = map(float, law(0.5 * (low + high), 3).derivatives()[2:])
+        rise = 0.5 * slope * (high - low)
+        ends = [(middle - rise) * unit, (middle + rise) * unit]
+        turns = -resisting / inertia if inertia else 0.0
+        inner = [turns] if min(ends) < turns < max(ends) else []
+        for one, two in pairwise((ends[0], *inner, ends[1])):
+            drives = inertia * 0.5 * (one + two) + resisting > 0.0
+            eta = 1.0 / motor.gear_efficiency if drives else motor.gear_efficiency
+            a, b = (
+                (inertia * x + resisting) * eta / motor.gear_ratio
+                + motor.inertia_kgm2 * motor.gear_ratio * x
+                for x in (one, two)
+            )
+            share = (two - one) / (ends[1] - ends[0]) if inner else 1.0
+            mean += share * (high - low) * (a * a + a * b + b * b) / 3.0
+    return math.sqrt(mean * first.motion_s / first.cycle_s)

@@ -116,11 +116,14 @@ def _values(of: Pick, spec: Spec) -> Cells | None:
 
 
 def _how_near(request: QuantityRequest, nearest: dict[str, list[float]], count: int) -> str:
+    """The bounds that none of the machines keeps, and how near one is; or that none keeps all."""
     phrases = []
     for b in request.bounds:
         values = nearest[b.name]
-        if values:
+        if values and not any(map(b.kept, values)):
             phrases.append(f"{b} (nearest {(max if b.sign == '>=' else min)(values):.6g})")
-        else:
+        elif not values:
             phrases.append(f"{b} (not known)")
+    if not phrases:
+        phrases = [*map(str, request.bounds[:-1]), f"{request.bounds[-1]} at once"]
     return f"none of {count} machines that keep all other bounds keeps {' and '.join(phrases)}"

@@ -3,6 +3,7 @@
 import math
 
 import mpmath
+import numpy as np
 import pytest
 
 from geneva_cli import GenevaError, SCurve, load
@@ -94,27 +95,28 @@ def test_peaks_of_the_laws():
     assert own["servo"]["acceleration_max_rad_s2"] == pytest.approx(6.0 * acceleration, rel=1e-12)
 
 
-def test_the_servo_turns_its_rotor():
-    """Greatest and root-mean-square motor torque: (I/eta + J i²) alpha + M/eta, over i.
+@pytest.mark.parametrize("eta", [1.0, 0.85, 0.4])
+@pytest.mark.parametrize("torque", [0.0, 1.5, 40.0])
+def test_the_servo_turns_its_rotor(eta, torque):
+    """Motor torque: T eta^(-+1)/i + J i alpha, with T = I alpha + M, where the load drives with +1.
 
-    The acceleration's mean square is A² (t - 4 tau/3) twice, with t the time of an acceleration and
-    tau that of a ramp; its product with the constant torque vanishes over the motion.
+    The mean square is a sum over 400,000 angles of the trapezoids of acceleration.
     """
-    spec = load(TURRET).spec
-    own = columns()["servo"]
-    i, eta = spec.motor.gear_ratio, spec.motor.gear_efficiency
-    inertia = spec.load.inertia_kgm2 / eta + spec.motor.inertia_kgm2 * i * i
-    torque = spec.load.torque_Nm / eta
+    settings = (f"motor.gear_efficiency={eta}", f"load.torque_Nm={torque}")
+    spec = load(TURRET, settings).spec
+    own = columns(settings=settings)["servo"]
+    i, rotor, inertia = spec.motor.gear_ratio, spec.motor.inertia_kgm2, spec.load.inertia_kgm2
     motion, cycle = own["motion_s"], own["motion_s"] + own["dwell_s"]
-    most = 6.0 * math.radians(45.0) / motion**2
-    rise = motion / 3.0
-    square = 2.0 * most**2 * (rise - 4.0 * (0.25 * rise) / 3.0)
-    rms = math.sqrt((inertia**2 * square + torque**2 * motion) / cycle)
-    assert own["motor_torque_max_Nm"] == pytest.approx((inertia * most + torque) / i, rel=1e-12)
-    assert own["motor_torque_rms_Nm"] == pytest.approx(rms / i, rel=1e-9)
-    assert own["inertia_ratio"] == pytest.approx(
-        spec.load.inertia_kgm2 / (spec.motor.inertia_kgm2 * i * i), rel=1e-12
-    )
+    u = (np.arange(400_000) + 0.5) / 400_000
+    corners = np.array([0.0, 0.25, 0.75, 1.0]) / 3.0
+    shape = np.interp(u, [*corners, *(1.0 - corners[::-1])], [0, 1, 1, 0, 0, -1, -1, 0])
+    alpha = 6.0 * math.radians(45.0) / motion**2 * shape
+    carried = inertia * alpha + torque
+    motor = np.where(carried > 0.0, carried / eta, carried * eta) / i + rotor * i * alpha
+    assert own["motor_torque_max_Nm"] == pytest.approx(np.abs(motor).max(), rel=1e-4)
+    rms = math.sqrt(np.mean(motor**2) * motion / cycle)
+    assert own["motor_torque_rms_Nm"] == pytest.approx(rms, rel=1e-6)
+    assert own["inertia_ratio"] == pytest.approx(inertia / (rotor * i * i), rel=1e-12)
 
 
 @pytest.mark.sampled(2)
@@ -140,3 +142,18 @@ def test_refused(path, names, message):
     """What has no alternative is refused, with the reason."""
     with pytest.raises(GenevaError, match=message):
         against(path, (), names)
+
+
+@pytest.mark.parametrize("at_deg", [90, 140])
+def test_rollers_with_unequal_dwells_are_refused(at_deg):
+    """Four slots move for 90 degrees; a pin at 140 leaves dwells of 50 and 130, one at 90 of 0."""
+    angles = (f"drive.roller_angles_deg=[0,{at_deg}]",)
+    with pytest.raises(GenevaError, match="engagements differ"):
+        against("designs/two-pins-z4.toml", angles, ["cam"])
+
+
+def test_rollers_with_equal_dwells_have_alternatives():
+    """Two pins half a turn apart index twice a turn: 90 degrees of motion, and 90 of dwell."""
+    half = ("drive.roller_angles_deg=[0,180]",)
+    own = columns("designs/two-pins-z4.toml", half)
+    assert own["cam"]["dwell_s"] == own["cam"]["motion_s"] == pytest.approx(0.5, rel=1e-9)

@@ -126,6 +126,29 @@ def test_bounds_hold_where_no_plain_crank_carries_the_rollers():
         search(read_target(**target, subject_to=["dwell_deg >= 49", "jerk.max <= 1"]))
 
 
+@pytest.mark.parametrize(
+    ("bounds", "unkept"),
+    [
+        (
+            ["velocity.max <= 2", "jerk.max <= 0.01"],
+            r"keeps jerk\.max <= 0\.01 \(nearest [\d.]+\)$",
+        ),
+        (
+            ["velocity.max <= 0.35", "acceleration.entry <= 0.3"],
+            r"keeps velocity\.max <= 0\.35 and acceleration\.entry <= 0\.3 at once$",
+        ),
+    ],
+)
+def test_a_refusal_names_the_bounds_that_no_machine_keeps(bounds, unkept):
+    """An internal wheel's peak velocity behind a side-crank is (1/3)/(1 + A), so 0.303 here.
+
+    It enters with a jump of 0.64. The modified sine has none, and a velocity of 60/250 C_v: 0.42.
+    """
+    target = {"motion_deg": "250", "z": "6", "internal": True, "subject_to": bounds}
+    with pytest.raises(GenevaError, match=unkept):
+        search(read_target(**target))
+
+
 def test_cams_inside_move_as_the_plain_crank_or_as_long_as_their_rollers_let_them():
     """Below the limit the plain crank's 240 degrees; two rollers leave 180 less a hundredth.
 
