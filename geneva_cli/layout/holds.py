@@ -91,6 +91,6 @@ def arm_trials(size: Size, wheel: float) -> Iterator[tuple[bool, float]]:
 
 def arm_holds(spec: Spec, parts: Stressed, loads: PartLoads) -> bool:
     """Return True if the arm and its key hold; a shaft that does not needs no thicker arm."""
-    stress = float(arm_stress_MPa(parts.arm, np.asarray(loads.crank_N)))
+    stress = float(arm_stress_MPa(parts.arm, np.asarray(loads.wheel_N)))
     key = key_holds(spec, parts.crank_key, loads.crank_Nm)
     return key and keeps(stress, "at most", wheel_material(spec).allowed_MPa)

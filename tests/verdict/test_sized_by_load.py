@@ -13,7 +13,7 @@ import pytest
 from sampling import some
 from strength_checks import HORNS, PARTS, rows
 
-from geneva_cli import Crank, Design, External, Internal, SideCrank
+from geneva_cli import Crank, Design, External, Internal, NoncircularGears, SideCrank
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.keyways import DIN_6885_1
 from geneva_cli.layout.sizes import sized
@@ -135,6 +135,32 @@ def test_an_arm_under_a_force_from_all_directions():
             shear = push * c * (3.0 + 1.8 * short / long) / (long * short**2)
             worst = max(worst, math.sqrt(normal**2 + 3.0 * shear**2))
     assert worst <= bound == pytest.approx(worst, rel=0.04)
+
+
+def test_an_arm_bears_the_wheel_alone_behind_gears_and_coulisses():
+    """What turns the crank pushes on its shaft, or on a part beside the arm, and not on the arm.
+
+    The same motion by a side-crank of any length and by gears gives the same arm the same stress:
+    that of the force on the roller, N sqrt(1 + f²), at the greatest N of 7,201 positions.
+    """
+    size = Size(face_width_mm=8.0, arm_bore_mm=15.0, arm_hub_mm=22.0, arm_eye_mm=11.0)
+    size = size.replace(roller_radius_mm=5.0, pin_mm=5.0, arm_thickness_mm=9.0)
+    load = Load(inertia_kgm2=0.05, torque_Nm=3.0, friction=0.1)
+    for drive in (
+        SideCrank(A=0.3, n_rpm=160.0),
+        SideCrank(A=0.3, n_rpm=160.0, input_crank_mm=20.0),
+        SideCrank(A=0.3, n_rpm=160.0, input_crank_mm=200.0),
+        NoncircularGears(A=0.3, n_rpm=160.0),
+    ):
+        design = Design(External(5), drive, size=size, load=load)
+        rows = design.load_cycle(7201).to_dict()
+        force = np.abs(rows["pin_force_N"]).max() * math.sqrt(1.0 + 0.1**2)
+        # crank radius, hub, eye, bore, pin's hole, thickness; from mid-roller to mid-arm
+        R = 100.0 * math.sin(math.pi / 5.0)
+        dims = (R, 11.0, 5.5, 7.5, 2.5, 9.0, 0.5 * (8.0 + 9.0))
+        stress = float(arm_stress_MPa(ArmDimensions(*map(np.asarray, dims)), np.asarray(force)))
+        # a peak between two of the positions, 0.05 degrees apart, is flat to 1e-5
+        assert design.strength["strength.arm.stress_MPa"] == pytest.approx(stress, rel=1e-5)
 
 
 def test_the_least_thickness_of_an_arm_has_the_allowed_stress():

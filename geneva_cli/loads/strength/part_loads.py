@@ -21,9 +21,9 @@ class PartLoads(NamedTuple):
     """The greatest sizes of loads, (m,) each, or numbers of one design; infinite if unbounded."""
 
     pin_N: float  # of a roller, along the wall's normal
-    wheel_N: float  # of the wheel's bearings together
+    wheel_N: float  # of the wheel's bearings in motion, which is that on the roller and its arm
     wheel_Nm: float  # torque in the wheel's shaft, also in the dwell
-    crank_N: float  # of the crank's bearings together, which is that on the arm
+    crank_N: float  # of the crank's bearings together, with the push of gears or of a link
     crank_Nm: float  # torque in the crank's shaft
 
     def of(self, i: int) -> PartLoads:

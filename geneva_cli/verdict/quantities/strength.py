@@ -170,12 +170,12 @@ def _shaft(
 
 
 def arm(of: Designs) -> Columns:
-    """The crank arm under the greatest force on the crank."""
+    """The crank arm under the greatest force of the wheel on the roller."""
     parts, allowed = under_load(of).parts, _allowed(of, of.spec.material_wheel, wheel_material)
     out: dict[str, Number | None] = {"allowed_MPa": allowed}
     if parts is None or np.isnan(parts.arm.length).all():
         return out
-    force = under_load(of).part_loads.crank_N * of.loaded
+    force = under_load(of).part_loads.wheel_N * of.loaded
     stress = _known(arms.arm_stress_MPa(parts.arm, force))
     return out | {
         "thickness_mm": _known(parts.arm.thickness),
@@ -189,7 +189,7 @@ def arm_thickness(of: Designs) -> Columns:
     parts, steel = under_load(of).parts, array(wheel_material(of.spec).allowed_MPa)
     if parts is None or np.isnan(parts.arm.length).all():
         return {}
-    force = under_load(of).part_loads.crank_N * of.loaded
+    force = under_load(of).part_loads.wheel_N * of.loaded
     least = arms.least_thickness_mm(parts.arm, force, steel.ravel())
     return {"least_thickness_mm": _known(np.where(np.isfinite(force), least, force))}
 
