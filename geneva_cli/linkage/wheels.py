@@ -144,15 +144,15 @@ def _block_followed(
     wheel = PlacedWheel._make(x[:, None] for x in (centre, rho * rho, sense))
     number = np.zeros(int(samples.which.max(initial=0)) + 1, dtype=int)
     number[samples.which] = np.arange(len(samples.which))
-    row, count = number[ends.which], samples.angle.shape[1] - 1
+    row, count = number[ends.which], len(samples.angle) - 1
     # the samples from entry onwards, over a turn
-    first = samples.at.phi[row, :1]
+    first = samples.at.phi[0, row][:, None]
     entry = first + (ends.at.phi[:, :1] - first) % math.tau
     motion = np.diff(ends.at.phi, axis=1)
-    before = np.count_nonzero(samples.at.phi[row, :-1] <= entry, axis=1)
+    before = np.count_nonzero(samples.at.phi[:-1, row] <= entry[:, 0], axis=0)
     column = before[:, None] + np.arange(count)
     turned = column >= count
-    place = row[:, None] * (count + 1) + column - count * turned
+    place = (column - count * turned) * len(samples.which) + row[:, None]
     phi, *motions = (x.take(place) for x in samples.at[:4])
     since = phi - entry + math.tau * turned
     course = wheel.course(*motions)
