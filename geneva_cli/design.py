@@ -64,10 +64,10 @@ P = ParamSpec("P")
 CURVES = {"arcs": "arcs", "spline": "cubics"}  # forms in which curved walls are written
 
 
-def load(path: str, given: Iterable[str] = (), reverse: bool = False) -> Design:
+def load(path: str, settings: Iterable[str] = (), reverse: bool = False) -> Design:
     """Return the design in a spec file; ``-`` is standard input.
 
-    ``given`` are keys that complete or replace those of the file, as ``["drive.A=0.6"]``. With
+    ``settings`` complete or replace keys of the file, as ``["drive.A=0.6"]``. With
     ``reverse`` it is the same machine turning the other way, as ``Design.backwards``. Raises
     GenevaError, ``FILE:LINE: what is wrong; what would be right``, for a file that cannot be read.
     Every result of the design raises it if the design cannot be built.
@@ -77,7 +77,7 @@ def load(path: str, given: Iterable[str] = (), reverse: bool = False) -> Design:
     """
     from geneva_cli.specfile.reader import read
 
-    text = read(path, given)
+    text = read(path, settings)
     design = Design.of(text.spec(), text)
     return design.backwards if reverse else design
 
@@ -93,13 +93,17 @@ def answer(make: Callable[[Any], T]) -> cached_property[T]:
 
 
 def question(ask: Callable[Concatenate[Any, P], T]) -> Callable[Concatenate[Any, P], T]:
-    """A method that takes NumPy's scalars as Python's numbers, and refuses an unknown keyword."""
+    """A method that takes NumPy's scalars as Python's numbers; its errors are located as well.
+
+    It refuses an unknown keyword.
+    """
     known = [name for name in ask.__annotations__ if name != "return"]
 
     @wraps(ask)
     def method(design: Any, /, *values: P.args, **named: P.kwargs) -> T:
         refuse_keywords(f"{ask.__name__}()", named, known)
-        return ask(design, *map(plain, values), **{k: plain(v) for k, v in named.items()})
+        keywords = {name: plain(value) for name, value in named.items()}
+        return design._located(lambda: ask(design, *map(plain, values), **keywords))
 
     return method
 
@@ -145,22 +149,22 @@ class Design:
         drive_before: Drive | None = None,
     ) -> None:
         self.spec = Spec(
-            wheel,
-            drive or Crank(),
-            motion,
-            size or Size(),
-            load or Load(),
-            tuple(mass),
-            support or Support(),
-            motor or Motor(),
-            shaft or Shaft(),
-            material_wheel or WheelMaterial(),
-            material_roller or RollerMaterial(),
-            tolerance or Tolerance(),
-            product or Product(),
-            limits or Limits(),
-            drawing or TitleBlock(),
-            title,
+            wheel=wheel,
+            drive=drive or Crank(),
+            motion=motion,
+            size=size or Size(),
+            load=load or Load(),
+            mass=tuple(mass),
+            support=support or Support(),
+            motor=motor or Motor(),
+            shaft=shaft or Shaft(),
+            material_wheel=material_wheel or WheelMaterial(),
+            material_roller=material_roller or RollerMaterial(),
+            tolerance=tolerance or Tolerance(),
+            product=product or Product(),
+            limits=limits or Limits(),
+            drawing=drawing or TitleBlock(),
+            title=title,
             drive_before=drive_before,
         )
         self._text: Text | None = None
@@ -200,7 +204,6 @@ class Design:
                 arguments.append(f"{name}={cut(text, SHOWN_MAX)}")
         return f"Design({', '.join(arguments)})"
 
-    @question
     def with_(self, key: str, value: Any) -> Design:
         """Return the design with one key changed, ``table.key`` as in the file; None: its default.
 
@@ -209,39 +212,13 @@ class Design:
         >>> Design(External(6)).with_("wheel.z", 8).timing.motion_deg
         135.0
         """
-        return Design.of(self.spec.with_(key, value), None)
+        return Design.of(self.spec.with_(key, plain(value)))
 
     def _located(self, make: Callable[[], T]) -> T:
         if self._text is None:
             return make()
         with self._text.located():
             return make()
-
-    @property
-    def frame(self) -> Spec:
-        """The spec, if ``geneva synth`` can seek other machines with its sizes, loads and limits.
-
-        Raises GenevaError where a search has nothing to choose, or does not know the drive.
-
-        >>> Design(External(6)).frame.wheel.z
-        6
-        """
-        return self._located(self._frame)
-
-    def _frame(self) -> Spec:
-        if self.spec.wheel.JUMPS:
-            raise GenevaError(
-                f'--from: gearing = "{self.spec.wheel.NAME}" has no motion to choose, as its speed '
-                'jumps to a constant: use "external", "internal", "spherical" or "linear"',
-                ("wheel", "gearing"),
-            )
-        if self.spec.drive_before:
-            raise GenevaError(
-                "--from: synth finds the numbers of each drive by the input's angle, which "
-                "[drive.before] would change: remove it; `geneva sweep --best` varies both drives",
-                ("drive", "before"),
-            )
-        return self.spec
 
     @answer
     def with_units(self) -> list[str]:
@@ -358,26 +335,23 @@ class Design:
         from geneva_cli.analysis.certificate import LIMIT, certificate
 
         limit = LIMIT if intervals is None else intervals
-        return self._located(lambda: certificate(self.mechanism, quantity, limit))
+        return certificate(self.mechanism, quantity, limit)
 
-    @answer
-    def certified_table(self) -> Table:
-        """The peaks, and a table of their certificates; as ``geneva peaks --certify`` prints json.
+    @question
+    def certified_peaks(self, for_people: bool = False) -> Table:
+        """The peaks with the certificate of each; as ``geneva peaks --certify`` prints json.
 
-        >>> table = Design(External(6)).certified_table
-        >>> [row["proved"] for row in table.to_dict()["certificate"]]
+        Each is a row of a table; ``for_people`` it is a line of text.
+
+        >>> design = Design(External(6))
+        >>> [row["proved"] for row in design.certified_peaks().to_dict()["certificate"]]
         [True, True, True, True]
-        """
-        return self._certified(for_people=False)
-
-    @answer
-    def certified_page(self) -> Table:
-        """The peaks, and their certificates in words.
-
-        >>> Design(External(6)).certified_page.to_dict()["certificate"][2]
+        >>> design.certified_peaks(for_people=True).to_dict()["certificate"][2]
         'jerk.max in [5.99999999999999, 6.00000000000000], unique, proved'
         """
-        return self._certified(for_people=True)
+        from geneva_cli.analysis.certificate import with_certificates
+
+        return with_certificates(self.peaks_table, self.mechanism, for_people)
 
     @question
     def certified_loads(self, for_people: bool = False) -> Table:
@@ -392,14 +366,9 @@ class Design:
         from geneva_cli.analysis.certificate import load_certificates
         from geneva_cli.table import record_table
 
-        found = self._located(lambda: load_certificates(self.mechanism, for_people))
         own = {"spec": self.spec.path, "title": self.spec.title or None}
-        return record_table(own | {"certificate": found})
-
-    def _certified(self, for_people: bool) -> Table:
-        from geneva_cli.analysis.certificate import with_certificates
-
-        return with_certificates(self.peaks_table, self.mechanism, for_people)
+        certificates = load_certificates(self.mechanism, for_people)
+        return record_table(own | {"certificate": certificates})
 
     @question
     def motion(self, samples: int = 361, turns: int | None = None) -> Table:
@@ -414,12 +383,9 @@ class Design:
         from geneva_cli.analysis.electronic_cam import periods
         from geneva_cli.analysis.motion import motion_table, turns_table
 
-        def table() -> Table:
-            if turns is None:
-                return motion_table(self.mechanism, samples)
-            return turns_table(self.mechanism, samples, periods(self.mechanism, turns))
-
-        return self._located(table)
+        if turns is None:
+            return motion_table(self.mechanism, samples)
+        return turns_table(self.mechanism, samples, periods(self.mechanism, turns))
 
     @question
     def figure(self, pick: Sequence[str] = ()) -> Figure:
@@ -434,7 +400,7 @@ class Design:
         """
         from geneva_cli.loads.figures import figure
 
-        return self._located(lambda: figure({self.spec.title: self.cycle}, pick)[0])
+        return figure({self.spec.title: self.cycle}, pick)[0]
 
     @answer
     def cycle(self) -> Cycle:
@@ -535,18 +501,6 @@ class Design:
 
         return below_summary(self._loads(for_people=True), without=("title",))
 
-    @answer
-    def load_warnings(self) -> list[Notice]:
-        """Warnings about the loads and what the wheel carries, and notes on unknown loads.
-
-        >>> Design(External(6), load=Load(torque_Nm=15)).load_warnings[0]
-        'contact_stress_MPa: needs face_width_mm in [size]'
-        """
-        from geneva_cli.loads.summary import missing
-        from geneva_cli.verdict.warnings import under_load
-
-        return [*under_load(self.mechanism), *missing(self.cycle)]
-
     @question
     def load_cycle(self, samples: int = 361) -> Table:
         """``samples`` rows of the loads over a period with dwells, evenly spaced in input angle.
@@ -556,7 +510,7 @@ class Design:
         """
         from geneva_cli.loads.summary import cycle_table
 
-        return self._located(lambda: cycle_table(self.cycle, samples))
+        return cycle_table(self.cycle, samples)
 
     @question
     def vibration(self, period_ratio: float | None = None, damping: float | None = None) -> Table:
@@ -573,11 +527,7 @@ class Design:
         from geneva_cli.analysis.vibration.answers import vibration_table
         from geneva_cli.analysis.vibration.oscillator import oscillator
 
-        return self._located(
-            lambda: vibration_table(
-                self.mechanism, oscillator(self.mechanism, period_ratio, damping)
-            )
-        )
+        return vibration_table(self.mechanism, oscillator(self.mechanism, period_ratio, damping))
 
     @question
     def spectrum(
@@ -592,11 +542,8 @@ class Design:
         from geneva_cli.analysis.vibration.answers import spectrum
         from geneva_cli.analysis.vibration.oscillator import required_oscillator
 
-        return self._located(
-            lambda: spectrum(
-                self.mechanism, required_oscillator(self.mechanism, period_ratio, damping), samples
-            )
-        )
+        shaft = required_oscillator(self.mechanism, period_ratio, damping)
+        return spectrum(self.mechanism, shaft, samples)
 
     @question
     def slot(self, tolerance_mm: float = 0.001, samples: int | None = None) -> Table:
@@ -625,8 +572,9 @@ class Design:
         """
         from geneva_cli.drawings.catalogue import part_table
 
-        return self._located(lambda: part_table(self.mechanism, part, tolerance_mm, samples))
+        return part_table(self.mechanism, part, tolerance_mm, samples)
 
+    @question
     def is_table(self, part: str, drawn: bool) -> bool:
         """Return True if a part is a table of points; ``drawn`` means that a drawing is requested.
 
@@ -636,7 +584,7 @@ class Design:
         """
         from geneva_cli.drawings.catalogue import is_table
 
-        return self._located(lambda: is_table(self.mechanism, part, drawn))
+        return is_table(self.mechanism, part, drawn)
 
     @answer
     def parts_model(self) -> PartsModel:
@@ -672,12 +620,11 @@ class Design:
         from geneva_cli.drawings.model import PartsModel
         from geneva_cli.outlines.outlines import outlines
 
-        mechanism = self._located(lambda: machine_of(self.mechanism, part))
+        mechanism = machine_of(self.mechanism, part)
         require_tolerance(mechanism, tolerance_mm)
         if not mechanism.spec.is_flat and is_alone(mechanism, part):
             return PartsModel(mechanism)
-        cut_parts = self._located(lambda: outlines(mechanism, tolerance_mm))
-        return PartsModel(mechanism, cut_parts)
+        return PartsModel(mechanism, outlines(mechanism, tolerance_mm))
 
     @question
     def drawing(
@@ -704,12 +651,12 @@ class Design:
 
         if curves not in CURVES:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
-        model, of_curves = of or self.drawn(tolerance_mm, part), CURVES[curves]
-        picture = self._located(lambda: part_drawing(model, part, tolerance_mm, of_curves))
+        model = of or self.drawn(tolerance_mm, part)
+        picture = part_drawing(model, part, tolerance_mm, CURVES[curves])
         if dog_bones_mm is not None:
             from geneva_cli.drawings.milling import with_dog_bones
 
-            picture = self._located(lambda: with_dog_bones(picture, model, dog_bones_mm))
+            picture = with_dog_bones(picture, model, dog_bones_mm)
         if centre_marks:
             from geneva_cli.drawings.centre_marks import with_centre_marks
 
@@ -720,7 +667,7 @@ class Design:
         from geneva_cli.drawings.catalogue import require_cut
 
         require_cut(part)
-        return self._located(lambda: paths(picture, kerf_mm))
+        return paths(picture, kerf_mm)
 
     @question
     def cutter(
@@ -769,7 +716,7 @@ class Design:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
         model = of or self.drawn(tolerance_mm, part)
         with writing_in(units):
-            return self._located(lambda: part_sheet(model, part, tolerance_mm, CURVES[curves]))
+            return part_sheet(model, part, tolerance_mm, CURVES[curves])
 
     @question
     def save(
@@ -794,16 +741,13 @@ class Design:
         from geneva_cli.drawings.catalogue import PARTS, is_sheet
         from geneva_cli.output import draw, draw_sheet, show
         from geneva_cli.output.formats import (
+            curve_tolerance,
             is_drawn,
-            of_curves,
             sheet_as,
             usual_curves,
-            usual_tolerance,
         )
 
-        if tolerance_mm is None:
-            tolerance_mm = usual_tolerance(path, "")
-        tolerance_mm = of_curves(tolerance_mm, path, "")
+        tolerance_mm = curve_tolerance(tolerance_mm, path, "")
         stem = os.path.splitext(os.path.basename(path))[0]
         part = part or (stem if stem in PARTS else "assembly")
         sheet, files = is_sheet(part), self.spec.files
@@ -856,7 +800,7 @@ class Design:
 
         allowed = Range(0.0, self.mechanism.roller_radius_mm, "(]")
         require_mm("--proof", to_mm, allowed, "the roller's radius")
-        return self._located(lambda: self._judged(to_mm))
+        return self._judged(to_mm)
 
     def _judged(self, proof_mm: float | None) -> list[Check]:
         from geneva_cli.verdict.advice import judged
@@ -878,6 +822,7 @@ class Design:
 
         return all_pass(self.checks)
 
+    @question
     def judge(self, model: PartsModel) -> tuple[str, list[str]]:
         """The reason why drawn parts cannot be written, empty if they can; and other problems.
 
@@ -888,7 +833,7 @@ class Design:
         from geneva_cli.verdict.advice import judged
         from geneva_cli.verdict.failures import failures
 
-        return self._located(lambda: failures(judged(model.mechanism, model), model))
+        return failures(judged(model.mechanism, model), model)
 
     @question
     def tolerance(
@@ -903,9 +848,7 @@ class Design:
         """
         from geneva_cli.verdict.tolerance.tables import tolerance_table
 
-        return self._located(
-            lambda: tolerance_table(self.mechanism, self.parts_model, samples, seed, radius_mm)
-        )
+        return tolerance_table(self.mechanism, self.parts_model, samples, seed, radius_mm)
 
     @question
     def tolerance_histogram(self, samples: int = 65536, seed: int = 0) -> Table:
@@ -919,9 +862,7 @@ class Design:
         """
         from geneva_cli.verdict.tolerance.tables import histogram_table
 
-        return self._located(
-            lambda: histogram_table(self.mechanism, self.parts_model, samples, seed)
-        )
+        return histogram_table(self.mechanism, self.parts_model, samples, seed)
 
     @answer
     def motion_warnings(self) -> list[Notice]:

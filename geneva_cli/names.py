@@ -5,7 +5,7 @@ Headings and sentences have short words (``spoken``), documents longer ones (``d
 
 from __future__ import annotations
 
-# Units by the ending of a name; a longer ending stands before a shorter one with the same end.
+# Units by the ending of a name, of which the longest counts.
 UNITS = {
     # for people who asked for inches
     "_lbf_in_rad": "lbf in/rad",
@@ -113,7 +113,7 @@ def unit_of(name: str) -> str | None:
     ('rad/s', None)
     """
     last = "_" + name.rpartition(".")[2]  # a column may be its unit alone, such as rpm
-    return next((unit for end, unit in UNITS.items() if last.endswith(end)), None)
+    return UNITS.get(_unit_end(last))
 
 
 def spoken(name: str) -> tuple[str, str]:
@@ -147,8 +147,15 @@ def described(name: str) -> tuple[str, str]:
 
 def _divided(name: str) -> tuple[str, str]:
     """A name without its unit's ending, and the unit."""
-    end = next((end for end in UNITS if name.endswith(end)), "")
+    end = _unit_end(name)
     return name.removesuffix(end), UNITS.get(end, "")
+
+
+def _unit_end(name: str) -> str:
+    """The longest ending of a name that is a unit; empty without one."""
+    _, *parts = name.split("_")
+    ends = ("_" + "_".join(parts[start:]) for start in range(len(parts)))
+    return next((end for end in ends if end in UNITS), "")
 
 
 def _worded(name: str, bare: str, words: dict[str, str]) -> str:

@@ -95,15 +95,15 @@ class _Messages(io.TextIOWrapper):
         lines = [cut(line, 4000) for line in text.split("\n")]
         # A carriage return or an escape begins a movement of the cursor.
         if max(map(len, lines)) > NARROWEST and self.isatty() and not {"\r", "\x1b"} & set(text):
-            lines = [part for line in lines for part in _broken(line, _columns())]
+            lines = [part for line in lines for part in _broken(line, columns())]
         super().write("\n".join(lines))
         return len(text)
 
 
-def _columns() -> int:
-    """The width of the terminal that shows messages."""
-    columns = os.environ.get("COLUMNS", "")
-    return int(columns) if columns.isdigit() else os.get_terminal_size(2).columns
+def columns() -> int:
+    """The width of the terminal that shows messages, in letters."""
+    width = os.environ.get("COLUMNS", "")
+    return (int(width) if width.isdigit() else os.get_terminal_size(2).columns) or 80
 
 
 def _broken(line: str, width: int) -> list[str]:

@@ -116,12 +116,14 @@ class Table(NamedTuple):
     def __len__(self) -> int:
         return len(self.columns[0]) if self.columns else 0
 
+    def slices(self, size: int) -> Iterator[list[Any]]:
+        """Slices of all columns, ``size`` rows at a time, so that memory stays flat."""
+        for start in range(0, len(self), size):
+            yield [column[start : start + size] for column in self.columns]
+
     def blocks(self, size: int = 8192) -> Iterator[list[tuple[Any, ...]]]:
         """Rows as plain Python values, in blocks, so that memory stays flat."""
-        for start in range(0, len(self), size):
-            part = [c[start : start + size] for c in self.columns]
-            lists = [p if isinstance(p, (list, tuple)) else p.tolist() for p in part]
-            yield list(zip(*lists, strict=True))
+        return map(plain_rows, self.slices(size))
 
     def rows(self) -> Iterator[tuple[Any, ...]]:
         """The rows, one by one."""
@@ -132,6 +134,22 @@ class Table(NamedTuple):
         """The table with some fields replaced; _replace would check their number against len()."""
         own: dict[str, Any] = dict(zip(self._fields, self, strict=True))
         return Table(**own | fields)
+
+    def changed(self, change: Callable[[Sequence[Any]], Sequence[Any]]) -> Table:
+        """The table with columns that ``change`` makes of its own, of equal length.
+
+        A table that is computed while it is written is changed then, piece by piece.
+        """
+        first = self.columns[0] if self.columns else None
+        if not isinstance(first, Column):
+            return self.replaced(columns=change(self.columns))
+        source = first.pieces
+
+        def make(start: int, stop: int) -> Sequence[Any]:
+            return change(source.make(start, stop))
+
+        columns = pieces(source.length, len(self.columns), make)
+        return self.replaced(columns=columns)
 
     def to_dict(self) -> dict[str, Any]:
         """Columns by name, numbers as arrays; a record's values by name, tables in it as rows.
@@ -226,8 +244,8 @@ class _ColumnPieces:
 class Column:
     """One column of such a table, with a length and slices within a piece."""
 
-    def __init__(self, pieces: _ColumnPieces, number: int, dtype: str = "float64") -> None:
-        self.pieces, self.number, self.dtype = pieces, number, dtype
+    def __init__(self, pieces: _ColumnPieces, number: int) -> None:
+        self.pieces, self.number = pieces, number
 
     def __len__(self) -> int:
         return self.pieces.length
@@ -237,36 +255,28 @@ class Column:
         return self.pieces.at(start)[self.number][rows.start - start : rows.stop - start]
 
 
-def pieces(
-    length: int, count: int, make: Callable[[int, int], Sequence[Any]], dtype: str = "float64"
-) -> list[Column]:
-    """``count`` columns of numbers, whose rows ``make(start, stop)`` gives as arrays.
+def pieces(length: int, count: int, make: Callable[[int, int], Sequence[Any]]) -> list[Column]:
+    """``count`` columns, whose rows ``make(start, stop)`` gives as arrays, or lists with None.
 
-    ``dtype`` is "object" for columns that may be lists with None. The table takes the memory of one
-    piece, however many rows are written.
+    The table takes the memory of one piece, however many rows are written.
     """
     rows = _ColumnPieces(length, make)
-    return [Column(rows, number, dtype) for number in range(count)]
+    return [Column(rows, number) for number in range(count)]
 
 
 def computed_table(
-    names: Sequence[str],
-    length: int,
-    make: Callable[[int, int], Sequence[Any]],
-    dtype: str = "float64",
+    names: Sequence[str], length: int, make: Callable[[int, int], Sequence[Any]]
 ) -> Table:
-    """A table whose rows ``make(start, stop)`` gives; a long one is computed as it is written.
-
-    ``dtype`` is that of ``pieces``.
-    """
+    """A table whose rows ``make(start, stop)`` gives; a long one is computed as it is written."""
     is_long = length > WHOLE_ROWS
-    columns = pieces(length, len(names), make, dtype) if is_long else make(0, length)
+    columns = pieces(length, len(names), make) if is_long else make(0, length)
     return Table(tuple(names), columns)
 
 
-def is_floats(column: Any) -> bool:
-    """Return True if a column is an array of doubles."""
-    return not isinstance(column, (list, tuple)) and column.dtype == "float64"
+def plain_rows(columns: Sequence[Any]) -> list[tuple[Any, ...]]:
+    """The rows of columns, arrays or lists, as plain Python values."""
+    lists = [c if isinstance(c, (list, tuple)) else c.tolist() for c in columns]
+    return list(zip(*lists, strict=True))
 
 
 def rows_table(

@@ -23,7 +23,7 @@ from geneva_cli.table import Table, rows_table
 if TYPE_CHECKING:
     from geneva_cli.analysis.certificate_decimals import Formula
     from geneva_cli.numerics.balls import Ball
-    from geneva_cli.numerics.enclosures import Greatest, Interval
+    from geneva_cli.numerics.enclosures import BoundedSpan, Greatest
 
 DECIMALS, DOUBLES = "the decimals as written", "the spec's numbers as doubles"
 LIMIT = 2000  # intervals a motion: 12 times what any design here takes, some seconds
@@ -214,7 +214,7 @@ class _EngagementPeak(NamedTuple):
     engagement: Engagement
     greatest: Greatest
 
-    def shown(self, interval: Interval) -> Place:
+    def shown(self, interval: BoundedSpan) -> Place:
         """An interval of the engagement as the machine's; longer by the rounding of both ends."""
         start = self.mechanism.shown_deg(self.engagement.mid_deg + interval.start)
         # rounding of an angle that is counted from another mid-motion
@@ -222,7 +222,7 @@ class _EngagementPeak(NamedTuple):
         end = interval.end + (start - interval.start)
         return Place(start - slack, end + slack)
 
-    def mirrors(self, one: Interval, other: Interval) -> bool:
+    def mirrors(self, one: BoundedSpan, other: BoundedSpan) -> bool:
         """True if two intervals lie opposite each other in a symmetric motion."""
         apart = abs(one.start + other.end)
         return self.engagement.motion.symmetric and apart < NARROW_DEG

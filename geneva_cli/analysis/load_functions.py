@@ -29,12 +29,11 @@ from geneva_cli.analysis.quantities import PV, QUANTITIES
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Mask, Number, Whole, all_true, array
+from geneva_cli.numerics.arrays import Mask, Number, Which, Whole, all_true, array
 from geneva_cli.numerics.jet import Array, Jet
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.mid_motion import MidMotionValues
-    from geneva_cli.numerics.pieces import Which
     from geneva_cli.numerics.search import Stretches
 
 

@@ -15,7 +15,7 @@ array([1.   , 0.625,   nan])
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -23,12 +23,9 @@ from geneva_cli.kinematics.engagement import Peak, WheelMotion
 from geneva_cli.machine.many import designs_in, selection, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, blocks, joined, parameter
+from geneva_cli.numerics.arrays import Array, Which, blocks, joined, parameter
 from geneva_cli.numerics.extrema import GROUP, Rough, Stationary, greatest_sizes, stationary_points
 from geneva_cli.numerics.tolerances import TIE
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.extrema import Which
 
 ORDERS = {"velocity": 1, "acceleration": 2, "jerk": 3, "power": 2}  # derivatives in the quantity
 QUANTITIES = tuple(ORDERS)

@@ -20,7 +20,7 @@ has peaks of its own, so that its square is searched.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -31,11 +31,8 @@ from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import selection
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
-from geneva_cli.numerics.arrays import Array, parameter
+from geneva_cli.numerics.arrays import Array, Which, parameter
 from geneva_cli.numerics.extrema import greatest_sizes
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.extrema import Which
 
 
 class ProductMotion(NamedTuple):

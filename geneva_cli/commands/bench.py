@@ -35,7 +35,7 @@ def run(
     from geneva_cli.errors import GenevaError, cut
     from geneva_cli.output import show
     from geneva_cli.output.files import write
-    from geneva_cli.output.formats import format_of
+    from geneva_cli.output.formats import is_for_people
 
     if plots:
         from geneva_cli.bench.plot import require, svg
@@ -43,7 +43,7 @@ def run(
         require()
         if not os.path.isdir(plots):
             raise GenevaError(f"--plots {cut(plots, 300)}: no such folder")
-    people = (format or format_of(output)) in ("table", "md")
+    people = is_for_people(output, format)
     rows, absent = [], {}
     for name in names(subject):
         about, results = measure(name, quick)

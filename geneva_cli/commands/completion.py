@@ -24,8 +24,8 @@ def listed(names: Callable[[], Iterable[str]]) -> Callable[[str], list[str]]:
 
     def offer(typed: str) -> list[str]:
         before, comma, begun = typed.rpartition(",")
-        some = words(names)(begun.removeprefix("-"))
-        return [f"{before}{comma}{name}" for name in some if name not in before.split(",")]
+        offered = words(names)(begun)
+        return [f"{before}{comma}{name}" for name in offered if name not in before.split(",")]
 
     return offer
 

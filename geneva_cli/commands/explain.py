@@ -29,7 +29,7 @@ def run(
 ) -> None:
     """Explain a word of the output: meaning, formula, unit, source, what to do, manual page."""
     from geneva_cli.output import show, show_markdown, show_text
-    from geneva_cli.output.formats import format_of
+    from geneva_cli.output.formats import is_for_people
     from geneva_cli.specfile.meanings import Meaning, as_markdown, listed, meanings
     from geneva_cli.table import Reading, rows_table
 
@@ -39,7 +39,7 @@ def run(
         show(table, output, format)
         return
     entries = meanings(word)
-    if (format or format_of(output)) not in ("table", "md"):
+    if not is_for_people(output, format):
         show(rows_table(Meaning._fields, entries), output, format)
     elif output == "-":
         show_markdown(as_markdown(entries))

@@ -59,15 +59,15 @@ def run(
     """
     from geneva_cli.design import load
     from geneva_cli.output import show, show_answer
-    from geneva_cli.output.formats import format_of, table_as
+    from geneva_cli.output.formats import is_for_people, table_as
     from geneva_cli.study.summary.loads import of_loads
 
     design = load(spec, settings or (), reverse)
     if certify:
-        people = table_as(output, format) not in ("json", "csv")
-        show(design.certified_loads(people), output, format, design.spec.files)
+        certificates = design.certified_loads(is_for_people(output, format))
+        show(certificates, output, format, design.spec.files)
         return
-    name = format or format_of(output)
+    name = table_as(output, format)
     by_rows = name == "csv" or (samples is not None and name != "json")
     # before any output: a cycle whose loads are refused has no rows either
     warnings = design.loads_table.to_dict()["warnings"] if by_rows or output != "-" else ()

@@ -29,12 +29,11 @@ def run(
     """
     from geneva_cli.design import load
     from geneva_cli.output import show
-    from geneva_cli.output.formats import table_as
+    from geneva_cli.output.formats import is_for_people
 
     design = load(spec, settings or (), reverse)
     table = design.peaks_table
     if certify:
-        data = table_as(output, format) in ("json", "csv")
-        table = design.certified_table if data else design.certified_page
+        table = design.certified_peaks(is_for_people(output, format))
     show(table, output, format, design.spec.files)
     warn(design)

@@ -21,11 +21,10 @@ from geneva_cli.output.formats import (
     DXF_VERSIONS,
     FILLS,
     FORMATS,
+    curve_tolerance,
     is_drawn,
-    of_curves,
     sheet_as,
     usual_curves,
-    usual_tolerance,
 )
 
 EXAMPLES = (
@@ -120,17 +119,13 @@ def run(
     from geneva_cli.design import load
 
     curves = curves or usual_curves(output, format)
-    if tolerance is None:
-        tolerance = usual_tolerance(output, format)
-    tolerance = of_curves(tolerance, output, format)
-    _require(curves, units)
-    if dog_bones and cutter is None:
-        raise GenevaError("--dog-bones needs the cutter's diameter: --cutter MM")
+    tolerance = curve_tolerance(tolerance, output, format)
+    _require(curves, units, dog_bones, cutter)
     sheet = is_sheet(part)
     drawn = bool(sheet_as(output, format)) if sheet else is_drawn(output, format)
     design = load(spec, settings or ())
-    options = {"version": dxf_version, "fill": fill}
-    own = {key: value for key, value in options.items() if value is not None}
+    own = {"version": dxf_version} if dxf_version is not None else {}
+    own |= {"fill": fill} if fill is not None else {}
     files = design.spec.files
     if not sheet and design.is_table(part, drawn):
         _refuse(kerf, cutter, center_marks, own)
@@ -155,20 +150,13 @@ def run(
     else:
         if cutter is not None:
             require_written(design, design.cutter(part, cutter, dog_bones, model), force)
-        drawing = design.drawing(
-            part,
-            tolerance,
-            curves,
-            model,
-            kerf,
-            cutter if dog_bones else None,
-            center_marks,
-        )
+        bones = cutter if dog_bones else None
+        drawing = design.drawing(part, tolerance, curves, model, kerf, bones, center_marks)
         draw(drawing, output, format, units, files, **own)
     warn(design)
 
 
-def _require(curves: str, units: str) -> None:
+def _require(curves: str, units: str, dog_bones: bool, cutter: float | None) -> None:
     """Raise GenevaError for values with which no drawing can be written."""
     from geneva_cli.curves.pieces import UNITS
     from geneva_cli.design import CURVES
@@ -177,6 +165,8 @@ def _require(curves: str, units: str) -> None:
         raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
     if units not in UNITS:
         raise GenevaError(f"--units {cut(units)}: it must be one of {', '.join(UNITS)}")
+    if dog_bones and cutter is None:
+        raise GenevaError("--dog-bones needs the cutter's diameter: --cutter MM")
 
 
 def _refuse(

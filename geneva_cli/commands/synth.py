@@ -9,7 +9,6 @@ from geneva_cli.commands.options import Format, Output, Settings, flag, option, 
 from geneva_cli.errors import GenevaError, clean, cut
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.spec import Spec
     from geneva_cli.study.target import Target
 
 EXAMPLES = (
@@ -84,7 +83,7 @@ def run(
     """Find the machines that meet all requirements; the lowest peak comes first.
     The machines tried, and the columns: `geneva help search`.
     """
-    from geneva_cli.synthesis.reading import read_target
+    from geneva_cli.synthesis.reading import read_frame, read_target
 
     if settings and not from_:
         raise GenevaError("--set goes with --from: it changes a key of that spec")
@@ -108,7 +107,7 @@ def run(
         carousel=carousel,
         rollers=rollers,
         law=law,
-        frame=_frame(from_, settings or ()) if from_ else None,
+        frame=read_frame(from_, settings or ()) if from_ else None,
         sort=sort,
         subject_to=subject_to or (),
         space=space,
@@ -119,30 +118,24 @@ def run(
         _write(target, write, buildable, output, format)
 
 
-def _frame(path: str, settings: Sequence[str]) -> "Spec":
-    from geneva_cli.design import load
-
-    return load(path, settings).frame
-
-
 def _inputs(target: "Target") -> Sequence[str]:
     """The files that the requirement was read from."""
     return target.frame.files if target.frame else ()
 
 
 def _show(target: "Target", check: int, buildable: bool, output: str, format: str) -> None:
-    from geneva_cli.output import is_seen, show
-    from geneva_cli.output.formats import format_of
+    from geneva_cli.output import is_watched, show
+    from geneva_cli.output.formats import is_for_people
     from geneva_cli.synthesis.shown import for_people, for_terminal
     from geneva_cli.synthesis.table import synthesis_table
 
     if output.endswith(".toml") and not format:
         raise GenevaError(f"-o {cut(output, 300)}: a spec is one row of the table; add --write N")
-    name = format or format_of(output)
+    people = is_for_people(output, format)
     table = synthesis_table(target, check, buildable)
-    if name == "table" and is_seen(output):
+    if is_watched(output, format):
         table = for_terminal(table, max(check, 20))  # no fewer than are turned by default
-    elif name in ("table", "md"):
+    elif people:
         table = for_people(table)
     show(table, output, format, _inputs(target))
 

@@ -26,7 +26,7 @@ def run(
     """
     from geneva_cli.design import load
     from geneva_cli.output import show, show_answer
-    from geneva_cli.output.formats import table_as
+    from geneva_cli.output.formats import is_for_people
     from geneva_cli.study.summary.tolerance import of_tolerance
 
     design = load(spec, settings or ())
@@ -36,7 +36,7 @@ def run(
     table = design.tolerance(samples, seed, radius)
     show_answer(of_tolerance(design, table), output, format, design.spec.files)
     # the warnings of tolerances only
-    if output != "-" or table_as(output, format) in ("json", "csv"):
+    if output != "-" or not is_for_people(output, format):
         warn(design)
     if output != "-":
         say(design.spec.path, table.to_dict()["warnings"])

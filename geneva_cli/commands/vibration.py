@@ -27,11 +27,11 @@ def run(
     """
     from geneva_cli.design import load
     from geneva_cli.output import show, show_answer
-    from geneva_cli.output.formats import format_of
+    from geneva_cli.output.formats import table_as
     from geneva_cli.study.summary.vibration import of_vibration
 
     design = load(spec, settings or (), reverse)
-    if (format or format_of(output)) == "csv":
+    if table_as(output, format) == "csv":
         table = design.spectrum(samples, period_ratio, damping)
         show(table, output, format, design.spec.files)
         return

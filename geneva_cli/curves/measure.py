@@ -141,6 +141,28 @@ def halves(arc: Arc) -> tuple[Arc, Arc]:
     return Arc(arc.start, middle, bulge), Arc(middle, arc.end, bulge)
 
 
+def halved(segment: Segment, is_long: Callable[[float], bool]) -> list[Segment]:
+    """A segment alone; an arc halved until no part ``is_long`` by the size of its bulge."""
+    if isinstance(segment, Arc) and is_long(abs(segment.bulge)):
+        return [part for half in halves(segment) for part in halved(half, is_long)]
+    return [segment]
+
+
+def as_cubic(arc: Arc) -> Cubic:
+    """The cubic with the arc's ends, tangents and middle, within 3e-4 of the radius at 90 degrees.
+
+    Its handles are 4/3 tan(sweep/4) of the radius long; with the bulge b, (1 + b²)/3 of the chord.
+    """
+    (x0, y0), (x1, y1) = arc.start, arc.end
+    long = (1.0 + arc.bulge * arc.bulge) / 3.0
+    half = 0.5 * arc.sweep
+    c, s = long * math.cos(half), long * math.sin(half)
+    x, y = x1 - x0, y1 - y0
+    first = x0 + c * x + s * y, y0 + c * y - s * x
+    second = x1 - c * x + s * y, y1 - c * y - s * x
+    return Cubic(arc.start, first, second, arc.end)
+
+
 def mapped(
     shape: S,
     point: Callable[[Point], Point],

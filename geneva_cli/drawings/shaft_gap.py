@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from typing import NamedTuple, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -26,7 +26,9 @@ from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.gear_pair import PITCH, gear_seats, pitch_radii
 from geneva_cli.parts.pair_teeth import pair_teeth
-from geneva_cli.parts.rack_parts import RackParts
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.rack_parts import RackParts
 
 Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere
 
@@ -74,14 +76,12 @@ def shaft_gap(parts: FlatParts) -> ShaftGap | None:
 
 
 def gear_gap(parts: FlatParts) -> ShaftGap | None:
-    """Return the least gap of noncircular gears to hubs, shafts and spacers; None without them.
+    """Return the least gap of noncircular gears to hubs, shafts and spacers; None without those.
 
     The spacers are those of a fixed gear or a guide above the gears.
 
     Raises GenevaError for sizes that leave no parts.
     """
-    if parts.mechanism.spec.gears is None:
-        return None
     turning = _rings_of((parts.wheel, parts.crank))
     rings = list(_noncircular(parts.mechanism, parts.drawn))
     return _least(parts, turning, rings, parts.spacers)

@@ -70,10 +70,10 @@ class LawMotion(WheelMotion):
 
         def first(x: Number) -> Jet:
             fraction = (x - self.entry_deg) / whole
-            return self.law.near_start(fraction, order) * step - self.half_step
+            return self.law.first(fraction, order) * step - self.half_step
 
         def second(x: Number) -> Jet:
-            rest = self.law.near_end((self.exit_deg - x) / whole, order)
+            rest = self.law.second((self.exit_deg - x) / whole, order)
             return remaining(rest * step, self.half_step)
 
         if not isinstance(input_deg, SINGLE) and input_deg.ndim == 1 and self._halves_alike:

@@ -3,8 +3,6 @@
 The wheel's axis is the origin, and the crank's axis is on the x axis, as in the assembly drawing.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from enum import Enum

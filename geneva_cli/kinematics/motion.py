@@ -1,7 +1,5 @@
 """Motion of a wheel as its spec sets it: a law, an extra dwell angle and R/L."""
 
-from __future__ import annotations
-
 from typing import Annotated, ClassVar, Self
 
 from geneva_cli.kinematics.laws.law import Law

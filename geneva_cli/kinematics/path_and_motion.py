@@ -1,17 +1,8 @@
-"""Engagements with a known pin path and motion, whose curved slot is solved for."""
+"""Curved slots, which are solved for from a known pin path and motion."""
 
 from __future__ import annotations
 
-from geneva_cli.kinematics.engagement import (
-    Anchor,
-    Carrier,
-    Engagement,
-    Slot,
-    WheelMotion,
-    in_wheel,
-)
-from geneva_cli.kinematics.law_motion import LawMotion
-from geneva_cli.kinematics.laws.law import Law
+from geneva_cli.kinematics.engagement import Anchor, Slot, WheelMotion, in_wheel
 from geneva_cli.numerics.arrays import Batchable
 from geneva_cli.numerics.jet import Jet, Number
 
@@ -42,17 +33,3 @@ class SolvedSlot(Slot):
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """Pin (x, y) in the wheel's frame."""
         return in_wheel(self.path(input_deg, order), self.motion(input_deg, order))
-
-
-def engagement(
-    mid_deg: float,
-    motion_deg: float,
-    half_step: float,
-    law: Law,
-    path: MiddlePath,
-    carrier: Carrier,
-) -> Engagement:
-    """Build the engagement of a curved slot whose motion is centred on the line of centres."""
-    half = 0.5 * motion_deg
-    motion = LawMotion(-half, half, half_step, law)
-    return Engagement(mid_deg, path, SolvedSlot(path, motion), motion, carrier)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import ClassVar
 
-from geneva_cli.kinematics.anchors import anchors_of
+from geneva_cli.kinematics.anchors import Anchors
 from geneva_cli.kinematics.engagement import (
     Anchor,
     Carrier,
@@ -34,7 +34,7 @@ class AnchoredPath(Batchable):
     """
 
     def __init__(self, anchors: tuple[Anchor, ...], ahead: float = 0.0) -> None:
-        self.anchors, self.ahead = anchors_of(anchors), ahead
+        self.anchors, self.ahead = Anchors(anchors), ahead
         self._latest, self._latest_nearest = Latest(), Latest()
 
     @property
@@ -189,7 +189,7 @@ class ClassicMotion(StraightSlotMotion):
         return Peak(size, 0.0 - at_deg)
 
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
-        """Wheel angle and its derivatives in closed form, shaped as in ``Motion.derivatives``.
+        """Wheel angle and its derivatives in closed form, shaped as in ``WheelMotion.derivatives``.
 
         Near the ends, angle and velocity are computed from the end to keep their relative accuracy.
         """

@@ -3,8 +3,6 @@
 The formulas hold for jets of floats and of arrays. Lengths are in units of the centre distance L.
 """
 
-from __future__ import annotations
-
 from functools import lru_cache
 from typing import NamedTuple, cast
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import NamedTuple, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypeVar
 
-from geneva_cli.curves.plates import Part
 from geneva_cli.errors import GenevaError
 
+if TYPE_CHECKING:
+    from geneva_cli.curves.plates import Part
+
 T = TypeVar("T")
-NamedParts: TypeAlias = tuple[str, Callable[[], Iterable[Part]]]
+NamedParts: TypeAlias = "tuple[str, Callable[[], Iterable[Part]]]"
 
 
 class Missing(NamedTuple):

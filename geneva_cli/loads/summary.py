@@ -170,7 +170,7 @@ def cycle_table(cycle: Cycle, samples: int) -> Table:
 
     check_samples(samples)
     names = ("time_s", "input_deg", cycle.mechanism.output.column, *SHOWN_QUANTITIES)
-    return computed_table(names, samples, lambda i, j: _rows(cycle, samples, i, j), "object")
+    return computed_table(names, samples, lambda i, j: _rows(cycle, samples, i, j))
 
 
 def _rows(cycle: Cycle, samples: int, begin: int, end: int) -> list[Any]:

@@ -44,6 +44,7 @@ from geneva_cli.numerics.arrays import (
     record_of,
 )
 from geneva_cli.numerics.latest import Latest
+from geneva_cli.spec.rules import is_array
 from geneva_cli.spec.schema import Field, Points, SpecTable, fields, unknown
 
 T = TypeVar("T")
@@ -82,7 +83,7 @@ def many(spec: Spec, varied: Mapping[str, object]) -> Many:
     (n,) of numbers or with one value for all designs. Raises GenevaError for a key that the spec
     does not have. Raises ValueError for arrays of different lengths or keys that cannot be arrays.
     """
-    arrays = {key: np.asarray(v) for key, v in varied.items() if _is_array(v)}
+    arrays = {key: np.asarray(v) for key, v in varied.items() if is_array(v)}
     lengths = {len(values) for values in arrays.values()}
     if len(lengths) != 1 or any(values.ndim != 1 for values in arrays.values()):
         raise ValueError("keys must vary in arrays (n,) of one length")
@@ -184,10 +185,6 @@ def designs_in(thing: object) -> int:
 
     _changed(thing, note, {})
     return max(lengths)
-
-
-def _is_array(value: object) -> bool:
-    return isinstance(value, np.ndarray)
 
 
 def _changed(thing: object, change: Change, done: dict[int, object]) -> object:

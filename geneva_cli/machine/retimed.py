@@ -45,9 +45,10 @@ def retimed(plan: Plan, spec: Spec, in_front: Drive) -> Plan:
     """Return the plan of a spec's drive behind the drive in front of it."""
     before = cast("Transmission", in_front)  # ``compatible`` requires one
     turn = 360.0 * spec.drive.turns
+    periods = round(array(turn / plan.period_deg).flat[0])  # in a turn: as many in all of a batch
     each = tuple(
         _engagement(own, Timing(before, own, k * plan.period_deg), spec, plan.center_distance_mm)
-        for k in range(round(turn / plan.period_deg))
+        for k in range(periods)
         for own in plan.engagements
     )
     return plan._replace(engagements=each, period_deg=turn * before.turns)

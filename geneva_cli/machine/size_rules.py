@@ -69,41 +69,38 @@ def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[tuple[str, float, fl
         what = distance
     elif spec.wheel.FLAT and spec.wheel.SIGN > 0.0:
         narrow, what = smaller(short, L - long), "the crank's arm and the wheel radius inside it"
-    bounds = [
-        ("roller_radius_mm", narrow, what),
-        ("slot_clearance_mm", narrow, what),
-        ("lock_radius_mm", short, "the crank's arm"),
-        ("lock_clearance_mm", short, "the crank's arm"),
-        ("slot_bottom_clearance_mm", L, distance),
-        ("relief_clearance_mm", L, distance),
-        ("wheel_radius_mm", L + long, farthest),
-        ("wheel_bore_mm", 2.0 * L, f"twice {distance}"),
-        ("wheel_hub_mm", 2.0 * L, f"twice {distance}"),
-        ("crank_bore_mm", 2.0 * short, "twice the crank's arm"),
-        ("crank_hub_mm", 2.0 * short, "twice the crank's arm"),
-        ("pin_mm", 2.0 * r, "the roller's diameter"),
-        ("press_fit_mm", 2.0 * r, "the roller's diameter"),
-        ("shaft_fit_mm", 2.0 * r, "the roller's diameter"),
-        ("arm_bore_mm", 2.0 * short, "twice the crank's arm"),
-        ("arm_hub_mm", 2.0 * L, f"twice {distance}"),
-        ("arm_eye_mm", 2.0 * L, f"twice {distance}"),
-        ("dial_bolt_mm", 2.0 * L, f"twice {distance}"),
-        ("dial_bolt_circle_mm", 4.0 * L, f"four times {distance}"),
-        ("gear_bolt_mm", 2.0 * L, f"twice {distance}"),
-        ("gear_bolt_circle_mm", 4.0 * L, f"four times {distance}"),
-        ("link_pin_mm", 2.0 * L, f"twice {distance}"),
-        ("link_bore_mm", 2.0 * L, f"twice {distance}"),
-        ("link_width_mm", 2.0 * L, f"twice {distance}"),
-        ("lock_bolt_mm", 2.0 * short, "twice the crank's arm"),
-        ("lock_bolt_circle_mm", 2.0 * short, "twice the crank's arm"),
-    ]
+    bounds = (
+        (narrow, what, ("roller_radius_mm", "slot_clearance_mm")),
+        (short, "the crank's arm", ("lock_radius_mm", "lock_clearance_mm")),
+        (L, distance, ("slot_bottom_clearance_mm", "relief_clearance_mm")),
+        (L + long, farthest, ("wheel_radius_mm",)),
+        (
+            2.0 * L,
+            f"twice {distance}",
+            (
+                *("wheel_bore_mm", "wheel_hub_mm", "arm_hub_mm", "arm_eye_mm", "dial_bolt_mm"),
+                *("gear_bolt_mm", "link_pin_mm", "link_bore_mm", "link_width_mm"),
+            ),
+        ),
+        (
+            2.0 * short,
+            "twice the crank's arm",
+            (
+                *("crank_bore_mm", "crank_hub_mm", "arm_bore_mm"),
+                *("lock_bolt_mm", "lock_bolt_circle_mm"),
+            ),
+        ),
+        (2.0 * r, "the roller's diameter", ("pin_mm", "press_fit_mm", "shaft_fit_mm")),
+        (4.0 * L, f"four times {distance}", ("dial_bolt_circle_mm", "gear_bolt_circle_mm")),
+    )
     allowed = size.allowances._asdict()  # from the process, where a key is left out
-    for key, below, what in bounds:
-        value = allowed.get(key, getattr(size, key))
-        if value is not None and getattr(size, key) is None:
-            what += f'; the value comes from process = "{size.process}"'
-        if value is not None:
-            yield key, value, below, what
+    for below, meaning, keys in bounds:
+        for key in keys:
+            own = getattr(size, key)
+            value = allowed.get(key, own)
+            if value is not None:
+                by = "" if own is not None else f'; the value comes from process = "{size.process}"'
+                yield key, value, below, meaning + by
 
 
 def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:

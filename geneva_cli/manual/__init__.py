@@ -28,23 +28,23 @@ GROUPS: dict[str, dict[str, str]] = {
         "stop-swinging": "stop the load from swinging",
         "product": "see what the product on the dial feels",
         "find-tolerances": "find the tolerances that matter",
+        "plots": "plot curves and show the machine moving",
+        "write-report": "write a report",
+        "drawing-sheet": "make a drawing with dimensions",
         "laser": "cut it with a laser",
         "mill": "mill it",
         "print": "print it",
-        "hand-over": "hand over to a shop",
-        "drawing-sheet": "make a drawing with dimensions",
-        "browser": "a page with spec, verdict and machine; nothing to install",
-        "step-cad": "hand over a STEP to CAD",
-        "inches": "work in inches and pounds",
-        "cad-code": "go on in build123d, FreeCAD or OpenSCAD",
         "spherical-sheet": "cut a spherical wheel from sheet",
+        "step-cad": "hand over a STEP to CAD",
+        "cad-code": "go on in build123d, FreeCAD or OpenSCAD",
+        "hand-over": "hand over to a shop",
+        "inches": "work in inches and pounds",
         "electronic-cam": "replay the motion by a servo",
-        "write-report": "write a report",
-        "plots": "plot curves and show the machine moving",
         "sweep-front": "sweep a million designs and plot the front",
         "cluster": "run a sweep on a cluster",
         "ci": "gate a CI job",
         "notebook": "use it from a notebook",
+        "browser": "run it in a browser, with nothing to install",
         "published-table": "compare with a published table",
     },
     "reference": {
@@ -109,13 +109,13 @@ def search(word: str) -> list[Hit]:
     wanted = re.compile(rf"(?<![^\W\d_]){re.escape(word)}", re.IGNORECASE)
     hits: dict[tuple[str, str], Hit] = {}
     for topic in TOPICS:
-        section, is_example = "", False
+        section, fence = "", ""
         for line in page(topic).splitlines():
             if line.startswith("```"):
-                is_example = line == "```console"
-            elif is_example and not line.startswith("$ "):
+                fence = "" if fence else line
+            elif fence == "```console" and not line.startswith("$ "):
                 continue
-            elif line.startswith("#"):
+            elif not fence and line.startswith("#"):  # in code it is a comment
                 section = line.lstrip("# ")
             if wanted.search(line):
                 hits.setdefault((topic, section), Hit(topic, section, _excerpt(line, wanted)))

@@ -6,8 +6,6 @@ first paragraph is the meaning. Items with a label have the fields: ``- Formula:
 for later entries too whose names begin with the same word.
 """
 
-from __future__ import annotations
-
 import os
 import re
 from functools import cache
@@ -77,7 +75,9 @@ def _read(page: str) -> list[Entry]:
 def _entry(page: str, section: str) -> Entry:
     heading, _, text = section.partition("\n")
     meaning = text.strip().partition("\n\n")[0]
-    item = re.compile(r"^- ([A-Z][a-z ]*): (.*(?:\n  .*)*)", re.MULTILINE)
-    items = {label.lower().replace(" ", "_"): words for label, words in item.findall(text)}
-    texts = {label: " ".join(words.split()).strip("`") for label, words in items.items()}
+    items = re.findall(r"^- ([A-Z][a-z ]*): (.*(?:\n  .*)*)", text, re.MULTILINE)
+    texts = {
+        label.lower().replace(" ", "_"): " ".join(words.split()).strip("`")
+        for label, words in items
+    }
     return Entry(page, tuple(heading.split(", ")), " ".join(meaning.split()), **texts)

@@ -38,39 +38,13 @@ def sin_cos_pi(p: int, q: int) -> tuple[float, float]:
 def one_minus_sin_pi(p: int, q: int) -> float:
     """1 - sin(pi p/q), correctly rounded even near 0.
 
-    Arrays of designs are within 2 units in the last place unless p is a whole number.
+    Arrays of designs are within 4 units in the last place unless p is a whole number.
     """
     if isinstance(p, int) and isinstance(q, int):
         return (_ONE - scaled_sin_cos(p, q)[0]) / _ONE
     if not _whole(p):
         return 2.0 * _sin_cos_degrees(45.0 - 90.0 / q * p)[0] ** 2
     return of_each(lambda p, q: (one_minus_sin_pi(p, q),), p, q)[0]
-
-
-def cos_squared_less(p: int, q: int, x: float) -> float:
-    """cos²(pi p/q) - x for an exact double x, to the last digit however near to 0 it is.
-
-    The square is rounded to 112 bits, to which its series are exact: cos² 30° is 3/4. In arrays the
-    difference is rounded once more.
-    """
-    if isinstance(p, int) and isinstance(q, int) and isinstance(x, float):
-        n, d = x.as_integer_ratio()
-        return (_cos_squared(p, q) * d - (n << 112)) / (d << 112)
-    high, low = of_each(_cos_squared_parts, p, q)
-    return (high - x) + low
-
-
-def _cos_squared(p: int, q: int) -> int:
-    """cos²(pi p/q) times 2**112."""
-    drop = 2 * 128 - 112
-    return (scaled_sin_cos(p, q)[1] ** 2 + (1 << drop - 1)) >> drop
-
-
-def _cos_squared_parts(p: int, q: int) -> tuple[float, float]:
-    """cos²(pi p/q) as a double, and the remainder."""
-    square, scale = _cos_squared(p, q), 1 << 112
-    high = square / scale
-    return high, (square - int(high * 2.0**112)) / scale
 
 
 def _whole(p: int) -> bool:
@@ -111,29 +85,16 @@ def of_each(f: Callable[..., tuple[float, ...]], *numbers: float) -> list[float]
 
 
 def _sin_cos_degrees(degrees: Array) -> tuple[Array, Array]:
-    """Sine and cosine of angles in degrees: reduced exactly, converted to radians in two parts."""
+    """Sine and cosine of angles in degrees, which are reduced exactly to 45 at most."""
     import numpy as np
 
     quarters = np.rint(degrees / 90.0)
-    x = degrees - 90.0 * quarters
-    high = x * DEGREE
-    # x DEGREE - high by Dekker's product of halves
-    (a, b), (d, e) = _halves(x), _halves(DEGREE)
-    rest = 2.9486522708701687e-19  # pi/180 - DEGREE
-    low = ((a * d - high) + a * e + b * d) + b * e + x * rest
-    s, c = np.sin(high), np.cos(high)
-    s, c = s + low * c, c - low * s
+    x = (degrees - 90.0 * quarters) * DEGREE
+    s, c = np.sin(x), np.cos(x)
     odd, past = quarters % 2.0 == 1.0, quarters % 4.0
     sine, cosine = np.where(odd, c, s), np.where(odd, s, c)
     behind = (past == 1.0) | (past == 2.0)
     return np.where(past >= 2.0, -sine, sine), np.where(behind, -cosine, cosine)
-
-
-def _halves(x: N) -> tuple[N, N]:
-    """A double as a sum of two of 26 bits (Veltkamp)."""
-    big = 134217729.0 * x
-    high = big - (big - x)
-    return high, x - high
 
 
 @lru_cache(4096)

@@ -161,48 +161,34 @@ def _chosen(condition: Mask, yes: object, no: object) -> object:
     return choose(condition, cast("Number", yes), cast("Number", no))
 
 
-def chosen(x: Number, cuts: Sequence[Number], records: Sequence[Record]) -> Record:
-    """``records[i]`` for x between ``cuts[i-1]`` and ``cuts[i]``, the upper end included.
+def picked(index: Whole, records: Sequence[Record], designs: int = 1) -> Record:
+    """The record of each index, (k,) or (n, k), its numbers as arrays where they differ.
 
-    x or the cuts are arrays of designs; the record's numbers are chosen for each x.
-    """
-    out = records[0]
-    for cut, record in zip(cuts, records[1:], strict=True):
-        past = x > cut
-        if all_true(past):
-            out = record
-        elif not isinstance(past, bool) and past.any():
-            out = choose_record(past, record, out)
-        else:
-            break
-    return out
-
-
-def picked(index: Whole, records: Sequence[Record]) -> Record:
-    """The record of each index, its numbers as arrays of the index's shape where they differ.
-
-    Records are tuples of the same shape; what they hold besides numbers is the same in all.
+    Records are tuples of the same shape; what they hold besides numbers is the same in all. Numbers
+    are floats, or arrays (n, 1) of n ``designs``.
 
     >>> import numpy as np
     >>> picked(np.array([1, 0, 1]), ((1.0, 5.0), (2.0, 5.0)))
     (array([2., 1., 2.]), 5.0)
     """
-    first = records[0]
-    if all(one is first for one in records):
-        return first
-    return record_of(first, [_picked(index, members) for members in zip(*records, strict=True)])
-
-
-def _picked(index: Whole, members: Sequence[object]) -> object:
-    """One member of each index's record: a number, a record, or an object that all share."""
-    first = members[0]
-    if isinstance(first, tuple):
-        return picked(index, cast("Sequence[tuple[object, ...]]", members))
-    if all(one == first for one in members):
-        return first
     import numpy
 
-    return numpy.array(members)[index]
+    # designs lie side by side in memory
+    at = index.T if designs == 1 else index.T * designs + numpy.arange(designs)
+
+    def member(members: Sequence[object]) -> object:
+        first = members[0]
+        if isinstance(first, tuple):
+            return record_of(first, [member(one) for one in zip(*members, strict=True)])
+        if all(one is first for one in members):
+            return first
+        if all(isinstance(one, _PLAIN) for one in members):
+            same = all(one == first for one in members)
+            return first if same else numpy.array(members).take(index.T).T
+        columns = numpy.broadcast_arrays(*cast("Sequence[Array]", members))
+        return numpy.concatenate(columns).reshape(-1).take(at).T
+
+    return cast("Record", member(records))
 
 
 def record_of(like: Record, parts: Sequence[object]) -> Record:
@@ -259,13 +245,8 @@ def blocks(count: int, size: int) -> list[slice]:
     return [slice(i, min(i + size, count)) for i in range(0, count, size)] or [slice(0, 0)]
 
 
-def is_plain(one: object) -> bool:
-    """Return True for a Python number."""
-    return isinstance(one, _PLAIN)
-
-
-def are_alike(records: Sequence[object], is_number: Callable[[object], bool] = is_plain) -> bool:
-    """Return True if records differ in numbers only, as ``picked`` requires.
+def are_alike(records: Sequence[object]) -> bool:
+    """Return True if records differ in Python numbers only, as ``picked`` requires.
 
     >>> are_alike(((1.0, len), (2.0, len))), are_alike(((1.0, len), (2.0, max)))
     (True, False)
@@ -274,8 +255,8 @@ def are_alike(records: Sequence[object], is_number: Callable[[object], bool] = i
     if all(one is first for one in records):
         return True
     if isinstance(first, tuple):
-        return all(are_alike(each, is_number) for each in zip(*records, strict=True))
-    return all(map(is_number, records))
+        return all(are_alike(each) for each in zip(*records, strict=True))
+    return all(isinstance(one, _PLAIN) for one in records)
 
 
 def are_designs(x: Number, *numbers: Number) -> bool:
@@ -303,36 +284,6 @@ def ascending(places: Sequence[float]) -> list[float]:
 def size(x: N) -> N:
     """The absolute value."""
     return x.__abs__()
-
-
-def plus(total: Number, more: Number) -> Number:
-    """The sum of two numbers; the first, if an array, is changed in place.
-
-    That takes half the time.
-    """
-    if _are_alike(total, more):
-        total += more
-        return total
-    return total + more
-
-
-def minus(total: Number, less: Number) -> Number:
-    """The difference of two numbers; the first, if an array, is changed in place."""
-    if _are_alike(total, less):
-        total -= less
-        return total
-    return total - less
-
-
-def _are_alike(one: Number, other: Number) -> bool:
-    """Return True if both are arrays of one shape and kind."""
-    single = (*_PLAIN, Enclosed)
-    if isinstance(one, single) or isinstance(other, single):
-        return False
-    import numpy
-
-    both = isinstance(one, numpy.ndarray) and isinstance(other, numpy.ndarray)
-    return both and one.shape == other.shape and one.dtype == other.dtype
 
 
 def designs_of(design: int | Whole) -> int:

@@ -82,31 +82,17 @@ def _sum(terms: Array) -> Array:
     return np.asarray(np.add.reduce(terms))
 
 
-def _halves(matrix: Array) -> tuple[Array, Array]:
-    """The matrices (9, n) and (8, n) that act on ``_even_and_odd`` values, of one (17, n)."""
-    first, mirrored = matrix[:MIDDLE], matrix[:MIDDLE:-1]
-    return np.concatenate((0.5 * (first + mirrored), matrix[[MIDDLE]])), 0.5 * (first - mirrored)
-
-
 POINTS = _even_spread(SERIES_DEGREE)  # where functions are sampled
-HALF = SERIES_DEGREE  # cells from -1 to 0 of the grid where signs are compared: two for each point
-GRID = _even_spread(2 * HALF)
+GRID = _even_spread(2 * SERIES_DEGREE)  # where signs are compared: two cells for each point
 _SERIES = _to_series()
 _SLOPES = _to_slopes()
-# to terms of even and of odd degree, and to values and slopes on the grid's first half
-_EVEN_TERMS, _ODD_TERMS = _halves(_SERIES[:, 0::2])[0], _halves(_SERIES[:, 1::2])[1]
-_FIRST_HALF = _terms(GRID[: HALF + 1])
-_ON_GRID = _halves(_product(_SERIES, _FIRST_HALF))
-_SLOPES_ON_GRID = _halves(_product(_product(_SERIES, _SLOPES), _FIRST_HALF))
+_ON_GRID = _product(_SERIES, _terms(GRID))
+_SLOPES_ON_GRID = _product(_product(_SERIES, _SLOPES), _terms(GRID))
 
 
 def series(values: Array) -> Array:
     """The terms of the series of values (m, points): (terms, m)."""
-    even, odd = _even_and_odd(values)
-    out = np.empty((SERIES_DEGREE + 1, len(values)))
-    out[0::2] = _product(even, _EVEN_TERMS).T
-    out[1::2] = _product(odd, _ODD_TERMS).T
-    return out
+    return _product(values, _SERIES).T
 
 
 def slopes(terms: Array) -> Array:
@@ -123,26 +109,7 @@ def remainder(values: Array) -> Array:
 
 def on_grid(values: Array) -> tuple[Array, Array]:
     """Values and slopes of the series at ``GRID``."""
-    even, odd = _even_and_odd(values)
-    value = _both_halves(_product(even, _ON_GRID[0]), _product(odd, _ON_GRID[1]))
-    # the slope of an odd function is even
-    slope = _both_halves(_product(odd, _SLOPES_ON_GRID[1]), _product(even, _SLOPES_ON_GRID[0]))
-    return value, slope
-
-
-def _even_and_odd(values: Array) -> tuple[Array, Array]:
-    """Sums (m, points) and differences of values at mirrored points, which halve all products."""
-    first, mirrored = values[:, :MIDDLE], values[:, :MIDDLE:-1]
-    middle = values[:, MIDDLE : MIDDLE + 1]
-    return np.concatenate((first + mirrored, middle), axis=1), first - mirrored
-
-
-def _both_halves(even: Array, odd: Array) -> Array:
-    """Even plus odd functions on the whole grid, from their values on its first half."""
-    out = np.empty((len(GRID), len(even)))
-    np.add(even.T, odd.T, out=out[: HALF + 1])
-    np.subtract(even.T, odd.T, out=out[::-1][: HALF + 1])
-    return out.T
+    return _product(values, _ON_GRID), _product(values, _SLOPES_ON_GRID)
 
 
 def at(terms: Array, t: Array) -> Array:

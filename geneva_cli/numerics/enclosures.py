@@ -4,10 +4,10 @@ A function is given by its Taylor coefficients at a ball. On an interval of half
 enclosure is the sum of c_k(m) t^k for k < ORDER and c_ORDER(interval) t^ORDER, with |t| <= h: the
 theorem of Taylor, with Lagrange's remainder. The same holds for its first two derivatives.
 
-An interval is settled if its values lie below the greatest that is known (by more than the share
-``TIE``, so that equal peaks are all found), if the function is monotonic
-on it, or if its size is convex there: then its ends decide. It is settled too if the size is
-concave and interval Newton closes on the one zero of the derivative. Else it is halved.
+An interval is settled if its values lie below the greatest that is known (by more than the fraction
+``TIE``, so that all equal peaks remain), if the function is monotonic on it, or if its size is
+convex there: then its ends decide. It is settled too if the size is concave and interval Newton
+closes on the one zero of the derivative. Else it is halved.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ ORDER = 5
 EDGE_DEG = 2.0**-42
 
 
-class Interval(NamedTuple):
+class BoundedSpan(NamedTuple):
     """An interval in degrees, and a bound above the function's size on it (infinite: none)."""
 
     start: float
@@ -49,9 +49,9 @@ class Greatest(NamedTuple):
 
     low: float
     high: float
-    places: tuple[Interval, ...]
+    places: tuple[BoundedSpan, ...]
     intervals: int
-    open: Interval | None
+    open: BoundedSpan | None
 
 
 class _Enclosure(NamedTuple):
@@ -116,41 +116,41 @@ class _Search:
 
     def __init__(self, curve: Curve, limit: int) -> None:
         self.curve, self.limit = curve, limit
-        self.low, self.looked_at = 0.0, 0
-        self.found: list[Interval] = []
-        self.passed: list[Interval] = []  # ends of halved intervals, which are no peaks
+        self.low, self.examined = 0.0, 0
+        self.candidates: list[BoundedSpan] = []
+        self.ends: list[BoundedSpan] = []  # ends of halved intervals, which are no peaks
         self.waiting: list[tuple[float, float, float, _Piece]] = []
-        self.stuck: list[Interval] = []
+        self.unsettled: list[BoundedSpan] = []
 
     def run(self, pieces: Sequence[_Piece]) -> Greatest:
         """The answer over some pieces."""
         for piece in pieces:
             for x in (piece.start, piece.end):
                 self._take(*piece.at(x))
-            self._wait(piece, piece.start, piece.end, math.inf)
-        while self.waiting and -self.waiting[0][0] >= self._least and self.looked_at < self.limit:
+            self._queue(piece, piece.start, piece.end, math.inf)
+        while self.waiting and -self.waiting[0][0] >= self._least and self.examined < self.limit:
             high, a, b, piece = heapq.heappop(self.waiting)
-            self.looked_at += 1
-            self._look(piece, Interval(a, b, -high))
-        left = [Interval(a, b, -high) for high, a, b, _ in self.waiting] + self.stuck
+            self.examined += 1
+            self._examine(piece, BoundedSpan(a, b, -high))
+        left = [BoundedSpan(a, b, -high) for high, a, b, _ in self.waiting] + self.unsettled
         left = [interval for interval in left if interval.high >= self._least]
-        found = [interval for interval in self.found if interval.high >= self._least]
-        found += [interval for interval in self.passed if interval.high >= self.low]
-        high = max(interval.high for interval in found + left)
+        kept = [interval for interval in self.candidates if interval.high >= self._least]
+        kept += [interval for interval in self.ends if interval.high >= self.low]
+        high = max(interval.high for interval in kept + left)
         # places within 1e-9 of all pieces are one
-        places = _places(found, 1e-9 * (pieces[-1].end - pieces[0].start))
+        places = _places(kept, 1e-9 * (pieces[-1].end - pieces[0].start))
         open_ = max(left, key=lambda interval: interval.high, default=None)
-        return Greatest(self.low, high, places, self.looked_at, open_)
+        return Greatest(self.low, high, places, self.examined, open_)
 
     @property
     def _least(self) -> float:
         """The size that an interval must reach to be one of the greatest."""
         return self.low * (1.0 - TIE)
 
-    def _wait(self, piece: _Piece, a: float, b: float, high: float) -> None:
+    def _queue(self, piece: _Piece, a: float, b: float, high: float) -> None:
         heapq.heappush(self.waiting, (-high, a, b, piece))
 
-    def _look(self, piece: _Piece, interval: Interval) -> None:
+    def _examine(self, piece: _Piece, interval: BoundedSpan) -> None:
         """Settle an interval, or halve it."""
         a, b, high = interval
         enclosure = self._on(*piece.reach(a, b))
@@ -160,38 +160,38 @@ class _Search:
             if high < self._least:
                 return
             if enclosure.ends_decide:
-                self._ends(piece, a, b)
+                self._take_ends(piece, a, b)
                 return
-            if enclosure.is_concave and self._top(piece, a, b, enclosure):
+            if enclosure.is_concave and self._take_top(piece, a, b, enclosure):
                 return
             # an interval that rises by less than 1e-15 of the greatest size is a plateau
             if high <= self.low * (1.0 + 1e-15):
-                self.found.append(Interval(a, b, high))
+                self.candidates.append(BoundedSpan(a, b, high))
                 return
         # A shorter fraction of a piece is not halved, but left open. It is long enough for a seam
         # inside, that should have been known, to be seen (``arrays.Enclosed.REACH``).
         if b - a < max(2.0**-30 * (piece.end - piece.start), 4.0 * EDGE_DEG):
             # A jump has no derivatives. Its bound lies above the values beside it by their slope
             # times the shortest interval: for loads by 1e-8 of them.
-            settled = self.found if high <= self.low * (1.0 + 1e-6) else self.stuck
-            settled.append(Interval(a, b, high))
+            spans = self.candidates if high <= self.low * (1.0 + 1e-6) else self.unsettled
+            spans.append(BoundedSpan(a, b, high))
             return
         middle = 0.5 * (a + b)
-        self._wait(piece, a, middle, high)
-        self._wait(piece, middle, b, high)
+        self._queue(piece, a, middle, high)
+        self._queue(piece, middle, b, high)
 
-    def _ends(self, piece: _Piece, a: float, b: float) -> None:
+    def _take_ends(self, piece: _Piece, a: float, b: float) -> None:
         """Take the sizes at both ends of an interval; those of the piece are known."""
         for x in (a, b):
             if x not in (piece.start, piece.end):
-                self.passed.append(self._sized(x, x))
+                self.ends.append(self._sized(x, x))
 
     def _take(self, a: float, b: float) -> None:
         """Take an interval of a few units in the last place as one that may hold the greatest."""
         interval = self._sized(a, b)
-        (self.found if math.isfinite(interval.high) else self.stuck).append(interval)
+        (self.candidates if math.isfinite(interval.high) else self.unsettled).append(interval)
 
-    def _sized(self, a: float, b: float) -> Interval:
+    def _sized(self, a: float, b: float) -> BoundedSpan:
         """A short interval, or one angle, with its bound; raises ``low`` to what is reached."""
         if a < b:
             on = self._on(a, b)
@@ -200,9 +200,9 @@ class _Search:
             value = self._values(Ball.exact(a), 0)[0]
         low, high = value.sizes()
         self.low = max(self.low, low)
-        return Interval(a, b, high)
+        return BoundedSpan(a, b, high)
 
-    def _top(self, piece: _Piece, a: float, b: float, on: _Enclosure) -> bool:
+    def _take_top(self, piece: _Piece, a: float, b: float, on: _Enclosure) -> bool:
         """Take the one place where the slope is 0; False if Newton does not close on it.
 
         The signs of the slopes beside it prove that it is there, and that it is a top.
@@ -215,7 +215,7 @@ class _Search:
             low, high = (middle - step * (180.0 / Ball.library.pi)).bounds()
             narrow = max(low, x), min(high, y)
             if narrow[0] > narrow[1]:  # the slope is nowhere 0
-                self._ends(piece, a, b)
+                self._take_ends(piece, a, b)
                 return True
             x, y = narrow
             if y - x < EDGE_DEG:
@@ -260,12 +260,12 @@ def _sum(coefficients: Sequence[Ball], t: Ball) -> Ball:
     return total
 
 
-def _places(found: Iterable[Interval], near: float) -> tuple[Interval, ...]:
+def _places(spans: Iterable[BoundedSpan], near: float) -> tuple[BoundedSpan, ...]:
     """Intervals in order, those nearer to each other than ``near`` as one."""
-    places: list[Interval] = []
-    for one in sorted(found):
+    places: list[BoundedSpan] = []
+    for one in sorted(spans):
         if places and one.start - places[-1].end <= near:
             start, end, high = places.pop()
-            one = Interval(start, max(end, one.end), max(high, one.high))
+            one = BoundedSpan(start, max(end, one.end), max(high, one.high))
         places.append(one)
     return tuple(places)

@@ -14,12 +14,11 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array, Mask, Whole, blocks, joined
+from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, blocks, joined
 from geneva_cli.numerics.newton import Brackets, nearer, newton_roots
 from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
-    Which: TypeAlias = slice | Whole
     Sample: TypeAlias = Array | tuple[Array, Array, Array]  # place, value, slope
 
 SCAN_INTERVALS = 12  # intervals of the first scan, an even number

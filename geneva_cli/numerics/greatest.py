@@ -74,16 +74,11 @@ class GreatestValues:
         """The least values that count as greatest: (functions, n)."""
         return bar(self.most[side], self.size)
 
-    def may_pass(self, design: Whole, low: Array, high: Array) -> Mask:
+    def may_be(self, number: Whole, design: Whole, low: Array, high: Array) -> Mask:
         """Masks of functions between ``low`` and ``high`` that may have one of the greatest values.
 
-        The shape is (functions, m). Nothing exceeds an unbounded value.
+        ``number`` are the functions' numbers. Nothing exceeds an unbounded value.
         """
-        number = np.arange(len(low))[:, None]
-        return self.may_be(number, design, low, high)
-
-    def may_be(self, number: Whole, design: Whole, low: Array, high: Array) -> Mask:
-        """Masks of functions, by number, whose range may reach their design's greatest value."""
         out = np.full(np.shape(low), False)
         for side, sense in enumerate(self.senses):
             reach = np.maximum(high, -low) if self.sized else high if sense > 0.0 else -low
@@ -146,25 +141,10 @@ def usual(rows: Array) -> tuple[Array, Array]:
     high = np.where(finite, rows, -np.inf).max(axis=-1)
     lost = np.nonzero(~finite.all(axis=-1) & finite.any(axis=-1))
     if len(lost[0]):
-        first, third = quartiles(np.where(finite[lost], rows[lost], np.nan))
+        ordered = np.sort(np.where(finite[lost], rows[lost], np.nan), axis=1)  # NaN comes last
+        every, last = np.arange(len(ordered)), finite[lost].sum(axis=1) - 1
+        first, third = ordered[every, last // 4], ordered[every, 3 * last // 4]  # quartiles
         beyond = 3.0 * (third - first)  # values farther out are near a pole
         low[lost] = np.maximum(low[lost], first - beyond)
         high[lost] = np.minimum(high[lost], third + beyond)
     return low, high
-
-
-def quartiles(rows: Array) -> tuple[Array, Array]:
-    """First and third quartile of the numbers in each row (m, k), NaN left out: (m,) both.
-
-    Equal to ``np.nanquantile``, which takes one row after the other.
-    """
-    ordered = np.sort(rows, axis=1)  # NaN comes last
-    last = np.count_nonzero(~np.isnan(rows), axis=1) - 1
-    every = np.arange(len(rows))
-
-    def at(place: Array) -> Array:
-        below = np.floor(place).astype(int)
-        low, high = ordered[every, below], ordered[every, np.minimum(below + 1, last)]
-        return np.asarray(low + (high - low) * (place - below))
-
-    return at(0.25 * last), at(0.75 * last)

@@ -11,7 +11,6 @@ Evaluating Derivatives, 2nd ed., section 13.2).
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from itertools import pairwise
 from math import factorial
 from typing import TYPE_CHECKING, TypeVar, cast
 
@@ -21,9 +20,7 @@ from geneva_cli.numerics.arrays import (
     Mask,
     Whole,
     library,
-    minus,
     piece_of,
-    plus,
     size,
 )
 from geneva_cli.numerics.arrays import Array as Array
@@ -128,7 +125,8 @@ V = TypeVar("V", Jet, "Array")
 
 def _is_constant(c: Sequence[Number]) -> bool:
     """Return True if all coefficients but the value are the number 0, not an array."""
-    return len(c) > 1 and _are_zero(c[1:])
+    # most often the first of them says no, before any is copied
+    return len(c) > 1 and isinstance(c[1], float) and _are_zero(c[1:])
 
 
 def _are_zero(c: Sequence[Number]) -> bool:
@@ -162,7 +160,7 @@ def _convolve(
     """The sum of a[i] b[k - i] from the first i on, to k or before the last."""
     total = a[first] * b[k - first]
     for i in range(first + 1, k + 1 if last is None else last):
-        total = plus(total, a[i] * b[k - i])
+        total = total + a[i] * b[k - i]
     return total
 
 
@@ -173,9 +171,9 @@ def _square(a: Sequence[Number], k: int, first: int) -> Number:
         return a[half] * a[half]
     total = a[first] * a[k - first]
     for i in range(first + 1, half):
-        total = plus(total, a[i] * a[k - i])
-    total = plus(total, total)
-    return total if k % 2 else plus(total, a[half] * a[half])
+        total = total + a[i] * a[k - i]
+    total = total + total
+    return total if k % 2 else total + a[half] * a[half]
 
 
 def sin_cos(x: Jet) -> tuple[Jet, Jet]:
@@ -288,12 +286,12 @@ def moment(x: Jet, y: Jet) -> Jet:
 
 def _moment(x: Sequence[Number], y: Sequence[Number], k: int) -> Number:
     """The sum of (k - 2 i) (x[i] y[k - i] - y[i] x[k - i]) for i below k/2."""
-    total = minus(x[0] * y[k], y[0] * x[k])
+    total = x[0] * y[k] - y[0] * x[k]
     if k > 1:
         total = total * k
     for i in range(1, (k + 1) // 2):
-        more = minus(x[i] * y[k - i], y[i] * x[k - i])
-        total = plus(total, more * (k - 2 * i) if k - 2 * i > 1 else more)
+        more = x[i] * y[k - i] - y[i] * x[k - i]
+        total = total + (more * (k - 2 * i) if k - 2 * i > 1 else more)
     return total
 
 
@@ -301,8 +299,8 @@ def piecewise(x: Number, cuts: Sequence[Number], pieces: Sequence[Callable[[Numb
     """``pieces[i](x)`` for x between ``cuts[i-1]`` and ``cuts[i]``, the upper end included.
 
     For one design each piece is evaluated at its own part of an array of angles. In a batch, whose
-    cuts may differ, a piece is evaluated at the columns where it applies anywhere. So it is faster
-    to request angles that lie in one piece.
+    cuts may differ, a piece that applies anywhere is evaluated at all angles. So it is faster to
+    request angles that lie in one piece.
     """
     if isinstance(x, SINGLE) and isinstance(cuts[0], float) and isinstance(cuts[-1], float):
         return pieces[piece_of(x, cast("Sequence[float]", cuts))](x)
@@ -314,30 +312,7 @@ def piecewise(x: Number, cuts: Sequence[Number], pieces: Sequence[Callable[[Numb
         return _by_parts(angles, np.searchsorted(plain, angles), pieces)
     none = np.zeros(angles.shape, np.int8)
     index = sum(((angles > cut).astype(np.int8) for cut in cuts), none)
-    if angles.shape == index.shape and index.shape[-1] > 1:
-        return _by_columns(angles, index, pieces)
     return _by_choice(x, index, pieces)
-
-
-def _by_columns(
-    x: Array, index: NDArray[np.int8], pieces: Sequence[Callable[[Number], Jet]]
-) -> Jet:
-    """Evaluate angles (n, k) column by column; columns in one piece are not evaluated by others."""
-    import numpy as np
-
-    low, high = index.min(axis=0), index.max(axis=0)
-    new = np.flatnonzero((np.diff(low) != 0) | (np.diff(high) != 0)) + 1
-    if not len(new):
-        return _by_choice(x, index, pieces)
-    out: list[Array] = []
-    for i, j in pairwise([0, *new.tolist(), x.shape[1]]):
-        part = (slice(None), slice(i, j))
-        coefficients = _by_choice(x[part], index[part], pieces).c
-        # designs lie side by side in memory
-        out = out or [np.empty(x.shape[::-1]).T for _ in coefficients]
-        for total, some in zip(out, coefficients, strict=True):
-            total[part] = some
-    return Jet(out)
 
 
 def _by_choice(
@@ -369,12 +344,12 @@ def _by_parts(x: Array, index: Whole, pieces: Sequence[Callable[[Array], Jet]]) 
         return pieces[0](x)
     # np.unique would import numpy.ma, a sixth of a short run
     parts: dict[Callable[[Array], Jet], Mask] = {}
-    for i in np.flatnonzero(np.bincount(index.ravel())).tolist():
+    for i in np.bincount(index.ravel()).nonzero()[0].tolist():
         here, piece = index == i, pieces[i]
         parts[piece] = parts[piece] | here if piece in parts else here
     alone = len(parts) == 1  # the same array object, for which values may be cached
     jets = [(where, piece(x if alone else x[where]).c) for piece, where in parts.items()]
-    designs = np.broadcast_shapes(*[np.shape(c)[:-1] for _, jet in jets for c in jet])
+    designs = np.broadcast_shapes(*{np.shape(c)[:-1] for _, jet in jets for c in jet})
     out = [np.empty((*designs, *x.shape)) for _ in jets[0][1]]
     for where, jet in jets:
         for total, part in zip(out, jet, strict=True):

@@ -9,19 +9,14 @@ halved if a series does not show where its zeros are.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
 from geneva_cli.numerics import chebyshev
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Mask, Whole, columns_taken, joined, rows_taken
+from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, columns_taken, joined, rows_taken
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
-
-if TYPE_CHECKING:
-    Which: TypeAlias = slice | Whole
-    Some: TypeAlias = slice | Whole | Mask
-
 
 AT_END = 1e-9  # fraction of a row: a zero this near to an end, such as a motion's, is the end's own
 LATER_TERMS = 4.0  # times the last terms of a series: a bound on all later terms
@@ -69,7 +64,7 @@ class Rows(NamedTuple):
     x: Array  # both ends as places, degrees
     edge: Mask  # whether each is an end of the span, or a cut: (2, m)
 
-    def take(self, which: Some) -> Rows:
+    def take(self, which: Which) -> Rows:
         """Some of the rows, by a mask or their numbers."""
         if not isinstance(which, slice) and which.dtype == bool:
             which = which.nonzero()[0]
@@ -96,7 +91,7 @@ class SmoothPieces(NamedTuple):
         """Masks of the pieces that are whole rows."""
         return np.asarray((self.part[0] == -1.0) & (self.part[1] == 1.0))
 
-    def take(self, which: Some) -> SmoothPieces:
+    def take(self, which: Which) -> SmoothPieces:
         """Some of the pieces, by a mask or their numbers."""
         sign, part = columns_taken(self.sign, which), columns_taken(self.part, which)
         return SmoothPieces(self.rows.take(which), sign, part, rows_taken(self.value, which))

@@ -12,13 +12,13 @@ hidden below larger ones, which decay sooner.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache
 from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array, Mask, Whole, joined, matrix_product, read_only
+from geneva_cli.numerics.arrays import Array, Mask, Whole, blocks, joined, matrix_product, read_only
 
 NODES = 20  # nodes of a rule that suffice for most loads between two cuts
 NARROW_NODES = 12  # nodes for a span that is narrow compared with its design's widest
@@ -89,6 +89,19 @@ class Integrands(NamedTuple):
         last = np.abs(sums[..., 1:]).max(axis=-1)
         return sums[..., 0], last, matrix_product(np.abs(value), terms[:, 0])
 
+    def in_blocks(
+        self, of: Whole, low: Array, high: Array, counts: Sequence[tuple[int, int]]
+    ) -> tuple[Array, Array, Array]:
+        """All ``parts``; ``counts`` are numbers of nodes, each with the number of its spans."""
+        rows, start = [], 0
+        for nodes, count in counts:
+            # 1024 spans at a time: their nodes fit in the processor's cache
+            for block in blocks(count, 1024) if count else []:
+                part = slice(start + block.start, start + block.stop)
+                rows.append(self.parts(of[part], low[part], high[part], nodes))
+            start += count
+        return joined(rows)
+
 
 def span_integrals(
     integrands: Integrands,
@@ -110,7 +123,7 @@ def span_integrals(
     """
     n, width = needed.shape[1], integrands.b - integrands.a
     into = np.arange(len(width)) if apart else design
-    total, size = np.zeros((0, len(width) if apart else n)), np.zeros((0, n))
+    total, size = np.zeros((len(needed), len(width) if apart else n)), np.zeros(needed.shape)
     unbounded, widest = total != 0.0, np.zeros(n)
     np.maximum.at(widest, design, width)
     narrow = width <= 0.25 * widest[design]
@@ -119,18 +132,9 @@ def span_integrals(
     of = np.concatenate([np.flatnonzero(which) for _, which in groups])
     low, high = np.zeros(len(width)), np.ones(len(width))
     counts = [(nodes, int(which.sum())) for nodes, which in groups]
-    block = 1024  # spans at a time: their nodes fit in the processor's cache
-    for _ in range(40):  # halvings: the narrowest spans are 1e-12 of their design's
-        rows, start = [], 0
-        for nodes, count in counts:
-            for i in range(start, start + count, block):
-                part = slice(i, min(i + block, start + count))
-                rows.append(integrands.parts(of[part], low[part], high[part], nodes))
-            start += count
-        whole, last, sizes = joined(rows)
-        if not len(total):
-            total, size = (np.zeros((len(whole), v.shape[1])) for v in (total, size))
-            unbounded = np.zeros(total.shape, dtype=bool)
+    for halved in range(40):  # the narrowest spans are 1e-12 of their design's
+        whole, last, sizes = integrands.in_blocks(of, low, high, counts)
+        if not halved:
             _add(size, design[of], sizes)
         lost = ~np.isfinite(sizes)  # spans of an unbounded function are not halved further
         for row, endless, marks in zip(needed, lost, unbounded, strict=True):

@@ -7,16 +7,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, TypeVar
 
-from geneva_cli.numerics.arrays import Array, Truth, all_true, choose
+from geneva_cli.numerics.arrays import Array, Real, Truth, all_true, choose
 from geneva_cli.numerics.tolerances import TIE
-
-if TYPE_CHECKING:
-    from decimal import Decimal
-
-
-Real = TypeVar("Real", float, "Decimal")
 
 MOST_STEPS = 200  # towards a root, at most; halving reaches the last of 50 digits in 170
 

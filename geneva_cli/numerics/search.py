@@ -9,7 +9,7 @@ function may exceed the known values; there the function itself is evaluated, by
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import (
     Array,
     Mask,
+    Which,
     Whole,
     blocks,
     columns_taken,
@@ -37,9 +38,6 @@ from geneva_cli.numerics.pieces import (
     SpreadPlaces,
 )
 from geneva_cli.numerics.tolerances import TIE
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.pieces import Some, Which
 
 BLOCK = 2048  # rows sampled at a time: that many fit in the processor's cache
 OVERSHOOT = 0.15  # fraction of the range of samples, by which an extreme between them may exceed it
@@ -73,7 +71,7 @@ class CandidateCurves(NamedTuple):
     value: Array  # at the Chebyshev points of that row: (m, points)
     left: Array  # the error of the series
 
-    def take(self, which: Some) -> CandidateCurves:
+    def take(self, which: Which) -> CandidateCurves:
         """Some of the curves, by a mask or their numbers."""
         number, rows, sign, part, value, left = self
         ends = columns_taken(sign, which), columns_taken(part, which)
@@ -169,7 +167,8 @@ class _ExtremeSearch:
         low, high = pieces.value.min(axis=2), pieces.value.max(axis=2)
         left = chebyshev.remainder(pieces.value)
         more = OVERSHOOT * (high - low) + UNFINISHED * left
-        may = self.greatest.may_pass(pieces.rows.design, low - more, high + more)
+        functions = np.arange(len(low))[:, None]
+        may = self.greatest.may_be(functions, pieces.rows.design, low - more, high + more)
         may &= (low != np.inf) & (high != -np.inf)  # it has a bound somewhere
         number, own = np.nonzero(may)
         each = [rows_taken(one, some) for one, some in zip(pieces.value, may, strict=True)]

@@ -13,7 +13,6 @@ from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.reliefs import is_whole
 from geneva_cli.layout.stressed import lock_of
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.outlines.outlines import drawn
 
 
 def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
@@ -26,6 +25,8 @@ def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
     lock, kinds = lock_of(assembly, sizes), assembly.kinds
     if is_whole(assembly, sizes) and len(kinds) == 1 and not kinds[0].slot.offset:
         return lock
+    from geneva_cli.outlines.outlines import drawn  # which few locks need
+
     try:
         parts = drawn(assembly, sizes)
     except GenevaError:  # the check of the parts reports the error

@@ -21,8 +21,8 @@ from geneva_cli.output.formats import (
     FORMATS,
     MESHES,
     PLOTTED,
+    document_as,
     drawn_as,
-    format_of,
     plotted_as,
     require_own,
     sheet_as,
@@ -263,9 +263,7 @@ def show_document(
 
     Raises GenevaError if the format is not one of DOCUMENTS, or if the file cannot be written.
     """
-    name = format or format_of(output, DOCUMENTS)
-    if name not in DOCUMENTS:
-        raise GenevaError(f"--format {cut(name)}: it must be one of {', '.join(DOCUMENTS)}")
+    name = document_as(output, format)
     refuse_columns()
     module = importlib.import_module(f"geneva_cli.output.document.{DOCUMENTS[name]}")
     if choice.units != "mm":

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import os
 import sys
 import time
+
+from geneva_cli.streams import columns
 
 
 class TextBar:
@@ -40,9 +41,9 @@ class TextBar:
         left = seconds * (self.total - done) / done if done else None
         text = f"{done:,} of {self.total:,} {self.what}"
         text += f", {_time(left)} left" if left is not None else ""
-        width = min(30, _columns() - len(text) - len(" []") - 1)  # columns of the bar itself
+        width = min(30, columns() - len(text) - len(" []") - 1)  # columns of the bar itself
         if width < 8:  # a smaller bar shows nothing
-            return text[: _columns() - 1]
+            return text[: columns() - 1]
         full = width * done // self.total
         return f"[{'#' * full}{'-' * (width - full)}] {text}"
 
@@ -50,13 +51,6 @@ class TextBar:
         sys.stderr.write(f"\r{line.ljust(self.length)}")
         sys.stderr.flush()
         self.length = len(line)
-
-
-def _columns() -> int:
-    try:
-        return os.get_terminal_size(sys.stderr.fileno()).columns or 80
-    except OSError:
-        return 80
 
 
 def _time(seconds: float) -> str:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from geneva_cli.errors import clean
-from geneva_cli.table import Table, flat, is_floats
+from geneva_cli.table import Table, flat, plain_rows
 
 
 def chunks(table: Table) -> Iterator[str]:
@@ -14,15 +14,11 @@ def chunks(table: Table) -> Iterator[str]:
     if table.record:
         table = flat(table)
     yield one_line(table.names)
-    if table.columns and all(is_floats(c) for c in table.columns):
-        yield from _numbers(table)
-        return
-    for block in table.blocks():
-        if all(type(v) is float for row in block for v in row):
-            line = ",".join(["%r"] * len(table.names)) + "\n"
-            yield line * len(block) % tuple(v + 0.0 for row in block for v in row)
+    for columns in table.slices(1024):
+        if all(map(_is_floats, columns)):
+            yield _numbers(columns)
         else:
-            yield "".join(map(one_line, block))
+            yield "".join(map(one_line, plain_rows(columns)))
 
 
 def one_line(row: Iterable[Any]) -> str:
@@ -30,16 +26,17 @@ def one_line(row: Iterable[Any]) -> str:
     return ",".join(map(_field, row)) + "\n"
 
 
-def _numbers(table: Table) -> Iterator[str]:
-    """Blocks of number arrays: NumPy joins the columns, and one formatting makes a whole block."""
+def _is_floats(column: Any) -> bool:
+    return not isinstance(column, (list, tuple)) and column.dtype == "float64"
+
+
+def _numbers(columns: Sequence[Any]) -> str:
+    """The lines of arrays of numbers: NumPy joins the columns, and one formatting makes all."""
     import numpy as np
 
-    line = ",".join(["%r"] * len(table.columns)) + "\n"
-    block_rows = 1024
-    for start in range(0, len(table), block_rows):
-        block = np.column_stack([c[start : start + block_rows] for c in table.columns])
-        block = block + 0.0  # no -0.0
-        yield line * len(block) % tuple(block.ravel().tolist())
+    block = np.column_stack(columns) + 0.0  # no -0.0
+    line = ",".join(["%r"] * len(columns)) + "\n"
+    return line * len(block) % tuple(block.ravel().tolist())
 
 
 def _field(value: Any) -> str:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from geneva_cli.curves.measure import halves
+from geneva_cli.curves.measure import halved
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, Segment, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.ezdxf_alone import BaseLayout
@@ -27,7 +27,8 @@ def draw(space: BaseLayout, shape: Shape) -> None:
 
 
 def _contour(space: BaseLayout, contour: Contour) -> None:
-    segments = [part for segment in contour.segments for part in _split(segment)]
+    # The bulge of 300 degrees: beyond it the chord determines the radius badly.
+    segments = [part for one in contour.segments for part in halved(one, lambda bulge: bulge > 3.7)]
     if any(isinstance(segment, Cubic) for segment in segments):
         if _is_r12(space):
             raise GenevaError(
@@ -37,13 +38,6 @@ def _contour(space: BaseLayout, contour: Contour) -> None:
             _entity(space, contour.layer, run)
     else:
         _polyline(space, contour.layer, segments, contour.closed)
-
-
-def _split(segment: Segment) -> tuple[Segment, ...]:
-    # The bulge of 300 degrees: beyond it the chord determines the radius badly.
-    if isinstance(segment, Arc) and abs(segment.bulge) > 3.7:
-        return halves(segment)
-    return (segment,)
 
 
 def _polyline(space: BaseLayout, layer: str, segments: list[Segment], close: bool) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import hashlib
 import os
 import re
 import signal
@@ -184,6 +185,14 @@ def _remove_unlocked(path: str) -> None:
                 os.unlink(path)
         finally:
             os.close(descriptor)
+
+
+def digest_of(path: str) -> str:
+    """The checksum of a file; empty for what is no file."""
+    if not os.path.isfile(path):
+        return ""
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def refuse_input(path: str, old: os.stat_result, inputs: Iterable[str]) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.progress import Meter
-from geneva_cli.table import Column, Table, pieces
+from geneva_cli.table import Table
 
 
 def checked(table: Table, is_seen: bool = False) -> Table:
@@ -17,22 +17,17 @@ def checked(table: Table, is_seen: bool = False) -> Table:
     Its progress is reported, unless the rows are seen as they come. Raises GenevaError as
     ``refuse_nonsense`` does.
     """
-    first = table.columns[0] if table.columns else None
-    if not isinstance(first, Column):
-        refuse_nonsense(table.names, table.columns)
-        return table
-    source = first.pieces
-    meter = None if is_seen else Meter("rows", source.length)
+    meter, done = None if is_seen else Meter("rows", len(table)), 0
 
-    def make(start: int, stop: int) -> Sequence[Any]:
-        rows = source.make(start, stop)
-        refuse_nonsense(table.names, rows)
-        if meter:
-            meter.report(stop)
-        return rows
+    def check(columns: Sequence[Any]) -> Sequence[Any]:
+        nonlocal done
+        refuse_nonsense(table.names, columns)
+        if meter and columns:
+            done += len(columns[0])
+            meter.report(done)
+        return columns
 
-    columns = pieces(source.length, len(table.columns), make, first.dtype)
-    return table.replaced(columns=columns)
+    return table.changed(check)
 
 
 def refuse_nonsense(names: Iterable[str], columns: Iterable[Any]) -> None:

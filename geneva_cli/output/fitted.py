@@ -36,14 +36,15 @@ def rows_of(table: Table, window: Window, is_inner: bool = False) -> Iterator[st
     if not first:
         yield from ["no rows"] if table.names else []
         return
-    every = _columns(table, first)
-    columns, once = (every, []) if window.whole else _sorted_out(every, table)
+    all_columns = _columns(table, first)
+    columns, once = (all_columns, []) if window.whole else _sorted_out(all_columns, table)
     if once:
         yield from paragraphs(f"In every row: {'; '.join(once)}.", window)
         yield ""
-    if len(table) > layout_rows:
+    is_long = len(table) > layout_rows
+    if is_long:
         columns = [c if c.is_text else c._replace(cells=[*c.cells, "0" * NUMBER]) for c in columns]
-    order = _order(table)
+    order = [*table.reading.first, *(n for n in table.names if n not in table.reading.first)]
     width = 1_000_000 if window.wide else window.columns  # a million letters: without a limit
     kept, sizes = fitting(columns, order, width)
     lost = [
@@ -51,16 +52,11 @@ def rows_of(table: Table, window: Window, is_inner: bool = False) -> Iterator[st
         for column in sorted(columns, key=lambda c: order.index(c.name))
         if column not in kept
     ]
-    # rows of a table that may be transposed
-    few = 3 if is_inner or 3 * len(kept) < len(columns) else 1
-    other = transposed(columns, window.columns) if lost and len(first) <= few else None
-    if not other and lost and len(kept) == 1 and len(table) <= layout_rows:
-        other = list(stacked(kept[0], lost.pop(0), window.columns))
-        other += _left_out(lost, window)
+    other = [] if is_long or not lost else _other_layout(columns, kept, lost, window, is_inner)
     if other:
         yield from other
         return
-    if len(table) <= layout_rows and not table.mixed:
+    if not is_long and not table.mixed:
         pointed = [column._replace(cells=aligned(column.cells)) for column in kept]
         sizes, kept = (wider, pointed) if (wider := widths(pointed, width)) else (sizes, kept)
     yield from heads(kept, sizes, window.styled)
@@ -74,9 +70,23 @@ def rows_of(table: Table, window: Window, is_inner: bool = False) -> Iterator[st
     yield from _left_out(lost, window)
 
 
-def _order(table: Table) -> list[str]:
-    """The columns in order of importance."""
-    return [*table.reading.first, *(n for n in table.names if n not in table.reading.first)]
+def _other_layout(
+    columns: list[ShownColumn],
+    kept: list[ShownColumn],
+    lost: list[ShownColumn],
+    window: Window,
+    is_inner: bool,
+) -> list[str]:
+    """The lines of columns that do not all fit, transposed or stacked; empty where rows are better.
+
+    ``kept`` would be shown, and ``lost`` would not.
+    """
+    few = 3 if is_inner or 3 * len(kept) < len(columns) else 1  # rows that may be transposed
+    if len(kept[0].cells) <= few and (lines := transposed(columns, window.columns)):
+        return lines
+    if len(kept) > 1:
+        return []
+    return [*stacked(kept[0], lost[0], window.columns), *_left_out(lost[1:], window)]
 
 
 def _left_out(columns: Sequence[ShownColumn], window: Window) -> Iterator[str]:
@@ -84,12 +94,12 @@ def _left_out(columns: Sequence[ShownColumn], window: Window) -> Iterator[str]:
     if not columns:
         return
     one = "1 more column" if len(columns) == 1 else f"{len(columns)} more columns"
-    start, some, rest = f"{one}: --wide, or --columns ", "", [column.name for column in columns]
-    while rest and width_of(start + some + rest[0]) + len(",...") <= window.columns:
-        some += rest.pop(0) + ","
-    line = f"{start}{some}..." if rest else start + some[:-1]
+    start, names, rest = f"{one}: --wide, or --columns ", "", [column.name for column in columns]
+    while rest and width_of(start + names + rest[0]) + len(",...") <= window.columns:
+        names += rest.pop(0) + ","
+    line = f"{start}{names}..." if rest else start + names[:-1]
     yield ""
-    yield styled(line if some else f"{one}: --wide", DIM, window.styled)
+    yield styled(line if names else f"{one}: --wide", DIM, window.styled)
 
 
 def _columns(table: Table, block: list[tuple[Any, ...]]) -> list[ShownColumn]:

@@ -7,7 +7,6 @@ file is known as a person's work, and never replaced.
 from __future__ import annotations
 
 import csv
-import hashlib
 import io
 import os
 import shutil
@@ -16,7 +15,7 @@ from contextlib import contextmanager, suppress
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.output.files import stopping_cleanly, write, write_errors
+from geneva_cli.output.files import digest_of, stopping_cleanly, write, write_errors
 
 LIST = "contents.csv"
 COLUMNS = ("file", "content", "sha256")
@@ -69,7 +68,7 @@ def replacing_folder(
 
 
 def _add_list(folder: str, entries: Iterable[Entry]) -> None:
-    rows = [(*entry, _digest(os.path.join(folder, entry.file))) for entry in entries]
+    rows = [(*entry, digest_of(os.path.join(folder, entry.file))) for entry in entries]
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows([COLUMNS, *rows])
     write(os.path.join(folder, LIST), [text.getvalue()])
@@ -94,8 +93,7 @@ def _require_own(path: str, real: str) -> None:
             f"{cut(other[0])}; give -o another folder"
         )
     for file, digest in listed.items():
-        place = os.path.join(real, file)
-        if file in present and _digest(place) != digest:
+        if file in present and digest_of(os.path.join(real, file)) != digest:
             raise GenevaError(
                 f"{shown}: {cut(file)} was changed after `geneva export` wrote it; give -o another "
                 "folder"
@@ -109,11 +107,3 @@ def _listed(path: str) -> dict[str, str]:
             return {row["file"]: row["sha256"] for row in csv.DictReader(file)}
     except (OSError, ValueError, KeyError):
         return {}
-
-
-def _digest(path: str) -> str:
-    """The checksum of a file; empty for what is no file."""
-    if not os.path.isfile(path):
-        return ""
-    with open(path, "rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()

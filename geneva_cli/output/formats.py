@@ -40,31 +40,50 @@ FILLS = ("none", "tint", "hatch")
 
 def table_as(output: str, format: str) -> str:
     """The format of a table. Raises GenevaError for an unknown one."""
-    name = format or format_of(output)
-    if name not in FORMATS:
-        raise GenevaError(
-            f"--format {cut(name)}: {_wrong(name)}it must be one of {', '.join(FORMATS)}"
-        )
-    return name
+    return _chosen(output, format, FORMATS, _wrong(format))
+
+
+def is_for_people(output: str, format: str) -> bool:
+    """Return True for a table that people read, False for one for programs."""
+    return table_as(output, format) in ("table", "md")
 
 
 def drawn_as(output: str, format: str) -> str:
     """The format of a drawing, or of a table of it. Raises GenevaError for an unknown one."""
-    formats = {**DRAWN, **FORMATS}
     if _named(output, format) == "pdf":
         option = f"--format {format}" if format else f'-o "{cut(output)}"'
         raise GenevaError(
             f"{option}: a pdf holds a drawing sheet: take --part sheet, or write .dxf or .svg"
         )
-    name = format or format_of(output, formats)
-    if name not in formats:
-        raise GenevaError(f"--format {cut(name)}: it must be one of {', '.join(formats)}")
-    return name
+    return _chosen(output, format, {**DRAWN, **FORMATS})
 
 
-def _named(output: str, format: str) -> str:
-    """The format that is given, or that of a file's extension; empty for an unknown extension."""
-    return format or EXTENSIONS.get(os.path.splitext(output)[1].lower().lstrip("."), "")
+def sheet_as(output: str, format: str) -> str:
+    """The format of a drawing sheet. Raises GenevaError for an unknown one."""
+    if not format and output == "-":
+        raise GenevaError(
+            f"a drawing sheet is written as {', '.join(SHEETS)}: give -o FILE.pdf, or --format pdf"
+        )
+    return _chosen(output, format, SHEETS, "of a drawing sheet ")
+
+
+def document_as(output: str, format: str) -> str:
+    """The format of a document. Raises GenevaError for an unknown one."""
+    return _chosen(output, format, DOCUMENTS)
+
+
+def is_document(output: str, format: str) -> bool:
+    """Return True if this file or format holds a document, False for a table.
+
+    Raises GenevaError if it is neither.
+    """
+    formats = dict.fromkeys((*FORMATS, *DOCUMENTS))
+    return _chosen(output, format, formats, "of a report ") in DOCUMENTS
+
+
+def plotted_as(output: str, format: str) -> str:
+    """The format of a figure. Raises GenevaError for an unknown one."""
+    return _chosen(output, format, dict.fromkeys((*PLOTTED, *FORMATS)))
 
 
 def is_drawn(output: str, format: str) -> bool:
@@ -85,40 +104,19 @@ def usual_curves(output: str, format: str) -> str:
     return "spline" if _named(output, format) == "step" else "arcs"
 
 
-def usual_tolerance(output: str, format: str) -> float:
-    """The default distance from the true curve, mm: that of a printer in meshes.
+def curve_tolerance(tolerance_mm: float | None, output: str, format: str) -> float:
+    """The tolerance of a drawing's curves for one of the file, mm, or for None the usual one.
 
-    >>> usual_tolerance("wheel.stl", ""), usual_tolerance("wheel.dxf", "")
-    (0.01, 0.001)
+    That is 0.001, and in meshes a printer's, 0.01. In a mesh curves have one half of it, as its
+    chords have the other.
+
+    >>> curve_tolerance(None, "wheel.stl", ""), curve_tolerance(None, "wheel.dxf", "")
+    (0.005, 0.001)
     """
-    return 0.01 if _is_mesh(output, format) else 0.001
-
-
-def of_curves(tolerance_mm: float, output: str, format: str) -> float:
-    """The tolerance of curves, mm: in a mesh half, as its chords have the other half.
-
-    >>> of_curves(0.01, "wheel.stl", ""), of_curves(0.01, "wheel.dxf", "")
-    (0.005, 0.01)
-    """
-    return 0.5 * tolerance_mm if _is_mesh(output, format) else tolerance_mm
-
-
-def _is_mesh(output: str, format: str) -> bool:
-    return _named(output, format) in MESHES
-
-
-def sheet_as(output: str, format: str) -> str:
-    """The format of a drawing sheet. Raises GenevaError for an unknown one."""
-    if not format and output == "-":
-        raise GenevaError(
-            f"a drawing sheet is written as {', '.join(SHEETS)}: give -o FILE.pdf, or --format pdf"
-        )
-    name = format or format_of(output, SHEETS)
-    if name not in SHEETS:
-        raise GenevaError(
-            f"--format {cut(name)}: of a drawing sheet it must be one of {', '.join(SHEETS)}"
-        )
-    return name
+    is_mesh = _named(output, format) in MESHES
+    if tolerance_mm is None:
+        tolerance_mm = 0.01 if is_mesh else 0.001
+    return 0.5 * tolerance_mm if is_mesh else tolerance_mm
 
 
 def require_own(own: dict[str, Any], name: str) -> None:
@@ -131,27 +129,17 @@ def require_own(own: dict[str, Any], name: str) -> None:
             raise GenevaError(f"{option} is for .{of}, and this is {name}; leave it out")
 
 
-def is_document(output: str, format: str) -> bool:
-    """Return True if this file or format holds a document, False for a table.
-
-    Raises GenevaError if it is neither.
-    """
-    formats = dict.fromkeys((*FORMATS, *DOCUMENTS))
+def _chosen(output: str, format: str, formats: Collection[str], remark: str = "") -> str:
+    """The format that is given, or that of a file's extension. It must be one of ``formats``."""
     name = format or format_of(output, formats)
     if name not in formats:
-        raise GenevaError(
-            f"--format {cut(name)}: of a report it must be one of {', '.join(formats)}"
-        )
-    return name in DOCUMENTS
-
-
-def plotted_as(output: str, format: str) -> str:
-    """The format of a figure. Raises GenevaError for an unknown one."""
-    formats = dict.fromkeys((*PLOTTED, *FORMATS))
-    name = format or format_of(output, formats)
-    if name not in formats:
-        raise GenevaError(f"--format {cut(name)}: it must be one of {', '.join(formats)}")
+        raise GenevaError(f"--format {cut(name)}: {remark}it must be one of {', '.join(formats)}")
     return name
+
+
+def _named(output: str, format: str) -> str:
+    """The format that is given, or that of a file's extension; empty for an unknown extension."""
+    return format or EXTENSIONS.get(os.path.splitext(output)[1].lower().lstrip("."), "")
 
 
 def format_of(output: str, formats: Collection[str] = FORMATS) -> str:

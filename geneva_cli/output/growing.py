@@ -6,14 +6,13 @@ that may be repeated (``resume``) keeps the state file, which then records that 
 
 from __future__ import annotations
 
-import hashlib
 import os
 import stat
 from collections.abc import Callable, Iterable, Iterator
 from typing import BinaryIO
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.output.files import place, replacing, write_errors
+from geneva_cli.output.files import digest_of, place, replacing, write_errors
 from geneva_cli.output.state import SUFFIX, StateFile
 
 
@@ -51,7 +50,7 @@ class GrowingFile:
         """Return True if the file is whole, or if there are rows to continue."""
         name = cut(os.path.basename(self.real))
         digest = self.state.whole_digest()
-        if self.state.request == key and digest is not None and digest == _digest(self.real):
+        if self.state.request == key and digest == digest_of(self.real):
             self.is_whole = True
             self.message = f"--resume: {name} is whole already"
             return True
@@ -87,7 +86,7 @@ class GrowingFile:
                 else:
                     file.writelines(self._lines())
             if self.resume:
-                self.state.mark_whole(_digest(self.real) or "")
+                self.state.mark_whole(digest_of(self.real))
             else:
                 self.state.remove()
             self.close()
@@ -107,12 +106,3 @@ class GrowingFile:
     def close(self) -> None:
         """Close the state file, which remains to be continued."""
         self.state.close()
-
-
-def _digest(path: str) -> str | None:
-    """Return the digest of a file; None if there is no file."""
-    try:
-        with open(path, "rb") as file:
-            return hashlib.file_digest(file, "sha256").hexdigest()
-    except FileNotFoundError:
-        return None

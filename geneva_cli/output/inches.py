@@ -13,7 +13,7 @@ from geneva_cli.document import Block, Curves, Document, Fact, Facts, Grid
 from geneva_cli.figure import Axis, Curve, Figure, Panel
 from geneva_cli.names import UNITS, unit_of
 from geneva_cli.spec.units import ratio
-from geneva_cli.table import Column, Table, pieces
+from geneva_cli.table import Table
 
 
 @cache
@@ -89,37 +89,21 @@ def table_in_inches(table: Table) -> Table:
             values[new] = table_in_inches(value) if is_table else _over(value, size)
         return table.replaced(names=tuple(values), columns=[(v,) for v in values.values()])
     by_row = {"quantity", "check", "unit"} & set(table.names)
-    columns = _by_row(table) if by_row else _scaled(table)
+    sizes = [_named(name)[1] for name in table.names]
+    if by_row:
+        table = table.replaced(columns=_by_row(table))
+    else:
+        table = table.changed(lambda columns: list(map(_column, columns, sizes)))
     reading = table.reading
     first, in_title = (tuple(_named(n)[0] for n in x) for x in (reading.first, reading.in_title))
     return table.replaced(
         names=tuple(_named(name)[0] for name in table.names),
-        columns=columns,
         reading=reading._replace(first=first, in_title=in_title),
     )
 
 
-def _scaled(table: Table) -> Sequence[Any]:
-    """The columns, each in the other unit of its name."""
-    sizes = [_named(name)[1] for name in table.names]
-    first = table.columns[0] if table.columns else None
-    if not isinstance(first, Column):
-        return [_column(c, f) for c, f in zip(table.columns, sizes, strict=True)]
-    source = first.pieces
-
-    def make(start: int, stop: int) -> Sequence[Any]:
-        rows = source.make(start, stop)
-        return [_column(c, f) for c, f in zip(rows, sizes, strict=True)]
-
-    return pieces(source.length, len(sizes), make, first.dtype)
-
-
 def _column(column: Any, size: float) -> Any:
-    if size == 1.0:
-        return column
-    return [
-        _over(v, size) for v in (column if isinstance(column, (list, tuple)) else column.tolist())
-    ]
+    return _over(column if isinstance(column, (list, tuple)) else column.tolist(), size)
 
 
 def _by_row(table: Table) -> Sequence[Any]:
@@ -157,11 +141,11 @@ def figure_in_inches(figure: Figure) -> Figure:
     for axis in (figure.x, *(panel.y for panel in figure.panels)):
         title = title.replace(axis.label, _axis(axis)[0].label)
     return Figure(
-        title,
-        x,
-        tuple(_panel(panel, size) for panel in figure.panels),
-        _over(figure.window, size),
-        _over(figure.shaded, size),
+        title=title,
+        x=x,
+        panels=tuple(_panel(panel, size) for panel in figure.panels),
+        window=_over(figure.window, size),
+        shaded=_over(figure.shaded, size),
     )
 
 
@@ -212,9 +196,9 @@ def _panel(panel: Panel, size_x: float) -> Panel:
 
 
 def _curve(curve: Curve, size_x: float, size_y: float) -> Curve:
-    some = tuple((_over(x, size_x), _over(y, size_y)) for x, y in curve.pieces)
+    pieces = tuple((_over(x, size_x), _over(y, size_y)) for x, y in curve.pieces)
     marks = (m._replace(x=_over(m.x, size_x), y=_over(m.y, size_y)) for m in curve.marks)
-    return curve._replace(pieces=some, marks=tuple(marks))
+    return curve._replace(pieces=pieces, marks=tuple(marks))
 
 
 def _axis(axis: Axis) -> tuple[Axis, float]:

@@ -37,34 +37,10 @@ def gif_bytes(scene: Scene) -> bytes:
     margin = 0.03 * max(x1 - x0, y1 - y0)
     scale = FINER * WIDE / (x1 - x0 + 2.0 * margin)
     high = round((y1 - y0 + 2.0 * margin) * scale / FINER)
-
-    turned_by = 0.0  # of the frame, in the current picture
-
-    def on_paper(p: Point) -> Point:
-        if scene.frame:
-            x, y = scene.frame.centre
-            (p,) = _placed([(p[0] - x, p[1] - y)], x, y, turned_by)
-        return (p[0] - x0 + margin) * scale, (y1 + margin - p[1]) * scale
-
-    outlines = {
-        body.name: [(shape.layer, _points(shape), _is_closed(shape)) for shape in body.shapes]
-        for body in scene.bodies
-    }
     frames: list[Image.Image] = []
     for i in tracked(range(FRAMES), "pictures", FRAMES):
-        t = scene.turn_deg * i / FRAMES
-        turned_by = value_at(scene.frame.angle, t) if scene.frame else 0.0
         image = Image.new("RGB", (FINER * WIDE, FINER * high), "#ffffff")
-        pen = ImageDraw.Draw(image, "RGBA")
-        for body in scene.bodies:
-            at_t = body_pose(body, t)
-            for layer, points, closed in outlines[body.name]:
-                _outline(pen, layer, [on_paper(p) for p in _placed(points, *at_t)], closed)
-        for bar in scene.bars:
-            _link(pen, bar, t, on_paper, scale)
-        for place in scene.rollers:
-            centre = on_paper(place_at(place, t))
-            _ring(pen, centre, scene.roller_radius * scale, INKS["ROLLER"].rgb, "50")
+        _draw(ImageDraw.Draw(image, "RGBA"), scene, scene.turn_deg * i / FRAMES, margin, scale)
         small = image.resize((WIDE, high), Image.Resampling.LANCZOS)
         colours = {"palette": frames[0]} if frames else {"colors": 48}  # one palette for all
         frames.append(small.quantize(**colours, dither=Image.Dither.NONE))
@@ -76,6 +52,28 @@ def gif_bytes(scene: Scene) -> bytes:
         out, "GIF", save_all=True, append_images=frames[1:], duration=each, loop=0, optimize=False
     )
     return out.getvalue()
+
+
+def _draw(pen: Any, scene: Scene, t: float, margin: float, scale: float) -> None:
+    """Draw the scene at an input angle; ``margin`` is in mm, ``scale`` in pixels per mm."""
+    x0, _, _, y1 = scene.box
+    frame = scene.frame
+
+    def on_paper(p: Point) -> Point:
+        if frame:
+            x, y = frame.centre
+            (p,) = _placed([(p[0] - x, p[1] - y)], x, y, value_at(frame.angle, t))
+        return (p[0] - x0 + margin) * scale, (y1 + margin - p[1]) * scale
+
+    for body in scene.bodies:
+        at_t = body_pose(body, t)
+        for shape in body.shapes:
+            _outline(pen, shape, [on_paper(p) for p in _placed(_points(shape), *at_t)])
+    for bar in scene.bars:
+        _link(pen, bar, t, on_paper, scale)
+    for place in scene.rollers:
+        centre = on_paper(place_at(place, t))
+        _ring(pen, centre, scene.roller_radius * scale, INKS["ROLLER"].rgb, "50")
 
 
 def _link(pen: Any, bar: Bar, t: float, on_paper: Callable[[Point], Point], scale: float) -> None:
@@ -98,11 +96,7 @@ def _plates(pen: Any, bar: Bar, t: float, on_paper: Callable[[Point], Point]) ->
             pen.line([*points, points[0]], fill=LINK, width=2 * FINER)
 
 
-def _is_closed(shape: Shape) -> bool:
-    return isinstance(shape, Circle) or shape.closed
-
-
-@lru_cache(maxsize=256)  # a link's outline is needed in every frame
+@lru_cache(maxsize=256)  # an outline is needed in every frame
 def _points(shape: Shape) -> list[Point]:
     """A shape as a chain of points."""
     if isinstance(shape, Circle):
@@ -122,7 +116,8 @@ def _placed(points: list[Point], x: float, y: float, angle: float) -> list[Point
     return [(x + c * u - s * v, y + s * u + c * v) for u, v in points]
 
 
-def _outline(pen: Any, layer: str, points: list[Point], closed: bool) -> None:
+def _outline(pen: Any, shape: Shape, points: list[Point]) -> None:
+    layer, closed = shape.layer, isinstance(shape, Circle) or shape.closed
     ink = INKS[layer].rgb if layer in INKS else GREY
     if layer in ("BORE", "HOLLOW"):
         pen.polygon(points, fill="#ffffff")

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from geneva_cli.curves import helvetica
-from geneva_cli.curves.measure import halves
+from geneva_cli.curves.measure import as_cubic, halved
 from geneva_cli.curves.shapes import Arc, Cubic, Point, Segment, Shape, as_contour
 from geneva_cli.errors import clean
 
@@ -77,32 +77,15 @@ def outline(shape: Shape) -> str:
 
 def _quarters(segment: Segment) -> list[Segment]:
     # The bulge of slightly more than 90 degrees: a longer arc needs more than one cubic.
-    if isinstance(segment, Arc) and abs(segment.bulge) > 0.415:
-        return [part for half in halves(segment) for part in _quarters(half)]
-    return [segment]
+    return halved(segment, lambda bulge: bulge > 0.415)
 
 
 def _piece(segment: Segment) -> str:
     if isinstance(segment, Arc):
-        segment = _cubic(segment)
+        segment = as_cubic(segment)
     if isinstance(segment, Cubic):
         return " ".join(map(point, segment[1:])) + " c\n"
     return f"{point(segment.end)} l\n"
-
-
-def _cubic(arc: Arc) -> Cubic:
-    """The cubic with the arc's ends, tangents and middle, within 3e-4 of the radius at 90 degrees.
-
-    Its handles are 4/3 tan(sweep/4) of the radius long; with the bulge b, (1 + b²)/3 of the chord.
-    """
-    (x0, y0), (x1, y1) = arc.start, arc.end
-    long = (1.0 + arc.bulge * arc.bulge) / 3.0
-    half = 0.5 * arc.sweep
-    c, s = long * math.cos(half), long * math.sin(half)
-    x, y = x1 - x0, y1 - y0
-    first = x0 + c * x + s * y, y0 + c * y - s * x
-    second = x1 - c * x + s * y, y1 - c * y - s * x
-    return Cubic(arc.start, first, second, arc.end)
 
 
 def text(words: str, at: Point, size: float, turn: float = 0.0, font: int = 1) -> str:
@@ -130,6 +113,12 @@ def _escaped(words: str) -> str:
     return "".join(
         chr(c) if 32 <= c < 127 and chr(c) not in "()\\" else f"\\{c:03o}" for c in codes
     )
+
+
+def tint(rgb: str, fraction: float = 1.0) -> str:
+    """A colour, or a fraction of it on white, as the operands of an operator."""
+    parts = (int(rgb[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
+    return " ".join(number(1.0 - fraction * (1.0 - p)) for p in parts)
 
 
 def point(p: Point) -> str:

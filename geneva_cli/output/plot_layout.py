@@ -114,28 +114,26 @@ def blocks(figure: Figure) -> Iterator[FigureBlock]:
     high = {1: 300.0, 2: 220.0, 3: 160.0}.get(len(figure.panels), 112.0)
     marked = any(curve.marks for panel in figure.panels for curve in panel.curves)
     wide = PAGE - LEFT - (MARKS if marked else RIGHT)
-    for panel in figure.panels:
-        is_first, is_last = panel is figure.panels[0], panel is figure.panels[-1]
+    yield from (_block(figure, panel, wide, high, several) for panel in figure.panels)
 
-        def draw(
-            pen: Pen,
-            top: float,
-            panel: Panel = panel,
-            is_first: bool = is_first,
-            is_last: bool = is_last,
-        ) -> None:
-            frame = Frame(top + ABOVE, wide, high, figure.window, padded(panel))
-            across = ticks(*figure.window, int(wide / 70.0), figure.x.unit)
-            pen.begin(panel.y.name, frame)
-            _panel(figure, panel, frame, across, pen)
-            _marks(figure, panel, frame, several, pen)
-            pen.end()
-            if is_last:
-                _below(figure, frame, across, pen)
-            if is_first:
-                _dwell(figure, frame, pen)
 
-        yield FigureBlock(ABOVE + high + (BELOW if is_last else 0.0), draw)
+def _block(figure: Figure, panel: Panel, wide: float, high: float, several: bool) -> FigureBlock:
+    """A panel of one curve or ``several``; the first names a dwell, the last has the axis."""
+    is_first, is_last = panel is figure.panels[0], panel is figure.panels[-1]
+
+    def draw(pen: Pen, top: float) -> None:
+        frame = Frame(top + ABOVE, wide, high, figure.window, padded(panel))
+        across = ticks(*figure.window, int(wide / 70.0), figure.x.unit)
+        pen.begin(panel.y.name, frame)
+        _panel(figure, panel, frame, across, pen)
+        _marks(figure, panel, frame, several, pen)
+        pen.end()
+        if is_last:
+            _below(figure, frame, across, pen)
+        if is_first:
+            _dwell(figure, frame, pen)
+
+    return FigureBlock(ABOVE + high + (BELOW if is_last else 0.0), draw)
 
 
 def padded(panel: Panel) -> tuple[float, float]:

@@ -9,7 +9,7 @@ from geneva_cli.figure import Figure
 from geneva_cli.output import pdf_file
 from geneva_cli.output.document.paper import INK, LEFT, WIDE, Item, box, wide, words
 from geneva_cli.output.letters import western
-from geneva_cli.output.pdf_file import POINT, number
+from geneva_cli.output.pdf_file import POINT, number, tint
 from geneva_cli.output.plot_layout import (
     END,
     INCH,
@@ -62,7 +62,7 @@ class _PdfPen(Pen):
 
     def rest(self, x: float, y: float, wide: float, high: float) -> None:
         (left, bottom), k = self._place((x, y + high)), self.scale
-        self.out.append(box(left, bottom, k * wide, k * high, _ink(LIGHT.rest)))
+        self.out.append(box(left, bottom, k * wide, k * high, tint(LIGHT.rest)))
 
     def grid(self, paths: Iterable[Path]) -> None:
         self._stroke(LIGHT.grid, 0.5, paths)
@@ -100,7 +100,7 @@ class _PdfPen(Pen):
     ) -> None:
         """Draw lines with round ends; a path of one place is a dot."""
         dash = " ".join(number(self.scale * x) for x in pattern)
-        self.out.append(f"{_ink(ink)} RG {number(self.scale * width)} w [{dash}] 0 d\n")
+        self.out.append(f"{tint(ink)} RG {number(self.scale * width)} w [{dash}] 0 d\n")
         for path in paths:
             first, *rest = dict.fromkeys(self._at(place) for place in path)
             self.out.append(f"{first} m\n" + "".join(f"{p} l\n" for p in rest or [first]) + "S\n")
@@ -110,7 +110,3 @@ class _PdfPen(Pen):
 
     def _at(self, place: Point) -> str:
         return pdf_file.point(self._place(place))
-
-
-def _ink(rgb: str) -> str:
-    return " ".join(number(int(rgb[i : i + 2], 16) / 255.0) for i in (1, 3, 5))

@@ -6,44 +6,35 @@ import re
 import sys
 import textwrap
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
 
 from geneva_cli.document import FAILS, PASSES, WARNS, Summary, SummaryLine
 from geneva_cli.errors import clean
 from geneva_cli.output.document.values import RAISED, TIMES
 from geneva_cli.output.layout import DIM, styled
+from geneva_cli.output.text import WIDTH
+from geneva_cli.output.window import Window, window
 
 SIGNS = {PASSES: "✓", WARNS: "!", FAILS: "✗"}
 INKS = {PASSES: "\x1b[32m", WARNS: "\x1b[33m", FAILS: "\x1b[31m"}  # green, yellow, red
 
 
-class TextStyle(NamedTuple):
-    """The look of a summary on a stream."""
-
-    width: int = 90  # letters of a line
-    coloured: bool = False
-    unicode: bool = True
-
-
-def style_of(output: str, is_seen: bool) -> TextStyle:
+def style_of(output: str, is_seen: bool) -> Window:
     """The look for a terminal if ``is_seen``, a pipe, or a file, which is always UTF-8."""
     if output != "-":
-        return TextStyle()
+        return Window(WIDTH)
     try:
         "✓✗°²³⁻⁵".encode(sys.stdout.encoding or "ascii")
         unicode = True
     except (UnicodeEncodeError, LookupError):
         unicode = False
     if not is_seen:
-        return TextStyle(unicode=unicode)
-    from geneva_cli.output.window import window
-
+        return Window(WIDTH, unicode=unicode)
     terminal = window(False, False)
     # Lines of more than 100 letters are hard to read.
-    return TextStyle(min(terminal.columns, 100), terminal.styled, unicode)
+    return terminal._replace(columns=min(terminal.columns, 100), unicode=unicode)
 
 
-def chunks(summaries: Iterable[Summary], look: TextStyle) -> Iterator[str]:
+def chunks(summaries: Iterable[Summary], look: Window) -> Iterator[str]:
     """Each summary as text, with empty lines around one that has lines."""
     before: Summary | None = None
     for summary in summaries:
@@ -56,24 +47,24 @@ def chunks(summaries: Iterable[Summary], look: TextStyle) -> Iterator[str]:
         before = summary
 
 
-def _head(summary: Summary, look: TextStyle) -> str:
+def _head(summary: Summary, look: Window) -> str:
     sign = _letters(SIGNS.get(summary.state, ""), look)
     indent = " " * (len(sign) + 1) if sign else ""
-    text = "\n".join(_wrapped(summary.head, look.width - len(indent), look))
+    text = "\n".join(_wrapped(summary.head, look.columns - len(indent), look))
     text = text.replace("\n", f"\n{indent}")
-    sign = styled(sign, INKS.get(summary.state, ""), look.coloured)
+    sign = styled(sign, INKS.get(summary.state, ""), look.styled)
     return f"{sign} {text}\n" if sign else f"{text}\n"
 
 
-def _lines(lines: Iterable[SummaryLine], look: TextStyle) -> Iterator[str]:
+def _lines(lines: Iterable[SummaryLine], look: Window) -> Iterator[str]:
     lines = list(lines)
     label_max = 20  # letters; a longer label stands above its text
     wide = max((len(line.label) for line in lines if len(line.label) <= label_max), default=0)
-    width = look.width - wide - 4
+    width = look.columns - wide - 4
     for line in lines:
-        label = styled(clean(line.label), INKS.get(line.state, ""), look.coloured)
+        label = styled(clean(line.label), INKS.get(line.state, ""), look.styled)
         texts = _wrapped(line.text, width, look)
-        notes = [styled(note, DIM, look.coloured) for note in _wrapped(line.note, width, look)]
+        notes = [styled(note, DIM, look.styled) for note in _wrapped(line.note, width, look)]
         first = f"  {label}{' ' * (wide - len(line.label))}  "
         if len(line.label) > wide:
             yield f"  {label}\n"
@@ -82,7 +73,7 @@ def _lines(lines: Iterable[SummaryLine], look: TextStyle) -> Iterator[str]:
             yield f"{' ' * (wide + 4) if number else first}{text}".rstrip() + "\n"
 
 
-def _wrapped(text: str, width: int, look: TextStyle) -> list[str]:
+def _wrapped(text: str, width: int, look: Window) -> list[str]:
     """A text in lines; a value is not separated from its power of ten or its unit."""
     no_break = "\u00a0"  # a space without a line break
     text = re.sub(
@@ -95,7 +86,7 @@ def _wrapped(text: str, width: int, look: TextStyle) -> list[str]:
     return [line.replace(no_break, " ") for line in lines]
 
 
-def _letters(text: str, look: TextStyle) -> str:
+def _letters(text: str, look: Window) -> str:
     """A text in the letters of the stream."""
     if look.unicode:
         return text

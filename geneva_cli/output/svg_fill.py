@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from geneva_cli.curves.measure import mapped, turned
-from geneva_cli.curves.plates import Group, Part, Plate, Stack
-from geneva_cli.curves.shapes import Contour, Point, Shape, as_contour
+from geneva_cli.curves.plates import Group, Member, Part, Plate, Stack
+from geneva_cli.curves.shapes import Contour, Shape, as_contour
 from geneva_cli.output.inks import INKS, inks
 from geneva_cli.output.svg_paths import number, path
 
@@ -55,14 +55,12 @@ def rings(solid: Part, unit: float = 1.0) -> list[tuple[str, tuple[Contour, ...]
     their tints would add up.
     """
     every = sorted(_placed(solid, lambda shape: shape), key=lambda p: (p[0].high, p[0].low))
+
+    def in_unit(shape: Shape) -> Contour:
+        return as_contour(mapped(shape, lambda p: (p[0] / unit, p[1] / unit), lambda r: r / unit))
+
     drawn = [
-        (
-            plate.layer,
-            tuple(
-                as_contour(mapped(move(s), _divided(unit), lambda radius: radius / unit))
-                for s in (plate.outline, *plate.holes)
-            ),
-        )
+        (plate.layer, tuple(in_unit(move(s)) for s in (plate.outline, *plate.holes)))
         for plate, move in every
     ]
     return list(dict.fromkeys(reversed(drawn)))[::-1]
@@ -75,12 +73,10 @@ def _placed(part: Part, move: Move) -> Iterator[tuple[Plate, Move]]:
         return
     assert isinstance(part, Group)
     for member in part.members:
-
-        def then(shape: Shape, at: Point = member.at, turn: float = member.turn) -> Shape:
-            return move(mapped(turned(shape, turn), lambda p: (p[0] + at[0], p[1] + at[1])))
-
-        yield from _placed(member.part, then)
+        yield from _placed(member.part, _then(member, move))
 
 
-def _divided(unit: float) -> Callable[[Point], Point]:
-    return lambda p: (p[0] / unit, p[1] / unit)
+def _then(member: Member, move: Move) -> Move:
+    """The transformation to a member's place in its group, and then ``move``."""
+    x, y = member.at
+    return lambda shape: move(mapped(turned(shape, member.turn), lambda p: (p[0] + x, p[1] + y)))

@@ -6,7 +6,7 @@ import math
 from html import escape
 
 from geneva_cli.curves.drawing import Annotations, LevelDistance
-from geneva_cli.curves.measure import Box, at, bounds, mapped
+from geneva_cli.curves.measure import Box, bounds
 from geneva_cli.curves.pieces import SUFFIX, UNITS
 from geneva_cli.curves.shapes import Arc, Contour, Point
 from geneva_cli.output.inks import inks
@@ -45,19 +45,15 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tup
     heads: list[str] = []
     texts: list[tuple[Point, str]] = []
     # All lengths are in mm, for a drawing 250 mm wide; letters are 5 mm high.
-    unit, text, gap, grey = UNITS[units], mm * 5.0, mm * 3.0, "#757575"
+    unit, text, gap = UNITS[units], mm * 5.0, mm * 3.0
     left, right, low, high = box.x0, box.x1, box.y0, box.y1
     for turn in look.turns:
-        arc = mapped(Contour("", (turn,), closed=False), lambda p: (p[0] / unit, p[1] / unit))
-        lines.append(path(arc))
-        piece = arc.segments[0]
-        assert isinstance(piece, Arc)
-        back = 0.5 * mm * ARROW[0] / piece.radius  # the angle of the arc under the arrow's head
-        x, y = piece.centre
-        end = math.atan2(piece.end[1] - y, piece.end[0] - x)
-        sense = math.copysign(1.0, piece.bulge)
-        heads.append(_head(at(piece, 1.0), end + sense * (0.5 * math.pi - back), mm))
-        around = bounds(arc)
+        first, last = ((x / unit, y / unit) for x, y in (turn.start, turn.end))
+        arc = Arc(first, last, turn.bulge)
+        contour = Contour("", (arc,), closed=False)
+        lines.append(path(contour))
+        heads.append(_head(last, heading(arc, mm * ARROW[0]), mm))
+        around = bounds(contour)
         left, right = min(left, around.x0), max(right, around.x1)
         low, high = min(low, around.y0), max(high, around.y1)
     for span in look.spans:
@@ -71,9 +67,8 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tup
     tick = mm * 1.5  # half a scale bar's end mark
     bar = round_length(0.2 * (box.x1 - box.x0 or box.y1 - box.y0))
     y = low - gap - max(tick, 0.5 * text)
-    marks = (left, left + bar)
-    lines.append(f"M {point((left, y))} L {point((left + bar, y))}")
-    scale = [f"M {point((x, y - tick))} L {point((x, y + tick))}" for x in marks]
+    ends = [((x, y - tick), (x, y + tick)) for x in (left, left + bar)]
+    ruler = " ".join(map(_line, [*ends, ((left, y), (left + bar, y))]))
     label = f"{bar:g} {SUFFIX[units]}"
     texts.append(((left + bar + gap, y - 0.35 * text), label))
     right = max(right, left + bar + gap + width(label) * text)
@@ -82,19 +77,25 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tup
         texts.append(((left, low - 1.2 * text), title))
         right = max(right, left + width(title) * text)
         low -= 1.5 * text
-    thin = number(mm * 0.25)
-    ruler = " ".join([*scale, lines.pop()])
+    return _groups(lines, ruler, heads, texts, mm), Box(left, low, right, high)
+
+
+def _groups(
+    lines: list[str], ruler: str, heads: list[str], texts: list[tuple[Point, str]], mm: float
+) -> list[str]:
+    """The elements of paths, the scale bar's path, arrows and texts of 5 mm."""
+    grey = "#757575"
     return [
-        f'<g id="NOTES" stroke="{grey}" stroke-width="{thin}">\n',
+        f'<g id="NOTES" stroke="{grey}" stroke-width="{number(mm * 0.25)}">\n',
         *(f'<path d="{d}"/>\n' for d in lines),
         f'<path id="SCALE_BAR" d="{ruler}"/>\n</g>\n',
         f'<g id="ARROWS" fill="{grey}">\n',
         *heads,
         f'</g>\n<g id="TEXT" fill="{LIGHT.text}" font-family="sans-serif"'
-        f' font-size="{number(text)}">\n',
+        f' font-size="{number(mm * 5.0)}">\n',
         *(f"<text {place(p)}>{escape(t, quote=False)}</text>\n" for p, t in texts),
         "</g>\n",
-    ], Box(left, low, right, high)
+    ]
 
 
 def _ends(span: LevelDistance, unit: float) -> tuple[float, float]:
@@ -111,23 +112,33 @@ def span_text(span: LevelDistance, units: str) -> str:
 
 def _span(span: LevelDistance, unit: float, low: float, gap: float) -> list[str]:
     """The path of a distance's line, and of the lines from its ends down to it."""
-    (a, b) = _ends(span, unit)
-    lines = [f"M {point((a, low))} L {point((b, low))}"]
-    for x, y in (span.start, span.end):
-        here = x / unit
-        lines.append(f"M {point((here, y / unit))} L {point((here, low - 0.4 * gap))}")
-    return lines
+    a, b = _ends(span, unit)
+    sides = (((x / unit, y / unit), (x / unit, low - 0.4 * gap)) for x, y in (span.start, span.end))
+    return list(map(_line, [((a, low), (b, low)), *sides]))
+
+
+def _line(ends: tuple[Point, Point]) -> str:
+    return f"M {point(ends[0])} L {point(ends[1])}"
 
 
 def _head(tip: Point, angle: float, mm: float) -> str:
     """An arrow's head."""
-    long, half = mm * ARROW[0], mm * ARROW[1]
-    c, s = math.cos(angle), math.sin(angle)
-    left, right = (
-        (tip[0] - long * c - side * half * s, tip[1] - long * s + side * half * c)
-        for side in (1.0, -1.0)
-    )
-    return f'<path d="M {point(tip)} L {point(left)} L {point(right)} Z"/>\n'
+    corners = arrow(tip, angle, (mm * ARROW[0], mm * ARROW[1]))
+    return f'<path d="M {" L ".join(map(point, corners))} Z"/>\n'
+
+
+def arrow(tip: Point, angle: float, size: tuple[float, float]) -> tuple[Point, Point, Point]:
+    """The corners of an arrow's head in a direction; ``size`` is its length and half its width."""
+    (long, half), c, s = size, math.cos(angle), math.sin(angle)
+    x, y = tip[0] - long * c, tip[1] - long * s
+    return tip, (x - half * s, y + half * c), (x + half * s, y - half * c)
+
+
+def heading(arc: Arc, long: float) -> float:
+    """The direction of an arrow of this length at an arc's end: that of the arc under its head."""
+    (x, y), (cx, cy) = arc.end, arc.centre
+    ahead = 0.5 * math.pi - 0.5 * long / arc.radius
+    return math.atan2(y - cy, x - cx) + math.copysign(ahead, arc.bulge)
 
 
 def _brighter(rgb: str) -> str:

@@ -6,8 +6,8 @@ programs of cutting machines ignore transforms.
 
 from __future__ import annotations
 
-from geneva_cli.curves.measure import halves
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, Point, Segment, Shape
+from geneva_cli.curves.measure import halved
+from geneva_cli.curves.shapes import Circle, Contour, Cubic, Line, Point, Segment, Shape
 
 
 def element(shape: Shape) -> str:
@@ -29,13 +29,9 @@ def path(contour: Contour) -> str:
 
 
 def _split(segment: Segment) -> list[Segment]:
-    if isinstance(segment, Arc):
-        bulge = abs(segment.bulge)
-        # Bulges of 150, 210 and 300 degrees. Near a half turn the radius determines the centre
-        # badly, near a whole turn the chord does. Such arcs are halved.
-        if 0.7673 < bulge < 1.3032 or bulge > 3.7:
-            return [part for half in halves(segment) for part in _split(half)]
-    return [segment]
+    # Bulges of 150, 210 and 300 degrees. Near a half turn the radius determines the centre badly,
+    # near a whole turn the chord does.
+    return halved(segment, lambda bulge: 0.7673 < bulge < 1.3032 or bulge > 3.7)
 
 
 def _command(segment: Segment) -> str:

@@ -125,18 +125,13 @@ def _lines(table: Table) -> Iterator[str]:
         return
     table = flat(table)
     # A value that does not apply has no line.
-    shown = [pair for pair in zip(table.names, next(table.rows()), strict=True) if _is(pair[1])]
-    row = [value for _, value in shown]
-    split = [name.rpartition(".") for name, _ in shown]
-    width = max((len(name) + (2 if group else 0) for group, _, name in split), default=0)
+    row = zip(table.names, next(table.rows()), strict=True)
+    shown = [(*name.rpartition("."), value) for name, value in row if value not in (None, "")]
+    width = max((len(name) + (2 if group else 0) for group, _, name, _ in shown), default=0)
     current = ""
-    for (group, _, name), value in zip(split, row, strict=True):
+    for group, _, name, value in shown:
         if group != current:
             yield f"{group}\n" if group else ""
             current = group
         label = f"  {name}" if group else name
         yield f"{label.ljust(width)}  {cell(value)}\n"
-
-
-def _is(value: Any) -> bool:
-    return value is not None and value != ""

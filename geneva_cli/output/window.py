@@ -13,15 +13,17 @@ from geneva_cli.output.text import WIDTH
 
 
 class Window(NamedTuple):
-    """The terminal's width in letters, whether it shows bold ones, and the options for all columns.
+    """The width of lines in letters, the look of letters, and the options for all columns.
 
     A ``whole`` table has every column, constant ones too; a ``wide`` one exceeds the window.
+    Letters may be ``styled``, as bold ones, and without ``unicode`` they are ASCII.
     """
 
     columns: int
     styled: bool = False
     whole: bool = False
     wide: bool = False
+    unicode: bool = True
 
 
 def window(whole: bool, is_wide: bool) -> Window:

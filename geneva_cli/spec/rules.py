@@ -1,7 +1,5 @@
 """Rules for values in the spec, each written once next to its key; ranges as text."""
 
-from __future__ import annotations
-
 import math
 import sys
 from collections.abc import Sequence

@@ -4,6 +4,9 @@ A field is annotated with its type, its rule and its meaning. The reader, the wr
 and Python users all use that line:
 
     A: Annotated[float, Range(-1.0, 1.0, "()"), "base offset / crank length"]
+
+Most modules of tables do without ``from __future__ import annotations``: text that is evaluated
+when a run starts takes longer than objects.
 """
 
 from __future__ import annotations
@@ -58,6 +61,13 @@ class Field(NamedTuple):
     rule: Any
     default: Any  # REQUIRED if there is none
     meaning: str
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """The words that its values may be; none for numbers and free text."""
+        if isinstance(self.rule, Words):
+            return self.rule.words
+        return self.rule if isinstance(self.rule, OneOf) else ()
 
 
 HASH = "_hash"  # name under which a record stores its own hash
@@ -382,13 +392,12 @@ def _numbers(place: tuple[str, ...], field: Field, values: Any, whole: bool) -> 
 
 
 def _word(place: tuple[str, ...], field: Field, value: str, numeric: bool) -> str:
-    words = field.rule.words if isinstance(field.rule, Words) else ()
     if isinstance(field.rule, OneOf) and value not in field.rule:
         raise GenevaError(
             f"{field.key} = {shown(value)} must be {field.rule}{nearest(value, field.rule)}", place
         )
-    if numeric and value not in words:
-        allowed = " or ".join(f'"{w}"' for w in words)
+    if numeric and value not in field.words:
+        allowed = " or ".join(f'"{w}"' for w in field.words)
         raise GenevaError(f"{field.key} must be a number or {allowed}, not {shown(value)}", place)
     return value
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
@@ -80,6 +81,7 @@ def unit_key(key: str) -> str | None:
     return unit if unit and re.fullmatch(pattern(), f"1 {unit}") else None
 
 
+@cache
 def pattern() -> str:
     """Regular expression of a number with its unit, for editors; its units are known ones."""
     names = sorted((n for names in UNITS.values() for n in names), key=len, reverse=True)

@@ -3,8 +3,6 @@
 Thermal cuts deviate by ISO 9013:2017, tolerance class 1, which lasers keep.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 

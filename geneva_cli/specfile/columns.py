@@ -73,19 +73,7 @@ def read_columns(path: str) -> Columns:
     file, or has no rows.
     """
     shown = cut(path, 300)
-    bytes_max = 1 << 28  # a csv of some million designs
-    try:
-        with open(path, "rb") as file:
-            data = file.read(bytes_max + 1)
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else error
-        raise GenevaError(f"{shown}: cannot read: {reason}") from None
-    if len(data) > bytes_max:
-        raise GenevaError(f"{shown}: larger than {bytes_max} bytes: sweep fewer designs")
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        raise GenevaError(f"{shown}: not UTF-8 text; save the file as UTF-8") from None
+    text = _text(path, 1 << 28, "sweep fewer designs")  # a csv of some million designs
     lines = csv.reader(text.splitlines())
     names = tuple(name.strip() for name in next(lines, []))
     rows = []
@@ -109,7 +97,8 @@ def read_pairs(path: str, rule: Csv, key: tuple[str, ...]) -> list[tuple[float, 
     Raises GenevaError naming the file's line or, if the file cannot be read, the spec's key.
     """
     points: list[tuple[float, float]] = []
-    for number, line in enumerate(_text(path, key).split("\n"), 1):
+    text = _text(path, 1 << 24, "use fewer points", key)  # some hundred thousand points, in memory
+    for number, line in enumerate(text.split("\n"), 1):
         row = [re.sub(r'^"(.*)"$', r"\1", cell.strip()) for cell in line.split(",")]
         if row == [""] or row[0].startswith("#") or row == [rule.x, rule.y]:
             continue
@@ -142,20 +131,19 @@ def digest(paths: Iterable[str]) -> str:
     return total.hexdigest()
 
 
-def _text(path: str, key: tuple[str, ...]) -> str:
-    bytes_max = 1 << 24  # some hundred thousand points, all in memory
+def _text(path: str, bytes_max: int, advice: str, key: tuple[str, ...] = ()) -> str:
+    """Text of a file. Raises GenevaError, for points with the spec's key that names them."""
+    shown = cut(path, 300)
     try:
         with open(path, "rb") as file:
             data = file.read(bytes_max + 1)
-    except OSError as error:
-        raise GenevaError(
-            f"cannot read the points in {cut(path, 300)}: {error.strerror}", key
-        ) from None
-    except ValueError as error:  # a NUL in the name
-        raise GenevaError(f"cannot read the points in {cut(path, 300)}: {error}", key) from None
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        reason = error.strerror if isinstance(error, OSError) else error
+        what = f"cannot read the points in {shown}" if key else f"{shown}: cannot read"
+        raise GenevaError(f"{what}: {reason}", key) from None
     if len(data) > bytes_max:
-        raise GenevaError(f"{path}: larger than {bytes_max} bytes: use fewer points")
+        raise GenevaError(f"{shown}: larger than {bytes_max} bytes: {advice}")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise GenevaError(f"{path}: not UTF-8 text; save the file as UTF-8") from None
+        raise GenevaError(f"{shown}: not UTF-8 text; save the file as UTF-8") from None

@@ -150,10 +150,8 @@ def _value(key: Field) -> Schema:
     if LIST in key.types:
         items = _any([_number(key.rule, whole=False), *with_unit])
         kinds.append({"type": "array", "items": items, "minItems": 1, "maxItems": LIST_MAX})
-    words = key.rule.words if isinstance(key.rule, Words) else ()
-    words = key.rule if isinstance(key.rule, OneOf) else words
-    if str in key.types and (words or not number):
-        kinds.append({"type": "string", **({"enum": list(words)} if words else {})})
+    if str in key.types and (key.words or not number):
+        kinds.append({"type": "string", **({"enum": list(key.words)} if key.words else {})})
     return _any(kinds)
 
 

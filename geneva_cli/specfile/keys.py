@@ -1,16 +1,14 @@
 """Every key of a spec: its unit, type, range, default, and the kinds that have it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.motion import Motion
 from geneva_cli.machine.spec import BEFORE
 from geneva_cli.names import unit_of
-from geneva_cli.spec.rules import Csv, OneOf, Words
+from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import LIST, REQUIRED, Field, SpecTable, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
 from geneva_cli.specfile.writer import BEFORE_KIND, GEARING, KIND, LAW, own_fields, quoted
@@ -31,6 +29,16 @@ class Key(NamedTuple):
     goes_with: str | None  # None: any machine
     meaning: str
 
+    @property
+    def whole_table(self) -> str:
+        """The table without the brackets of a list."""
+        return self.table.strip("[]")
+
+    @property
+    def name(self) -> str:
+        """The key with its table, as ``drive.A``."""
+        return f"{self.whole_table}.{self.key}" if self.table else self.key
+
 
 def all_keys() -> list[Key]:
     """All keys, by table, in the order of a file."""
@@ -49,13 +57,12 @@ def about(word: str) -> list[Key]:
     keys = all_keys()
     if not word:
         return keys
-    some = [k for k in keys if word in (_bare(k), _bare(k).partition(".")[0])]
-    some = some or [k for k in keys if word in (k.key, f"{_bare(k)}.{k.key}")]
+    some = [k for k in keys if word in (k.whole_table, k.whole_table.partition(".")[0])]
+    some = some or [k for k in keys if word in (k.key, k.name)]
     if not some:
-        known = {_bare(k) for k in keys} | {k.key for k in keys}
-        whole = {f"{_bare(k)}.{k.key}" for k in keys}
+        known = sorted({text for k in keys for text in (k.whole_table, k.key, k.name)})
         raise GenevaError(
-            f'"{cut(word)}" is not a table or key of a spec{nearest(word, sorted(known | whole))}; '
+            f'"{cut(word)}" is not a table or key of a spec{nearest(word, known)}; '
             "`geneva keys` lists all"
         )
     return some
@@ -63,7 +70,7 @@ def about(word: str) -> list[Key]:
 
 def full_names() -> dict[str, str]:
     """Every key as ``table.key``, with its meaning."""
-    return {f"{_bare(k)}.{k.key}": k.meaning for k in all_keys() if k.table}
+    return {k.name: k.meaning for k in all_keys() if k.table}
 
 
 def tables_with(key: str) -> list[str]:
@@ -72,7 +79,7 @@ def tables_with(key: str) -> list[str]:
     >>> tables_with("friction")
     ['load', 'support', 'product']
     """
-    return list(dict.fromkeys(_bare(k) for k in all_keys() if k.key == key and k.table))
+    return list(dict.fromkeys(k.whole_table for k in all_keys() if k.key == key and k.table))
 
 
 def words_of(name: str) -> tuple[str, ...]:
@@ -97,9 +104,8 @@ def words_of(name: str) -> tuple[str, ...]:
         Motion,
         *PLAIN.values(),
     ]
-    rules = [f.rule for kind in kinds if table == kind.TABLE for f in fields(kind) if f.key == key]
-    some = [rule.words for rule in rules if isinstance(rule, Words)]
-    return tuple(dict.fromkeys(word for rule in (*some, *_lists(rules)) for word in rule))
+    own = [f for kind in kinds if table == kind.TABLE for f in fields(kind) if f.key == key]
+    return tuple(dict.fromkeys(word for field in own for word in field.words))
 
 
 def is_whole(name: str) -> bool:
@@ -108,37 +114,29 @@ def is_whole(name: str) -> bool:
     >>> is_whole("wheel.z"), is_whole("drive.A")
     (True, False)
     """
-    types = {k.type for k in all_keys() if f"{_bare(k)}.{k.key}" == name}
+    types = {k.type for k in all_keys() if k.name == name}
     return types == {TYPES[int]}
-
-
-def _lists(rules: list[Any]) -> list[OneOf]:
-    return [rule for rule in rules if isinstance(rule, OneOf)]
-
-
-def _bare(key: Key) -> str:
-    return key.table.strip("[]")
 
 
 def _wheel() -> Iterator[Key]:
     yield _key("wheel", GEARING)
-    kinds = {name: registry.gearing(name) for name in registry.GEARINGS}
-    yield from _of_kinds("wheel", "gearing", kinds)
+    own = {name: fields(registry.gearing(name)) for name in registry.GEARINGS}
+    yield from _of_kinds("wheel", "gearing", own)
 
 
 def _drive() -> Iterator[Key]:
     yield _key("drive", KIND)
     kinds = {name: registry.drive(name) for name in registry.DRIVES}
-    yield from _of_kinds("drive", "kind", kinds)
+    yield from _of_kinds("drive", "kind", {name: fields(kind) for name, kind in kinds.items()})
     yield _key(BEFORE, BEFORE_KIND)
     before = {name: own_fields(kind) for name, kind in kinds.items() if kind.IN_FRONT}
-    yield from _of_fields(BEFORE, "kind", before)
+    yield from _of_kinds(BEFORE, "kind", before)
 
 
 def _motion() -> Iterator[Key]:
     yield _key("motion", LAW)
-    kinds = {name: registry.law(name) for name in registry.LAWS}
-    yield from _of_kinds("motion", "law", kinds)
+    own = {name: fields(registry.law(name)) for name in registry.LAWS}
+    yield from _of_kinds("motion", "law", own)
     for field in fields(Motion):
         yield _key("motion", field, "with a law")
 
@@ -149,13 +147,8 @@ def _plain() -> Iterator[Key]:
             yield _key(name, field)
 
 
-def _of_kinds(table: str, word: str, kinds: Mapping[str, type[SpecTable]]) -> Iterator[Key]:
-    """Keys of several kinds; a key that not all kinds have names its kinds."""
-    yield from _of_fields(table, word, {name: fields(kind) for name, kind in kinds.items()})
-
-
-def _of_fields(table: str, word: str, kinds: Mapping[str, Sequence[Field]]) -> Iterator[Key]:
-    """Keys of several kinds, from the fields of each."""
+def _of_kinds(table: str, word: str, kinds: Mapping[str, Sequence[Field]]) -> Iterator[Key]:
+    """Keys of several kinds, from the fields of each; a key that not all have names its kinds."""
     having: dict[Field, list[str]] = {}
     for name, own in kinds.items():
         for field in own:

@@ -1,7 +1,5 @@
 """Meanings of words: a check, a quantity, a kind, a law, a warning, a part, or a key of a spec."""
 
-from __future__ import annotations
-
 import inspect
 import textwrap
 from functools import cache
@@ -65,7 +63,7 @@ def listed() -> list[tuple[str, str, str]]:
 
 def names() -> list[str]:
     """Names of everything that is explained, and of the keys."""
-    return [name for e in entries() for name in e.names] + [_name(key) for key in _keys()]
+    return [name for e in entries() for name in e.names] + [key.name for key in _keys()]
 
 
 def as_markdown(known_meanings: list[Meaning]) -> str:
@@ -101,7 +99,7 @@ def _lookup(word: str) -> list[Meaning]:
         if own:
             return [_of_entry(entry, word) for entry in own]
     key = word.removeprefix(INPUTS)
-    keys = [_of_key(k) for k in _keys() if key in (k.key, _name(k))]
+    keys = [_of_key(k) for k in _keys() if key in (k.key, k.name)]
     if word.startswith(INPUTS):
         return keys
     exact = [e for e in some if word in e.names or f".{word}" in e.names]
@@ -167,15 +165,11 @@ def _of_key(key: Key) -> Meaning:
     ]
     return Meaning(
         "key",
-        _name(key),
+        key.name,
         f"A key of the spec's [{key.table}]: " + "; ".join(text for text in texts if text) + ".",
         unit=key.unit,
         manual="geneva help keys",
     )
-
-
-def _name(key: Key) -> str:
-    return f"{key.table.strip('[]')}.{key.key}" if key.table else key.key
 
 
 def _sentence(text: str) -> str:

@@ -18,7 +18,6 @@ import tomli
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.machine.spec import Spec
-from geneva_cli.spec.units import NUMBER, unit_key
 from geneva_cli.specfile.settings import Setting, applied, option_of, settings
 from geneva_cli.specfile.tree import spec_of
 from geneva_cli.table import in_digits
@@ -122,6 +121,8 @@ def _reason(message: str, line: str) -> str:
 
 def _hint(line: str) -> str:
     """What is right instead of a bare value such as ``12,5``, ``60 rpm`` or ``cycloidal``."""
+    from geneva_cli.spec.units import NUMBER  # which a spec without errors or units needs not
+
     match = re.fullmatch(r"""\s*[\w.-]+\s*=\s*([^\s#"'\[{][^#"'\[{]*?)\s*(#.*)?""", line)
     value = match[1] if match else ""
     if comma := re.fullmatch(r"([+-]?\d+),(\d+)(.*)", value):
@@ -178,6 +179,8 @@ def texts_with_units(tree: dict[str, Any], spec: Spec) -> list[str]:
     >>> texts_with_units(tree, Spec(External(6), size=Size(center_distance_mm="8 in")))
     ['size.center_distance_mm = 203.2, from "8 in"']
     """
+    from geneva_cli.spec.units import unit_key
+
     return [
         f"{table}.{key} = {_shown(number)}, from {_typed(value)}"
         for table, key, value in _values(tree)

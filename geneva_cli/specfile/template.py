@@ -7,6 +7,7 @@ from typing import Any
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.wheels.external import External
+from geneva_cli.kinematics.wheels.gearing import Gearing
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.spec import BEFORE
 from geneva_cli.spec.schema import REQUIRED, Example, Field, fields
@@ -118,27 +119,22 @@ def template(kind: str, schema: bool = True, whole: bool = True) -> str:
         values = own.get(name, {})
         # An empty table of a list would be one more body, without any of its keys.
         head = f"# [[{name}]]" if name in LISTS else f"[{name}]"
-        # keys that most people set
-        usual_tables: dict[str, dict[str, float]] = {
-            "drive": {"n_rpm": 60, "rollers": 1},
-            "size": {"center_distance_mm": 160, "roller_radius_mm": 9, "face_width_mm": 16},
-            "load": gearing.USUAL_LOAD,
-            "limits": gearing.USUAL_LIMITS,
-        }
-        usual = usual_tables.get(name, {})
-        block = (
-            [_line(f, values) for f in table]
-            if whole
-            else _usual(table, values, usual, gearing.NAME)
-        )
+        block = [_line(f, values) for f in table] if whole else _usual(name, table, values, gearing)
         lines += ["", head, *block] if block else []
     return "\n".join(lines) + "\n"
 
 
 def _usual(
-    table: list[Field], values: dict[str, Any], usual: dict[str, float], gearing: str
+    name: str, table: list[Field], values: dict[str, Any], gearing: type[Gearing]
 ) -> list[str]:
     """The lines of the keys that an example sets, or that most people do, with usual values."""
+    usual_tables: dict[str, dict[str, float]] = {
+        "drive": {"n_rpm": 60, "rollers": 1},
+        "size": {"center_distance_mm": 160, "roller_radius_mm": 9, "face_width_mm": 16},
+        "load": gearing.USUAL_LOAD,
+        "limits": gearing.USUAL_LIMITS,
+    }
+    usual = usual_tables.get(name, {})
     shown = [field for field in table if field.key in values or field.key in usual]
     settings = [
         f"{field.key} = {quoted(values[field.key])}"
@@ -147,7 +143,7 @@ def _usual(
         for field in shown
     ]
     width = max(map(len, settings), default=0)
-    notes = [_note(field.meaning, gearing) for field in shown]
+    notes = [_note(field.meaning, gearing.NAME) for field in shown]
     return [f"{s.ljust(width)}  # {note}" for s, note in zip(settings, notes, strict=True)]
 
 

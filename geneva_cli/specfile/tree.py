@@ -23,9 +23,9 @@ class _Kinds(NamedTuple):
 
     table: str
     word: str
-    default: str
     names: Collection[str]
     find: Callable[[str], type[Any]]
+    default: str = ""
 
     def all(self) -> Iterator[tuple[str, type[SpecTable]]]:
         """Yield every kind, with the words that choose it."""
@@ -80,8 +80,8 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
             f"{name}: no [wheel] table; the shortest spec is [wheel] and, on the next line, z = 6"
         )
     files = _Files(name)
-    gearings = _Kinds("wheel", "gearing", "external", registry.GEARINGS, registry.gearing)
-    drives = _Kinds("drive", "kind", "crank", registry.DRIVES, registry.drive)
+    gearings = _Kinds("wheel", "gearing", registry.GEARINGS, registry.gearing, "external")
+    drives = _Kinds("drive", "kind", registry.DRIVES, registry.drive, "crank")
     drive = dict(tree.get("drive", {}))
     before = drive.pop("before", None)
     return Spec(
@@ -149,7 +149,7 @@ def _kind(values: dict[str, Any], kinds: _Kinds, files: _Files) -> Any:
     name = values.pop(word, kinds.default)
     cls = kinds.find(name)
     of = f'{word} = "{name}"'
-    _refuse_foreign(values, cls, kinds.table, of, kinds.all)
+    _refuse_foreign(values, cls, kinds, of)
     return cls(**_values(cls, values, files, f" for {of}", (word,)))
 
 
@@ -186,27 +186,24 @@ def _has_key(kinds: _Kinds, key: str) -> bool:
 
 def _motion(values: dict[str, Any], files: _Files) -> Motion | None:
     """The motion and its law, or None without a law, if the straight slots give the motion."""
+    laws = _Kinds("motion", "law", registry.LAWS, registry.law)
     values = dict(values)
     name = values.pop("law", None)
     if name is None:
         if values:
-            _refuse_lawless(values)
+            _refuse_lawless(values, laws)
         return None
-    cls = registry.law(name)
+    cls = laws.find(name)
     own = {field.key for field in fields(cls)}
     params = {key: values.pop(key) for key in own & set(values)}
-    _refuse_foreign(values, Motion, "motion", f'law = "{name}"', _laws)
+    _refuse_foreign(values, Motion, laws, f'law = "{name}"')
     law = cls(**_values(cls, params, files, f' for law = "{name}"'))
     return Motion(law, **_values(Motion, values, files, also=("law", *own)))
 
 
-def _laws() -> Iterator[tuple[str, type[SpecTable]]]:
-    return ((f'law = "{name}"', registry.law(name)) for name in registry.LAWS)
-
-
-def _refuse_lawless(values: dict[str, Any]) -> None:
+def _refuse_lawless(values: dict[str, Any], laws: _Kinds) -> None:
     """Raise GenevaError for keys of [motion] without a law, unless they have their defaults."""
-    known = {f.key: f.default for _, law in _laws() for f in fields(law)}
+    known = {f.key: f.default for _, law in laws.all() for f in fields(law)}
     known |= {f.key: f.default for f in fields(Motion)}
     for key, value in values.items():
         if key in known and value != known[key]:
@@ -234,39 +231,31 @@ def _tables_with(key: str) -> str:
     return " or ".join(tables) if len(tables) <= 3 else ""
 
 
-def _refuse_foreign(
-    values: dict[str, Any],
-    cls: type[SpecTable],
-    table: str,
-    of: str,
-    kinds: Callable[[], Iterator[tuple[str, type[SpecTable]]]],
-) -> None:
+def _refuse_foreign(values: dict[str, Any], cls: type[SpecTable], kinds: _Kinds, of: str) -> None:
     """Remove other kinds' keys that are at their defaults; raise GenevaError for the others."""
     own = {field.key for field in fields(cls)}
     for key in [k for k in values if k not in own]:
-        for other, theirs in kinds():
+        for other, theirs in kinds.all():
             field = next((f for f in fields(theirs) if f.key == key), None)
             if field and field.default is not REQUIRED and values[key] == field.default:
                 del values[key]
                 break
             if field:
-                raise GenevaError(f"{key} belongs to {other}, but this is {of}", (table, key))
+                raise GenevaError(f"{key} belongs to {other}, but this is {of}", (kinds.table, key))
         else:
             if key.casefold() not in {k.casefold() for k in own}:
-                _refuse_other_capitals(key, table, of, kinds())
+                _refuse_other_capitals(key, kinds, of)
 
 
-def _refuse_other_capitals(
-    key: str, table: str, of: str, kinds: Iterator[tuple[str, type[SpecTable]]]
-) -> None:
+def _refuse_other_capitals(key: str, kinds: _Kinds, of: str) -> None:
     """Raise GenevaError for a key that another kind has in other capitals."""
-    for other, theirs in kinds:
+    for other, theirs in kinds.all():
         for field in fields(theirs):
             if field.key.casefold() == key.casefold():
                 raise GenevaError(
-                    f"unknown key {cut(key)} in [{table}]{nearest(key, [field.key])}; "
+                    f"unknown key {cut(key)} in [{kinds.table}]{nearest(key, [field.key])}; "
                     f"{field.key} belongs to {other}, but this is {of}",
-                    (table, key),
+                    (kinds.table, key),
                 )
 
 

@@ -66,8 +66,8 @@ def against(path: str, settings: Sequence[str], names: Sequence[str]) -> Table:
     rows: list[tuple[Cell, ...]] = [(row, *(own[row] for own in columns.values())) for row in ROWS]
     own_words = _words(design)
     for row, words in WORDS.items():
-        said = {"geneva": own_words[row], **dict(zip(NAMES, words, strict=True))}
-        rows.append((row, *(said[name] for name in columns)))
+        cells = {"geneva": own_words[row], **dict(zip(NAMES, words, strict=True))}
+        rows.append((row, *(cells[name] for name in columns)))
     known = [row for row in rows if any(cell is not None for cell in row[1:])]
     return rows_table(("quantity", *columns), known, design.spec.title, mixed=True)
 

@@ -15,7 +15,7 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.layout.missing import Missing
 from geneva_cli.output import animate, draw, draw_sheet, show, show_document, show_text
 from geneva_cli.output.folder import LIST
-from geneva_cli.output.formats import of_curves, usual_curves, usual_tolerance
+from geneva_cli.output.formats import curve_tolerance, usual_curves
 from geneva_cli.spec.schema import Points, SpecTable, fields
 from geneva_cli.specfile.writer import quoted, spec_lines
 
@@ -80,7 +80,7 @@ def export_files(
     missing: list[Missing] = []
     for format in trade.single:
         curves = CURVES[usual_curves("", format)]
-        fine = of_curves(usual_tolerance("", format), "", format)
+        fine = curve_tolerance(None, "", format)
         parts, missing = single_parts(model, fine, curves)
         if format == "dxf":
             files += _laid_flat(design, model, fine)
@@ -146,7 +146,7 @@ def _writer(design: Design, model: PartsModel, name: str) -> Callable[[str], Non
         elif stem == "sheet":
             draw_sheet(design.sheet(of=model), path)
         else:
-            fine = of_curves(usual_tolerance("", format), "", format)
+            fine = curve_tolerance(None, "", format)
             draw(design.drawing(stem, fine, usual_curves("", format), model), path)
 
     return write

@@ -128,15 +128,15 @@ def _families(table: Columns, x: str) -> dict[str, list[int]]:
     """The row numbers of each curve, by the values of the other varied keys."""
     keys = _keys(table)
     others = [key for key in keys if key != x]
-    every = list(range(len(table.rows)))
+    numbers = list(range(len(table.rows)))
     if x not in keys or not others:
-        return {"": every}
+        return {"": numbers}
     out: dict[str, list[int]] = {}
     for i, values in enumerate(zip(*[table.texts(key) for key in others], strict=True)):
         name = ", ".join(f"{key} = {value}" for key, value in zip(others, values, strict=True))
         out.setdefault(name, []).append(i)
     if 2 * len(out) > len(table.rows) and len(out) > CURVES_MAX:
-        return {RANDOM: every}
+        return {RANDOM: numbers}
     if len(out) > CURVES_MAX:
         raise GenevaError(
             f"{len(out)} curves, one for each combination of {', '.join(others)}; at most "
@@ -150,20 +150,20 @@ def _curve(
 ) -> Curve | None:
     """A curve or points; None if no row has both numbers."""
     rows = list(pairs)
-    some = [(x, y) for x, y in rows if x is not None and y is not None]
-    if not some:
+    points = [(x, y) for x, y in rows if x is not None and y is not None]
+    if not points:
         return None
-    ascends = all(a[0] < b[0] for a, b in pairwise(some))
-    some.sort()
-    apart = all(a[0] < b[0] for a, b in pairwise(some))
-    falls = all(a[1] > b[1] for a, b in pairwise(some))
-    rises = all(a[1] < b[1] for a, b in pairwise(some))
+    ascends = all(a[0] < b[0] for a, b in pairwise(points))
+    points.sort()
+    apart = all(a[0] < b[0] for a, b in pairwise(points))
+    falls = all(a[1] > b[1] for a, b in pairwise(points))
+    rises = all(a[1] < b[1] for a, b in pairwise(points))
     if apart and (ascends or is_key):
-        style = JOINED if len(some) <= 40 else LINE  # marks of more points would touch
+        style = JOINED if len(points) <= 40 else LINE  # marks of more points would touch
     else:
         style = JOINED if apart and (falls or rises) else POINTS
     if style == POINTS:
-        return Curve(number, name, (_piece(some),), style=style)
+        return Curve(number, name, (_piece(points),), style=style)
     return Curve(number, name, tuple(_without_gaps(rows)), style=style)
 
 
@@ -175,9 +175,9 @@ def _without_gaps(rows: Sequence[tuple[float | None, float | None]]) -> list[Pie
             out.append([])
         else:
             out[-1].append((x, y))
-    return [_piece(some) for some in out if some]
+    return [_piece(points) for points in out if points]
 
 
-def _piece(some: Sequence[tuple[float, float]]) -> Piece:
-    x, y = zip(*some, strict=True)
+def _piece(points: Sequence[tuple[float, float]]) -> Piece:
+    x, y = zip(*points, strict=True)
     return list(x), list(y)

@@ -66,8 +66,8 @@ def _varied(text: Text, vary: Sequence[str]) -> dict[str, Text]:
     axes = [axis(v) for v in vary]
     refuse_twice(axes, text.set_keys)
     out: dict[str, Text] = {}
-    for some in itertools.product(*[a.values for a in axes]):
-        texts = [f"{a.key}={v}" for a, v in zip(axes, some, strict=True)]
+    for values in itertools.product(*[a.values for a in axes]):
+        texts = [f"{a.key}={v}" for a, v in zip(axes, values, strict=True)]
         changes = tuple(setting(s, "--vary") for s in texts)
         out[" ".join(texts)] = text._replace(set_keys=(*text.set_keys, *changes))
         if len(out) > DESIGNS_MAX:

@@ -12,6 +12,7 @@ from geneva_cli.machine.drives.carousel import Carousel
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range, range_text
 from geneva_cli.spec.schema import fields
+from geneva_cli.specfile.reader import read
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.survey import parse_z
 from geneva_cli.study.sweep.constraints import (
@@ -110,6 +111,29 @@ def read_target(
     )
     target.refuse_contradictions()
     return target
+
+
+def read_frame(path: str, settings: Sequence[str] = ()) -> Spec:
+    """Return the spec with whose sizes, loads and limits other machines are sought.
+
+    Raises GenevaError where a search has nothing to choose, or does not know the drive.
+    """
+    text = read(path, settings)
+    spec = text.spec()
+    with text.located():
+        if spec.wheel.JUMPS:
+            raise GenevaError(
+                f'--from: gearing = "{spec.wheel.NAME}" has no motion to choose, as its speed '
+                'jumps to a constant: use "external", "internal", "spherical" or "linear"',
+                ("wheel", "gearing"),
+            )
+        if spec.drive_before:
+            raise GenevaError(
+                "--from: synth finds the numbers of each drive by the input's angle, which "
+                "[drive.before] would change: remove it; `geneva sweep --best` varies both drives",
+                ("drive", "before"),
+            )
+    return spec
 
 
 def _wheels(carousel: str, frame: Spec | None) -> tuple[int, ...]:

@@ -26,7 +26,6 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.numerics.jet import Array
 from geneva_cli.outlines.cut_lock import cut_lock
-from geneva_cli.outlines.rack import rack_sizes
 
 
 class LockSizes(NamedTuple):
@@ -131,6 +130,8 @@ def rack_horns(machines: Sequence[Mechanism]) -> tuple[float, float] | None:
 
 
 def _horn(machine: Mechanism) -> tuple[float, float] | None:
+    from geneva_cli.outlines.rack import rack_sizes  # a wheel that turns needs none
+
     try:
         sizes = rack_sizes(machine)
     except GenevaError:  # the check of the parts reports the error

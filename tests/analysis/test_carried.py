@@ -76,5 +76,5 @@ def test_a_body_beyond_the_reach_of_the_table():
     """Five centre distances out is a large table still; farther a unit is asked about."""
     for radius, said in ((490.0, False), (900.0, True)):
         body = Mass(shape="point", mass_kg=2.0, count=2, radius_mm=radius)
-        warnings = Design(External(6), mass=(body,)).load_warnings
+        warnings = Design(External(6), mass=(body,)).warnings
         assert any("9 centre distances" in text for text in warnings) is said

@@ -139,7 +139,7 @@ def test_signs_need_neither_colour_nor_unicode(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr(sys, "stdout", Ascii)
     monkeypatch.setenv("TERM", "dumb")
     look = style_of("-", True)
-    assert (look.coloured, look.unicode) == (False, False)
+    assert (look.styled, look.unicode) == (False, False)
 
 
 def test_proof_sets_the_tolerance() -> None:

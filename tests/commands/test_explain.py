@@ -35,8 +35,9 @@ from geneva_cli.manual.explained import GROUPS, Entry, entries
 from geneva_cli.names import unit_of
 from geneva_cli.specfile.meanings import listed, meanings, names
 from geneva_cli.specfile.template import EXAMPLES
-from geneva_cli.study import batch, survey
+from geneva_cli.study import survey
 from geneva_cli.study.sweep.run import ERROR
+from geneva_cli.study.verdicts import checks_table
 from geneva_cli.synthesis.table import NAMES as SYNTH
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION, STATIC, TURNING
@@ -125,7 +126,8 @@ def quantities() -> set[str]:
         *figures.AXIS_BY_NAME,
         *CamFactors._fields,
     }
-    out |= {"acceleration.exit", "jerk.exit", *law_values.LAW_COLUMNS, *SYNTH, ERROR, *batch.NAMES}
+    out |= {"acceleration.exit", "jerk.exit", *law_values.LAW_COLUMNS, *SYNTH, ERROR}
+    out |= set(checks_table([], directed=True).names)
     out |= {*WALLED, *groove.NAMES, *gear_curves.NAMES, *parts_list.NAMES}
     out |= {"dwell_position_share", "motion_play_share"}  # of a histogram
     return out | {f"tolerance.{name}" for name in tolerance_names()}

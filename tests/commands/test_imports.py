@@ -144,18 +144,18 @@ OWN = {
 # given machine. Where a number is exceeded, see which branch imported too much.
 STRAIGHT, CURVED = "[wheel]\nz = 6\n", '[wheel]\nz = 6\n[motion]\nlaw = "modified-sine"\n'
 MOST = {
-    "peaks -": (75, 95),
-    "motion -": (77, 96),
-    "loads - --set load.inertia_kgm2=0.05": (205, 223),
-    "vibration - --period-ratio 5": (104, 109),
-    "check -": (206, 248),
-    "report -": (276, 295),
-    "compare - --vary drive.n_rpm=60,90": (180, 186),
-    "profile -": (90, 109),
-    "profile - --part wheel --format svg": (192, 235),
-    "profile - --part wheel --format dxf": (190, 233),
-    "profile - --part sheet --format svg": (216, 258),
-    "plot - --format svg": (130, 137),
+    "peaks -": (72, 92),
+    "motion -": (74, 93),
+    "loads - --set load.inertia_kgm2=0.05": (192, 211),
+    "vibration - --period-ratio 5": (103, 108),
+    "check -": (185, 230),
+    "report -": (256, 276),
+    "compare - --vary drive.n_rpm=60,90": (169, 175),
+    "profile -": (84, 103),
+    "profile - --part wheel --format svg": (170, 216),
+    "profile - --part wheel --format dxf": (168, 214),
+    "profile - --part sheet --format svg": (193, 236),
+    "plot - --format svg": (125, 132),
 }
 
 

@@ -128,7 +128,7 @@ def test_a_bar_shows_what_is_left_and_goes(capsys, monkeypatch):
     """After a second, at most ten times a second, in one line that is overwritten."""
     clock = iter([0.0, 0.5, 2.0, 2.05, 3.0])
     monkeypatch.setattr("geneva_cli.output.bar.time.monotonic", lambda: next(clock))
-    monkeypatch.setattr("geneva_cli.output.bar._columns", lambda: 60)
+    monkeypatch.setattr("geneva_cli.output.bar.columns", lambda: 60)
     progress.show_with(TextBar)
     try:
         # what is inside of other work shows nothing of its own
@@ -146,7 +146,7 @@ def test_one_item_shows_the_progress_within_it(capsys, monkeypatch):
     """A bar of one item would stand still until the end."""
     clock = iter([0.0, 2.0, 3.0])
     monkeypatch.setattr("geneva_cli.output.bar.time.monotonic", lambda: next(clock))
-    monkeypatch.setattr("geneva_cli.output.bar._columns", lambda: 60)
+    monkeypatch.setattr("geneva_cli.output.bar.columns", lambda: 60)
     progress.show_with(TextBar)
     try:
         outer = (len([*progress.tracked("ab", "steps", 2)]) for _ in range(1))

@@ -19,7 +19,7 @@ from windows import looking
 from geneva_cli import output
 from geneva_cli.app import COMMANDS, app
 from geneva_cli.commands import help
-from geneva_cli.manual import GROUPS, TITLES, TOPICS, page, path
+from geneva_cli.manual import GROUPS, TITLES, TOPICS, page, path, search
 
 pytestmark = pytest.mark.usefixtures("made_once")
 ROOT = repo.ROOT
@@ -231,3 +231,11 @@ def test_help_searches_all_pages_for_another_word() -> None:
     # neither "mostly" nor "costly" counts
     pages = {topic for topic in TOPICS if re.search(r"(?<![a-z])stl", page(topic).casefold())}
     assert {line.split()[0] for line in invoke(["help", "STL"]).splitlines()[4:]} == pages
+
+
+def test_help_names_headings_and_no_comments_in_code() -> None:
+    """A line of a spec or of a script may begin with #, too."""
+    for word in ("shard", "dynamic_capacity", "sprocket_teeth"):
+        for hit in search(word):
+            text = re.sub(r"^```.*?^```$", "", page(hit.topic), flags=re.MULTILINE | re.DOTALL)
+            assert re.search(rf"^#+ {re.escape(hit.section)}$", text, re.MULTILINE), hit

@@ -78,7 +78,7 @@ def look_at_page(page):
 
 @contextmanager
 def looking():
-    """TextStyle at every table, and every chart in text, that is printed meanwhile."""
+    """Look at every table, and every chart in text, that is printed meanwhile."""
     tables, charts, fitted = text.chunks, plot_text.chunks, terminal.chunks
 
     def shown(table):

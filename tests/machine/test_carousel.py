@@ -540,3 +540,17 @@ def test_the_vibration_says_how_far_the_unbalance_winds_up():
         Design(External(6), mass=bodies, shaft=shaft),  # on the ground
     ):
         assert not any("off the wheel's axis" in t for t in other.vibration().to_dict()["warnings"])
+
+
+def test_a_batch_of_carriers_with_several_fingers():
+    """Seen from the carrier, each finger moves the wheel as a roller of a plain crank does."""
+    distances = {"size.center_distance_mm": np.array([100.0, 110.0])}
+    wheel, angles = External(8), (0.0, 170.0)
+    for of in ({"wheel.z": np.array([8, 9, 10])}, distances):
+        fingers = many(Spec(wheel, Carousel(roller_angles_deg=angles)), of)
+        rollers = many(Spec(wheel, Crank(roller_angles_deg=angles)), of)
+        assert fingers.refused.tolist() == rollers.refused.tolist()
+        pairs = zip(fingers.machine.engagements, rollers.machine.engagements, strict=True)
+        for one, other in pairs:
+            x = 0.3 * one.entry_deg
+            assert np.array_equal(one.motion(x).c[1], other.motion(x).c[1])

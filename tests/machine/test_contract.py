@@ -22,7 +22,6 @@ from geneva_cli.machine.many import many, may_vary, taken
 from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.jet import turning
 from geneva_cli.numerics.latest import Latest
-from geneva_cli.numerics.stacks import Stack
 
 # The formulas are the same, but NumPy's sine and the C library's differ in the last place, and so
 # do the places of entry, middle and exit, about which all is written. A motion passes that on as
@@ -179,8 +178,8 @@ def test_it_pickles_and_can_be_taken_apart(case):
 
 
 def design_arrays_in(thing, seen):
-    """Every array (n, 1) that an object holds, whatever its class; a stack has its own rows."""
-    if id(thing) in seen or isinstance(thing, (Stack, Latest)):
+    """Every array (n, 1) that an object holds, whatever its class."""
+    if id(thing) in seen or isinstance(thing, Latest):
         return
     seen[id(thing)] = thing
     if isinstance(thing, np.ndarray):

@@ -17,7 +17,6 @@ from witness import mp
 
 from geneva_cli.analysis.peaks import worst
 from geneva_cli.machine.mechanism import build
-from geneva_cli.numerics.angles import cos_squared_less
 
 NEAR = (1e-4, 1e-9, 1e-14)
 
@@ -52,16 +51,6 @@ def test_the_limit_itself_is_refused():
     for z in (3, 4, 6):  # 25, 50 and 75 mm are doubles
         assert read(spec(z, math.nextafter(round(limit(z)), 0.0)))
         assert read(spec(z, float(round(limit(z))))) is None
-
-
-@pytest.mark.parametrize("p, q", [(1, 5), (1, 7), (3, 20), (1, 10**6)])
-def test_the_distance_to_the_limit(p, q):
-    with mp.workdps(60):
-        exact = mp.cos(mp.pi * p / q) ** 2
-        for x in (0.0, 0.3, float(exact), math.nextafter(float(exact), 1.0)):
-            want = exact - mp.mpf(x)
-            # 112 bits behind the point, of which what is left after 53 of x are the digits
-            assert abs(cos_squared_less(p, q, x) - want) <= abs(want) * 2**-53 + mp.mpf(2) ** -110
 
 
 def test_gears_by_points():

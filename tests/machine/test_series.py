@@ -28,6 +28,7 @@ from geneva_cli import (
     SideCrank,
     Spherical,
 )
+from geneva_cli.analysis.peak_search import worst_peaks
 from geneva_cli.curves.measure import bounds
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
@@ -362,3 +363,15 @@ def test_parts_that_are_not_built_say_why():
     assert "no bearing, since the input crank turns below it" in side.spec.no_parts
     both = Design(External(4), NoncircularGears(A=0.1), drive_before=GEARS)
     assert "one pair of noncircular-gears" in both.spec.no_parts
+
+
+def test_a_batch_of_pairs_behind_a_side_crank():
+    """At mid-motion all three ratios are greatest: l/(1-l) of both wheels, and 1/(1+A)."""
+    spec = Spec(External(4), GenevaPair(first_z=4), drive_before=SideCrank(A=0.3))
+    batch = many(spec, {"drive.first_z": np.array([3, 4, 5])})
+    assert batch.refused.tolist() == [False, False, True]  # 36 deg to either side, but 45 needed
+    l = np.sin(np.pi / np.array([3.0, 4.0]))
+    slow = math.sqrt(0.5) / (1.0 - math.sqrt(0.5)) / 1.3
+    peaks = worst_peaks(batch.machine, ("velocity",))["velocity"]
+    # 1e-13: 1 - l of three slots has lost a digit
+    np.testing.assert_allclose(peaks.max, l / (1.0 - l) * slow, rtol=1e-13)

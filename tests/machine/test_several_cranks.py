@@ -18,6 +18,9 @@ from shapely.ops import unary_union
 
 from geneva_cli import Crank, Cycloidal, Design, EllipticalGears, External, Load, Motion
 from geneva_cli.drawings.parts_list import parts_list
+from geneva_cli.machine.both_ways import backwards
+from geneva_cli.machine.many import may_vary
+from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.scene import place_at, value_at
 from geneva_cli.study.animation.scene import scene
@@ -313,3 +316,13 @@ def test_the_report_lists_when_each_crank_moves_the_wheel_behind_gears():
     assert rows[0]["exit_deg"] - rows[0]["entry_deg"] != pytest.approx(
         rows[1]["exit_deg"] - rows[1]["entry_deg"]
     )
+
+
+def test_slots_do_not_vary_in_a_batch_of_cranks_that_turn_both_ways():
+    """Backwards the second of two cranks stands z - 2 steps from the first, not 2."""
+    one_way = Spec(External(6), Crank(rollers=2, crank_steps=(0, 2)))
+    both_ways = one_way.replace(drive=one_way.drive.replace(both_ways=True))
+    assert may_vary(one_way, "wheel.z")
+    assert not may_vary(both_ways, "wheel.z")
+    turned = [backwards(build(both_ways.with_("wheel.z", z))).spec.drive for z in (6, 7)]
+    assert [drive.crank_steps for drive in turned] == [(0.0, 4.0), (0.0, 5.0)]

@@ -1,13 +1,20 @@
-"""The middle of samples of which some are near a pole."""
+"""The usual values of samples of which some are near a pole."""
+
+import math
 
 import numpy as np
 
-from geneva_cli.numerics.greatest import quartiles
+from geneva_cli.numerics.greatest import usual
 
 
-def test_quartiles_of_many_rows():
-    rows = np.random.default_rng(2).normal(size=(200, 9))
-    rows[:, 1:][np.random.default_rng(3).random((200, 8)) < 0.4] = np.nan
-    expected = np.nanquantile(rows, (0.25, 0.75), axis=1)
-    # both round one interpolation
-    np.testing.assert_allclose(quartiles(rows), expected, rtol=0.0, atol=1e-15)
+def test_values_near_a_pole_are_left_out():
+    """Quartiles of 1 to 15 and 1e9 are 4 and 12 (the fourth and the twelfth of sixteen)."""
+    rows = np.array([[*range(1, 16), 1e9, math.inf], [*range(1, 18)]], dtype=float)
+    low, high = usual(rows)
+    assert low.tolist() == [1.0, 1.0]
+    assert high.tolist() == [12.0 + 3.0 * (12.0 - 4.0), 17.0]
+
+
+def test_all_finite_values_are_usual():
+    low, high = usual(np.array([[[3.0, -1.0], [1e9, 0.0]]]))
+    assert (low.tolist(), high.tolist()) == ([[-1.0, 0.0]], [[3.0, 1e9]])

@@ -16,7 +16,7 @@ from geneva_cli.curves.helvetica import CAPITALS, width
 from geneva_cli.curves.sheet import WIDTHS, Label
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.output import draw_sheet, pdf_file
+from geneva_cli.output import draw_sheet
 from geneva_cli.output.formats import DXF_VERSIONS, is_drawn, sheet_as
 from geneva_cli.output.sheets import dxf, pdf, svg
 from geneva_cli.spec.tables import Size
@@ -98,11 +98,12 @@ def test_a_pdf_is_whole(sheet):
 
 def test_arcs_of_a_pdf_are_arcs():
     """One cubic a quarter turn at most is off by 2.8e-4 of the radius, as is known of it."""
+    from geneva_cli.curves.measure import as_cubic
     from geneva_cli.curves.shapes import about
 
     for sweep in (0.1, 1.0, 0.5 * math.pi, -0.5 * math.pi):
         arc = about((3.0, 4.0), 10.0, 0.7, sweep)
-        cubic = pdf_file._cubic(arc)
+        cubic = as_cubic(arc)
         for t in (0.1, 0.25, 0.5, 0.8):
             terms = [(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t**3]
             x, y = (sum(k * p[i] for k, p in zip(terms, cubic, strict=True)) for i in (0, 1))

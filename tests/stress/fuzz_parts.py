@@ -18,7 +18,7 @@ from geneva_cli.design import Design
 from geneva_cli.drawings.catalogue import DRAWINGS, PARTS, is_table, part_drawing, part_table
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.study.batch import Verdict, checks_table
+from geneva_cli.study.verdicts import Verdict, checks_table
 from geneva_cli.table import flat
 from geneva_cli.verdict.advice import judged
 

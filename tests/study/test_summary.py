@@ -14,7 +14,8 @@ from geneva_cli.app import app
 from geneva_cli.design import Design, load
 from geneva_cli.document import FAILS, PASSES, WARNS, Summary, SummaryLine
 from geneva_cli.loads.makers_form import RATED_kW, RecommendedMotor
-from geneva_cli.output.summary import TextStyle, chunks
+from geneva_cli.output.summary import chunks
+from geneva_cli.output.window import Window
 from geneva_cli.study.summary.loads import of_loads
 from geneva_cli.study.summary.report import of_report
 from geneva_cli.study.summary.tolerance import of_tolerance
@@ -34,7 +35,7 @@ def line(summary: Summary, label: str) -> SummaryLine:
 
 
 def shown(summary: Summary, width: int, unicode: bool = True) -> str:
-    return "".join(chunks([summary], TextStyle(width, False, unicode)))
+    return "".join(chunks([summary], Window(width, unicode=unicode)))
 
 
 @pytest.mark.parametrize(

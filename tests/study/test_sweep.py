@@ -32,6 +32,7 @@ from geneva_cli.study.sweep.values import axis
 DESIGNS = os.path.join(os.path.dirname(__file__), os.pardir, os.pardir, "designs")
 SPEC = os.path.join(DESIGNS, "side-crank-z6.toml")
 GRID = ["drive.A=-0.4,0,0.6,1", "wheel.z=5,6"]
+CHECKED = ("checks.passes", "checks.failed")
 
 
 def geneva(*args):
@@ -67,7 +68,7 @@ def test_other_quantities_change_no_column():
     picks, axes = ["acceleration.max", "pin_force_N.max", "dwell_s"], grid("load.inertia_kgm2=1..9")
     alone = rows(sweep(read(SPEC), axes, picks=picks), workers=1)
     mixed = rows(sweep(read(SPEC), axes, picks=[*picks, "drive.kind"]), workers=1)
-    checked = rows(sweep(read(SPEC), axes, picks=picks, check=True), workers=1)
+    checked = rows(sweep(read(SPEC), axes, picks=[*picks, *CHECKED]), workers=1)
     assert [row[:4] for row in mixed] == [row[:4] for row in alone]
     assert [row[:4] for row in checked] == [row[:4] for row in alone]
     assert [row[4] for row in mixed] == ["side-crank"] * 9
@@ -103,7 +104,7 @@ def test_the_same_rows_whatever_the_processes_and_shares():
 
 
 def test_check_turns_the_parts():
-    found = sweep(read(SPEC), grid("limits.velocity_max=9,0.1"), picks=["ratio"], check=True)
+    found = sweep(read(SPEC), grid("limits.velocity_max=9,0.1"), picks=["ratio", *CHECKED])
     assert found.names[-3:] == ("checks.passes", "checks.failed", "error")
     good, bad = rows(found, workers=1)
     assert good[2:] == [True, None, None]
@@ -240,10 +241,10 @@ def test_ctrl_c_leaves_what_was_done(tmp_path):
     ]
 
 
-@pytest.mark.parametrize("options", [{"picks": ["smallest_gap_mm"]}, {"check": True}])
-def test_what_takes_long_is_there_soon(options):
+@pytest.mark.parametrize("picks", [["smallest_gap_mm"], CHECKED])
+def test_what_takes_long_is_there_soon(picks):
     """A process that turns parts hands over few rows at a time: what is stopped loses no more."""
-    found = sweep(read(SPEC), plan([axis("drive.A=0..0.2:0.01")], None, 0), **options)
+    found = sweep(read(SPEC), plan([axis("drive.A=0..0.2:0.01")], None, 0), picks)
     assert 0 < len(next(blocks(found, workers=1))) <= 8
 
 

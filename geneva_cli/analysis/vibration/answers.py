@@ -173,5 +173,4 @@ def spectrum(mechanism: Mechanism, load: Oscillator, samples: int) -> Table:
             turned = [None] * len(speed)
         return [speed, ratio, share, turned, oscillators.worst_share, settled]
 
-    whole = load.damping and turns
-    return computed_table(SPECTRUM_COLUMNS, samples, rows, "float64" if whole else "object")
+    return computed_table(SPECTRUM_COLUMNS, samples, rows)

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.curves.plates import Group, Member, Plate, Shell
 from geneva_cli.drawings.sheet.crank import draw_roller
-from geneva_cli.drawings.sheet.gears import draw_gear, draw_gears
 from geneva_cli.drawings.sheet.links import draw_link
 from geneva_cli.drawings.sheet.standing import draw_shaft
 from geneva_cli.drawings.sheet.view import View
@@ -16,8 +15,9 @@ from geneva_cli.layout.projection import outlines_of
 from geneva_cli.layout.written import length
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.pair_teeth import pair_teeth
-from geneva_cli.parts.rack_parts import RackParts
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.rack_parts import RackParts
 
 Begin: TypeAlias = Callable[..., View]
 
@@ -50,6 +50,8 @@ def linked(begin: Begin, parts: FlatParts) -> Iterator[View]:
         draw_link(view, one, bars, parts.mechanism)
         yield view
     for gear in parts.toothed:
+        from geneva_cli.drawings.sheet.gears import draw_gear  # most machines have no gears
+
         view = begin(gear.name)
         draw_gear(view, gear)
         yield view
@@ -58,6 +60,9 @@ def linked(begin: Begin, parts: FlatParts) -> Iterator[View]:
 def geared(begin: Begin, parts: FlatParts | RackParts) -> Iterator[View]:
     """Yield the view of noncircular gears in mesh, if there are any."""
     if parts.gear_pair:
+        from geneva_cli.drawings.sheet.gears import draw_gears
+        from geneva_cli.parts.pair_teeth import pair_teeth
+
         view = begin(*(member.part.name for member in parts.gear_pair))
         driven, driver = parts.gear_pair
         teeth = pair_teeth(parts.mechanism.spec.gears, parts.mechanism.spec.size)

@@ -17,7 +17,6 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.parts.gear_pair import driven_curve, driver_curve
 
 COARSE = 1e-4  # finest tolerance of a table, as a fraction of the centre distance
 MIRRORED = "; the other half is its mirror image in the x axis"
@@ -63,6 +62,8 @@ def gear_tables(mechanism: Mechanism, tolerance: float) -> list[Block]:
     pair, L = mechanism.spec.gears, mechanism.center_distance_mm
     if pair is None:
         return []
+    from geneva_cli.parts.gear_pair import driven_curve, driver_curve
+
     close, blocks = max(tolerance, COARSE * L), []
     for name, of in (("driven gear", driven_curve), ("driver gear", driver_curve)):
         both = of(pair, mechanism.gear_shaft.sense)

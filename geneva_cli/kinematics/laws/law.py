@@ -120,30 +120,6 @@ class Law(SpecTable):
         """
         return type(self).second is Law.second
 
-    def near_start(self, u: Number, order: int) -> Jet:
-        """Jet of ``first``; its values at 0 and 1/2, which every machine needs, are stored.
-
-        >>> Cycloidal().near_start(0.5, 1).derivatives()
-        (0.5, 2.0)
-        """
-        return self._kept(self.first, False, u, order)
-
-    def near_end(self, w: Number, order: int) -> Jet:
-        """Jet of ``second``; its values at 0 and 1/2, which every machine needs, are stored.
-
-        >>> Cycloidal().near_end(0.0, 1).derivatives()
-        (0.0, 0.0)
-        """
-        return self._kept(self.second, True, w, order)
-
-    def _kept(self, half: Callable[[Number, int], Jet], last: bool, u: Number, order: int) -> Jet:
-        if not isinstance(u, float) or u not in (0.0, 0.5) or self.varies:
-            return half(u, order)
-        key = last, u, order
-        if key not in self._at_ends:
-            self._at_ends[key] = half(u, order)
-        return self._at_ends[key]
-
     @cached_property
     def varies(self) -> bool:
         """True if its numbers are arrays of a batch.
@@ -152,10 +128,6 @@ class Law(SpecTable):
         False
         """
         return any(is_array(getattr(self, field.attribute)) for field in fields(type(self)))
-
-    @cached_property
-    def _at_ends(self) -> dict[tuple[bool, float, int], Jet]:
-        return {}
 
     @cached_property
     def half_way(self) -> float:
@@ -178,8 +150,8 @@ class Law(SpecTable):
             u,
             (0.5,),
             (
-                lambda x: self.near_start(x, order),
-                lambda x: remaining(self.near_end(1.0 - x, order)),
+                lambda x: self.first(x, order),
+                lambda x: remaining(self.second(1.0 - x, order)),
             ),
         )
 

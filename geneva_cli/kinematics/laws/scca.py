@@ -1,7 +1,5 @@
 """The law ``scca``: sine, constant, cosine, in fractions of the time that the user chooses."""
 
-from __future__ import annotations
-
 from typing import Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError

@@ -1,7 +1,5 @@
 """The common set of motion laws of VDI 2143, MCV50, and the sine group of Krasniqi."""
 
-from __future__ import annotations
-
 from typing import Annotated, ClassVar
 
 from geneva_cli.kinematics.laws.law import Law, from_velocity

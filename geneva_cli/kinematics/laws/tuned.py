@@ -10,8 +10,6 @@ Omega = 2 pi lambda, with the period ratio lambda. So the law is a pure shape, a
 lambda.
 """
 
-from __future__ import annotations
-
 from functools import cached_property
 from typing import Annotated, ClassVar
 

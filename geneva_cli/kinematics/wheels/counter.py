@@ -14,8 +14,6 @@ The point of the driver's pitch circle between the two teeth stands for the roll
 line of centres at mid-motion, l = N/(N + 2 z) from the driver's axis.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, ClassVar
 

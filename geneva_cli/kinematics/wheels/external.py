@@ -1,7 +1,5 @@
 """External wheels: radial slots, offset slots, unequal steps."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Annotated, ClassVar, Self

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 from geneva_cli.kinematics.engagement import Anchor, Slot, SlotAxis
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, StraightSlotMotion, turned
 from geneva_cli.kinematics.wheels.skew import Skew
-from geneva_cli.numerics.arrays import are_designs, chosen, library
+from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Array, Jet, Number, integral, moment, piecewise, sqrt
 
 
@@ -52,18 +53,14 @@ class OffsetSlotMotion(StraightSlotMotion):
 
     def _angle_or_rate(self, input_deg: Number, order: int, *, angle: bool) -> Jet:
         """Wheel angle, or its rate, which is one order lower."""
-        anchors = self.path.anchors
-        (entry, mid, exit_), cuts = anchors, anchors.cuts
-        first, last = (self._from_end(end, order, angle) for end in (entry, exit_))
-        if are_designs(input_deg, *cuts) and anchors.alike:  # one formula serves both ends
+        entry, _, exit_ = self.path.anchors
+        first, last = (
+            partial(self._from_end, end, order=order, angle=angle) for end in (entry, exit_)
+        )
+        inside = partial(self._inside, order=order, angle=angle)
+        return piecewise(input_deg, self.path.anchors.cuts, [first, inside, last])
 
-            def nearer(x: Number) -> Jet:
-                return self._from_end(chosen(x, (mid.input_deg,), (entry, exit_)), order, angle)(x)
-
-            first = last = nearer
-        return piecewise(input_deg, cuts, [first, lambda x: self._inside(x, order, angle), last])
-
-    def _from_end(self, anchor: Anchor, order: int, angle: bool) -> Callable[[Number], Jet]:
+    def _from_end(self, anchor: Anchor, x: Number, order: int, angle: bool) -> Jet:
         """Wheel angle or rate near entry or exit.
 
         The pin is at (along, -e) in the slot's frame there. The slot's axis passes the pin at (s,
@@ -71,21 +68,17 @@ class OffsetSlotMotion(StraightSlotMotion):
         ``across``. The wheel's angle and speed then vanish too.
         """
         e = self.skew.e
-
-        def solve(x: Number) -> Jet:
-            along, across = anchor.place(x, order)
-            more = across * (across - 2.0 * e)  # s² - along²
-            square = along * along + more
-            s = sqrt(square)
-            gain = more / (s + along)
-            rate = _turning(along, across, gain * e, square + e * e)
-            if not angle:
-                return rate
-            a, b, g, s0 = along.c[0], across.c[0], gain.c[0], s.c[0]
-            value = library(a, b, e).atan2(b * s0 - g * e, a * s0 - (b - e) * e) + anchor.wheel
-            return integral(rate, value)
-
-        return solve
+        along, across = anchor.place(x, order)
+        more = across * (across - 2.0 * e)  # s² - along²
+        square = along * along + more
+        s = sqrt(square)
+        gain = more / (s + along)
+        rate = _turning(along, across, gain * e, square + e * e)
+        if not angle:
+            return rate
+        a, b, g, s0 = along.c[0], across.c[0], gain.c[0], s.c[0]
+        value = library(a, b, e).atan2(b * s0 - g * e, a * s0 - (b - e) * e) + anchor.wheel
+        return integral(rate, value)
 
     def _inside(self, x: Number, order: int, angle: bool) -> Jet:
         """Wheel angle or rate near mid-motion: the pin's direction minus the slot's angle to it."""

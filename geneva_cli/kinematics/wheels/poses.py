@@ -12,8 +12,6 @@ without cancellation. At entry and exit the pin moves only along the ray, so the
 exactly zero. So are the wheel's angle and velocity there.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

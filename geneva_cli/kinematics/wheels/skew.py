@@ -6,7 +6,7 @@ cos(b - d) at entry, l / cos(b + d) at exit.
 
 At the limit |e| = cos² b, where b + |d| = 90°, the gentler of the slot's ends would meet the
 wheel's centre line. All that is small there is a product with the distance to that limit, which is
-computed once, exactly.
+computed once.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from geneva_cli.kinematics.wheels.classic import gap, half_motion_deg
 from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose, middle
-from geneva_cli.numerics.angles import cos_squared_less, sin_cos_pi
+from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.numerics.arrays import choose, library
 
 
@@ -32,8 +32,9 @@ class Skew(NamedTuple):
 
 def margin(step: HalfStep, e: float) -> float:
     """cos² b - |e|: positive if a slot of offset e exists for half an index angle b."""
-    limit: float = cos_squared_less(*step, abs(e))
-    return limit
+    # cos² b by the double angle, which is exact for 3, 4 and 6 slots
+    limit: float = 0.5 + 0.5 * sin_cos_pi(2 * step.p, step.q)[1]
+    return limit - abs(e)
 
 
 def skew(step: HalfStep, e: float, spare: float) -> Skew:

@@ -54,7 +54,7 @@ class Carousel(Direct, kw_only=True):
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """Plan of one wheel; the others do the same later. Only one of them moves at a time."""
         plan = super().plan(wheel, motion, L)
-        moving = max(one.motion_deg for one in plan.engagements)
+        moving = plan.engagements[0].motion_deg  # several wheels have one kind of motion
         refuse(
             self.wheels > 1 and self.wheels * moving >= 360.0,
             lambda: GenevaError(

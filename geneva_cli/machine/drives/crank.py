@@ -5,8 +5,6 @@ one does. The cranks work in turn, crank j after the j-th part of a turn of the 
 moves as by one crank with that many rollers, and so do the loads.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, ClassVar, Self
 
@@ -39,6 +37,11 @@ class Crank(Direct, kw_only=True):
     def cranks(self) -> tuple[float, ...]:
         """The places of the spec."""
         return self.crank_steps or super().cranks
+
+    def may_vary(self, table: str, key: str) -> bool:
+        """False for the slots if several cranks turn both ways: their places change with it."""
+        placed = self.crank_steps and self.both_ways
+        return not placed or (table, key) != ("wheel", "z")
 
     def backwards(self, plan: Plan) -> Self:
         """The drive that turns the other way: its last crank works first after the first one.

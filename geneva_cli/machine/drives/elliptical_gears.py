@@ -7,8 +7,6 @@ slowest at 0. The directions of the half angles are (cos phi/2, sin phi/2) and (
 Source: the focal property of the ellipse; Kepler's true anomaly follows this law too.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Annotated, ClassVar, NamedTuple
 

@@ -5,8 +5,6 @@ to its own pivot, at the distance g from the input's axis. The roller C is at th
 at an angle from the line AB. The wheel's centre is solved for.
 """
 
-from __future__ import annotations
-
 from functools import reduce
 from typing import Annotated, ClassVar, NamedTuple, Self
 
@@ -113,7 +111,7 @@ class FourBar(Linkage, kw_only=True):
         return Link("rocker", (end, axis), (Joint.PIN, Joint.PIN), 3)
 
     @property
-    def roller_path(self) -> CouplerPath:
+    def roller_path(self) -> "CouplerPath":
         """Path of the coupler point that carries the roller."""
         return CouplerPath(self)
 

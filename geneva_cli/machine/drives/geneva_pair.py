@@ -5,8 +5,6 @@ from a crank that is itself starting or running. So its jump is the first wheel'
 times tan b. There is none if both motions begin together, as with four slots on four.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, ClassVar, NamedTuple
 

@@ -4,8 +4,6 @@ The coulisse carries the Geneva crank. The symbols A and f follow Polyudov and K
 of the Maltese cross mechanism with a side-crank drive".
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Annotated, ClassVar
 

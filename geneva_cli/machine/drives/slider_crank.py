@@ -5,8 +5,6 @@ line passes the crank's axis at the height h. The roller C is at the distance k 
 from the line AB. The wheel's centre is solved for.
 """
 
-from __future__ import annotations
-
 from typing import Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.errors import GenevaError, refuse
@@ -88,7 +86,7 @@ class SliderCrank(Linkage, kw_only=True):
         return Link("guide", joints, (Joint.NONE, Joint.NONE, Joint.SLIDE), 3)
 
     @property
-    def roller_path(self) -> SlidingRod:
+    def roller_path(self) -> "SlidingRod":
         """Path of the rod's point that carries the roller."""
         lengths = (self.crank_mm, self.rod_mm, self.height_mm)
         return SlidingRod(*lengths, reach_mm=self.point_mm, angle_deg=self.point_deg)

@@ -147,10 +147,9 @@ class Transmission(Drive, kw_only=True):
 
     def _curved(self, wheel: Gearing, motion: Motion, L: float) -> Plan:
         """Plan of curved slots, solved for from a law and the crank's circle."""
-        from geneva_cli.kinematics import path_and_motion
-        from geneva_cli.kinematics.law_motion import refuse_alpha0
+        from geneva_cli.kinematics.law_motion import LawMotion, refuse_alpha0
+        from geneva_cli.kinematics.path_and_motion import MiddlePath, SolvedSlot
 
-        law = motion.law
         half = wheel.half_motion_deg(wheel.step)
         self._refuse_reach(wheel, half)
         natural = 2.0 * self.about(half).input_deg
@@ -160,12 +159,12 @@ class Transmission(Drive, kw_only=True):
         ratio = self._ratio(wheel, motion, motion_deg)
         pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
         anchor = self._anchor(pose, 0.0)
-        path = path_and_motion.MiddlePath(anchor, self.about(0.0).even)
+        path = MiddlePath(anchor, self.about(0.0).even)
+        turned = LawMotion(-0.5 * motion_deg, 0.5 * motion_deg, wheel.step.b, motion.law)
         reactions = self.reactions(wheel, path, 0.0, L) if wheel.FLAT else None
         body = self.turning(0.0, -wheel.SIGN)
-        engagement = path_and_motion.engagement(
-            0.0, motion_deg, wheel.step.b, law, path, Carrier(body=body, reactions=reactions)
-        )
+        carrier = Carrier(body=body, reactions=reactions)
+        engagement = Engagement(0.0, path, SolvedSlot(path, turned), turned, carrier)
         period = 360.0 * self.turns / self.rollers
         most = rollers_max(motion_deg)
         return Plan((engagement,), period, ratio, most, L)

@@ -5,8 +5,6 @@ a/r. With the input at phi the coulisse points along the vector (A + cos phi, si
 is f.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse

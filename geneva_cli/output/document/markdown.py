@@ -16,16 +16,15 @@ from geneva_cli.document import (
     Prose,
     TextList,
 )
-from geneva_cli.errors import clean
 from geneva_cli.output.document.values import is_number, value_text
-from geneva_cli.output.markdown import ESCAPES
+from geneva_cli.output.markdown import escaped
 from geneva_cli.output.svg_look import span_text
 from geneva_cli.output.ticks import mark_text, named
 
 
 def chunks(document: Document) -> Iterator[str]:
     """The text, block by block."""
-    yield f"# {_text(document.title)}\n\n**{_text(document.verdict)}**\n\n"
+    yield f"# {escaped(document.title)}\n\n**{escaped(document.verdict)}**\n\n"
     yield from _list(document.reasons)
     for block in document.blocks:
         yield from _block(block)
@@ -33,9 +32,9 @@ def chunks(document: Document) -> Iterator[str]:
 
 def _block(block: Block) -> Iterator[str]:
     if isinstance(block, Heading):
-        yield f"## {_text(block.text)}\n\n"
+        yield f"## {escaped(block.text)}\n\n"
     elif isinstance(block, Prose):
-        yield f"{_text(block.text)}\n\n"
+        yield f"{escaped(block.text)}\n\n"
     elif isinstance(block, TextList):
         yield from _list(block.texts)
     elif isinstance(block, Facts):
@@ -68,19 +67,14 @@ def _peaks(curves: Curves) -> Grid:
 def _grid(grid: Grid, right: tuple[bool, ...] = ()) -> Iterator[str]:
     columns = list(zip(*grid.rows, strict=True)) or [()] * len(grid.heads)
     sides = right or tuple(bool(c) and all(map(is_number, c)) for c in columns)
-    yield f"**{_text(grid.caption)}**\n\n" if grid.caption else ""
-    yield "| " + " | ".join(map(_text, grid.heads)) + " |\n"
+    yield f"**{escaped(grid.caption)}**\n\n" if grid.caption else ""
+    yield "| " + " | ".join(map(escaped, grid.heads)) + " |\n"
     yield "| " + " | ".join("---:" if side else "---" for side in sides) + " |\n"
     for row in grid.rows:
-        yield "| " + " | ".join(_text(value_text(value)) for value in row) + " |\n"
+        yield "| " + " | ".join(escaped(value_text(value)) for value in row) + " |\n"
     yield "\n"
 
 
 def _list(texts: tuple[str, ...]) -> Iterator[str]:
     if texts:
-        yield "".join(f"- {_text(text)}\n" for text in texts) + "\n"
-
-
-def _text(text: str) -> str:
-    """A text without special meaning in Markdown."""
-    return "".join(ESCAPES.get(c, c) for c in clean(text))
+        yield "".join(f"- {escaped(text)}\n" for text in texts) + "\n"

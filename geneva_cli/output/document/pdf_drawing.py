@@ -13,9 +13,9 @@ from geneva_cli.curves.pieces import SUFFIX, UNITS
 from geneva_cli.curves.shapes import Arc, Contour, Point, Shape
 from geneva_cli.output.document.paper import INK, LEFT, SMALL, SOFT, WIDE, Item, rule, wide, words
 from geneva_cli.output.inks import CENTRE_LINES, inks
-from geneva_cli.output.pdf_file import number, outline, point
+from geneva_cli.output.pdf_file import outline, point, tint
 from geneva_cli.output.svg_fill import opacity, rings
-from geneva_cli.output.svg_look import round_length, span_text
+from geneva_cli.output.svg_look import arrow, heading, round_length, span_text
 
 STROKE, THIN = 0.3, 0.16
 SPAN = 6.0  # from one distance to the next
@@ -66,14 +66,14 @@ def _fills(shown: Drawing, placed: Move) -> Iterator[str]:
     every = rings(shown.solid)
     inked = inks(tuple(dict.fromkeys(layer for layer, _ in every)))
     for layer, contours in every:
-        yield f"{_ink(inked[layer].rgb, opacity(layer))} rg\n"
+        yield f"{tint(inked[layer].rgb, opacity(layer))} rg\n"
         yield "".join(outline(placed(contour)) for contour in contours) + "f*\n"
 
 
 def _lines(shown: Drawing, placed: Move) -> Iterator[str]:
     for layer, ink in inks(shown.layers).items():
         is_thin = layer in CENTRE_LINES
-        yield f"{_ink(ink.rgb)} RG {THIN if is_thin else STROKE} w"
+        yield f"{tint(ink.rgb)} RG {THIN if is_thin else STROKE} w"
         yield f" [{'4 0.8 0.8 0.8' if is_thin else ''}] 0 d\n"
         for shape in shown.shapes:
             if shape.layer == layer:
@@ -87,9 +87,7 @@ def _look(look: Annotations, at: Put, placed: Move, bottom: float) -> Iterator[s
     for turn in look.turns:
         arc = Arc(at(turn.start), at(turn.end), turn.bulge)
         yield f"{outline(Contour('', (arc,), closed=False))}S\n"
-        (x, y), (cx, cy) = arc.end, arc.centre
-        side = math.copysign(0.5 * math.pi - 0.5 * ARROW[0] / arc.radius, arc.bulge)
-        yield _arrow(arc.end, math.atan2(y - cy, x - cx) + side)
+        yield _arrow(arc.end, heading(arc, ARROW[0]))
     for number_, span in enumerate(look.spans, 1):
         a, b = sorted((at(span.start), at(span.end)))
         y = bottom - number_ * SPAN + 1.5
@@ -103,14 +101,5 @@ def _look(look: Annotations, at: Put, placed: Move, bottom: float) -> Iterator[s
 
 
 def _arrow(tip: Point, angle: float) -> str:
-    long, half = ARROW
-    c, s = math.cos(angle), math.sin(angle)
-    x, y = tip[0] - long * c, tip[1] - long * s
-    b, d = (point((x - k * half * s, y + k * half * c)) for k in (1, -1))
-    return f"{SOFT} rg {point(tip)} m {b} l {d} l f\n"
-
-
-def _ink(rgb: str, fraction: float = 1.0) -> str:
-    """A colour, or a fraction of it on white."""
-    parts = (int(rgb[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
-    return " ".join(number(1.0 - fraction * (1.0 - p)) for p in parts)
+    a, b, c = map(point, arrow(tip, angle, ARROW))
+    return f"{SOFT} rg {a} m {b} l {c} l f\n"

@@ -48,10 +48,9 @@
     const low = panel.low, span = panel.high - panel.low || 1;
     const x = (v) => (1000 * (v - from)) / (to - from), y = (v) => 96 - (92 * (v - low)) / span;
     for (const [a, b, moves] of scene.states) {
-      if (moves) continue;
-      for (const p of spans(a, b)) {
-        make("rect", svg, { class: "rest", x: x(p[0]), width: x(p[1]) - x(p[0]), y: 0, height: 100 });
-      }
+      const left = x(from + a), right = x(Math.min(from + b, to)); // the window may be shorter than the turn
+      if (moves || left >= right) continue;
+      make("rect", svg, { class: "rest", x: left, width: right - left, y: 0, height: 100 });
     }
     const label = (name, text, place) => {
       const mark = document.createElement("span");
@@ -80,12 +79,6 @@
     return { panel, value, cursor, x };
   });
 
-  // A stretch of the turn as stretches of the curves' window.
-  function spans(a, b) {
-    const wide = to - from, out = [];
-    for (let x = a; x < Math.min(b, wide) - 1e-9; x = b) out.push([from + x, from + Math.min(b, wide)]);
-    return out;
-  }
   const inWindow = (t) => from + (((t % (to - from)) + (to - from)) % (to - from));
   function curveAt(panel, x) {
     let value = 0; // where the curve jumps, what it jumps to
@@ -163,11 +156,10 @@
   }
   let playing = false, before = 0;
   const speed = by("speed");
-  const real = 360 / scene.turn; // shares of real time that are offered
-  for (const share of [0.02, 0.05, 0.1, 0.2, 0.5, 1, 2]) {
-    speed.append(new Option(share === 1 ? "real time" : `${share} of real time`, share));
+  for (const fraction of [0.02, 0.05, 0.1, 0.2, 0.5, 1, 2]) {
+    speed.append(new Option(fraction === 1 ? "real time" : `${fraction} of real time`, fraction));
   }
-  const wanted = scene.seconds / (6 * Math.max(1, 1 / real)); // a turn of the input in 6 s
+  const wanted = (60 * scene.seconds) / scene.turn; // a turn of the input in 6 s
   const near = (o) => Math.abs(Math.log(o.value / wanted));
   [...speed.options].reduce((a, b) => (near(b) < near(a) ? b : a)).selected = true;
   function frame(now) {

@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from geneva_cli.curves.shapes import Arc, Line, Point
 from geneva_cli.output.step.entities import DIRECTION, Entities, listed, real
-from geneva_cli.output.step.splines import Piece, Spline
+from geneva_cli.output.step.splines import Piece
 
 Place: TypeAlias = tuple[float, float, float]
 
@@ -25,7 +25,12 @@ def curve(file: Entities, piece: Piece, z: float) -> str:
         return f"LINE('',{file.point(piece.start, z)},{vector})"
     if isinstance(piece, Arc):
         return circle_at(file, piece.centre, piece.radius, z)
-    return _spline(file, piece, z)
+    return _cubics(file, [(*p, z) for p in piece.poles], piece.knots)
+
+
+def is_along(piece: Piece) -> bool:
+    """Return True if a piece runs as its curve does: all but arcs that turn clockwise."""
+    return not isinstance(piece, Arc) or piece.bulge > 0.0
 
 
 def smooth_curve(file: Entities, places: Sequence[Place], slopes: Sequence[Place]) -> str:
@@ -37,10 +42,6 @@ def smooth_curve(file: Entities, places: Sequence[Place], slopes: Sequence[Place
         poles += [before, after]
     poles = [places[0], *poles[1:-1], places[-1]]
     return _cubics(file, poles, range(len(places)), closed=places[0] == places[-1])
-
-
-def _spline(file: Entities, spline: Spline, z: float) -> str:
-    return _cubics(file, [(*p, z) for p in spline.poles], spline.knots)
 
 
 def _cubics(

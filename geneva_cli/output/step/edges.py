@@ -15,7 +15,7 @@ from geneva_cli.curves.edges import Edge
 from geneva_cli.curves.inset import corner, corner_slope, inset, lines_and_arcs
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Contour, Line
-from geneva_cli.output.step.curves import curve, smooth_curve
+from geneva_cli.output.step.curves import curve, is_along, smooth_curve, unit_of
 from geneva_cli.output.step.entities import (
     DIRECTION,
     Entities,
@@ -76,8 +76,7 @@ def edge_faces(
         own_edges = []
         for k, (piece, within, wall) in enumerate(zip(own, inner, walls, strict=True)):
             after = (k + 1) % len(own)
-            along = not isinstance(within, Arc) or within.bulge > 0.0
-            on = edge(file, ends[k], ends[after], curve(file, within, side.z), along)
+            on = edge(file, ends[k], ends[after], curve(file, within, side.z), is_along(within))
             below = wall.high if side.up > 0.0 else wall.low
             around = [(below, True), (rises[after], True), (on, False), (rises[k], False)]
             if side.up < 0.0:
@@ -86,7 +85,7 @@ def edge_faces(
                 surface, outwards = _rounding(file, piece, side), True
             else:
                 surface = _slope(file, piece, side)
-                outwards = not isinstance(piece, Arc) or piece.bulge > 0.0
+                outwards = is_along(piece)
             faces.append(face(file, [loop(file, around)], surface, outwards))
             own_edges.append(on)
         edges.append(own_edges)
@@ -96,9 +95,7 @@ def edge_faces(
 def _slope(file: Entities, piece: Line | Arc, side: Side) -> str:
     """Write the plane or the cone of a chamfer."""
     if isinstance(piece, Line):
-        (x0, y0), (x1, y1) = piece
-        long = math.dist(piece.start, piece.end)
-        x, y, tilt = (x1 - x0) / long, (y1 - y0) / long, math.sqrt(0.5)
+        (x, y), tilt = unit_of(piece), math.sqrt(0.5)
         axis = file.direction(tilt * y, -tilt * x, tilt * side.up)
         place = file.placement(piece.start, side.wall, axis, file.direction(x, y))
         return file.add(f"PLANE('',{place})")
@@ -113,9 +110,7 @@ def _rounding(file: Entities, piece: Line | Arc, side: Side) -> str:
     """Write the cylinder or the torus of a rounding; both have the material inside the tube."""
     r = abs(side.z - side.wall)
     if isinstance(piece, Line):
-        (x0, y0), (x1, y1) = piece
-        long = math.dist(piece.start, piece.end)
-        x, y = (x1 - x0) / long, (y1 - y0) / long
+        (x, y), (x0, y0) = unit_of(piece), piece.start
         middle = x0 - r * y, y0 + r * x
         place = file.placement(middle, side.wall, file.direction(x, y), file.up)
         return file.add(f"CYLINDRICAL_SURFACE('',{place},{real(r)})")

@@ -11,7 +11,7 @@ from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point
 from geneva_cli.output.solid_part import plate_contours
 from geneva_cli.output.step.cross_holes import bored_walls
-from geneva_cli.output.step.curves import circle_at, curve, knots_of, level, unit_of
+from geneva_cli.output.step.curves import circle_at, curve, is_along, knots_of, level, unit_of
 from geneva_cli.output.step.edges import edge_faces
 from geneva_cli.output.step.entities import (
     Entities,
@@ -91,7 +91,7 @@ def _wall(
 ) -> WallFace:
     start, end = ends
     curves = [curve(file, piece, z) for z in (plate.low, plate.high)]
-    along = not isinstance(piece, Arc) or piece.bulge > 0.0
+    along = is_along(piece)
     low = edge(file, start.low, end.low, curves[0], along)
     high = edge(file, start.high, end.high, curves[1], along)
     sides = loop(file, [(low, True), (end.edge, True), (high, False), (start.edge, False)])

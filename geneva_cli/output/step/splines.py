@@ -12,9 +12,8 @@ import math
 from collections.abc import Iterable
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.curves.measure import directions
+from geneva_cli.curves.measure import as_cubic
 from geneva_cli.curves.shapes import Arc, Cubic, Line, Point, Segment
-from geneva_cli.curves.sheet import polar
 
 
 class Spline(NamedTuple):
@@ -68,7 +67,7 @@ def _softened(segments: list[Segment]) -> list[Segment]:
         # The cubic of an arc errs by 4/27 of the bulge's sixth power: here 1e-12 of the radius.
         if not isinstance(arc, Arc) or abs(arc.bulge) > 0.0137:
             continue
-        cubic = _cubic(arc)
+        cubic = as_cubic(arc)
         before = softened[i - 1] if i else None
         after = segments[i + 1] if i + 1 < len(segments) else None
         if (isinstance(before, Cubic) and _interval(before, cubic, 1.0)) or (
@@ -76,13 +75,6 @@ def _softened(segments: list[Segment]) -> list[Segment]:
         ):
             softened[i] = cubic
     return softened
-
-
-def _cubic(arc: Arc) -> Cubic:
-    """The cubic with an arc's ends and tangents, and its middle."""
-    first, last = directions(arc)
-    handle = 4.0 / 3.0 * abs(arc.bulge) * arc.radius
-    return Cubic(arc.start, polar(arc.start, handle, first), polar(arc.end, -handle, last), arc.end)
 
 
 def _interval(before: Cubic, after: Segment, interval: float) -> float:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from geneva_cli.curves.plates import Plate, Stack
-from geneva_cli.curves.shapes import Arc, Point
+from geneva_cli.curves.shapes import Point
 from geneva_cli.curves.stacks import Level, Side, levels, outline_of, sides
 from geneva_cli.output.solid_part import plate_contours
-from geneva_cli.output.step.curves import curve, level
+from geneva_cli.output.step.curves import curve, is_along, level
 from geneva_cli.output.step.entities import Entities, closed_solid, edge, face, loop
 from geneva_cli.output.step.solid import surface
 
@@ -49,15 +49,15 @@ class _StackWriter:
             (self._rise(side.start, plate), False),
         ]
         # a cylinder's own normal points away from its axis, a plane's to the right
-        outwards = not isinstance(side, Arc) or side.bulge > 0.0
-        return face(self.file, [loop(self.file, bounds)], surface(self.file, side, plate), outwards)
+        around = loop(self.file, bounds)
+        return face(self.file, [around], surface(self.file, side, plate), is_along(side))
 
     def _along(self, side: Side, z: float) -> str:
         """The edge along a piece at a height."""
         if (side, z) not in self._edges:
             ends = self._vertex(side.start, z), self._vertex(side.end, z)
-            forward = not isinstance(side, Arc) or side.bulge > 0.0
-            self._edges[side, z] = edge(self.file, *ends, curve(self.file, side, z), forward)
+            line = curve(self.file, side, z)
+            self._edges[side, z] = edge(self.file, *ends, line, is_along(side))
         return self._edges[side, z]
 
     def _rise(self, at: Point, plate: Plate) -> str:

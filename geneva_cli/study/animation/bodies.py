@@ -112,7 +112,9 @@ def _gears(turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Body]:
         (x + gears.distance_mm, 0.0),
         turn.input_shaft(-sense) if first or before is None else turn.own_shaft(-sense),
     )
-    yield Body("driven gear", driven, (x, 0.0), turn.own_shaft(sense) if first else turn.level())
+    yield Body(
+        "driven gear", driven, (x, 0.0), turn.own_shaft(sense) if first else turn.crank_from_mid()
+    )
 
 
 def _pitch_curves(turn: MachineTurn, sign: float) -> list[tuple[Shape, ...]]:

@@ -39,5 +39,5 @@ def rack_ends(turn: MachineTurn) -> tuple[float, float]:
 
     The middle slot is the first to pass.
     """
-    z, step_deg = turn.mechanism.spec.wheel.z, turn.whole / len(turn.passages)
+    z, step_deg = turn.mechanism.spec.wheel.z, turn.turn_deg / len(turn.passages)
     return -step_deg * (z // 2), step_deg * ((z + 1) // 2)

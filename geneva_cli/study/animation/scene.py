@@ -63,28 +63,28 @@ def scene(design: Design) -> Scene:
         outlines = design.parts
     bars, rollers = _bars(turn, outlines, teeth), turn.rollers()
     spec, title = design.spec, title_of(design)
-    frame = _frame_rotation(mechanism, turn.start, turn.whole)
+    frame = _frame_rotation(mechanism, turn.start, turn.turn_deg)
     moving = parts if mechanism.output.turns else parts[1:]
-    box = _box(moving, bars, rollers, mechanism.roller_radius_mm, turn.whole)
+    box = _box(moving, bars, rollers, mechanism.roller_radius_mm, turn.turn_deg)
     if not mechanism.output.turns:
         box = view_of_rack(parts[0], box, turn)
     return Scene(
-        title,
-        words(mechanism) + _remark(design, bars, teeth),
-        "\n".join((f"title = {quoted(title)}", *spec_lines(spec))),
-        mechanism.shown_deg(turn.start),
-        turn.whole,
-        turn.whole / (6.0 * spec.drive.n_rpm),
-        parts,
-        bars,
-        rollers,
-        mechanism.roller_radius_mm,
-        tuple(pushes(design.cycle, turn)),
-        tuple(_states(design, turn)),
-        _figure(design),
-        _swept(parts, frame) if frame else box,
-        _stops(outlines, turn),
-        frame,
+        title=title,
+        caption=words(mechanism) + _remark(design, bars, teeth),
+        spec="\n".join((f"title = {quoted(title)}", *spec_lines(spec))),
+        start_deg=mechanism.shown_deg(turn.start),
+        turn_deg=turn.turn_deg,
+        seconds=turn.turn_deg / (6.0 * spec.drive.n_rpm),
+        bodies=parts,
+        bars=bars,
+        rollers=rollers,
+        roller_radius=mechanism.roller_radius_mm,
+        pushes=tuple(pushes(design.cycle, turn)),
+        states=tuple(_states(design, turn)),
+        figure=_figure(design),
+        box=_swept(parts, frame) if frame else box,
+        stops=_stops(outlines, turn),
+        frame=frame,
     )
 
 
@@ -163,7 +163,7 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
             yield Phase(a, c, True, "the first roller starts the wheel")
             yield Phase(c, d, True, "the gears turn the wheel")
             yield Phase(d, b, True, "the second roller stops the wheel")
-        end = after.entry - turn.start if after else turn.whole
+        end = after.entry - turn.start if after else turn.turn_deg
         if end > b + 1e-9:
             yield Phase(b, end, False, rest)
     assert last.exit <= turn.end + 1e-9
@@ -175,7 +175,9 @@ def _wheels_in_turn(design: Design, turn: MachineTurn) -> Iterator[Phase]:
     for place in places:
         start, end = place.behind_deg, place.behind_deg + one.engagement.motion_deg
         yield Phase(start, end, True, f"the finger turns wheel {place.number} on the carrier")
-        yield Phase(end, start + turn.whole / len(places), False, "all wheels rest on the carrier")
+        yield Phase(
+            end, start + turn.turn_deg / len(places), False, "all wheels rest on the carrier"
+        )
 
 
 def _rest(design: Design) -> str:

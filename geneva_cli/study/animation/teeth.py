@@ -64,7 +64,7 @@ def _angle(turn: MachineTurn, link: Link) -> Track | None:
     if link.teeth.fixed:
         return still()
     if same(at, turn.mechanism.crank_shaft.at, turn.L):
-        return turn.level()
+        return turn.crank_from_mid()
     if same(at, (0.0, 0.0), turn.L):
         return turn.wheel(turn.mechanism.wheel_places[0])
     return None

@@ -50,8 +50,8 @@ class MachineTurn:
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
         self.L = mechanism.center_distance_mm
-        self.whole = 360.0 * mechanism.spec.turns
-        periods = round(self.whole / mechanism.period_deg)
+        self.turn_deg = 360.0 * mechanism.spec.turns
+        periods = round(self.turn_deg / mechanism.period_deg)
         each = mechanism.engagements
         self.passages = tuple(
             RollerPassage(one, one.mid_deg + k * mechanism.period_deg, k * len(each) + i + 1)
@@ -64,7 +64,7 @@ class MachineTurn:
             for passage, ahead in one.engagement.passages
         ]
         self.start = self.passages[0].entry
-        self.end = self.start + self.whole
+        self.end = self.start + self.turn_deg
         self._links: dict[bytes, tuple[Link, ...]] = {}
 
     def wheel(self, place: AxisPlace) -> Track:
@@ -91,7 +91,7 @@ class MachineTurn:
         places = self.mechanism.crank_places
         return places[number % len(places)]
 
-    def level(self) -> Track:
+    def crank_from_mid(self) -> Track:
         """The crank's angle from its place at mid-motion, radians."""
         crank, ahead = self.crank(), math.pi if self.mechanism.spec.wheel.SIGN > 0.0 else 0.0
         return crank._replace(value=tuple(v - ahead for v in crank.value))
@@ -99,8 +99,8 @@ class MachineTurn:
     def input_shaft(self, sense: float) -> Track:
         """The input's angle from mid-motion, radians, for a shaft of a sense of rotation."""
         rate = sense * math.pi / 180.0
-        begin, gain = rate * (self.start - self.passages[0].mid), rate * self.whole
-        return Track((0.0, self.whole), (begin, begin + gain), (rate, rate), gain)
+        begin, gain = rate * (self.start - self.passages[0].mid), rate * self.turn_deg
+        return Track((0.0, self.turn_deg), (begin, begin + gain), (rate, rate), gain)
 
     def own_shaft(self, sense: float) -> Track:
         """The angle of the drive's own input shaft, radians, for a sense of rotation."""
@@ -123,14 +123,13 @@ class MachineTurn:
         sense = one.engagement.crank_sense
         ahead = math.pi if sign > 0.0 else 0.0
         gain = -sign * (sense or 1.0) * math.tau
-        rate = gain / self.whole
+        rate = gain / self.turn_deg
 
         def even(x: Array) -> Array:
             return ahead + rate * (x - one.mid)
 
         def shaft(x: Array) -> Array:
-            half = 0.5 * self.whole
-            at = (x - one.mid + half) % self.whole - half
+            at = self._local(x, one.mid)
             return even(x) + rate * (one.engagement.own_deg(at) - at)
 
         def angle(x: Array) -> Array:
@@ -158,8 +157,7 @@ class MachineTurn:
         return tuple(self._place(partial(self.centre, number)) for number in numbers)
 
     def _pin(self, engagement: Engagement, mid: float, input_deg: Array) -> Array:
-        half = 0.5 * self.whole
-        at = (input_deg - mid + half) % self.whole - half
+        at = self._local(input_deg, mid)
         if engagement.groove is not None:
             return self.L * roller_in_groove(engagement.groove, engagement.own_deg(at))
         x, y = (along.c[0] + 0.0 * at for along in engagement.path(at, 0))
@@ -188,10 +186,13 @@ class MachineTurn:
         """All links at input angles, cached: each joint's x and y are sampled at equal angles."""
         key = input_deg.tobytes()
         if key not in self._links:
-            half = 0.5 * self.whole
-            at = (input_deg + half) % self.whole - half
-            self._links[key] = links_at(self.mechanism, at)
+            self._links[key] = links_at(self.mechanism, self._local(input_deg, 0.0))
         return self._links[key]
+
+    def _local(self, input_deg: Array, mid: float) -> Array:
+        """Input angles from a mid-motion, in degrees, within half a turn of the machine."""
+        half = 0.5 * self.turn_deg
+        return (input_deg - mid + half) % self.turn_deg - half
 
     def _place(self, place: Callable[[Array], Array]) -> Place:
         def along(i: int) -> Track:

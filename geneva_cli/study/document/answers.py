@@ -6,11 +6,19 @@ from collections.abc import Iterator
 from typing import Any
 
 from geneva_cli.design import Design
-from geneva_cli.document import Block, Facts, Grid, Heading, Row, TextList
+from geneva_cli.document import Block, Grid, Heading, Row, TextList
 from geneva_cli.kinematics.wheels.gearing import Output
 from geneva_cli.loads.figures import AXIS_BY_NAME
 from geneva_cli.loads.summary import QuantitySummary
-from geneva_cli.study.document.facts import RemainingValues, capital, fact, facts, grid
+from geneva_cli.study.document.facts import (
+    RemainingValues,
+    capital,
+    fact,
+    facts,
+    grid,
+    grids,
+    section,
+)
 from geneva_cli.table import Table
 
 
@@ -59,9 +67,9 @@ def _each(stations: Table | None) -> Iterator[Block]:
     rows = list(stations.rows())
     width = 6  # engagements that fit on a page side by side
     for start in range(0, len(rows), width):
-        some = rows[start : start + width]
-        heads = ("Of the engagement", "Unit", *(str(start + i + 1) for i in range(len(some))))
-        columns = zip(stations.names, zip(*some, strict=True), strict=True)
+        group = rows[start : start + width]
+        heads = ("Of the engagement", "Unit", *(str(start + i + 1) for i in range(len(group))))
+        columns = zip(stations.names, zip(*group, strict=True), strict=True)
         lines = [(*fact(name, None)[::2], *values) for name, values in columns]
         yield Grid("Engagement by engagement", heads, tuple(lines))
 
@@ -86,48 +94,22 @@ def loads(design: Design, left: RemainingValues) -> Iterator[Block]:
         caption = "Impact at entry" if name == "entry" else "Impact where the roller changes walls"
         yield from facts(caption, left.take(f"shock.{name}"))
     sizing = {n.partition(".")[2]: v for n, v in page.items() if n.startswith("sizing.")}
-    blocks = facts("What it takes", sizing)
-    if blocks:
-        yield Heading("Sizing")
-        yield from blocks
+    yield from section("Sizing", facts("What it takes", sizing))
 
 
 def _column(name: str) -> str:
     return f"{fact(name, None).name}, °" if name.endswith("_at_deg") else fact(name, None).name
 
 
-def product(left: RemainingValues) -> Iterator[Block]:
-    """What the product on the dial feels, if its place is known."""
-    values = left.take("product")
-    if any(value is not None for value in values.values()):
-        yield Heading("Product")
-        yield from facts("What the product on the dial feels", values)
-
-
-def carousel(left: RemainingValues) -> Iterator[Block]:
-    """Wheels on a carrier from the ground, and when each moves, if there are any."""
-    values, wheels = left.take("carousel"), left.one("wheels")
-    if any(value is not None for value in values.values()):
-        yield Heading("Carousel")
-        yield from facts("The wheels on the carrier, from the ground", values)
-    if wheels is not None:
-        yield grid("When each wheel moves, by the carrier's angle", wheels)
-
-
-def cranks(left: RemainingValues) -> Iterator[Block]:
-    """When each of several cranks moves the wheel, if there are any."""
-    rows = left.one("cranks")
-    if rows is not None:
-        yield Heading("Cranks")
-        yield grid("When each crank moves the wheel, by the input's angle", rows)
-
-
-def stop(left: RemainingValues) -> Iterator[Block]:
-    """Where a Geneva stop blocks the crank, if there is one."""
-    values = left.take("stop")
-    if any(value is not None for value in values.values()):
-        yield Heading("Stop")
-        yield from facts("Where the convex face blocks the crank", values)
+def special(left: RemainingValues) -> Iterator[Block]:
+    """What some machines alone have: a product, wheels on a carrier, several cranks, a stop."""
+    yield from section("Product", facts("What the product on the dial feels", left.take("product")))
+    own = facts("The wheels on the carrier, from the ground", left.take("carousel"))
+    caption = "When each wheel moves, by the carrier's angle"
+    yield from section("Carousel", [*own, *grids(caption, left.one("wheels"))])
+    caption = "When each crank moves the wheel, by the input's angle"
+    yield from section("Cranks", grids(caption, left.one("cranks")))
+    yield from section("Stop", facts("Where the convex face blocks the crank", left.take("stop")))
 
 
 def sizes(left: RemainingValues) -> Iterator[Block]:
@@ -143,14 +125,12 @@ def sizes(left: RemainingValues) -> Iterator[Block]:
 
 def strength(left: RemainingValues) -> Iterator[Block]:
     """Strength and life of the parts."""
-    blocks: list[Facts] = []
+    blocks: list[Block] = []
     shafts = "wheel_shaft", "wheel_key", "crank_shaft", "crank_key"
     for part in ("pin", "horn", "lock", "arm", *shafts):
         blocks += facts(capital(part.replace("_", " ")), left.take(f"strength.{part}"))
     blocks += facts("Life", left.take("life"))
-    if blocks:
-        yield Heading("Life and strength")
-        yield from blocks
+    yield from section("Life and strength", blocks)
 
 
 def both_ways(left: RemainingValues) -> Iterator[Block]:
@@ -170,10 +150,7 @@ def swinging(left: RemainingValues) -> Iterator[Block]:
     """Vibration and tolerances, if the report has them."""
     for text, group in (("Vibration", "vibration"), ("Tolerances", "tolerance")):
         warnings = left.one(f"{group}.warnings")
-        blocks = facts(text, left.take(group))
-        if blocks:
-            yield Heading(text)
-            yield from blocks
+        yield from section(text, facts(text, left.take(group)))
         if warnings:
             yield TextList(tuple(warnings))
 

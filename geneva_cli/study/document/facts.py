@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from geneva_cli.document import Block, Fact, Facts, Grid
+from geneva_cli.document import Block, Fact, Facts, Grid, Heading
 from geneva_cli.names import described
 from geneva_cli.table import Table
 
@@ -77,6 +77,18 @@ def grid(caption: str, table: Table) -> Grid:
     shown = [i for i in range(len(table.names)) if any(is_known(row[i]) for row in rows)]
     heads = [head(table.names[i]) for i in shown]
     return Grid(caption, tuple(heads), tuple(tuple(row[i] for i in shown) for row in rows))
+
+
+def grids(caption: str, table: Table | None) -> list[Grid]:
+    """The grid of a table, if there is one."""
+    return [] if table is None else [grid(caption, table)]
+
+
+def section(heading: str, blocks: Sequence[Block]) -> Iterator[Block]:
+    """Blocks under a heading; nothing without any."""
+    if blocks:
+        yield Heading(heading)
+        yield from blocks
 
 
 def head(name: str) -> str:

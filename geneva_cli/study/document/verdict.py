@@ -9,7 +9,7 @@ from geneva_cli.document import BAD, Block, Grid, Heading, Prose, Row, TextList
 from geneva_cli.loads.summary import missing
 from geneva_cli.machine.spec import Spec
 from geneva_cli.manual.explained import entries
-from geneva_cli.study.document.facts import RemainingValues, capital
+from geneva_cli.study.document.facts import RemainingValues, capital, section
 from geneva_cli.study.summary import report
 from geneva_cli.verdict.headline import headline
 from geneva_cli.verdict.strength import OF_LIFE
@@ -71,23 +71,14 @@ def remarks(design: Design, left: RemainingValues) -> Iterator[Block]:
     """Unknown values with the keys that they need, and sources."""
     known = design.strength.missing(OF_LIFE)  # the report lists these, and more, itself
     unknown: dict[str, None] = dict.fromkeys(missing(design.cycle))
-    unknown |= dict.fromkeys(t for t in _notes(design) if t not in known)
+    notes: tuple[str, ...] = design.loads_page.to_dict().get("not_known", ())
+    unknown |= dict.fromkeys(text for text in notes if text not in known)
     unknown |= dict.fromkeys(left.one("strength.needs"))
-    rest = list(left.rest())
-    if rest:
-        yield Heading("Other answers")
-        yield from rest
-    if unknown:
-        yield Heading("What is not known, and the key that would give it")
-        yield TextList(tuple(unknown))
+    yield from section("Other answers", list(left.rest()))
+    texts = [TextList(tuple(unknown))] if unknown else []
+    yield from section("What is not known, and the key that would give it", texts)
     yield Heading("Sources of the formulas")
     yield TextList(sources(design.spec))
-
-
-def _notes(design: Design) -> tuple[str, ...]:
-    """The keys that sizing and life need."""
-    notes: tuple[str, ...] = design.loads_page.to_dict().get("not_known", ())
-    return notes
 
 
 def key_figures(design: Design) -> Grid:

@@ -12,17 +12,15 @@ from geneva_cli.loads.summary import QuantitySummary, no_load
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.study.fields import pick
-from geneva_cli.study.summary.titles import counted, title_of
-from geneva_cli.verdict.headline import bare, measured, warning
+from geneva_cli.study.summary.titles import summary_of
+from geneva_cli.verdict.headline import bare, measured
 
 NO_BOUND = "without bound: see the warnings"
 
 
 def of_loads(design: Design) -> Answer:
     """The answer of ``geneva loads``: some lines, and the powers with the definition of each."""
-    lines = [*load_lines(design), *map(warning, design.warnings)]
-    head = f"{title_of(design)}{counted(design.warnings)}"
-    first = Summary(head, tuple(lines), WARNS if design.warnings else "")
+    first = summary_of(design, load_lines(design), design.warnings)
     powers = tuple(_powers(design))
     summaries = (first, Summary("Powers of this machine", powers)) if powers else (first,)
     return Answer(summaries, design.loads_page, design.loads_table)

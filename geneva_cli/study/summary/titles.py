@@ -14,9 +14,14 @@ def record_answer(
     design: Design, record: Table, lines: Iterable[SummaryLine], warnings: Sequence[str]
 ) -> Answer:
     """An answer of some lines and warnings, with the other values of a record below them."""
-    head = f"{title_of(design)}{counted(warnings)}"
-    summary = Summary(head, (*lines, *map(warning, warnings)), WARNS if warnings else "")
+    summary = summary_of(design, lines, warnings)
     return Answer((summary,), below_summary(record, without=("title",)), record)
+
+
+def summary_of(design: Design, lines: Iterable[SummaryLine], warnings: Sequence[str]) -> Summary:
+    """Some lines and warnings about a design, whose headline counts the warnings."""
+    head = f"{title_of(design)}{counted(warnings)}"
+    return Summary(head, (*lines, *map(warning, warnings)), WARNS if warnings else "")
 
 
 def title_of(design: Design) -> str:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.specfile.writer import quoted, spec_lines
-from geneva_cli.study.fields import Cell
+from geneva_cli.study.fields import Cell, Pick
 from geneva_cli.study.sweep.best_search import Row, SweepSearch
 from geneva_cli.study.sweep.constraints import Constraint, Nearness, Objective, is_number
 from geneva_cli.study.sweep.places import BestPlaces, closer
@@ -16,10 +16,14 @@ from geneva_cli.study.sweep.run import Sweep
 
 
 class SearchGoal(NamedTuple):
-    """The objective of a search, and the bounds that a design must keep."""
+    """The objective of a search, and the bounds that a design must keep.
+
+    ``also`` are quantities that are computed for the best design only.
+    """
 
     objective: Objective
     constraints: tuple[Constraint, ...]
+    also: Pick
 
 
 class Winner(NamedTuple):
@@ -51,7 +55,7 @@ class Winner(NamedTuple):
         return [*notes, *([f"title = {quoted(title)}"] if title else []), *spec_lines(spec)]
 
 
-def winner(sweep: Sweep, every: Iterable[Sequence[Row]], goal: SearchGoal) -> Winner:
+def winner(sweep: Sweep, row_blocks: Iterable[Sequence[Row]], goal: SearchGoal) -> Winner:
     """Return the best design of a sweep, whose rows come in blocks and are not kept.
 
     The spec's own design is tried too, if its values are among those varied. The keys that vary in
@@ -61,7 +65,7 @@ def winner(sweep: Sweep, every: Iterable[Sequence[Row]], goal: SearchGoal) -> Wi
     """
     search = SweepSearch(sweep, goal.objective, goal.constraints)
     tally = Tally(search)
-    for rows in every:
+    for rows in row_blocks:
         tally.add(rows)
     # a random sample comes near the spec's own design, but does not contain it
     if search.free and sweep.own_values is not None:
@@ -78,8 +82,7 @@ def winner(sweep: Sweep, every: Iterable[Sequence[Row]], goal: SearchGoal) -> Wi
     numbers = {name: float(v) for name, v in values.items() if is_number(v)}
     binding = tuple(c for c in goal.constraints if c.binds(numbers[c.name]))
     machine = sweep.machine(search.keys(best))
-    also = sweep.of_best
-    extra = dict(zip(also.names, also.of(machine), strict=True)) if also else {}
+    extra = dict(zip(goal.also.names, goal.also.of(machine), strict=True))
     return Winner(numbers, machine, tally.tried, tally.feasible, binding, extra)
 
 

@@ -19,12 +19,12 @@ def front(
     A row is on it if no other is as good in all objectives and better in one. Rows without one of
     the numbers are left out. Equal rows stay together.
     """
-    some = [i for i, row in enumerate(rows) if all(is_number(row[c]) for c in columns)]
-    if not some:
+    known = [i for i, row in enumerate(rows) if all(is_number(row[c]) for c in columns)]
+    if not known:
         return []
     signed = list(zip(columns, signs, strict=True))
-    costs = np.array([[sign * rows[i][c] for c, sign in signed] for i in some])
-    return [some[i] for i in best(costs)]
+    costs = np.array([[sign * rows[i][c] for c, sign in signed] for i in known])
+    return [known[i] for i in best(costs)]
 
 
 def best(costs: Array) -> list[int]:

@@ -23,16 +23,16 @@ class Outcome:
         self._nearness = Nearness([(names.index(c.name), c) for c in request.constraints])
         self._unknown = {names.index(o.name): o.name for o in request.objectives}
 
-    def rows(self, every: Iterable[Rows]) -> Iterator[Rows]:
+    def rows(self, row_blocks: Iterable[Rows]) -> Iterator[Rows]:
         """The rows of the request, counted: all of them, or those that it chooses."""
-        counted = self.counted(every)
+        counted = self.counted(row_blocks)
         for block in self.request.chosen(counted) if self.request.chooses else counted:
             self.left += len(block)
             yield block
 
-    def counted(self, every: Iterable[Rows]) -> Iterator[Rows]:
+    def counted(self, row_blocks: Iterable[Rows]) -> Iterator[Rows]:
         """All rows, counted."""
-        for block in every:
+        for block in row_blocks:
             failed = [str(row[-1]) for row in block if row[-1] is not None]
             self.all += len(block)
             self.failed += len(failed)

@@ -48,10 +48,10 @@ class BestPlaces:
 
     def _foremost(self, most: int) -> list[tuple[Place, Row]]:
         """At most so many places, the best first: one of each choice before a second of any."""
-        every = sorted(self.rows.items(), key=self._merit)
-        best = {place.choice: place for place, _ in reversed(every)}
-        every.sort(key=lambda item: best[item[0].choice] != item[0])
-        return sorted(every[:most], key=self._merit)
+        items = sorted(self.rows.items(), key=self._merit)
+        best = {place.choice: place for place, _ in reversed(items)}
+        items.sort(key=lambda item: best[item[0].choice] != item[0])
+        return sorted(items[:most], key=self._merit)
 
     def _merit(self, item: tuple[Place, Row]) -> tuple[float, float]:
         return self.search.merit(item[1])
@@ -81,8 +81,8 @@ def closer(search: SweepSearch, rows: Sequence[Row]) -> list[Row]:
         steps = draw.uniform(-width, width, (len(best), count, len(search.free)))
         about = [
             search.moved(row, search.fractions(row) + step)
-            for row, some in zip(best, steps, strict=True)
-            for step in some
+            for row, row_steps in zip(best, steps, strict=True)
+            for step in row_steps
         ]
         drawn = search.sweep.rows_of(about)
         clouds = [drawn[i * count : (i + 1) * count] for i in range(len(best))]

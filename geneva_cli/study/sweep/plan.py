@@ -30,7 +30,7 @@ class SweepPlan(NamedTuple):
         """The design with the middle value of each key."""
         return tuple(_at(a, 0.5) for a in self.axes)
 
-    def some(self, most: int) -> Iterator[tuple[Value, ...]]:
+    def sample(self, most: int) -> Iterator[tuple[Value, ...]]:
         """At most ``most`` designs spread over the sweep, the first one included."""
         if self.random:
             yield from self.rows(0, min(most, len(self)))

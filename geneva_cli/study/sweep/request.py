@@ -9,7 +9,8 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.specfile.columns import digest
 from geneva_cli.specfile.reader import Text, read
-from geneva_cli.study.fields import Cell
+from geneva_cli.study.fields import Cell, Pick
+from geneva_cli.study.fields import pick as pick_of
 from geneva_cli.study.sweep.constraints import (
     Constraint,
     Objective,
@@ -33,6 +34,7 @@ class SweepRequest(NamedTuple):
     objectives: tuple[Objective, ...]
     jobs: int | None
     files: tuple[str, ...]  # that the spec is read from
+    of_best: Pick  # quantities that are computed for the best design of --best only
 
     @property
     def chooses(self) -> bool:
@@ -58,11 +60,11 @@ class SweepRequest(NamedTuple):
         """All rows, in blocks; the first ``done`` rows are skipped."""
         return blocks(self.sweep, done, self.jobs)
 
-    def chosen(self, every: Iterable[list[list[Cell]]]) -> Iterator[list[list[Cell]]]:
+    def chosen(self, row_blocks: Iterable[list[list[Cell]]]) -> Iterator[list[list[Cell]]]:
         """The rows that keep all bounds and, of these, the Pareto front."""
         names = self.sweep.names
         bounds = [(names.index(c.name), c) for c in self.constraints]
-        kept = ([r for r in block if all(c.kept(r[i]) for i, c in bounds)] for block in every)
+        kept = ([r for r in block if all(c.kept(r[i]) for i, c in bounds)] for block in row_blocks)
         if not self.objectives:
             yield from (block for block in kept if block)
             return
@@ -80,12 +82,12 @@ class SweepRequest(NamedTuple):
         if rows:
             yield rows
 
-    def best(self, every: Iterable[list[list[Cell]]]) -> list[str]:
+    def best(self, row_blocks: Iterable[list[list[Cell]]]) -> list[str]:
         """The best design, refined, as the lines of a spec."""
         from geneva_cli.study.sweep.best import SearchGoal, winner
 
-        goal = SearchGoal(self.objectives[0], self.constraints)
-        return winner(self.sweep, every, goal).lines(goal)
+        goal = SearchGoal(self.objectives[0], self.constraints, self.of_best)
+        return winner(self.sweep, row_blocks, goal).lines(goal)
 
 
 def request(
@@ -132,17 +134,18 @@ def request(
     needed = [o.name for o in goals] + [c.name for c in bounds]
     by = dict.fromkeys([c.name for c in bounds], "--subject-to")
     by |= dict.fromkeys([o.name for o in goals], "--best" if best else "--pareto")
-    every, later = (needed, names) if best else ([*needed, *names], None)
-    swept = sweep(text, plan(axes, random, seed or 0), every, check, by, later)
+    names += ["checks.passes", "checks.failed"] if check else []
+    of_best, picks = (pick_of(names), needed) if best else (pick_of([]), [*needed, *names])
+    swept = sweep(text, plan(axes, random, seed or 0), picks, by)
     swept = swept._replace(shard=part)
-    whole = dict(zip(every, swept.pick.requested, strict=False))
+    whole = dict(zip(picks, swept.pick.requested, strict=True))
     constraints = tuple(c._replace(name=whole[c.name]) for c in bounds)
     refuse_contradictions(constraints)
     objectives = tuple(o._replace(name=whole[o.name]) for o in goals)
     refuse_opposites(objectives)
     options = {whole[a]: option for a, option in by.items()}
     refuse_words(options, "--vary or --set picks it")
-    return SweepRequest(swept, constraints, objectives, jobs, files)
+    return SweepRequest(swept, constraints, objectives, jobs, files, of_best)
 
 
 def _files(text: Text, axes: Sequence[VariedKey], error: GenevaError) -> tuple[str, ...]:

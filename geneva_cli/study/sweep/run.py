@@ -36,7 +36,6 @@ class Sweep(NamedTuple):
     plan: SweepPlan
     pick: Pick
     shard: Shard = WHOLE
-    of_best: Pick | None = None  # quantities that are computed for the best design only
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -58,17 +57,17 @@ class Sweep(NamedTuple):
         """The rows of the designs ``start`` to ``stop - 1``."""
         return self.rows_of(self.plan.rows(start, stop))
 
-    def rows_of(self, every: Sequence[Sequence[Value]]) -> list[list[Cell]]:
+    def rows_of(self, designs: Sequence[Sequence[Value]]) -> list[list[Cell]]:
         """The rows of designs by the values of their keys."""
-        known = self.known(every)
+        known = self.known(designs)
         if self.is_batched:
             return [
-                [*some, *known[i], None] if i in known else self.row(some)
-                for i, some in enumerate(every)
+                [*values, *known[i], None] if i in known else self.row(values)
+                for i, values in enumerate(designs)
             ]
         out: list[list[Cell]] = []
-        for start in range(0, len(every), KEPT):
-            part = every[start : start + KEPT]
+        for start in range(0, len(designs), KEPT):
+            part = designs[start : start + KEPT]
             last: PartsModel | None = None
             for i, machine in enumerate(self._machines(part)):
                 if isinstance(machine, GenevaError):
@@ -78,30 +77,30 @@ class Sweep(NamedTuple):
                 out.append(self._row(part[i], last, known.get(start + i)))
         return out
 
-    def _machines(self, every: Sequence[Sequence[Value]]) -> list[Mechanism | GenevaError]:
+    def _machines(self, designs: Sequence[Sequence[Value]]) -> list[Mechanism | GenevaError]:
         """The machine of each row, or why it cannot be built.
 
         Machines whose parts are made take the loads of their checks from batches of them.
         """
-        machines = [self._machine_or_error(some) for some in every]
+        machines = [self._machine_or_error(values) for values in designs]
         if any(group.makes_parts for group in self.pick.groups):
             keys = [a.key for a in self.plan.axes]
-            for members, machine in batch.machines(every, keys, self._spec):
+            for members, machine in batch.machines(designs, keys, self._spec):
                 own = [one for i in members if isinstance(one := machines[i], Mechanism)]
                 if len(own) == len(members) > 1:
                     share(machine, own)
         return machines
 
-    def _machine_or_error(self, some: Sequence[Value]) -> Mechanism | GenevaError:
+    def _machine_or_error(self, values: Sequence[Value]) -> Mechanism | GenevaError:
         try:
-            return self.machine(some)
+            return self.machine(values)
         except GenevaError as error:
             return error
 
-    def known(self, every: Sequence[Sequence[Value]]) -> Mapping[int, list[Cell]]:
+    def known(self, designs: Sequence[Sequence[Value]]) -> Mapping[int, list[Cell]]:
         """The quantities that a batch can compute, of the designs of batches by their numbers."""
         keys, names = [a.key for a in self.plan.axes], self.pick.batched
-        return batch.table(every, keys, names, self._spec) if names else {}
+        return batch.table(designs, keys, names, self._spec) if names else {}
 
     @property
     def task_size(self) -> int:
@@ -120,8 +119,8 @@ class Sweep(NamedTuple):
         """Return True if all quantities can be computed for a batch of designs."""
         return bool(self.pick.names) and not self.pick.rest.names
 
-    def _spec(self, some: Sequence[Value]) -> Spec:
-        return with_values(self.text, self.plan.axes, some).spec()
+    def _spec(self, values: Sequence[Value]) -> Spec:
+        return with_values(self.text, self.plan.axes, values).spec()
 
     @property
     def own_values(self) -> list[Value] | None:
@@ -135,14 +134,14 @@ class Sweep(NamedTuple):
                 return own
         return None
 
-    def row(self, some: Sequence[Value]) -> list[Cell]:
+    def row(self, values: Sequence[Value]) -> list[Cell]:
         """The row of the design with these values of the keys, computed alone."""
-        machine = self._machine_or_error(some)
-        return self._row(some, PartsModel(machine) if isinstance(machine, Mechanism) else machine)
+        machine = self._machine_or_error(values)
+        return self._row(values, PartsModel(machine) if isinstance(machine, Mechanism) else machine)
 
     def _row(
         self,
-        some: Sequence[Value],
+        values: Sequence[Value],
         model: PartsModel | GenevaError,
         known: Sequence[Cell] | None = None,
     ) -> list[Cell]:
@@ -150,38 +149,31 @@ class Sweep(NamedTuple):
         try:
             if isinstance(model, GenevaError):
                 raise model
-            return [*some, *self.pick.of_model(model, known), None]
+            return [*values, *self.pick.of_model(model, known), None]
         except GenevaError as error:
-            return [*some, *[None] * len(self.pick.names), str(error)]
+            return [*values, *[None] * len(self.pick.names), str(error)]
 
-    def machine(self, some: Sequence[Value]) -> Mechanism:
+    def machine(self, values: Sequence[Value]) -> Mechanism:
         """The machine with these values. Raises GenevaError if it cannot be built."""
-        return _machine(self.text, self.plan, some)
+        return _machine(self.text, self.plan, values)
 
 
 def sweep(
     text: Text,
     plan: SweepPlan,
     picks: Sequence[str] = DEFAULT,
-    check: bool = False,
     options: Mapping[str, str] | None = None,
-    of_best: Sequence[str] | None = None,
 ) -> Sweep:
     """Return the sweep of a spec.
 
-    ``check`` adds the result of the checks; ``options`` names the option that requested a quantity,
-    if it was not --pick. ``of_best`` is for a search of the best design: these quantities, and the
-    checks, are then computed for that design only.
-
-    Raises GenevaError for an unknown quantity, and if no design of a sample can be built.
+    ``options`` names the option that requested a quantity, if it was not --pick. Raises GenevaError
+    for an unknown quantity, and if no design of a sample can be built.
     """
-    checked = ("checks.passes", "checks.failed") if check else ()
-    later = None if of_best is None else pick([*of_best, *checked])
-    picked = pick([*picks, *([] if later else checked)], options=options)
+    picked = pick(picks, options=options)
     _refuse_hopeless(text, plan)
     varied = [a.key for a in plan.axes]  # these have their columns already: no name may occur twice
     names = tuple(name for name in picked.names if name not in varied)
-    return Sweep(text, plan, picked._replace(names=names), of_best=later)
+    return Sweep(text, plan, picked._replace(names=names))
 
 
 def _refuse_hopeless(text: Text, plan: SweepPlan) -> None:
@@ -191,9 +183,9 @@ def _refuse_hopeless(text: Text, plan: SweepPlan) -> None:
     """
     most = 1000  # designs of the sample
     reasons = []
-    for some in itertools.chain([plan.middle()], plan.some(most)):
+    for values in itertools.chain([plan.middle()], plan.sample(most)):
         try:
-            _machine(text, plan, some)
+            _machine(text, plan, values)
             return
         except GenevaError as error:
             reasons.append(str(error))
@@ -207,14 +199,14 @@ def _refuse_hopeless(text: Text, plan: SweepPlan) -> None:
     raise GenevaError(f"{count} can be built: {reasons[0]}")
 
 
-def with_values(text: Text, axes: Sequence[VariedKey], some: Sequence[Value]) -> Text:
+def with_values(text: Text, axes: Sequence[VariedKey], values: Sequence[Value]) -> Text:
     """The spec with the values of the varied keys set over its own."""
-    changes = tuple(_changed(a.key, v) for a, v in zip(axes, some, strict=True))
+    changes = tuple(_changed(a.key, v) for a, v in zip(axes, values, strict=True))
     return text._replace(set_keys=(*text.set_keys, *changes))
 
 
-def _machine(text: Text, plan: SweepPlan, some: Sequence[Value]) -> Mechanism:
-    text = with_values(text, plan.axes, some)
+def _machine(text: Text, plan: SweepPlan, values: Sequence[Value]) -> Mechanism:
+    text = with_values(text, plan.axes, values)
     spec = text.spec()
     with text.located():
         return build(spec)

@@ -70,10 +70,10 @@ def _axis(key: str, text: str, option: str, random: bool) -> VariedKey:
         return VariedKey(key, _range(ends, option))
     values: list[Value] = []
     for part in parts:
-        some = range_text(part, option)
+        ends = range_text(part, option)
         more: Sequence[Value] = (
-            _range(_ends_in_unit_of(key, some, option), option)
-            if some
+            _range(_ends_in_unit_of(key, ends, option), option)
+            if ends
             else (_one(key, part, option),)
         )
         _refuse_many(option, len(values) + len(more), 1_000_000)  # all of them are in memory
@@ -100,8 +100,8 @@ def _range(ends: RangeText, option: str) -> Sequence[float]:
         first, last, step = int(ends.low), int(ends.high), int(ends.step or 1)
         if step:
             _refuse_many(option, abs((last - first) / step) + 1)
-        if step and (some := range(first, last + (1 if step > 0 else -1), step)):
-            return some
+        if step and (numbers := range(first, last + (1 if step > 0 else -1), step)):
+            return numbers
     low, high = _decimal(ends.low, option), _decimal(ends.high, option)
     if not ends.step and not _whole(ends[:2]):
         raise GenevaError(f"{option}: a range of fractions needs its step: LOW..HIGH:STEP")

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geneva_cli.drawings.shaft_gap import gear_gap, rack_gear_gap, shaft_gap
 from geneva_cli.layout.clamps import clamp_of
 from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.outlines.crank import is_whole
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.rack_parts import RackParts
 from geneva_cli.verdict.checks.check import Check, compared, gap
 
 if TYPE_CHECKING:
+    from geneva_cli.parts.rack_parts import RackParts
     from geneva_cli.parts.sphere.sphere_parts import SphereParts
 
 
@@ -65,16 +64,24 @@ def passing_parts(name: str, parts: FlatParts) -> Check | None:
     own = sizes["shafts"] == "turned" or any(sizes[key] is not None for key in keys)
     if not (spec.drive.IN_SERIES or own):
         return None
+    from geneva_cli.drawings.shaft_gap import shaft_gap  # which few machines need
+
     return gap(name, lambda: shaft_gap(parts), parts.outlines.assembly.L)
 
 
 def passing_gears(name: str, parts: FlatParts) -> Check | None:
     """The gap between shafts and noncircular gears, at their pitch curves' farthest places."""
+    if parts.mechanism.spec.gears is None:
+        return None
+    from geneva_cli.drawings.shaft_gap import gear_gap
+
     return gap(name, lambda: gear_gap(parts), parts.outlines.assembly.L)
 
 
 def passing_rack_gears(name: str, parts: RackParts) -> Check | None:
     """The least gap of gears before a rack's crank to its guide and to shafts."""
+    from geneva_cli.drawings.shaft_gap import rack_gear_gap
+
     return gap(name, lambda: rack_gear_gap(parts), parts.mechanism.center_distance_mm)
 
 

@@ -15,7 +15,6 @@ from geneva_cli.verdict.checks.check import Check, all_pass
 from geneva_cli.verdict.quantities.designs import Values
 from geneva_cli.verdict.quantities.groups import REPORT
 from geneva_cli.verdict.quantities.groups import values as values_of
-from geneva_cli.verdict.report.words import words
 
 
 class Report(NamedTuple):
@@ -41,6 +40,8 @@ def report(model: PartsModel, rows: Sequence[Check], warnings: Sequence[Notice])
         "checks_failed": tuple(_in_one_line(c) for c in rows if c.passes is False),
         "not_proved": tuple(f"{c.name}: {c.why}" for c in rows if c.passes is None),
     }
+    from geneva_cli.verdict.report.words import words  # the loads take their values without it
+
     values |= values_of(REPORT, model) | {"warnings": tuple(warnings)}
     return Report(record_table(values, title, words(mechanism)), passes)
 

@@ -6,7 +6,6 @@ import math
 
 from geneva_cli.analysis.carried import inertia_kgm2
 from geneva_cli.analysis.peaks import worst
-from geneva_cli.analysis.positive_drive import positive_drives
 from geneva_cli.analysis.quantities import REPORTED_PEAKS, sources
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
@@ -55,6 +54,8 @@ def needs(model: PartsModel) -> Values:
 
 def slot(model: PartsModel) -> Values:
     """Whether a wall pushes throughout, which may be cut away; None for straight slots."""
+    from geneva_cli.analysis.positive_drive import positive_drives
+
     drive = positive_drives(model.mechanism)
     return {"slot.positively_driven": not drive.loose_deg if drive else None}
 

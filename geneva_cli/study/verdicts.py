@@ -13,11 +13,6 @@ from geneva_cli.study.pool import cores, mapped
 from geneva_cli.table import Reading, Table, record_table, rows_table
 from geneva_cli.verdict.checks import Check, all_pass
 
-NAMES = (
-    *("spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest", "why"),
-    "direction",
-)
-
 
 class Verdict(NamedTuple):
     """The checks and warnings of one spec, or why it could not be read."""
@@ -44,10 +39,14 @@ def verdict(path: str, settings: Sequence[str] = (), proof_mm: float | None = No
     try:
         design = load(path, settings)
         checks = design.checks if proof_mm is None else design.proved_to(proof_mm)
-        warnings = tuple(design.warnings)
-        files, inputs = design.spec.files, tuple(design.with_units)
-        both_ways = design.spec.drive.both_ways
-        return Verdict(design.spec.path, files, tuple(checks), warnings, inputs, "", both_ways)
+        return Verdict(
+            path=design.spec.path,
+            files=design.spec.files,
+            checks=tuple(checks),
+            warnings=tuple(design.warnings),
+            with_units=tuple(design.with_units),
+            both_ways=design.spec.drive.both_ways,
+        )
     except GenevaError as error:
         return Verdict(path, error=str(error))
 
@@ -68,16 +67,14 @@ def verdicts(
         yield judge(path) if path == "-" else next(others)
 
 
-def checks_table(verdicts: Sequence[Verdict]) -> Table:
+def checks_table(verdicts: Sequence[Verdict], directed: bool = False) -> Table:
     """A table with one row for each check of each spec.
 
-    It has the column ``direction`` if a machine turns both ways.
+    It has the column ``direction`` if ``directed``, or if a machine turns both ways.
     """
-    return _checks(verdicts, any(v.both_ways for v in verdicts))
-
-
-def _checks(verdicts: Sequence[Verdict], directed: bool) -> Table:
-    names = NAMES if directed else NAMES[:-1]
+    directed = directed or any(v.both_ways for v in verdicts)
+    columns = "spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest", "why"
+    names = (*columns, *(["direction"] if directed else []))
     rows = [
         (
             *(v.path, c.name, c.value, c.at_deg, c.must_be, c.limit, c.passes, c.nearest, c.why),
@@ -96,7 +93,7 @@ def checks_record(verdicts: Sequence[Verdict]) -> Table:
     warnings = [(v.path, w.name, str(w)) for v in verdicts for w in v.warnings]
     return record_table(
         {
-            "rows": _checks(verdicts, True),  # keys are those of every machine
+            "rows": checks_table(verdicts, directed=True),  # keys are those of every machine
             "passes": all(v.passes for v in verdicts),
             "warnings": rows_table(("spec", "name", "text"), warnings),
         }
