@@ -100,7 +100,7 @@ def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
     counts = np.bincount(whose, minlength=count)
     starts = np.cumsum(counts) - counts
     order = np.argsort(counts, kind="stable")
-    for part in blocks(count, 192):  # their samples and boxes stay in the processor's cache
+    for part in blocks(count, 256):  # their samples and boxes stay in the processor's cache
         which = order[part]
         rows = np.arange(counts[which].max(initial=1))[:, None]
         # After its own last sample a column repeats it.
