@@ -45,7 +45,7 @@ def pin(of: Designs) -> Columns:
     if width is None:
         return out
     force = load.force_N[:, None]
-    section = pins.pin(of.spec.size, width, _pin_mm(of, width, force))
+    section = pins.pin(of.spec.size, width, load.pin_mm)
     under = section.under(force)
     stress = np.ravel(under.equivalent)
     out |= {
@@ -59,20 +59,6 @@ def pin(of: Designs) -> Columns:
         least = pins.least_diameter_mm(section, force, allowed)
         out["least_diameter_mm"] = np.where(np.isfinite(allowed), least, np.inf)
     return out
-
-
-def _pin_mm(of: Designs, width: float, force: Array) -> Number:
-    """The pin's diameter, (m, 1): of the spec, or as its machine is drawn."""
-    usual = pins.pin_diameter_mm(of.machine)
-    if of.spec.size.pin_mm is not None:
-        return usual
-    stress = pins.pin(of.spec.size, width, usual).under(force).equivalent
-    # where the usual pin holds, it is drawn
-    holds = ~(stress > roller_material(of.spec).allowed_MPa)
-    parts = None if np.all(holds) else under_load(of).parts
-    if parts is None:
-        return usual
-    return np.where(np.isnan(parts.pin), np.ravel(usual), parts.pin)[:, None]
 
 
 def _allowed(of: Designs, own: Material, material: Callable[[Spec], Stock]) -> Number | None:
@@ -125,13 +111,14 @@ def _known(row: Number | None) -> Array:
 def wheel_shaft(of: Designs) -> Columns:
     """The wheel's shaft."""
     ends = _drawn(of, shafts.wheel_shaft(of.spec.shaft), "wheel")
-    return _shaft(of, ends, shafts.wheel_forces(of.spec))
+    return _shaft(of, ends, shafts.wheel_forces(of.spec), under_load(of).held)
 
 
 def crank_shaft(of: Designs) -> Columns:
     """The crank's shaft."""
     ends = _drawn(of, shafts.crank_shaft(of.spec.shaft), "crank")
-    return _shaft(of, ends, shafts.crank_forces(of.spec))
+    held = under_load(of).held  # whose force passes through the crank's axis
+    return _shaft(of, ends, shafts.crank_forces(of.spec), held and held.without_torque)
 
 
 def _drawn(of: Designs, ends: shafts.ShaftDimensions, part: str) -> shafts.ShaftDimensions:
@@ -158,10 +145,15 @@ def _number(of: Designs, values: Array) -> float:
     return values.item() if of.single else parameter(values[:, None])
 
 
-def _shaft(of: Designs, ends: shafts.ShaftDimensions, on: shafts.ShaftForces) -> Columns:
-    """A shaft under its load."""
+def _shaft(
+    of: Designs,
+    ends: shafts.ShaftDimensions,
+    on: shafts.ShaftForces,
+    held: shafts.Held | None = None,
+) -> Columns:
+    """A shaft under its load, and under what it is ``held`` with in the dwell."""
     out: dict[str, Number | None] = {"diameter_mm": ends.diameter_mm}
-    turned = under_load(of).shaft(ends, on)
+    turned = under_load(of).shaft(ends, on, held)
     if turned is None:
         return out
     moment = np.asarray(turned.moment_Nm) * of.loaded
