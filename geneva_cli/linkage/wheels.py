@@ -141,18 +141,18 @@ def _block_followed(
     (p, q), (t, u) = ends.at.p.T, ends.at.t.T
     rho = np.abs(q - p) / np.abs(t + u)
     centre = 0.5 * ((p + rho * t) + (q - rho * u))
-    wheel = PlacedWheel._make(x[:, None] for x in (centre, rho * rho, sense))
+    wheel = PlacedWheel(centre, rho * rho, sense)
     number = np.zeros(int(samples.which.max(initial=0)) + 1, dtype=int)
     number[samples.which] = np.arange(len(samples.which))
-    row, count = number[ends.which], samples.angle.shape[1] - 1
-    # the samples from entry onwards, over a turn
-    first = samples.at.phi[row, :1]
-    entry = first + (ends.at.phi[:, :1] - first) % math.tau
-    motion = np.diff(ends.at.phi, axis=1)
-    before = np.count_nonzero(samples.at.phi[row, :-1] <= entry, axis=1)
-    column = before[:, None] + np.arange(count)
-    turned = column >= count
-    place = row[:, None] * (count + 1) + column - count * turned
+    row, count = number[ends.which], len(samples.angle) - 1
+    # the samples from entry onwards, over a turn: (samples, wheels)
+    first = samples.at.phi[0, row]
+    entry = first + (ends.at.phi[:, 0] - first) % math.tau
+    motion = ends.at.phi[:, 1] - ends.at.phi[:, 0]
+    before = np.count_nonzero(samples.at.phi[:-1, row] <= entry, axis=0)
+    sample = before + np.arange(count)[:, None]
+    turned = sample >= count
+    place = (sample - count * turned) * len(samples.which) + row
     phi, *motions = (x.take(place) for x in samples.at[:4])
     since = phi - entry + math.tau * turned
     course = wheel.course(*motions)
@@ -160,22 +160,21 @@ def _block_followed(
     good = np.where(inside, (course.moment > 0.0) & (course.short > 0.0), course.short < 0.0)
     at_entry = (since < SAME_ENTRY) | (since > math.tau - SAME_ENTRY)
     good |= (np.abs(since - motion) < SAME_ENTRY) | at_entry
-    kept = np.flatnonzero(good.all(axis=1))
+    kept = np.flatnonzero(good.all(axis=0))
     # add the ends to the samples, and the entry again a turn later
-    wheel, ends, since, motion = wheel.taken(kept), ends.taken(kept), since[kept], motion[kept]
-    limits = wheel.course(ends.at.p, ends.at.v, ends.at.a)
+    wheel, ends, motion = wheel.taken(kept), ends.taken(kept), motion[kept]
+    limits = wheel.course(ends.at.p.T, ends.at.v.T, ends.at.a.T)
     limits = limits._replace(moment=0.0 * limits.moment, short=0.0 * limits.short)
-    exit_ = np.count_nonzero(inside[kept], axis=1)[:, None] + 1
-    node = np.arange(-1, count + 2) - (np.arange(count + 3) > exit_)
-    node[:, [0, -1]] = count
-    np.put_along_axis(node, exit_, count + 1, axis=1)
-    node += np.arange(len(kept))[:, None] * (count + 2)
-    nodes = np.hstack((since, 0.0 * motion, motion)).take(node)
-    nodes[:, -1] = math.tau
+    exit_, column = np.count_nonzero(inside[:, kept], axis=0) + 1, np.arange(len(kept))
+    node = np.arange(-1, count + 2)[:, None] - (np.arange(count + 3)[:, None] > exit_)
+    node[[0, -1]] = count
+    node[exit_, column] = count + 1
+    node = node * len(kept) + column
+    nodes = np.concatenate((since[:, kept], [0.0 * motion, motion])).take(node)
+    nodes[-1] = math.tau
     full = PinCourse._make(
-        np.hstack((x[kept], y)).take(node) for x, y in zip(course, limits, strict=True)
+        np.concatenate((x[:, kept], y)).take(node) for x, y in zip(course, limits, strict=True)
     )
-    every = PathWheels(
-        ends.which, ends.at.phi, wheel.sense[:, 0], *peak_bounds(nodes, motion, wheel, full)
-    )
+    bounds = peak_bounds(nodes, motion, wheel, full)
+    every = PathWheels(ends.which, ends.at.phi, wheel.sense, *bounds)
     return every.taken(~leaves_slot(path, wheel, ends, nodes, full, motion))

@@ -141,8 +141,9 @@ def test_a_pair_is_found_though_newton_leads_out_of_its_box():
     lengths = {"crank_mm": 45.96, "ground_mm": 96.14, "coupler_mm": 68.15, "rocker_mm": 101.98}
     path = FourBar(**lengths, point_mm=125.54, point_deg=-35.44).roller_path
     b, count = math.pi / 12, 768
-    at = points(path, (np.arange(count + 1)[None] + 0.3) * (math.tau / count))
-    samples = PathSamples(np.array([0]), at, np.unwrap(np.angle(at.t)))
+    at = points(path, (np.arange(count + 1)[:, None] + 0.3) * (math.tau / count))
+    angle = np.unwrap(np.angle(at.t), axis=0)
+    samples = PathSamples(np.array([0]), at, angle - angle[0])
     ends = np.radians([33.93, 186.36])
     phi = pairs(path, [samples], np.array([[b]])).pairs.at.phi
     (near,) = {tuple(pair) for pair in phi.round(9).tolist() if np.abs(pair - ends).max() < 0.01}
@@ -186,23 +187,29 @@ def test_the_chosen_wheel_has_the_least_peak(keys, z):
 def test_exits_are_those_of_a_comparison_of_all_pairs(turns):
     """Of angles that rise, swing or fall over a turn, with some intervals left out."""
     random = np.random.default_rng(3)
-    rows, count = 5, 40
-    along = np.arange(count) / count
-    whole = np.full((rows, 1), math.tau * turns)
-    angle = whole * along + random.uniform(-2.0, 2.0, (rows, count))
+    count, designs = 40, 20
+    whole = np.full(designs, math.tau * turns)
+    angle = whole * np.arange(count)[:, None] / count + random.uniform(-2.0, 2.0, (count, designs))
+    # least and greatest angles and offsets
     entries, exits = [
-        (low, low + random.uniform(0.0, 0.4, (rows, count)))
-        for low in (angle + random.uniform(1.0, 2.5, (rows, 1)), angle)
+        (low, low + random.uniform(0.0, (0.4, 2.0), (count, designs, 2)).transpose(2, 0, 1))
+        for low in (
+            np.stack((angle + shift, random.uniform(-2.0, 2.0, (count, designs))))
+            for shift in (random.uniform(1.0, 2.5, designs), 0.0)
+        )
     ]
-    use = random.random((rows, count)) < 0.7
+    use = random.random((count, designs)) < 0.7
     expected = {
-        (row, row * count + i, row * count + j % count, j // count)
-        for row in range(rows)
-        for i in np.flatnonzero(use[row])
+        (i * designs + k, j % count * designs + k, j >= count)
+        for k in range(designs)
+        for i in np.flatnonzero(use[:, k])
         for j in range(i + 1, i + count)
-        if use[row, j % count]
-        and exits[0][row, j % count] + whole[row, 0] * (j // count) <= entries[1][row, i]
-        and exits[1][row, j % count] + whole[row, 0] * (j // count) >= entries[0][row, i]
+        if use[j % count, k]
+        and all(
+            exits[0][n, j % count, k] + later <= entries[1][n, i, k]
+            and exits[1][n, j % count, k] + later >= entries[0][n, i, k]
+            for n, later in enumerate((whole[k] * (j // count), 0.0))
+        )
     }
     found = list(zip(*(x.tolist() for x in _overlaps(use, entries, exits, whole)), strict=True))
     assert len(found) == len(set(found)) > 20

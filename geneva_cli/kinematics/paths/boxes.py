@@ -8,20 +8,24 @@ cubics of the crank angle. They show if an entry and an exit can have a line in 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
+from numpy.lib.stride_tricks import as_strided
 
 from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, joined, points
 from geneva_cli.kinematics.roller_path import RollerPath
 from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Whole
 
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+T = TypeVar("T", np.float32, np.bool_)
+
 # Possible error of a quantity's cubics, as a fraction of their range in a box. It is ample: of
 # 184,000 wheels of random linkages none is lost with 0, and 9 % are with -0.05.
 CUBIC_ERROR = 0.03
 OVERLAP = 0.5  # fraction of an arc's width by which its pair may lie outside it
-
-Span: TypeAlias = "tuple[Array, Array]"  # least and greatest angles
 
 
 class Arcs(NamedTuple):
@@ -49,12 +53,13 @@ class Arcs(NamedTuple):
 
     def turns(self, sense: Number) -> Mask:
         """True if the tangent may turn against a wheel that turns in a direction."""
-        return (np.diff(self.cubics[0], axis=0) * sense).min(axis=0) <= 0.0
+        a, b, c, d = self.cubics[0] * sense
+        least: Array = np.minimum(np.minimum(b - a, c - b), d - c)
+        return least <= 0.0
 
-    def angles(self, sign: float) -> Span:
-        """Least and greatest angle of the lines, times a sign."""
-        angle = sign * self.cubics[0]
-        low, high = angle.min(axis=0), angle.max(axis=0)
+    def spans(self) -> tuple[Array, Array]:
+        """Least and greatest angles and offsets of the lines: (2, n)."""
+        low, high = self.cubics.min(axis=1), self.cubics.max(axis=1)
         margin = CUBIC_ERROR * (high - low)
         return low - margin, high + margin
 
@@ -78,33 +83,32 @@ class Boxes(NamedTuple):
 
 def boxes_of(samples: PathSamples, b: Array) -> Boxes:
     """Boxes between adjacent samples that may contain a pair; b are half index angles (m, 1)."""
-    at, lean = samples.at, 0.5 * math.pi - b[samples.which]
+    at, lean = samples.at, 0.5 * math.pi - b[samples.which, 0]
     # Near a sharp bend all lines pass one point. Measured from there their offsets are small.
-    sharpest = np.abs(at.turn).argmax(axis=1)[:, None]
-    origin = np.take_along_axis(at.p, sharpest, axis=1)
-    angle = samples.angle + np.angle(at.t[:, :1])
-    # a turn later; NaN if the linkage does not close for a full turn
-    whole = angle[:, -1:] - angle[:, :1]
+    design = np.arange(len(lean))
+    origin = at.p[np.abs(at.turn).argmax(axis=0), design]
+    angle = samples.angle + np.angle(at.t[0])
+    whole = angle[-1] - angle[0]  # NaN if the linkage does not close for a full turn
+    phi, width = at.phi[:-1], np.diff(at.phi, axis=0)
+    possible = (width > 0.0) & np.isfinite(angle[:-1] + whole)
     sides = []
     for side in (-1.0, 1.0):
         lines = _lines(at, angle, origin, side * lean)
-        sides.append(_arcs(at.phi[:, :-1], np.diff(at.phi), lines[..., :-1], lines[..., 1:]))
-    possible = (sides[0].width > 0.0) & np.isfinite(sides[0].cubics[0].sum(axis=0) + whole)
+        arcs = _arcs(phi, width, lines[:, :-1], lines[:, 1:])
+        flat = Arcs._make(x.reshape(*x.shape[:-2], -1) for x in arcs)
+        sides.append((flat, arcs.spans()))
     parts = []
-    for sense, (entry, exit_) in ((1.0, sides), (-1.0, sides[::-1])):
-        use = possible & entry.turns(sense)
-        places = _overlaps(use, entry.angles(-sense), exit_.angles(-sense), -sense * whole)
-        one, two = (
-            Arcs._make(x.reshape(*x.shape[:-2], -1) for x in arcs) for arcs in (entry, exit_)
-        )
-        row, first, last, turns = places
+    for sense, ((one, entries), (two, exits)) in ((1.0, sides), (-1.0, sides[::-1])):
+        use = possible & arcs.turns(sense)  # the tangent turns alike for both sides
+        first, last, turns = _overlaps(use, entries, exits, whole)
+        row = first % len(design)
         turn = turns * whole.take(row)
         strip, cubics = one.strip.take(first, axis=-1), two.cubics.take(last, axis=-1)
         near = np.flatnonzero(_may_cross(strip, cubics, turn))
-        row, first, last, turns = places[:, near]
+        row, first, last = row[near], first[near], last[near]
         one, two = one.taken(first), two.taken(last)
-        two.phi[:] += math.tau * turns
-        box = (samples.which[row], np.full(len(row), sense), one, two, turn[near], origin[row, 0])
+        two.phi[:] += math.tau * turns[near]
+        box = (samples.which[row], np.full(len(row), sense), one, two, turn[near], origin[row])
         parts.append(_crossing(Boxes(*box)))
     boxes: Boxes = joined(parts, -1)
     return boxes
@@ -113,18 +117,25 @@ def boxes_of(samples: PathSamples, b: Array) -> Boxes:
 def _lines(at: PathPoints, angle: Array, origin: Complex, lean: Array) -> Array:
     """Angles and offsets of lines, and their slopes; ``lean`` is the angle from the tangent."""
     from_origin = (at.p - origin) * (at.t * np.exp(1j * lean)).conj()
-    slope = -at.speed * np.sin(lean) - at.turn * from_origin.real
-    return np.stack((angle + lean, from_origin.imag, at.turn, slope))
+    lines = np.empty((4, *angle.shape))
+    np.add(angle, lean, out=lines[0])
+    lines[1], lines[2] = from_origin.imag, at.turn
+    np.multiply(at.speed, -np.sin(lean), out=lines[3])
+    lines[3] -= at.turn * from_origin.real
+    return lines
 
 
 def _arcs(phi: Array, width: Array, first: Array, last: Array) -> Arcs:
     """Arcs between points with lines ``first`` and ``last``."""
-    third = width / 3.0
-    ends = first[:2], first[:2] + third * first[2:], last[:2] - third * last[2:], last[:2]
-    cubics = np.stack(ends, axis=1)
-    along = last[:2] - first[:2]
+    third, cubics, strip = width / 3.0, *(np.empty((*x, *width.shape)) for x in ((2, 4), (4,)))
+    cubics[:, 0], cubics[:, 3] = first[:2], last[:2]
+    np.add(first[:2], third * first[2:], out=cubics[:, 1])
+    np.subtract(last[:2], third * last[2:], out=cubics[:, 2])
+    along = np.subtract(last[:2], first[:2], out=strip[:2])
     across = along[0] * cubics[1] - along[1] * cubics[0]
-    return Arcs(phi, width, cubics, np.stack((*along, across.min(axis=0), across.max(axis=0))))
+    across.min(axis=0, out=strip[2])
+    across.max(axis=0, out=strip[3])
+    return Arcs(phi, width, cubics, strip)
 
 
 def _may_cross(strip: Array, cubics: Array, turn: Array) -> Mask:
@@ -144,45 +155,35 @@ def _crossing(boxes: Boxes) -> Boxes:
     return boxes.taken(np.flatnonzero(by_exit & _may_cross(exit_.strip, entry.cubics, -turn)))
 
 
-def _overlaps(use: Mask, entries: Span, exits: Span, whole: Array) -> Whole:
-    """Entries and exits in a turn after each whose angles overlap: row, entry, exit and turns.
+def _overlaps(
+    use: Mask, entries: tuple[Array, Array], exits: tuple[Array, Array], whole: Array
+) -> tuple[Whole, Whole, Whole]:
+    """Entries and exits in a turn after each whose spans overlap: their numbers, and turns.
 
-    Angles rise by ``whole`` in a turn. Entries and exits are numbered through all rows. ``turns``
-    is 1 for an exit in the turn after the entry's.
+    Angles rise by ``whole`` in a turn. ``turns`` is 1 for an exit in the turn after the entry's.
     """
-    rows, count = use.shape
-    place = np.flatnonzero(np.hstack((use, use)))
-    row = place // (2 * count)
-    column = place - row * (2 * count)
-    turns = column >= count
-    own = place - count * (row + turns)  # number of the arc
-    later = whole.take(row) * turns
-    low, high = (x.take(own) + later for x in exits)
-    entry = np.flatnonzero(~turns)
-    mine, arc = row.take(entry), own.take(entry)
-    least, most = (x.take(arc) for x in entries)
-    # The greatest end so far and the least start from here on rise in each row. Counted in cells
-    # of the angle, they bound the exits of an entry.
-    cells = 4 * count
-    base = low.min(initial=0.0)
-    scale = (cells - 1) / max(high.max(initial=0.0) - base, 1e-9)
+    count, designs = use.shape
+    may = use[:, None] & _later(use, use)
 
-    def cell(angle: Array, row: Whole) -> Whole:
-        return np.clip((angle - base) * scale, 0.0, cells - 1.0).astype(int) + cells * row
+    def single(x: Array) -> NDArray[np.float32]:
+        return x.astype(np.float32)  # in order still, so that no overlap is lost
 
-    ends = np.maximum.accumulate(cell(high, row))
-    starts = np.minimum.accumulate(cell(low, row)[::-1])
-    below = np.zeros(rows * cells + 1, dtype=int)
-    np.cumsum(np.bincount(ends, minlength=rows * cells), out=below[1:])
-    up_to = np.cumsum(np.bincount(starts, minlength=rows * cells))
-    begin = np.maximum(below.take(cell(least, mine)), entry + 1)
-    end = np.minimum(up_to.take(cell(most, mine)), entry + np.bincount(mine)[mine])
-    counts = np.maximum(end - begin, 0)
-    of = np.repeat(np.arange(len(entry)), counts)
-    exit_ = np.arange(len(of)) + np.repeat(begin - (np.cumsum(counts) - counts), counts)
-    near = np.flatnonzero((low.take(exit_) <= most.take(of)) & (high.take(exit_) >= least.take(of)))
-    of, exit_ = of.take(near), exit_.take(near)
-    return np.stack((mine.take(of), arc.take(of), own.take(exit_), turns.take(exit_)))
+    for least, most, low, high, rise in zip(*entries, *exits, (whole, 0.0), strict=True):
+        may &= _later(single(low), single(low + rise)) <= single(most)[:, None]
+        may &= _later(single(high), single(high + rise)) >= single(least)[:, None]
+    place = np.flatnonzero(may)
+    pair, design = np.divmod(place, designs)
+    entry, after = np.divmod(pair, count - 1)
+    exit_ = entry + after + 1
+    turns = exit_ >= count
+    return entry * designs + design, (exit_ - count * turns) * designs + design, turns
+
+
+def _later(this: NDArray[T], following: NDArray[T]) -> NDArray[T]:
+    """Values of the other arcs after each arc, (n, n - 1, m), from those of two turns, (n, m)."""
+    both = np.concatenate((this, following))
+    step, size = both.strides
+    return as_strided(both[1:], (len(this), len(this) - 1, both.shape[1]), (step, step, size))
 
 
 class Crossings(NamedTuple):
@@ -226,14 +227,15 @@ def halved(path: RollerPath, boxes: Boxes, b: Array) -> Boxes:
     lean = boxes.sense * (b[boxes.which, 0] - 0.5 * math.pi)
     which, origin, lean = np.tile(boxes.which, 2), np.tile(boxes.origin, 2), np.append(lean, -lean)
     halves = _halves(path.roughly(which), joined([boxes.entry, boxes.exit], -1), origin, lean)
-    low, high = halves.angles(1.0)
+    low, high = halves.spans()
     turns = halves.turns(np.tile(boxes.sense, 4))
     box = np.tile(np.arange(count), 4)
     entry, exit_ = (box + 2 * count * np.repeat(of, count) for of in ((0, 0, 1, 1), (0, 1, 0, 1)))
     exit_ += count
     turn = boxes.turn[box]
-    overlap = (low[exit_] + turn <= high[entry]) & (high[exit_] + turn >= low[entry])
-    may = np.flatnonzero(overlap & turns[entry] & turns[exit_])
+    ahead = np.stack((turn, 0.0 * turn))
+    overlap = (low[:, exit_] + ahead <= high[:, entry]) & (high[:, exit_] + ahead >= low[:, entry])
+    may = np.flatnonzero(overlap.all(axis=0) & turns[entry] & turns[exit_])
     one, two, box, turn = halves.taken(entry[may]), halves.taken(exit_[may]), box[may], turn[may]
     return _crossing(Boxes(boxes.which[box], boxes.sense[box], one, two, turn, boxes.origin[box]))
 

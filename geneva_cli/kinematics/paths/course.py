@@ -15,15 +15,16 @@ import numpy as np
 from geneva_cli.kinematics.paths.pairs import EndPairs
 from geneva_cli.kinematics.paths.samples import points
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Which
+from geneva_cli.numerics.arrays import Array, Complex, Mask, Which
 from geneva_cli.numerics.tolerances import ROUNDED
 
 
 class PinCourse(NamedTuple):
-    """Two quantities that must be positive, each with its slope.
+    """Two quantities that must be positive, each with its slope: (places, wheels).
 
-    ``moment`` is that of the pin's velocity about the wheel's centre. ``short`` is the squared
-    distance from the centre at entry, less the pin's own.
+    Lengths are in mm, slopes per radian of the crank. ``moment`` is that of the pin's velocity
+    about the wheel's centre. ``short`` is the squared distance from the centre at entry, less the
+    pin's own.
     """
 
     moment: Array
@@ -33,14 +34,14 @@ class PinCourse(NamedTuple):
 
 
 class PlacedWheel(NamedTuple):
-    """Wheels by their centres and senses, in a column."""
+    """Wheels by their centres and senses: (wheels,)."""
 
-    centre: Complex
-    square: Array  # squared distance from the centre to entry and exit
-    sense: Array
+    centre: Complex  # mm, on the path's axes
+    square: Array  # squared distance from the centre to entry and exit, mm²
+    sense: Array  # 1 if the wheel turns counterclockwise, or -1
 
     def course(self, p: Complex, v: Complex, a: Complex) -> PinCourse:
-        """Both quantities at places, velocities and accelerations of the pin; a row per wheel."""
+        """Both quantities at places, velocities and accelerations of the pin: (n, wheels)."""
         ray = (p - self.centre).conj()
         along, slope = ray * v, self.sense * (ray * a).imag
         short = self.square - (ray.real**2 + ray.imag**2)
@@ -59,27 +60,27 @@ def leaves_slot(
     course: PinCourse,
     motion: Array,
 ) -> Mask:
-    """True for each wheel whose roller leaves its slot between samples ``nodes`` since entry."""
-    bar = [ROUNDED * np.abs(x).max(axis=1) for x in (course.moment, course.short)]
-    fails = np.zeros(len(nodes), dtype=bool)
-    inside = nodes[:, :-1] < motion
-    row, column = np.nonzero(_open(nodes, course, inside, *(x[:, None] for x in bar)))
-    left, right, inside = nodes[row, column], nodes[row, column + 1], inside[row, column]
+    """True for each wheel whose roller leaves its slot between samples.
+
+    ``nodes`` are the crank angles of the samples since entry. At them ``course`` has no wrong sign.
+    """
+    bar = [ROUNDED * np.abs(x).max(axis=0) for x in (course.moment, course.short)]
+    fails = np.zeros(len(motion), dtype=bool)
+    inside = nodes[:-1] < motion
+    i, which = np.nonzero(_open(nodes, course, inside, *bar))
+    left, right, inside = nodes[i, which], nodes[i + 1, which], inside[i, which]
     for _ in range(4):  # each round cuts an open interval into eight
-        if not len(row):
+        if not len(which):
             break
-        fraction = np.arange(9) / 8
-        places = left[:, None] + (right - left)[:, None] * fraction
-        phi = places + ends.at.phi[row, :1]
-        at = points(path.roughly(ends.which[row]), phi)
-        some = wheel.taken(row).course(at.p, at.v, at.a)
-        low, far = (x[row, None] for x in bar)
-        wrong = np.where(
-            inside[:, None], (some.moment < -low) | (some.short < -far), some.short > far
-        )
-        fails[row[wrong.any(axis=1)]] = True
-        i, j = np.nonzero(_open(places, some, inside[:, None], low, far) & ~fails[row][:, None])
-        row, left, right, inside = row[i], places[i, j], places[i, j + 1], inside[i]
+        places = left + (right - left) * (np.arange(9) / 8)[:, None]
+        phi = places + ends.at.phi[which, 0]
+        at = points(path.roughly(ends.which[which]), phi.T)
+        some = wheel.taken(which).course(at.p.T, at.v.T, at.a.T)
+        low, far = (x[which] for x in bar)
+        wrong = np.where(inside, (some.moment < -low) | (some.short < -far), some.short > far)
+        fails[which[wrong.any(axis=0)]] = True
+        i, j = np.nonzero(_open(places, some, inside, low, far) & ~fails[which])
+        which, left, right, inside = which[j], places[i, j], places[i + 1, j], inside[j]
     return fails
 
 
@@ -87,33 +88,27 @@ def peak_bounds(
     nodes: Array, motion: Array, wheel: PlacedWheel, course: PinCourse
 ) -> tuple[Array, Array]:
     """Bounds of wheels' peak velocities, by the cubics between samples ``nodes`` since entry."""
-    width, square = np.diff(nodes, axis=1), wheel.square - course.short
+    width, square = np.diff(nodes, axis=0), wheel.square - course.short
     moments = _coefficients(width, course.moment, course.moment_slope)
     squares = _coefficients(width, square, -course.short_slope)
-    inside = nodes[:, 1:] <= motion
+    inside = nodes[1:] <= motion
     least = most = np.where(inside, moments[0] / squares[0], 0.0)
     # A quotient of cubics is between the quotients of their Bernstein coefficients.
     for moment, square in zip(moments[1:3], squares[1:3], strict=True):
         most = np.maximum(most, np.where(square > 0.0, moment / square, np.inf))
-    return least.max(axis=1), most.max(axis=1, where=inside, initial=0.0)
+    return least.max(axis=0), most.max(axis=0, where=inside, initial=0.0)
 
 
 def _open(places: Array, course: PinCourse, inside: Mask, low: Array, far: Array) -> Mask:
-    """Intervals in which the cubics do not prove the conditions."""
-    width = np.diff(places, axis=1)
-    sign = np.where(inside, 1.0, -1.0)
-    short = _least(width, course.short, course.short_slope, sign) < -far
-    return short | (inside & (_least(width, course.moment, course.moment_slope, 1.0) < -low))
-
-
-def _least(width: Array, value: Array, slope: Array, sign: Number) -> Array:
-    """Least Bernstein coefficient of a cubic between adjacent samples."""
-    a, b, c, d = (sign * x for x in _coefficients(width, value, slope))
-    least: Array = np.minimum(np.minimum(a, b), np.minimum(c, d))
-    return least
+    """Intervals in which the cubics do not prove the conditions, which hold at their ends."""
+    width = np.diff(places, axis=0)
+    _, *moments, _ = _coefficients(width, course.moment, course.moment_slope)
+    _, *shorts, _ = _coefficients(width, course.short, course.short_slope)
+    short = np.where(inside, np.minimum(*shorts), -np.maximum(*shorts)) < -far
+    return short | (inside & (np.minimum(*moments) < -low))
 
 
 def _coefficients(width: Array, value: Array, slope: Array) -> tuple[Array, Array, Array, Array]:
     """Bernstein coefficients of cubics between adjacent samples."""
-    a, d, third = value[:, :-1], value[:, 1:], width / 3.0
-    return a, a + third * slope[:, :-1], d - third * slope[:, 1:], d
+    a, d, third = value[:-1], value[1:], width / 3.0
+    return a, a + third * slope[:-1], d - third * slope[1:], d

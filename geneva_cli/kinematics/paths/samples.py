@@ -50,9 +50,10 @@ class PathPoints(NamedTuple):
 
 
 class PathSamples(NamedTuple):
-    """Samples of a full turn, one row per design: the last column is the first, one turn later.
+    """Samples of a full turn, one column per design: the last row is the first, one turn later.
 
-    ``angle`` is the tangent's angle, without jumps. Rows with fewer samples repeat their last one.
+    ``angle`` is the tangent's angle since the first sample, in radians and without jumps. Columns
+    with fewer samples repeat their last one.
     """
 
     which: Whole  # numbers of the designs
@@ -88,7 +89,7 @@ def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
     every = np.arange(count)
     # samples of 256 designs stay in the processor's cache
     base = joined([_rows(path.roughly(every[i]), phi, len(every[i])) for i in blocks(count, 256)])
-    left, right = _neighbours(base)
+    left, right = (base.taken((slice(None), x)) for x in (slice(None, -1), slice(1, None)))
     row, column = np.nonzero(_missed(left, right, _turned(left, right)))
     extra = _between(path, row, left.at_samples(row, column), right.at_samples(row, column))
     whose, flat = np.repeat(every, steps + 1), PathPoints._make(x.ravel() for x in base)
@@ -99,14 +100,14 @@ def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
     counts = np.bincount(whose, minlength=count)
     starts = np.cumsum(counts) - counts
     order = np.argsort(counts, kind="stable")
-    for part in blocks(count, 192):  # their samples and boxes stay in the processor's cache
+    for part in blocks(count, 256):  # their samples and boxes stay in the processor's cache
         which = order[part]
-        width = np.arange(counts[which].max(initial=1))
-        # After its own last sample a row repeats it.
-        columns = np.minimum(width, counts[which, None] - 1)
-        at = flat.taken(place[starts[which, None] + columns])
+        rows = np.arange(counts[which].max(initial=1))[:, None]
+        # After its own last sample a column repeats it.
+        at = flat.taken(place[starts[which] + np.minimum(rows, counts[which] - 1)])
         angle = np.zeros(at.phi.shape)
-        np.cumsum(_turned(*_neighbours(at)), axis=1, out=angle[:, 1:])
+        turned = _turned(at.taken(slice(None, -1)), at.taken(slice(1, None)))
+        np.cumsum(turned, axis=0, out=angle[1:])
         yield PathSamples(which, at, angle)
 
 
@@ -114,10 +115,6 @@ def _rows(path: RollerPath, phi: Array, count: int) -> PathPoints:
     """Points at the same angles for ``count`` designs."""
     at = points(path, phi[None])
     return PathPoints._make(np.broadcast_to(part, (count, len(phi))) for part in at)
-
-
-def _neighbours(at: PathPoints) -> tuple[PathPoints, PathPoints]:
-    return at.taken((slice(None), slice(None, -1))), at.taken((slice(None), slice(1, None)))
 
 
 def _turned(left: PathPoints, right: PathPoints) -> Array:

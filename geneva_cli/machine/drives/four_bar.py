@@ -145,10 +145,13 @@ class CouplerPath(RodPath):
         m, u = (b - c) * (b + c), 1 / D
         # N² as a product (Heron)
         N = sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) * self.side
-        rate = (u * ((a - g) * (a + g)) + 1) / 2 - sine * (a * g) * (1 - u * m) / N
         along, across = (1 + u.c[0] * m) / (2 * b), N.c[0] * u.c[0] / (2 * b)
         ex, ey = dx * along - dy * across, dy * along + dx * across
-        return turned_at(rate, ex * p - ey * q, ex * q + ey * p, order)
+        x, y = ex * p - ey * q, ex * q + ey * p
+        if not order:
+            return Jet((x,)), Jet((y,))
+        rate = (u * ((a - g) * (a + g)) + 1) / 2 - sine * (a * g) * (1 - u * m) / N
+        return turned_at(rate, x, y, order)
 
     def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
         """Coupler length from A to B, and the rocker's direction, in which it pushes or pulls."""
