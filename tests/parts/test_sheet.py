@@ -501,3 +501,21 @@ def test_refusals():
     slots = Spec(Wheel(6), motion=Motion("cycloidal", ratio="matched"), size=Size(5e7))
     with pytest.raises(GenevaError, match="do not fit on one A1 sheet"):
         Design.of(slots).sheet(1e3)
+
+
+@pytest.mark.parametrize(
+    ("key", "across", "note"),
+    [
+        # the corners of a hexagon are on a circle 1/cos 30° wider than its flats
+        ("wheel_bore=hex", f"Ø {40.0 / math.cos(math.pi / 6.0):.3f}", "hexagon 40 across flats"),
+        ("wheel_bore=D", "Ø 40 h6 (0/-0.016)", "flat, 36 to the far side"),
+        # DIN 6885-1, 38 to 44 mm: 12 wide, 5 deep in the shaft
+        ("wheel_keyway=DIN 6885-1", "Ø 40 h6 (0/-0.016)", "keyway 12 P9, 5 deep"),
+    ],
+)
+def test_a_plain_shaft_says_what_its_section_is(key, across, note):
+    """A hexagonal shaft once had the fit of a round one, 46.188 h6, and no word of its flats."""
+    sheet = load(str(repo.DESIGNS / "turret.toml"), [f"size.{key}"]).sheet(TOLERANCE)
+    texts = [label.text for label in sheet.texts]
+    assert across in texts
+    assert note in texts[texts.index("6 wheel's shaft") :][:3]
