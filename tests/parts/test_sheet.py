@@ -519,3 +519,12 @@ def test_a_plain_shaft_says_what_its_section_is(key, across, note):
     texts = [label.text for label in sheet.texts]
     assert across in texts
     assert note in texts[texts.index("6 wheel's shaft") :][:3]
+
+
+@pytest.mark.parametrize(("fit_mm", "bore"), [(0.0, "Ø 20 F7"), (0.1, "Ø 20.1 H7")])
+def test_both_rollers_of_a_cam_have_bores_of_one_fit(fit_mm, bore):
+    """Those in slot and groove are on pins of 20 mm; a bore that is wider already takes no F7."""
+    design = load(str(repo.DESIGNS / "cam-geneva.toml"), [f"size.shaft_fit_mm={fit_mm}"])
+    texts = [label.text for label in design.sheet(TOLERANCE).texts]
+    assert sum(text.startswith(bore) for text in texts) >= 2
+    assert not any("F7" in text and not text.startswith(bore) for text in texts)
