@@ -146,10 +146,11 @@ dist: .venv/dev
 	$(PIP) --editable .
 	@touch $@
 
-.venv/dev: .venv/demo
-	@echo "--- installing what the tests need in .venv: some minutes, the first time alone"
-	$(PIP) $$($(BIN)/python -c "import tomli; print(*(r.replace(' ', '') for r in tomli.load(open('pyproject.toml', 'rb'))['dependency-groups']['dev']))")
-	@touch $@
+# One run of pip for both. Python's own reader of TOML: nothing is installed yet.
+.venv/dev: .venv/python pyproject.toml
+	@echo "--- installing geneva and what the tests need in .venv: some minutes, the first time alone"
+	$(PIP) --editable . $$($(BIN)/python -c "import tomllib; print(*(r.replace(' ', '') for r in tomllib.load(open('pyproject.toml', 'rb'))['dependency-groups']['dev']))")
+	@touch .venv/demo $@
 
 clean:
 	rm -rf .venv build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

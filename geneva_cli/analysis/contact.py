@@ -29,6 +29,7 @@ class Contact(NamedTuple, Generic[V]):
     spin: V  # rate of the roller's body relative to the wheel
     arm: V  # of friction at the wall about the wheel's axis, beyond M's: over the radius
     touches: V  # 0 while gears drive and no roller does, else 1
+    crank: V  # rate of the shaft that carries the crank; 0 where no load needs it
     # Reactions of the joints of the roller's body (the crank's shaft, a guide) to a force of 1
     # along the normal i t, to one along t, and to a couple of 1; None where there is only a shaft.
     reactions: tuple[tuple[tuple[V, V], tuple[V, V]], ...] | None = None
@@ -120,7 +121,7 @@ def contact(
 
     def moving(x: Number) -> Jet:
         at = _moving(engagement, x, order, reactions=False)
-        return Jet([c for jet in at[:9] for c in jet.c])
+        return Jet([c for jet in at[:-2] for c in jet.c])
 
     def middle(x: Number) -> Jet:
         assert order == 0
@@ -162,16 +163,18 @@ def _moving(
         lever, offset, along, curvature = _curved(engagement, x, order, rates)
     upright = engagement.slot.upright(x, order)
     touches = constant + engagement.slot.touches(x)
-    spin = constant
+    spin = crank = constant
     if spins:
-        spin = (engagement.carrier(x, order) - velocity * upright) * touches
+        body = engagement.carrier(x, order)
+        spin = (body - velocity * upright) * touches
+        crank = constant + (body if engagement.on_arm else engagement.shaft_rate(x, order))
     arm = (constant + upright) * touches
     joints = _reactions(engagement, x, lever, offset) if reactions else None
     heading = None
     if engagement.mid_angle is not None:
         heading = sin_cos(engagement.motion(x, order) + engagement.mid_angle)
     slot = lever, offset, along, curvature
-    return Contact(velocity, acceleration, *slot, spin, arm, touches, joints, heading)
+    return Contact(velocity, acceleration, *slot, spin, arm, touches, crank, joints, heading)
 
 
 def _curved(engagement: Engagement, x: Number, order: int, rates: Jet) -> tuple[Jet, Jet, Jet, Jet]:
@@ -239,7 +242,7 @@ def _crossing(engagement: Engagement) -> list[Number]:
     The lever is 0 there, so the sign of the tangent is rounding; next to it, the sign is known.
     """
     values, before = (
-        [jet.c[0] for jet in _moving(engagement, x, 0, reactions=False)[:9]]
+        [jet.c[0] for jet in _moving(engagement, x, 0, reactions=False)[:-2]]
         for x in (0.0, NEAR_CUSP * engagement.entry_deg)
     )
     lever, along = (Contact._fields.index(name) for name in ("lever", "along"))
@@ -261,7 +264,8 @@ def _cusp(engagement: Engagement) -> list[Number]:
     sense = m.copysign(1.0, lever)
     offset = sense * (at.x * at.tangent_y - at.y * at.tangent_x)
     _, v, a = engagement.motion(0.0, 2).derivatives()
-    spin = engagement.carrier(0.0).c[0] - v
+    body = engagement.carrier(0.0).c[0]
+    crank = body if engagement.on_arm else engagement.shaft_rate(0.0).c[0]
     # A slot that turns by less than 1e-9 has equal entry and exit paths: its curvature is that next
     # to the cusp.
     curvature = choose(
@@ -269,7 +273,7 @@ def _cusp(engagement: Engagement) -> list[Number]:
         m.copysign(math.inf, sense * at.turning),
         _moving(engagement, NEAR_CUSP * engagement.entry_deg, 0, reactions=False).curvature.c[0],
     )
-    return [v, a, sense * lever, offset, 0.0, curvature, spin, 1.0, 1.0]
+    return [v, a, sense * lever, offset, 0.0, curvature, body - v, 1.0, 1.0, crank]
 
 
 def _to_order(jet: Jet, order: int) -> Jet:

@@ -370,10 +370,15 @@ class Forces(Generic[V]):
 
         A carrier also takes the torque that speeds up the wheel against the ground.
         """
-        shaft = self.torque * self.at.velocity
-        if not all_true(self.case.frame == 0.0):
-            shaft = shaft + frame_torque(self.case, self.at)
-        return shaft + self.rubbed if self.case.rubs or self.case.guided else shaft
+        if all_true(self.case.frame == 0.0):
+            return self.slot
+        return self.slot + frame_torque(self.case, self.at)
+
+    @cached_property
+    def slot(self) -> V:
+        """The part of the input's torque that goes through the slot, N m."""
+        slot = self.torque * self.at.velocity
+        return slot + self.rubbed if self.case.rubs or self.case.guided else slot
 
     @cached_property
     def rubbed(self) -> V:

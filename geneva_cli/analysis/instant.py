@@ -110,10 +110,16 @@ class Instant(Generic[V]):
     @cached_property
     def input_torque_Nm(self) -> V:
         """Torque of the input shaft, N m, losses included."""
-        # The efficiency counts where the input drives. Where the wheel drives, the losses are not
-        # known to exist and reduce nothing: a brake must hold all of the torque.
-        factor = 0.5 * (1.0 + self.feeds) / self.case.efficiency + 0.5 * (1.0 - self.feeds)
-        return self.forces.shaft * factor
+        return self.forces.shaft * self._losses
+
+    @property
+    def crank_torque_Nm(self) -> V:
+        """Torque of the shaft that carries the crank, N m, losses included.
+
+        It has the power that goes through the slot, at its own rate. On a carousel that is the
+        standing shaft of the finger, which does not speed the wheels up against the ground.
+        """
+        return self.forces.slot * self._losses / self.at.crank
 
     @cached_property
     def power_W(self) -> V:
@@ -201,6 +207,13 @@ class Instant(Generic[V]):
     def _rubs(self) -> V:
         """Speed at which the roller rubs along the wall, m/s."""
         return self.forces.sliding * (self.case.L * self.case.speed_rad_s)
+
+    @property
+    def _losses(self) -> Number:
+        """Ratio of the input's torque to that without losses."""
+        # The efficiency counts where the input drives. Where the wheel drives, the losses are not
+        # known to exist and reduce nothing: a brake must hold all of the torque.
+        return 0.5 * (1.0 + self.feeds) / self.case.efficiency + 0.5 * (1.0 - self.feeds)
 
     @property
     def _rub(self) -> Number:

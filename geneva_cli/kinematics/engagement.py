@@ -395,6 +395,15 @@ class Engagement(Batchable):
         x, y = self.path(input_deg, order + 1)
         return turning(x - 1.0, y)
 
+    @property
+    def on_arm(self) -> bool:
+        """True if the crank's arm carries the roller, and so turns as ``carrier`` does."""
+        return all_true(self.crank_sense == 0.0)
+
+    def shaft_rate(self, input_deg: Number, order: int = 0) -> Jet:
+        """Rate of the drive's own input shaft, in radians per input radian."""
+        return Jet((input_deg * 0.0 + 1.0, *[0.0] * order))
+
     def own_deg(self, input_deg: Array) -> Array:
         """Angle of the drive's own input shaft at input angles from mid-motion, degrees."""
         return input_deg

@@ -133,6 +133,7 @@ def _bored(
 
 def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
     spec, end, wall = assembly.full.spec, sizes.slot_end, sizes.wall_min
+    force = max(loads.wheel_N, _held_force_N(assembly, sizes))
     size = spec.size
     fixed = size.wheel_bore_mm is not None or spec.shaft.wheel_diameter_mm is not None
     if fixed or not sizes.wheel_bore:
@@ -144,10 +145,18 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
         reach, hub = wheel_reach_and_hub(size, 0.5 * d, wall, end)
         trial = sizes._replace(wheel_bore=0.5 * d, wheel_reach=reach, wheel_hub=hub)
         parts = stressed(assembly, trial)
-        shaft = shaft_holds_both(spec, "wheel", parts.wheel_shaft, loads.wheel_N, loads.wheel_Nm)
+        shaft = shaft_holds_both(spec, "wheel", parts.wheel_shaft, force, loads.wheel_Nm)
         if shaft and key_holds(spec, parts.wheel_key, loads.wheel_Nm):
             break
     return trial
+
+
+def _held_force_N(assembly: Assembly, sizes: Sizes) -> float:
+    """Return the force between disc and wheel in the dwell; 0 without a torque or a disc."""
+    torque = lock.dwell_torque_Nm(assembly.full)
+    if not (sizes.lock and torque.any()):
+        return 0.0
+    return float(lock.held_force_N(torque, lock_of(assembly, sizes)).item())
 
 
 def _crank_bored(
@@ -190,5 +199,6 @@ def _with_crank_bore(assembly: Assembly, sizes: Sizes, bore: float) -> Sizes:
 
 def _crank_holds(assembly: Assembly, sizes: Sizes, loads: PartLoads, keyed: bool) -> bool:
     parts, spec = stressed(assembly, sizes), assembly.full.spec
-    shaft = shaft_holds_both(spec, "crank", parts.crank_shaft, loads.crank_N, loads.crank_Nm)
+    force = max(loads.crank_N, _held_force_N(assembly, sizes))
+    shaft = shaft_holds_both(spec, "crank", parts.crank_shaft, force, loads.crank_Nm)
     return shaft and (not keyed or key_holds(spec, parts.crank_key, loads.crank_Nm))

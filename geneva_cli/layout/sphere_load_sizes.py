@@ -23,6 +23,7 @@ from geneva_cli.layout.holds import (
     shaft_holds,
 )
 from geneva_cli.layout.sphere_stressed import sphere_stressed
+from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.loads.strength.shafts import (
     ShaftDimensions,
@@ -119,6 +120,7 @@ def _wheel_bored(mechanism: Mechanism, ball: Ball, loads: PartLoads) -> Ball:
     # a hub with flat faces stays in its shell, a hundredth short of the outer sphere
     widest = min(end - wall, 0.99 * math.sqrt((outside - inside) * (outside + inside)))
     most = min(end * 2.0 / 3.0, within_hub(size, "wheel"))
+    held = spec.shaft.torsion_factor * dwell_torque_Nm(mechanism).item()
     trial = ball
     for d in bores_from(2.0 * ball.bore_mm, 2.0 * most):
         hub = hub_about(size, L, 0.5 * d, end)
@@ -129,7 +131,7 @@ def _wheel_bored(mechanism: Mechanism, ball: Ball, loads: PartLoads) -> Ball:
         trial = ball._replace(bore_mm=0.5 * d, hub_mm=hub, inner=inner)
         parts = sphere_stressed(spec, trial)
         moment = _moment_Nm(mechanism, wheel_forces(spec), parts.wheel_shaft.overhang)
-        holds = shaft_holds(spec, "wheel", parts.wheel_shaft.diameter, moment)
+        holds = shaft_holds(spec, "wheel", parts.wheel_shaft.diameter, max(moment, held))
         if holds and key_holds(spec, parts.wheel_key, loads.wheel_Nm):
             break
     return trial

@@ -314,6 +314,10 @@ class RetimedEngagement(Engagement):
         super().__init__(timing.mid_deg, path, slot, RetimedMotion(own.motion, timing), carrier)
         self._own, self.timing = own, timing
 
+    def shaft_rate(self, input_deg: Number, order: int = 0) -> Jet:
+        """Rate of the shaft that the drive before turns, in radians per input radian."""
+        return self.timing(input_deg, order + 1).derivative()
+
     def own_deg(self, input_deg: Array) -> Array:
         """Angle of the drive's own input shaft at input angles from mid-motion, degrees."""
         return array(self.timing.at(input_deg, 0)[0])

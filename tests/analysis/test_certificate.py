@@ -133,7 +133,7 @@ def test_the_bounds_hold_the_decimals(name):
 def test_other_machines_stay_with_doubles_and_say_so():
     for name in some(("four-bar-z4", "gear-sector", "table-law"), ("four-bar-z4",)):
         assert design(name).certificate("velocity").about == "the spec's numbers as doubles"
-    said = design("four-bar-z4").certified_peaks(for_people=True).to_dict()["certificate"]
+    said = design("gear-sector").certified_peaks(for_people=True).to_dict()["certificate"]
     assert said[-1] == "holds for the spec's numbers as doubles"
 
 

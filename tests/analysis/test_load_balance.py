@@ -1,5 +1,6 @@
 """Pin force and input torque with friction, against bodies cut free (``load_witness``)."""
 
+import load_states
 import load_witness
 import numpy as np
 import pytest
@@ -9,7 +10,6 @@ from words import Motion, Spec, Wheel, load
 
 from geneva_cli.analysis.contact import contact
 from geneva_cli.kinematics import registry
-from geneva_cli.loads import loads
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Load, Size
@@ -77,7 +77,7 @@ def test_forces_against_bodies_cut_free(name, four_bar):
     for share in (0.8, 0.2, -0.15, -0.6):
         x = share * (engagement.entry_deg if share > 0.0 else -engagement.exit_deg)
         true, speed = load_witness.loads(spec, *machine, x)
-        found = loads.state(mechanism, engagement, x)
+        found = load_states.state(mechanism, engagement, x)
         assert found.torque_Nm == pytest.approx(float(true.torque), rel=2e-14)
         assert found.pin_force_N == pytest.approx(float(true.force), rel=2e-14)
         assert found.input_torque_Nm == pytest.approx(float(true.shaft), rel=2e-14)
@@ -113,7 +113,7 @@ def test_friction_on_the_sphere(x):
     spec = Spec(Wheel(6, "spherical", axes_deg=70.0), size=Size(80.0, 6.0), load=LARGE)
     mechanism = build(spec)
     _, pin, shaft, _ = load_witness.on_the_sphere(spec, x)
-    found = loads.state(mechanism, mechanism.engagements[0], x)
+    found = load_states.state(mechanism, mechanism.engagements[0], x)
     assert found.pin_force_N == pytest.approx(float(pin), rel=1e-14)
     assert found.input_torque_Nm == pytest.approx(float(shaft), rel=1e-14)
 
@@ -124,9 +124,9 @@ def test_many_angles_at_once_are_the_same(name):
     engagement = mechanism.engagements[0]
     x = np.linspace(engagement.entry_deg, engagement.exit_deg, 21)
     assert 0.0 in x or engagement.entry_deg != -engagement.exit_deg
-    every = loads.state(mechanism, engagement, x)
+    every = load_states.state(mechanism, engagement, x)
     for i, place in enumerate(x):
-        one = loads.state(mechanism, engagement, float(place))
+        one = load_states.state(mechanism, engagement, float(place))
         for field in one._fields:
             # 16 ulp: NumPy's sine and the library's differ by one
             assert getattr(one, field) == pytest.approx(getattr(every, field)[i], rel=4e-15), field

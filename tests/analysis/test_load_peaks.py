@@ -215,6 +215,7 @@ def test_the_fastest_speed_where_the_load_is_rounding_at_rest(monkeypatch):
     assert 0 < sum(looks) < 5000
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_a_limit_that_no_speed_keeps():
     """The resistance alone takes 100 N at mid-motion."""
     mechanism = build(Spec(Wheel(6), load=Load(0.0, 5.0), limits=Limits(pin_force_max_N=20.0)))

@@ -176,7 +176,7 @@ def test_walls_of_curved_slots(name):
 @pytest.mark.parametrize("name", KINDS)
 def test_shafts(name):
     machine, each = designs(name)
-    on = shafts.on_driven_crank if machine.spec.drive.CRANKED else shafts.on_crank
+    on = shafts.on_crank
     shaft = machine.spec.shaft
     asked = [(shafts.wheel_shaft, shafts.on_wheel)]
     if machine.spec.wheel.FLAT:

@@ -162,6 +162,7 @@ def test_slots_too_wide_for_a_guide_have_none():
 GEARED = EllipticalGears(eccentricity=0.3)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("drive", [GEARED, NoncircularGears(A=-0.4)])
 def test_behind_gears_the_guide_takes_as_much_at_each_angle_of_the_crank(drive):
     """A force alone: the pin's force is that of a plain crank there, the input's torque g' times.

@@ -186,11 +186,12 @@ def test_the_gentlest_wheel_is_found_past_a_sharp_bend():
 
 
 def test_a_linkage_and_its_mirror_image_drive_the_same_wheels():
-    """All of them, of 3,000 linkages: the samples of the image are at other places of the path.
+    """All of them, of three in four drawn linkages: the image is sampled at other places.
 
     The image's crank turns the other way, so that a wheel's exit is its entry.
     """
-    varied = drawn(FOUR_BAR, 4096, 4)
+    count = some(4096, 1024)
+    varied = drawn(FOUR_BAR, count, 4)
     image = {**varied, "drive.point_deg": -varied["drive.point_deg"]}
     ends = []
     for branch, keys, sign in (("+", varied, 1.0), ("-", image, -1.0)):
@@ -201,7 +202,7 @@ def test_a_linkage_and_its_mirror_image_drive_the_same_wheels():
         order = np.lexsort((phi[:, 0], found.which[every.which]))
         ends.append(np.column_stack((found.which[every.which], phi))[order])
     own, other = ends
-    assert len(own) == len(other) > 9000
+    assert len(own) == len(other) > 2.2 * count
     # radians: the greatest difference of entries is 5e-10, of two roots that are nearly one
     assert np.abs(own - other).max() < 1e-7
 

@@ -152,6 +152,7 @@ def test_two_rollers_on_the_crank(ratio):
     assert where.geared(np.array([-50.1, -49.9, 0.0, 49.9, 50.1])).tolist() == [0, 1, 1, 1, 0]
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_slots_that_coincide_are_a_plain_wheels():
     """As D goes to 0 every check comes to the plain wheel's value, and the wheel to its outline."""
     size = {"slot_clearance_mm": 0.1, "lock_clearance_mm": 0.05}

@@ -185,6 +185,7 @@ def test_rows_of_a_rack_are_in_millimetres():
     assert values["parts.dwell_play_deg"] is None
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_a_rack_that_jams_is_not_written(tmp_path):
     size = Size(center_distance_mm=R, roller_radius_mm=r, lock_clearance_mm=15.0)
     design = Design(Linear(6), size=size)

@@ -102,6 +102,7 @@ def test_force_and_stress_by_hand():
     assert values["stop.contact_stress_MPa"] == pytest.approx(usual, rel=2e-3)  # 0.418 has 3 digits
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_checks_can_fail():
     limits, load = Limits(stop_stress_max_MPa=100.0), Load(winding_torque_Nm=2.0)
     sharp = Design(External(5, stop=True), load=load, limits=limits, size=Size(face_width_mm=10.0))

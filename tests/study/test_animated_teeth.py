@@ -32,7 +32,7 @@ def toothed(shown, t):
             yield bar.plates[-1].shapes, pose(bar, bar.plates[-1], t)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("name", "sets"),
     [

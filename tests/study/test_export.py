@@ -179,6 +179,7 @@ def test_all_or_nothing(spec, tmp_path, monkeypatch):
     assert sorted(os.listdir(tmp_path)) == ["out", "spec.toml"]
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_refused(spec, tmp_path):
     unknown = run(spec, "--for", "loom", "-o", tmp_path / "out")
     assert "must be one of laser, mill, print" in unknown.stderr

@@ -250,10 +250,10 @@ def test_the_work_of_an_advice_does_not_depend_on_earlier_searches(tmp_path: Pat
 
 def test_several_files_get_the_advice_of_each(tmp_path: Path) -> None:
     """The files of one command, by turns in other processes, are judged as each is alone."""
-    texts = {"rim.toml": ALL["rim"], "horn.toml": ALL["horn"], "again.toml": ALL["rim"]}
-    for name, text in texts.items():
-        (tmp_path / name).write_text(text)
-    paths = [str(tmp_path / name) for name in texts]
+    kinds = ("acceleration", "horn", "acceleration")
+    paths = [str(tmp_path / f"{i}.toml") for i in range(len(kinds))]
+    for path, kind in zip(paths, kinds, strict=True):
+        Path(path).write_text(ALL[kind])
     together = [[c for c in v.checks if c.passes is False] for v in verdicts(paths)]
     alone = [[c for c in judged(load(path)) if c.passes is False] for path in paths]
     assert together == alone

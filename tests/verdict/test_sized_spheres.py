@@ -30,6 +30,7 @@ from geneva_cli.verdict.quantities.strength import (
     crank_shaft,
     horn,
     pin,
+    wheel_key,
     wheel_shaft,
 )
 
@@ -247,6 +248,16 @@ def test_a_batch_of_spheres_has_the_numbers_of_its_designs():
                 value = np.broadcast_to(np.ravel(column), torques.shape)[i]
                 # a batch and a single design search the same peaks to some units in the last place
                 assert value == pytest.approx(np.ravel(alone[name])[0], rel=1e-12), (quantity, name)
+
+
+def test_the_bore_of_a_sphere_s_wheel_holds_the_torque_of_the_dwell():
+    """Of 200 N m, 40 times the torque of the motion."""
+    size = Size(center_distance_mm=160.0, wheel_keyway="DIN 6885-1")
+    load = Load(torque_Nm=5.0, dwell_torque_Nm=200.0)
+    designs = Designs(build(Spec(Spherical(6), size=size, load=load)))
+    assert wheel_shaft(designs)["moment_Nm"] == pytest.approx(200.0, rel=1e-12)
+    assert wheel_shaft(designs)["margin"] >= 0.0
+    assert wheel_key(designs)["margin"] >= 0.0
 
 
 def test_the_spec_s_sizes_on_a_sphere_stay():

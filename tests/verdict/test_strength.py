@@ -1,26 +1,31 @@
 """Strength and life of whole designs: each check can fail and be mended, and what lacks is said."""
 
+import cmath
 import json
 import math
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 import repo
 from typer.testing import CliRunner
 from words import Drive, Motion, Spec, Wheel, load
 
-from geneva_cli import Design, design
+from geneva_cli import Cam, Carousel, Design, Epicyclic, External, Internal, SideCrank, design
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.sizes import sized
 from geneva_cli.loads.cycle import cycle_of
+from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, Size, WheelMaterial
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.check import NONE
+from geneva_cli.verdict.quantities.designs import Designs
 from geneva_cli.verdict.quantities.strength import margin
-from geneva_cli.verdict.strength import Strength
+from geneva_cli.verdict.strength import REPORT_GROUPS, Strength
 
 DESIGNS = repo.DESIGNS
 
@@ -196,8 +201,6 @@ def test_a_force_without_bound_is_not_a_number():
 
 def test_pv_is_the_greatest_product():
     """Against 20,001 places of the cycle: as near to the peak as these lie."""
-    import numpy as np
-
     mechanism = build(WHOLE)
     of = Strength(mechanism)
     at = cycle_of(mechanism).states(np.linspace(-67.5, 67.5, 20001))
@@ -208,8 +211,6 @@ def test_pv_is_the_greatest_product():
 
 def test_the_wheel_shaft_by_the_code():
     """16/(pi d³) sqrt((1.5 M)² + T²) over 20,001 places of the cycle."""
-    import numpy as np
-
     mechanism = build(WHOLE)
     of = Strength(mechanism)
     at = cycle_of(mechanism).states(np.linspace(-67.5, 67.5, 20001))
@@ -233,8 +234,6 @@ def test_the_crank_shaft_takes_the_crank_s_torque(A):
     The normal force at the contact by its place and direction on the fixed axes, at 2001 angles of
     a frictionless machine: as near to the peak as these lie.
     """
-    import numpy as np
-
     shaft = Shaft(crank_overhang_mm=30.0, crank_diameter_mm=20.0, torsion_factor=2.0)
     drive = Drive("side-crank", n_rpm=40.0)
     spec = Spec(Wheel(8), drive, {"A": A}, size=Size(250.0, 12.0), load=Load(1.2, 20.0))
@@ -253,6 +252,103 @@ def test_the_crank_shaft_takes_the_crank_s_torque(A):
     assert found["strength.crank_shaft.moment_Nm"] == pytest.approx(both, rel=1e-6)
     stress = 16e3 * both / (math.pi * 20.0**3)
     assert found["strength.crank_shaft.stress_MPa"] == pytest.approx(stress, rel=1e-6)
+
+
+def cycloid(turned):
+    """A wheel's angle that follows a cycloid, 60 degrees in 120 of the crank."""
+    u = turned / math.radians(120.0) + 0.5
+    return math.pi / 3.0 * u - math.sin(2.0 * math.pi * u) / 6.0
+
+
+def planet(turned):
+    """The angle of a wheel of four slots behind a planet round a sun, of 4 times its teeth."""
+    arm = (math.sqrt(0.5) + 0.01) * cmath.exp(1j * turned) + 0.01 * cmath.exp(5j * turned)
+    return -cmath.phase(1.0 - arm)
+
+
+@pytest.mark.parametrize(
+    ("wheel", "drive", "law", "angle", "half_deg"),
+    [
+        (External(6), Cam(), Motion("cycloidal"), cycloid, 60.0),
+        (External(4), Epicyclic(planet_ratio=0.01), None, planet, 45.0),
+    ],
+    ids=["cam", "epicyclic"],
+)
+def test_the_crank_shaft_behind_another_drive_turns_at_its_own_rate(
+    wheel, drive, law, angle, half_deg
+):
+    """The wheel's power over the rate of the shaft that a side-crank turns, at 2001 angles.
+
+    Derivatives are differences over 2e-4 radians, whose errors are some 1e-7 of them.
+    """
+    shaft = Shaft(crank_overhang_mm=0.0, crank_diameter_mm=30.0)
+    before = SideCrank(A=0.3, input_crank_mm=80.0)
+    found = Strength(
+        build(Spec(wheel, drive, None, law, load=Load(0.3, 5.0), shaft=shaft, drive_before=before))
+    )
+    w, h, most = 2.0 * math.pi, 1e-4, 0.0
+    for i in range(2001):
+        x = 1.2 * (i / 1000.0 - 1.0)
+        crank = [math.atan2(math.sin(y), 0.3 + math.cos(y)) for y in (x - h, x, x + h)]
+        if abs(crank[1]) < math.radians(half_deg):
+            first, here, last = map(angle, crank)
+            torque = 0.3 * w * w * (last - 2.0 * here + first) / (h * h) + 5.0
+            most = max(most, abs(torque * (last - first) / (crank[2] - crank[0])))
+    assert found["strength.crank_shaft.moment_Nm"] == pytest.approx(most, rel=1e-4)
+
+
+@pytest.mark.parametrize(("wheel", "sense"), [(External(4), 1.0), (Internal(6), -1.0)])
+def test_the_finger_of_a_carousel_bears_the_slot_s_torque_alone(wheel, sense):
+    """The carrier, not the finger, turns the wheels round: psi' and psi'' of a plain crank."""
+    b, w, shaft = math.pi / wheel.z, 2.0 * math.pi, Shaft(crank_overhang_mm=0.0)
+    found = Strength(build(Spec(wheel, Carousel(), load=Load(0.3, 5.0), shaft=shaft)))
+    half, l = 0.5 * math.pi - sense * b, math.sin(b)
+    x = np.linspace(-half, half, 200001)
+    square = 1.0 - 2.0 * sense * l * np.cos(x) + l * l
+    bend = -l * (1.0 - l * l) * np.sin(x) / square**2
+    torque = (0.3 * w * w * bend + 5.0) * l * (np.cos(x) - sense * l) / square
+    assert found["strength.crank_shaft.moment_Nm"] == pytest.approx(abs(torque).max(), rel=1e-8)
+
+
+def test_the_wheel_s_shaft_and_key_bear_the_torque_of_the_dwell():
+    """At rest 300 N m go from the load through shaft and key to the lock, whose force bends both.
+
+    The disc presses through the crank's axis at the recess's corner. So it has the lever L sin phi,
+    and the corner is at the rim: p² = L² + k² - 2 L k cos phi.
+    """
+    size = WHOLE.size.replace(lock_clearance_mm=0.0, lock_edge_mm=None, wheel_bore_mm=30.0)
+    spec = WHOLE.replace(size=size.replace(wheel_keyway="DIN 6885-1"))
+    calm, held = (Strength(build(spec.with_("load.dwell_torque_Nm", T))) for T in (None, 300.0))
+    _, parts = sized(build(spec))
+    k, p, L = parts.lock, parts.rim, 250.0
+    force = 300e3 / (L * math.sin(math.acos((L * L + k * k - p * p) / (2.0 * L * k))))
+    most = math.hypot(1.5 * 0.040 * force, 300.0)
+    assert held["strength.wheel_shaft.moment_Nm"] == pytest.approx(most, rel=1e-9)
+    assert held["strength.wheel_shaft.at_deg"] == pytest.approx(67.5)
+    twist = 300.0 * 0.120 / (80.8e9 * math.pi * 0.020**4 / 32.0)
+    assert held["strength.wheel_shaft.twist_deg"] == pytest.approx(math.degrees(twist), rel=1e-12)
+    # DIN 6885-1 for 30 mm: 8 x 7, of which 4 mm in the shaft; 18 mm long, as the wheel is thick
+    pressure = 2.0 * 300e3 / (30.0 * 3.0 * 18.0)
+    assert held["strength.wheel_key.pressure_MPa"] == pytest.approx(pressure, rel=1e-12)
+    assert calm["strength.wheel_shaft.moment_Nm"] < 0.2 * most
+    bent = 1.5 * 0.030 * force  # the crank's shaft, which the force does not turn
+    assert held["strength.crank_shaft.moment_Nm"] == pytest.approx(bent, rel=1e-9)
+
+
+def test_default_bores_hold_the_torque_of_the_dwell():
+    """And a batch has the numbers of a single design."""
+    size = WHOLE.size.replace(wheel_keyway="DIN 6885-1")
+    spec = WHOLE.replace(size=size, shaft=Shaft(), limits=Limits())
+    names = "strength.wheel_shaft.stress_MPa", "strength.wheel_key.pressure_MPa"
+    torques = np.array([20.0, 150.0, 300.0])
+    batch = Designs(many(spec, {"load.dwell_torque_Nm": torques}).machine)
+    for i, torque in enumerate(torques):
+        one = Strength(build(spec.with_("load.dwell_torque_Nm", torque.item())))
+        assert one["strength.wheel_shaft.margin"] >= 0.0
+        assert one["strength.wheel_key.margin"] >= 0.0
+        for name in names:
+            column = REPORT_GROUPS[name].columns(batch)[name.rpartition(".")[2]]
+            assert np.ravel(column)[i] == pytest.approx(one[name], rel=1e-13)
 
 
 def test_margins():

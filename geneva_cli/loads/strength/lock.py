@@ -81,6 +81,22 @@ def held_torque_Nm(mechanism: Mechanism) -> float:
     return held + parameter(held_unbalance_Nm(mechanism))
 
 
+def dwell_torque_Nm(mechanism: Mechanism) -> Array:
+    """Torque in the wheel's shaft during the dwell, (m,); 0 without one of the spec.
+
+    A load that only resists motion, as ``torque_Nm`` does, needs none at rest.
+    """
+    known = mechanism.spec.load.dwell_torque_Nm is not None or mechanism.unbalanced
+    torque = held_torque_Nm(mechanism) if known else 0.0
+    return np.broadcast_to(np.ravel(torque), mechanism.designs)
+
+
+def held_force_N(torque_Nm: Array, by: Lock) -> Array:
+    """The force of disc on wheel that holds a torque."""
+    force: Array = 1e3 * torque_Nm / (by.L * np.sin(by.contact().phi))
+    return force
+
+
 def loaded_locks(
     mechanism: Mechanism, half_width_mm: float, by: Lock, width_mm: Number
 ) -> LockUnderTorque | None:
@@ -94,7 +110,7 @@ def loaded_locks(
     touch, known = by.contact(), np.atleast_2d(np.where(torque == 0.0, np.nan, torque))
     sine = np.sin(touch.phi)
     lever = by.L * sine
-    force = 1e3 * known / lever
+    force = held_force_N(known, by)
     worn = touch.phi - sine * np.cos(touch.phi)
     pressure = 2e3 * known * sine / (width * by.lock * by.L * worn)
     arcs = np.equal(touch.on, "recess")  # no horn is bent

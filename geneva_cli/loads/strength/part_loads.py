@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.quantities import FORCE
+from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.shafts import Torque, crank_forces, wheel_forces
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.machine.both_ways import every_way
@@ -21,7 +22,7 @@ class PartLoads(NamedTuple):
 
     pin_N: float  # of a roller, along the wall's normal
     wheel_N: float  # of the wheel's bearings together
-    wheel_Nm: float  # torque in the wheel's shaft
+    wheel_Nm: float  # torque in the wheel's shaft, also in the dwell
     crank_N: float  # of the crank's bearings together, which is that on the arm
     crank_Nm: float  # torque in the crank's shaft
 
@@ -58,6 +59,6 @@ def part_loads(mechanism: Mechanism) -> PartLoads:
     own = {"wheel_Nm": Torque(wheel_forces(spec)), "crank_Nm": Torque(crank_forces(spec))}
     names = FORCE, "wheel_bearing_N", "wheel_Nm", "crank_bearing_N", "crank_Nm"
     peaks = load_peaks(mechanism, names, own)
-    return PartLoads(
-        *(parameter(np.sqrt(peaks[name].max) if name in own else peaks[name].max) for name in names)
-    )
+    most = {name: np.sqrt(peaks[name].max) if name in own else peaks[name].max for name in names}
+    most["wheel_Nm"] = np.maximum(most["wheel_Nm"], dwell_torque_Nm(mechanism))
+    return PartLoads(*map(parameter, most.values()))

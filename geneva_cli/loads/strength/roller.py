@@ -34,7 +34,7 @@ from geneva_cli.loads.groups import of_groups
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Whole, all_true, array, parameter
+from geneva_cli.numerics.arrays import Whole, array, parameter
 from geneva_cli.numerics.jet import Array, Jet, Number
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
 from geneva_cli.numerics.search import search
@@ -121,8 +121,7 @@ def turns_back(engagement: Engagement) -> bool:
     A roller on a crank's arm turns back on the line of centres, unless its motion is tilted. In a
     curved slot both branches begin at mid-motion.
     """
-    on_arm = all_true(engagement.crank_sense == 0.0)
-    return is_straight(engagement) and not (on_arm and engagement.motion.symmetric)
+    return is_straight(engagement) and not (engagement.on_arm and engagement.motion.symmetric)
 
 
 def passing(case: LoadCase, at: Contact[Jet], drives: Number, slides: Number) -> list[Array]:

@@ -37,6 +37,7 @@ import numpy as np
 from geneva_cli.analysis.forces import QuantityValue
 from geneva_cli.analysis.instant import Instant
 from geneva_cli.analysis.load_functions import LoadQuantity
+from geneva_cli.analysis.peak_search import PeakArray, greater
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
@@ -101,18 +102,8 @@ def on_wheel(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
 
 
 def on_crank(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
-    """Squared bending moment and torque of a crank that is or turns with the input shaft."""
-    return i.crank_bearing_squared * (overhang * overhang), i.input_torque_Nm
-
-
-def on_driven_crank(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
-    """Squared bending moment and torque of the shaft of a crank behind a transmission.
-
-    It turns at another rate than the input, that of the roller's body. The torque differs
-    accordingly, since the power is equal.
-    """
-    bent, torque = on_crank(i, overhang)
-    return bent, torque / (i.at.spin + i.at.velocity * i.at.arm)
+    """Squared bending moment of the crank's shaft, and its torque."""
+    return i.crank_bearing_squared * (overhang * overhang), i.crank_torque_Nm
 
 
 class _Axis(NamedTuple):
@@ -157,9 +148,7 @@ def wheel_forces(spec: Spec) -> ShaftForces:
 
 def crank_forces(spec: Spec) -> ShaftForces:
     """The loads of the crank's shaft."""
-    if spec.wheel.SHELLS:
-        return on_sphere_crank
-    return on_driven_crank if spec.drive.CRANKED else on_crank
+    return on_sphere_crank if spec.wheel.SHELLS else on_crank
 
 
 class Moment(NamedTuple):
@@ -188,12 +177,25 @@ class Torque(NamedTuple):
         return QuantityValue(torque * torque, i.grip)
 
 
+class Held(NamedTuple):
+    """What the lock holds during the dwell, for m designs, (m,) each."""
+
+    force_N: Array
+    torque_Nm: Array
+
+    @property
+    def without_torque(self) -> Held:
+        """The same force on a shaft through which it passes."""
+        return self._replace(torque_Nm=0.0 * self.torque_Nm)
+
+
 def shafts_under_load(
-    mechanism: Mechanism, ends: ShaftDimensions, loaded: ShaftForces
+    mechanism: Mechanism, ends: ShaftDimensions, loaded: ShaftForces, held: Held | None = None
 ) -> ShaftStress | None:
     """Shafts of m designs under the force and torque of a cycle; infinite without a bound.
 
-    None if no design has an overhang or a load.
+    ``held`` loads the shaft in the dwell, from the first motion's end on. None if no design has an
+    overhang or a load.
     """
     if ends.overhang_mm is None or not mechanism.spec.is_loaded:
         return None
@@ -202,6 +204,13 @@ def shafts_under_load(
     moment = Moment(loaded, ends.overhang_mm / 1000.0, *factors)
     own: dict[str, LoadQuantity] = {"moment": moment, "torque": Torque(loaded)}
     both, turned = load_peaks(mechanism, tuple(own), own).values()
+    if held:
+        bent = np.ravel(factors[0]) * held.force_N * np.ravel(moment.overhang)
+        square = bent**2 + (np.ravel(factors[1]) * held.torque_Nm) ** 2
+        first = mechanism.under_load.engagements[0]
+        exit_deg = np.ravel(mechanism.shown_deg(first.mid_deg + first.exit_deg))
+        both = greater(both, PeakArray(square, np.broadcast_to(exit_deg, square.shape)))
+        turned = turned._replace(max=np.maximum(turned.max, held.torque_Nm**2))
     return _stress_of(mechanism, ends, both.max, both.at_deg, turned.max)
 
 

@@ -125,13 +125,14 @@ def _known(row: Number | None) -> Array:
 def wheel_shaft(of: Designs) -> Columns:
     """The wheel's shaft."""
     ends = _drawn(of, shafts.wheel_shaft(of.spec.shaft), "wheel")
-    return _shaft(of, ends, shafts.wheel_forces(of.spec))
+    return _shaft(of, ends, shafts.wheel_forces(of.spec), under_load(of).held)
 
 
 def crank_shaft(of: Designs) -> Columns:
     """The crank's shaft."""
     ends = _drawn(of, shafts.crank_shaft(of.spec.shaft), "crank")
-    return _shaft(of, ends, shafts.crank_forces(of.spec))
+    held = under_load(of).held  # whose force passes through the crank's axis
+    return _shaft(of, ends, shafts.crank_forces(of.spec), held and held.without_torque)
 
 
 def _drawn(of: Designs, ends: shafts.ShaftDimensions, part: str) -> shafts.ShaftDimensions:
@@ -158,10 +159,15 @@ def _number(of: Designs, values: Array) -> float:
     return values.item() if of.single else parameter(values[:, None])
 
 
-def _shaft(of: Designs, ends: shafts.ShaftDimensions, on: shafts.ShaftForces) -> Columns:
-    """A shaft under its load."""
+def _shaft(
+    of: Designs,
+    ends: shafts.ShaftDimensions,
+    on: shafts.ShaftForces,
+    held: shafts.Held | None = None,
+) -> Columns:
+    """A shaft under its load, and under what it is ``held`` with in the dwell."""
     out: dict[str, Number | None] = {"diameter_mm": ends.diameter_mm}
-    turned = under_load(of).shaft(ends, on)
+    turned = under_load(of).shaft(ends, on, held)
     if turned is None:
         return out
     moment = np.asarray(turned.moment_Nm) * of.loaded

@@ -159,11 +159,24 @@ class UnderLoad:
 
         return (own_loads if self.designs.single else part_loads)(self.machine)
 
+    @cached_property
+    def held(self) -> shafts.Held | None:
+        """What the lock holds in the dwell; None without a torque there."""
+        torque = lock.dwell_torque_Nm(self.machine)
+        if not torque.any():
+            return None
+        sizes = self.lock_sizes  # without a disc something else holds the wheel, by a couple
+        force = lock.held_force_N(torque[:, None], sizes.lock) if sizes else 0.0 * torque
+        return shafts.Held(np.nan_to_num(np.ravel(force)), torque)
+
     def shaft(
-        self, ends: shafts.ShaftDimensions, loaded: shafts.ShaftForces
+        self,
+        ends: shafts.ShaftDimensions,
+        loaded: shafts.ShaftForces,
+        held: shafts.Held | None = None,
     ) -> shafts.ShaftStress | None:
         """A shaft under its cycle; None without an overhang or a load."""
-        return shafts.shafts_under_load(self.machine, ends, loaded)
+        return shafts.shafts_under_load(self.machine, ends, loaded, held)
 
 
 def under_load(of: Designs) -> UnderLoad:
