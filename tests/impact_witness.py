@@ -3,8 +3,10 @@
 import numpy as np
 
 from geneva_cli.analysis.change_of_sides import WallImpacts, changes, impacts_of
+from geneva_cli.analysis.pin import pin_diameter_mm
 from geneva_cli.analysis.shock import FirstContacts, first_contacts
 from geneva_cli.analysis.shock_force import forces_N
+from geneva_cli.layout.sizes import built
 
 
 def contact_of(engagement, crank, center=0.0):
@@ -25,5 +27,6 @@ def impacts_in(engagement, play, drag=0.0):
 
 def force_of(mechanism, jump):
     """The force of one design's impact, N; None if it is not known."""
-    force = forces_N(mechanism, np.array([[jump]]))
+    drawn_mm = built(mechanism).pin_mm or pin_diameter_mm(mechanism)  # 0: the roller is its pin
+    force = forces_N(mechanism, np.array([[jump]]), drawn_mm)
     return None if force is None or np.isnan(force).any() else force.item()

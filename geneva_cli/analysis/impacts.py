@@ -10,12 +10,13 @@ import numpy as np
 from geneva_cli.analysis.change_of_sides import changes, drag_over, impacts_of
 from geneva_cli.analysis.contact import contact as touching
 from geneva_cli.analysis.mouth import mouth_contacts
+from geneva_cli.analysis.pin import pin_diameter_mm
 from geneva_cli.analysis.shock import FirstContacts, RestingAxis, first_contacts
 from geneva_cli.analysis.shock_force import forces_N, impulse_Nms
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import all_true, choose, library, only_of, parameter
+from geneva_cli.numerics.arrays import Number, all_true, choose, library, only_of, parameter
 from geneva_cli.numerics.jet import Array
 
 
@@ -46,9 +47,12 @@ class Impacts(NamedTuple):
         return None if at_deg is None or jump is None else Impact(at_deg, jump, *force)
 
 
-def entry_impacts(mechanism: Mechanism, fraction: float = 1.0) -> Impacts:
+def entry_impacts(
+    mechanism: Mechanism, fraction: float = 1.0, pin_mm: Number | None = None
+) -> Impacts:
     """Impacts at entry of m designs with a ``fraction`` of the cranks' greatest errors.
 
+    ``pin_mm`` is the pin's diameter as drawn; without it, the pin is that without a load.
     The roller meets the slot's axis. If the slot is too narrow for it to enter off the axis, it
     meets a corner of the mouth. The jump is negative if the wheel is struck backwards.
     """
@@ -58,7 +62,7 @@ def entry_impacts(mechanism: Mechanism, fraction: float = 1.0) -> Impacts:
         for contacts in (*every, *_on_mouth(mechanism, engagement, fraction)):
             if contacts is not None:
                 best = _harder(best, _shown(mechanism, engagement, *contacts))
-    return _with_force(mechanism, best)
+    return _with_force(mechanism, best, pin_mm)
 
 
 def start_impacts(mechanism: Mechanism) -> Impacts:
@@ -69,7 +73,7 @@ def start_impacts(mechanism: Mechanism) -> Impacts:
     engagement, *_ = mechanism.engagements
     at_deg, jump = np.ravel(engagement.entry_deg), np.ravel(engagement.motion.jump)
     impacts = _shown(mechanism, engagement, at_deg, jump)
-    return _with_force(mechanism, impacts, mechanism.spec.wheel.pinions)
+    return _with_force(mechanism, impacts, wheels=mechanism.spec.wheel.pinions)
 
 
 def _errors(
@@ -130,9 +134,10 @@ def clearance_mm(mechanism: Mechanism) -> float:
     return mechanism.spec.size.allowances.slot_clearance_mm + 0.5 * both
 
 
-def reversal_impacts(mechanism: Mechanism) -> Impacts:
+def reversal_impacts(mechanism: Mechanism, pin_mm: Number | None = None) -> Impacts:
     """Hardest impacts of m designs at a change of sides with the greatest play.
 
+    ``pin_mm`` is the pin's diameter as drawn; without it, the pin is that without a load.
     The play is the clearance over the lever where the wheel begins to coast. Without an inertia no
     wheel coasts. With a drag above ``lasting_drag_Nm`` the roller never changes sides.
     """
@@ -142,7 +147,7 @@ def reversal_impacts(mechanism: Mechanism) -> Impacts:
     none = none | mechanism.unbalanced
     for engagement in () if all_true(none) else mechanism.engagements:
         best = _harder(best, _reversal(mechanism, engagement))
-    return _with_force(mechanism, best)
+    return _with_force(mechanism, best, pin_mm)
 
 
 def _reversal(mechanism: Mechanism, engagement: Engagement) -> Array:
@@ -177,11 +182,14 @@ def _harder(one: Array, other: Array) -> Array:
     return np.where(more, other, one)
 
 
-def _with_force(mechanism: Mechanism, impacts: Array, wheels: float = 1) -> Impacts:
+def _with_force(
+    mechanism: Mechanism, impacts: Array, pin_mm: Number | None = None, wheels: float = 1
+) -> Impacts:
     """Impacts with their forces and moments, from angles and jumps (2, m) of equal wheels."""
     at_deg, jump = impacts
     moment = np.ravel(wheels * impulse_Nms(mechanism, jump[:, None]))
-    force = forces_N(mechanism, jump[:, None] * np.sqrt(wheels))
+    pin_mm = pin_diameter_mm(mechanism) if pin_mm is None else pin_mm
+    force = forces_N(mechanism, jump[:, None] * np.sqrt(wheels), pin_mm)
     force = np.full(len(moment), np.nan) if force is None else force
     moment = np.where(moment == 0.0, np.nan, moment)
     return Impacts(*np.broadcast_arrays(at_deg, jump, force, moment))

@@ -13,10 +13,9 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.forces import load_case
+from geneva_cli.kinematics.pitch_curve import opposites
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, Mask
-
-HALF_SAMPLES = 720  # places in half a motion
 
 
 class PositiveDrives(NamedTuple):
@@ -36,46 +35,37 @@ class PositiveDrives(NamedTuple):
     def loose_deg(self) -> list[tuple[float, float]]:
         """Intervals of a single design without the needed wall, input angles in degrees."""
         ((at,), (loose,)) = self.input_deg, self.loose
-        return _intervals(np.sort(at[loose]).tolist(), abs(at[1] - at[0]).item())
+        return _intervals(at[loose].tolist(), (at[1] - at[0]).item())
 
 
 def positive_drives(mechanism: Mechanism) -> PositiveDrives | None:
     """The positive drive of m designs; None for straight slots.
 
-    The torque is inertia plus resistance. The wall ahead is needed where the torque is positive. At
-    each radius, the entry branch keeps that wall where the roller leads the exit branch, and the
-    exit branch where it lags.
+    The torque is inertia plus resistance. The wall ahead is needed where the torque is positive. A
+    branch keeps that wall where its roller leads the other branch at the same radius.
     """
     engagement, L = mechanism.engagements[0], mechanism.center_distance_mm
     if not engagement.slot.curved:
         return None
     case = load_case(mechanism)
-    # Midpoints of a grid that includes mid-motion, where the branches meet.
-    x = np.atleast_2d(engagement.entry_deg * (1.0 - (np.arange(HALF_SAMPLES) + 0.5) / HALF_SAMPLES))
-    back = engagement.inputs_deg(-engagement.own_deg(x))  # there the pin is as far along the slot
-    (ax, ay), (bx, by) = engagement.slot(x, 0), engagement.slot(back, 0)
-    lead = np.arctan2(ay.c[0], ax.c[0]) - np.arctan2(by.c[0], bx.c[0])
-    gap = L * np.hypot(ax.c[0], ay.c[0]) * np.abs(lead)
-    torque = [
-        engagement.motion(places, 2).arrays()[2] * case.inertia_Nm + case.resists_Nm
-        for places in (x, back)
-    ]
+    samples = 1440  # midpoints of a grid that includes mid-motion, where the branches meet
+    start, end = np.atleast_2d(engagement.entry_deg, engagement.exit_deg)
+    x = start + (end - start) * (np.arange(samples) + 0.5) / samples
+    with np.errstate(invalid="ignore"):  # a longer branch has no opposite at its end
+        (ax, ay), (bx, by) = (engagement.slot(at, 0) for at in (x, opposites(engagement, x)))
+        lead = np.arctan2(ay.c[0], ax.c[0]) - np.arctan2(by.c[0], bx.c[0])
+    gap = np.nan_to_num(L * np.hypot(ax.c[0], ay.c[0]) * np.abs(lead))
+    torque = engagement.motion(x, 2).arrays()[2] * case.inertia_Nm + case.resists_Nm
     # branches nearer than 0.01 mm are one slot, as machined
     played = gap > 0.01 + 2.0 * mechanism.spec.size.allowances.slot_clearance_mm
-    missing = [
-        played & (side * np.sign(lead) * turned < 0.0)
-        for side, turned in zip((1.0, -1.0), torque, strict=True)
-    ]
-    first, second, gap, x = np.broadcast_arrays(*missing, gap, x)
-    wide = np.maximum(np.where(first, gap, 0.0), np.where(second, gap, 0.0)).max(axis=1)
-    every, worst = np.arange(len(gap)), np.argmax(gap, axis=1)
-    loose = np.hstack((first, second))
+    loose, gap, x = np.broadcast_arrays(played & (lead * torque < 0.0), gap, x)
+    every, worst = np.arange(len(gap)), np.argmax(np.where(x < 0.0, gap, 0.0), axis=1)
     return PositiveDrives(
         loose.mean(axis=1),
         gap[every, worst],
         x[every, worst],
-        wide,
-        np.hstack((x, np.broadcast_to(back, x.shape))),
+        np.where(loose, gap, 0.0).max(axis=1),
+        x,
         loose,
     )
 

@@ -17,11 +17,11 @@ import numpy as np
 
 from geneva_cli.analysis.carried import MM, inertia_kgm2
 from geneva_cli.analysis.forces import contact_modulus_GPa
-from geneva_cli.analysis.pin import pin_diameter_mm, stiffness_N_mm
+from geneva_cli.analysis.pin import stiffness_N_mm
 from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.arrays import Array, N, Whole, size
+from geneva_cli.numerics.arrays import Array, N, Number, Whole, size
 from geneva_cli.numerics.newton import find_roots
 from geneva_cli.spec.workshops import Stock
 
@@ -38,8 +38,8 @@ def impulse_Nms(mechanism: Mechanism, jump: N) -> N:
     return size(jump) * (inertia_kgm2(mechanism.spec) * w)
 
 
-def forces_N(mechanism: Mechanism, jump: Array) -> Array | None:
-    """Greatest forces of elastic impacts, for jumps (m, 1) of m designs: (m,).
+def forces_N(mechanism: Mechanism, jump: Array, pin_mm: Number) -> Array | None:
+    """Greatest forces of elastic impacts, for jumps and pin diameters (m, 1) of m designs: (m,).
 
     NaN without an inertia; None without a ``face_width_mm``.
     """
@@ -55,7 +55,7 @@ def forces_N(mechanism: Mechanism, jump: Array) -> Array | None:
     # Palmgren's constant in mm, for 1 N on a line of 1 mm, steel on steel
     press = 3.84e-5 * soft**POWER / face**WIDTH
     modulus_GPa = roller_material(spec).youngs_modulus_GPa
-    bend = 1.0 / stiffness_N_mm(spec.size, face, pin_diameter_mm(mechanism), modulus_GPa)
+    bend = 1.0 / stiffness_N_mm(spec.size, face, pin_mm, modulus_GPa)
     if spec.wheel.toothed:
         press, bend = 0.0 * soft, soft / (spec.wheel.TOOTH_N_mm2 * face)
     rows = np.broadcast_arrays(energy, press, bend, inertia)

@@ -13,7 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.kinematics.pitch_curve import Pitch, pitch, retraces
+from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.kinematics.pitch_curve import Pitch, opposites, pitch, retraces
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, Mask, Number, array, choose_record, parameter
 from geneva_cli.numerics.tolerances import TIE
@@ -88,22 +89,36 @@ def outer_walls(
     engagement = mechanism.engagements[0]
     if not engagement.slot.curved:
         return None
+    own = engagement.own  # by the angle of the crank's own drive the branches mirror each other
     # Squared spacing: close together at mid-motion, where the curve can have a cusp.
     fraction = (1.0 - np.arange(samples) / samples) ** 2
-    x = np.atleast_2d(engagement.entry_deg * fraction)
+    x, y = np.atleast_2d(own.entry_deg * fraction, own.exit_deg * fraction)
     with np.errstate(all="ignore"):
-        inward, outward = pitch(engagement, x), pitch(engagement, -x)
-        turn = np.atleast_2d(np.arctan2(inward.y, inward.x) - np.arctan2(outward.y, outward.x))
+        inward, outward = pitch(own, x), pitch(own, y)
+        leads = _lead(own, inward, outward, x), -_lead(own, outward, inward, y)
         # the branches meet at mid-motion, and within 1e-3 of it their distance is rounding
         far = int(np.flatnonzero(fraction >= 1e-3)[-1])
-        turn[:, far + 1 :] = turn[:, far : far + 1]
-        # Left (1) or right (-1) of the travel, on both branches. Outside, the pin travels inwards
-        # first; inside, outwards.
-        outer = -mechanism.spec.wheel.SIGN * np.where(turn > 0.0, 1.0, -1.0)
-        back = np.atleast_2d(retraces(engagement))
-        return _wall(inward, x, outer, outer > 0.0, back), _wall(
-            outward, -x, outer, outer < 0.0, back
+        for lead in leads:
+            lead[:, far + 1 :] = lead[:, far : far + 1]
+        # Left (1) or right (-1) of the travel. Outside, the pin travels inwards first; inside,
+        # outwards.
+        entry, exit_ = (-mechanism.spec.wheel.SIGN * np.where(k > 0.0, 1.0, -1.0) for k in leads)
+        back = np.atleast_2d(retraces(own))
+        x, y = engagement.inputs_deg(x), engagement.inputs_deg(y)
+        return _wall(inward, x, entry, entry > 0.0, back), _wall(
+            outward, y, exit_, exit_ < 0.0, back
         )
+
+
+def _lead(engagement: Engagement, here: Pitch, mirrored: Pitch, degrees: Array) -> Array:
+    """Angle of one branch over the other at equal radii, (m, k); that at its end where none is."""
+    x, y = mirrored.x, mirrored.y
+    if not engagement.slot.mirrored:
+        x, y = (jet.c[0] for jet in engagement.slot(opposites(engagement, degrees), 0))
+    lead = np.atleast_2d(np.arctan2(here.y, here.x) - np.arctan2(y, x))
+    known = ~np.isnan(lead)
+    first = np.take_along_axis(lead, np.argmax(known, axis=1)[:, None], axis=1)
+    return np.where(known, lead, first)
 
 
 def _wall(at: Pitch, degrees: Array, outer: Array, left: Mask, back: Mask) -> OuterWall:

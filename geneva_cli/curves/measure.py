@@ -1,7 +1,7 @@
 """Bounds and lengths of shapes, and shapes moved and rotated.
 
-Lengths are in the unit of the coordinates. Arcs are computed from their ends
-and bulge. The centre of a nearly straight arc is far away and inaccurate.
+Lengths are in the unit of the coordinates. Arcs are computed from their ends and
+bulge. The centre of a nearly straight arc is far away and inaccurate.
 """
 
 from __future__ import annotations

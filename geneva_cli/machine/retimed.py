@@ -35,6 +35,7 @@ from geneva_cli.numerics.angles import DEGREE, radians
 from geneva_cli.numerics.arrays import Array, Batchable, array, library, narrowed
 from geneva_cli.numerics.jet import Jet, Number, atan2, composed, piecewise
 from geneva_cli.numerics.latest import Latest
+from geneva_cli.numerics.roots import boundary
 
 if TYPE_CHECKING:
     from geneva_cli.machine.drives.transmission import Transmission
@@ -132,15 +133,8 @@ class Timing(Batchable):
 
         They are bisected, as the gears of a ratio file are known about one angle at a time.
         """
-        import numpy as np
-
-        ends = (np.broadcast_to(self.each[k].input_deg, own_deg.shape) for k in (0, -1))
-        low, high = (np.array(end, dtype=float) for end in ends)
-        for _ in range(60):  # halves of a turn, down to the last bit
-            middle = 0.5 * (low + high)
-            late = np.asarray(self.at(middle, 0)[0] > own_deg)
-            low, high = np.where(late, low, middle), np.where(late, middle, high)
-        return array(0.5 * (low + high))
+        first, last = (array(self.each[k].input_deg) + 0.0 * own_deg for k in (0, -1))
+        return boundary(lambda x: array(self.at(x, 0)[0]) <= own_deg, first, last)
 
     def __call__(self, input_deg: Number, order: int) -> Jet:
         """Angle of the driven shaft in radians from mid-motion, at input angles in degrees."""

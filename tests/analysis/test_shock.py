@@ -23,6 +23,7 @@ from geneva_cli.analysis.impacts import entry_impacts
 from geneva_cli.analysis.shock_force import impulse_Nms
 from geneva_cli.kinematics.laws.standard import Cycloidal
 from geneva_cli.kinematics.motion import Motion
+from geneva_cli.layout.sizes import built
 from geneva_cli.machine.drives.cam import Cam
 from geneva_cli.spec.tables import RollerMaterial, WheelMaterial
 
@@ -270,16 +271,17 @@ MOMENTS = {
 
 
 @pytest.mark.parametrize("held", MOMENTS)
-@pytest.mark.parametrize(("pin_mm", "d"), [(6.0, 6.0), (0.0, 16.4), (None, 8.0)])
+@pytest.mark.parametrize(("pin_mm", "d"), [(6.0, 6.0), (0.0, 16.4), (None, None)])
 def test_force_counts_how_the_pin_is_held(held, pin_mm, d):
     """The pin's energy in bending is the impact's; without a pin it is the roller that bends.
 
-    The default pin is half as thick as the roller, 8.2 mm, rounded to 8.
+    The default pin is as thick as it is drawn, half of the roller or what the load needs.
     """
     size = Size(
         face_width_mm=18.0, roller_radius_mm=8.2, pin_mm=pin_mm, pin_gap_mm=1.5, pin_held=held
     )
     design = Design(External(6), size=size, load=Load(inertia_kgm2=1.2))
+    d = d or built(design.mechanism).pin_mm
     a, inertia = mp.mpf("10.5"), mp.pi * mp.mpf(d) ** 4 / 64
     half = mp.quad(lambda x: MOMENTS[held](x, a) ** 2, [0, a]) / (210e3 * inertia)
     give = half if held == "cantilever" else 2 * half  # mm/N: the other half bends alike

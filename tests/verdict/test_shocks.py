@@ -11,7 +11,12 @@ from geneva_cli import Design, External, Limits, Load, Size, Spherical, Toleranc
 from geneva_cli.analysis import change_of_sides
 from geneva_cli.analysis.impacts import entry_impacts, reversal_impacts
 from geneva_cli.analysis.mouth import mouth_contacts
+from geneva_cli.analysis.pin import pin_diameter_mm
+from geneva_cli.layout.sizes import built
+from geneva_cli.machine.many import many
 from geneva_cli.verdict.checks import single_check
+from geneva_cli.verdict.quantities.designs import Designs
+from geneva_cli.verdict.quantities.disturbances import entry, reversal
 
 LOOSE = Size(face_width_mm=18.0, slot_clearance_mm=0.02)
 WIDE = Tolerance(crank_radius_mm=0.02, center_distance_mm=0.03, slot_width_mm=0.02)
@@ -91,3 +96,17 @@ def test_the_dimensions_that_are_not_there():
     assert entry_impacts(only.mechanism).only is None
     assert entry_impacts(only.with_("tolerance.crank_radius_mm", 0.1).mechanism).only.jump < 0.0
     assert reversal_impacts(only.mechanism).only is None
+
+
+def test_the_force_bends_the_pin_that_is_drawn():
+    """A load makes the default pin thicker than half of its roller, and so stiffer."""
+    load, size = Load(inertia_kgm2=4.0, torque_Nm=2.0), LOOSE.replace(roller_radius_mm=4.0)
+    of = design(1e6, load=load, size=size)
+    drawn_mm = built(of.mechanism).pin_mm
+    assert drawn_mm > pin_diameter_mm(of.mechanism)
+    same = of.with_("size.pin_mm", drawn_mm)
+    for name, table in (("entry_shock_N", entry), ("reversal_shock_N", reversal)):
+        force = row(of, name).value
+        assert force == row(same, name).value
+        batch = many(of.spec, {"load.torque_Nm": np.array([2.0, 1.0])}).machine
+        assert table(Designs(batch))["force_N"][0] == pytest.approx(force, rel=1e-12)  # rounding

@@ -80,10 +80,9 @@ def _lines(target: Target, wheel: Gearing, law: str) -> tuple[_LawMachines, _Law
         return math.degrees(fast / 0.45) if fast >= 0.5 * math.radians(motion) else motion
 
     make, grooved = partial(curved, target, wheel, law), partial(cam, target, wheel, law)
-    same = lambda motion: motion  # noqa: E731
     return (
-        _LawMachines(target, natural, make, same, least, matched),
-        _LawMachines(target, natural, grooved, until, least, same),
+        _LawMachines(target, natural, make, lambda motions: motions, least, matched),
+        _LawMachines(target, natural, grooved, until, least, lambda motion: motion),
     )
 
 

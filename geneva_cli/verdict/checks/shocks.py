@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Number
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.numerics.roots import Falsi
 from geneva_cli.spec.tables import Tolerance
@@ -22,7 +23,7 @@ def entry_shock(name: str, mechanism: Mechanism) -> Check | None:
         return None
     from geneva_cli.analysis.impacts import entry_impacts
 
-    impact = entry_impacts(mechanism).only
+    impact = entry_impacts(mechanism, pin_mm=_pin_mm(mechanism)).only
     if impact is None:
         return None
     check = _force_check(name, mechanism, impact)
@@ -40,7 +41,7 @@ def reversal_shock(name: str, mechanism: Mechanism) -> Check | None:
     if mechanism.unbalanced:
         why = "not computed where a body off its axis moves a wheel on a carrier"
         return Check(name, None, "at most", mechanism.spec.limits.pin_force_max_N, None, why)
-    impact = reversal_impacts(mechanism).only
+    impact = reversal_impacts(mechanism, _pin_mm(mechanism)).only
     if impact is None:
         return None
     check = _force_check(name, mechanism, impact)
@@ -65,6 +66,13 @@ def drag_words(mechanism: Mechanism) -> str:
     return f"a drag of {drag:g} N m on the wheel prevents the change of sides"
 
 
+def _pin_mm(mechanism: Mechanism) -> Number | None:
+    from geneva_cli.verdict.quantities.designs import single
+    from geneva_cli.verdict.quantities.under_load import impact_pin_mm
+
+    return impact_pin_mm(single(mechanism))
+
+
 def _force_check(name: str, mechanism: Mechanism, impact: Impact) -> Check:
     """The impact's force, compared with the limit of the pin force if there is one."""
     limit = mechanism.spec.limits.pin_force_max_N
@@ -87,10 +95,10 @@ def _tolerable(mechanism: Mechanism, check: Check) -> str:
     """The fraction to which the tolerances on R and L must shrink, whose root the force follows."""
     from geneva_cli.analysis.impacts import entry_impacts
 
-    limit = check.limit or 0.0
+    limit, pin_mm = check.limit or 0.0, _pin_mm(mechanism)
 
     def spare(fraction: float) -> float:
-        impact = entry_impacts(mechanism, fraction).only
+        impact = entry_impacts(mechanism, fraction, pin_mm).only
         return limit - (impact.force_N or 0.0 if impact else 0.0)
 
     force = Falsi(0.0, limit, 1.0, limit - (check.value or 0.0))

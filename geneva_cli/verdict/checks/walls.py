@@ -11,6 +11,7 @@ from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.hole_walls import apart, beyond
 from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import Arc, Circle, Line, Point, Segment, backwards, closed
+from geneva_cli.kinematics.pitch_curve import opposites
 from geneva_cli.layout.bores import has_shape
 from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.outlines.crank import is_whole, rollers_gap
@@ -143,20 +144,14 @@ def _greatest_gap(name: str, parts: FlatParts, side: float) -> Check | None:
     if not engagement.slot.curved:
         return None
     samples = 400
-    left = 1.0 - np.arange(samples) / samples
-    way_in, way_out = engagement.entry_deg * left, engagement.exit_deg * left
-    # the way out at the radii of the way in; the roller is as far from the axis as on its path
-    radius, radius_out = (
-        np.hypot(x.c[0], y.c[0]) for x, y in (engagement.path(t, 0) for t in (way_in, way_out))
+    t = engagement.entry_deg * (1.0 - np.arange(samples) / samples)
+    (x, y), (u, v) = (engagement.slot(at, 0) for at in (t, opposites(engagement, t)))
+    turn = np.remainder(
+        np.arctan2(y.c[0], x.c[0]) - np.arctan2(v.c[0], u.c[0]) + np.pi, 2.0 * np.pi
     )
-    (x, y), (u, v) = (engagement.slot(t, 0) for t in (way_in, way_out))
-    order, out = np.argsort(radius_out), np.unwrap(np.arctan2(v.c[0], u.c[0]))
-    # the longer branch has no opposite at its end
-    out = np.interp(radius, radius_out[order], out[order], left=np.nan, right=np.nan)
-    turn = np.remainder(np.arctan2(y.c[0], x.c[0]) - out + np.pi, 2.0 * np.pi)
     gap = 2.0 * outlines.assembly.L * np.hypot(x.c[0], y.c[0]) * np.sin(0.5 * (turn - np.pi)) * side
-    i = int(np.nanargmax(gap))
-    at_deg = outlines.assembly.shown_deg(engagement.mid_deg + float(way_in[i]))
+    i = int(np.nanargmax(gap))  # NaN where the longer branch has no opposite
+    at_deg = outlines.assembly.shown_deg(engagement.mid_deg + float(t[i]))
     return compared(
         name, max(0.0, float(gap[i])), "at most", 2.0 * outlines.sizes.half_width, at_deg
     )

@@ -9,6 +9,7 @@ from geneva_cli.analysis.change_of_sides import lasting_drag_Nm
 from geneva_cli.analysis.impacts import Impacts, entry_impacts, reversal_impacts
 from geneva_cli.numerics.arrays import Array, Number
 from geneva_cli.verdict.quantities.designs import Columns, Designs
+from geneva_cli.verdict.quantities.under_load import impact_pin_mm
 
 
 def vibration(of: Designs) -> Columns:
@@ -27,14 +28,15 @@ def vibration(of: Designs) -> Columns:
 
 def entry(of: Designs) -> Columns:
     """The impact at entry if R/L is wrong."""
-    return _impact(of, entry_impacts(of.machine))
+    return _impact(of, entry_impacts(of.machine, pin_mm=impact_pin_mm(of)))
 
 
 def reversal(of: Designs) -> Columns:
     """The impact at a change of sides, and the drag that would prevent it."""
     coasts = np.ravel(inertia_kgm2(of.spec)) > 0.0
     drag = np.where(coasts, np.ravel(lasting_drag_Nm(of.machine)), np.inf)
-    return _impact(of, reversal_impacts(of.machine), drag_Nm=drag)
+    impacts = reversal_impacts(of.machine, impact_pin_mm(of))
+    return _impact(of, impacts, drag_Nm=drag)
 
 
 def _impact(of: Designs, impacts: Impacts, **more: Array) -> Columns:

@@ -45,7 +45,7 @@ def pin(of: Designs) -> Columns:
     if width is None:
         return out
     force = load.force_N[:, None]
-    section = pins.pin(of.spec.size, width, _pin_mm(of, width, force))
+    section = pins.pin(of.spec.size, width, load.pin_mm)
     under = section.under(force)
     stress = np.ravel(under.equivalent)
     out |= {
@@ -59,20 +59,6 @@ def pin(of: Designs) -> Columns:
         least = pins.least_diameter_mm(section, force, allowed)
         out["least_diameter_mm"] = np.where(np.isfinite(allowed), least, np.inf)
     return out
-
-
-def _pin_mm(of: Designs, width: float, force: Array) -> Number:
-    """The pin's diameter, (m, 1): of the spec, or as its machine is drawn."""
-    usual = pins.pin_diameter_mm(of.machine)
-    if of.spec.size.pin_mm is not None:
-        return usual
-    stress = pins.pin(of.spec.size, width, usual).under(force).equivalent
-    # where the usual pin holds, it is drawn
-    holds = ~(stress > roller_material(of.spec).allowed_MPa)
-    parts = None if np.all(holds) else under_load(of).parts
-    if parts is None:
-        return usual
-    return np.where(np.isnan(parts.pin), np.ravel(usual), parts.pin)[:, None]
 
 
 def _allowed(of: Designs, own: Material, material: Callable[[Spec], Stock]) -> Number | None:

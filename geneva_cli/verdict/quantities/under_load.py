@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geneva_cli.analysis import pin as pins
 from geneva_cli.analysis.quantities import FORCE, PV
 from geneva_cli.layout.sizes import Layout, sized
 from geneva_cli.layout.sphere_sizes import sized_ball
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.strength import lock, roller, shafts
 from geneva_cli.loads.summaries import load_peaks
-from geneva_cli.numerics.arrays import Array, parameter
+from geneva_cli.machine.materials import roller_material
+from geneva_cli.numerics.arrays import Array, Number, parameter
 from geneva_cli.verdict.part_sizes import (
     LockSizes,
     PartSizes,
@@ -153,6 +155,21 @@ class UnderLoad:
         return parameter(self.parts.contact[:, None])
 
     @cached_property
+    def pin_mm(self) -> Number:
+        """The diameter of the roller's pin, (m, 1): of the spec, or as its machine is drawn."""
+        size, width = self.machine.spec.size, self.contact_mm
+        usual = pins.pin_diameter_mm(self.machine)
+        if size.pin_mm is not None or width is None:
+            return usual
+        stress = pins.pin(size, width, usual).under(self.force_N[:, None]).equivalent
+        # where the usual pin holds, it is drawn
+        holds = ~(stress > roller_material(self.machine.spec).allowed_MPa)
+        parts = None if np.all(holds) else self.parts
+        if parts is None:
+            return usual
+        return np.where(np.isnan(parts.pin), np.ravel(usual), parts.pin)[:, None]
+
+    @cached_property
     def part_loads(self) -> PartLoads:
         """The greatest loads on arm, keys and shafts."""
         from geneva_cli.loads.strength.part_loads import own_loads, part_loads
@@ -182,3 +199,8 @@ class UnderLoad:
 def under_load(of: Designs) -> UnderLoad:
     """The designs under their loads."""
     return of.once(UnderLoad)
+
+
+def impact_pin_mm(of: Designs) -> Number | None:
+    """The diameter of the pin that an impact bends; None where its force is not known."""
+    return None if of.spec.size.face_width_mm is None else under_load(of).pin_mm
