@@ -124,9 +124,10 @@ def test_an_outline_that_crosses_is_refused():
         triangles([bow], "bow")
 
 
-def test_a_part_thinner_than_the_decimals_is_refused():
-    """All corners of a pin of 12 picometres are one corner, and it has no triangle."""
-    pin = Plate("pin", "LINK", Circle("LINK", (0.0, 0.0), 6e-9), (), 0.0, 15.0)
+@pytest.mark.parametrize("radius", [6e-9, 1.25e-11])
+def test_a_part_thinner_than_the_decimals_is_refused(radius):
+    """All corners of a pin of 12 nanometres are one corner; of a thinner one even the outline."""
+    pin = Plate("pin", "LINK", Circle("LINK", (0.0, 0.0), radius), (), 0.0, 15.0)
     with pytest.raises(GenevaError, match="pin: its outline and holes leave no wall"):
         list(stl.data(Drawing("", (), solid=pin, tolerance=0.01), "mm"))
 
