@@ -11,6 +11,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
+from geneva_cli.curves.measure import at
 from geneva_cli.curves.shapes import ORIGIN, Arc, Circle, Line, Point, Shape, about, closed, polygon
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.keyways import ParallelKey, key
@@ -281,6 +282,30 @@ def radius_of(shape: Shape) -> float:
         return math.hypot(*arcs[0].start)
     (x, y), (u, v) = shape.segments[0].start, shape.segments[0].end
     return math.hypot(0.5 * (x + u), 0.5 * (y + v))
+
+
+def section_note(section: Shape) -> str:
+    """Return what a drawing of a shaft says of its section besides the diameter.
+
+    >>> section_note(HexBore(20.0).section("SHAFT", 0.3))
+    'hexagon 40 across flats'
+    >>> section_note(FlatBore(20.0, 4.0).section("SHAFT", 0.3))
+    'flat, 36 to the far side'
+    >>> section_note(bore_of(Size(crank_keyway="DIN 6885-1"), "crank", 20.0).section("SHAFT", 0.3))
+    'keyway 12 P9, 5 deep'
+    """
+    if isinstance(section, Circle):
+        return ""
+    lines = [piece for piece in section.segments if isinstance(piece, Line)]
+    radius = radius_of(section)
+    if len(lines) == len(section.segments):
+        return HexBore(radius).note
+    # the flat, or the keyway's bottom, is nearer to the axis than the keyway's sides
+    far, bottom = min((math.hypot(*at(line, 0.5)), line) for line in lines)
+    if len(lines) == 1:
+        return FlatBore(radius, radius - far).note
+    wide = length(math.dist(bottom.start, bottom.end), fine=True)
+    return f"keyway {wide} P9, {length(radius - far)} deep"
 
 
 def around(section: Shape) -> float:

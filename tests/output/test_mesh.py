@@ -124,6 +124,14 @@ def test_an_outline_that_crosses_is_refused():
         triangles([bow], "bow")
 
 
+@pytest.mark.parametrize("radius", [6e-9, 1.25e-11])
+def test_a_part_thinner_than_the_decimals_is_refused(radius):
+    """All corners of a pin of 12 nanometres are one corner; of a thinner one even the outline."""
+    pin = Plate("pin", "LINK", Circle("LINK", (0.0, 0.0), radius), (), 0.0, 15.0)
+    with pytest.raises(GenevaError, match="pin: its outline and holes leave no wall"):
+        list(stl.data(Drawing("", (), solid=pin, tolerance=0.01), "mm"))
+
+
 @pytest.mark.sampled(14)
 @pytest.mark.parametrize("design", DESIGNS, ids=lambda p: p.stem)
 def test_every_part_of_every_design(design):

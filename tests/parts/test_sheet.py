@@ -501,3 +501,30 @@ def test_refusals():
     slots = Spec(Wheel(6), motion=Motion("cycloidal", ratio="matched"), size=Size(5e7))
     with pytest.raises(GenevaError, match="do not fit on one A1 sheet"):
         Design.of(slots).sheet(1e3)
+
+
+@pytest.mark.parametrize(
+    ("key", "across", "note"),
+    [
+        # the corners of a hexagon are on a circle 1/cos 30° wider than its flats
+        ("wheel_bore=hex", f"Ø {40.0 / math.cos(math.pi / 6.0):.3f}", "hexagon 40 across flats"),
+        ("wheel_bore=D", "Ø 40 h6 (0/-0.016)", "flat, 36 to the far side"),
+        # DIN 6885-1, 38 to 44 mm: 12 wide, 5 deep in the shaft
+        ("wheel_keyway=DIN 6885-1", "Ø 40 h6 (0/-0.016)", "keyway 12 P9, 5 deep"),
+    ],
+)
+def test_a_plain_shaft_says_what_its_section_is(key, across, note):
+    """A hexagonal shaft once had the fit of a round one, 46.188 h6, and no word of its flats."""
+    sheet = load(str(repo.DESIGNS / "turret.toml"), [f"size.{key}"]).sheet(TOLERANCE)
+    texts = [label.text for label in sheet.texts]
+    assert across in texts
+    assert note in texts[texts.index("6 wheel's shaft") :][:3]
+
+
+@pytest.mark.parametrize(("fit_mm", "bore"), [(0.0, "Ø 20 F7"), (0.1, "Ø 20.1 H7")])
+def test_both_rollers_of_a_cam_have_bores_of_one_fit(fit_mm, bore):
+    """Those in slot and groove are on pins of 20 mm; a bore that is wider already takes no F7."""
+    design = load(str(repo.DESIGNS / "cam-geneva.toml"), [f"size.shaft_fit_mm={fit_mm}"])
+    texts = [label.text for label in design.sheet(TOLERANCE).texts]
+    assert sum(text.startswith(bore) for text in texts) >= 2
+    assert not any("F7" in text and not text.startswith(bore) for text in texts)

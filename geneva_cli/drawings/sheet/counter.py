@@ -78,7 +78,7 @@ def _draw(view: View, parts: CounterParts, gear: str, member: Member, fixed: str
         bored(view, bores, parts.mechanism.spec.size, fixed)
     else:
         circle = next(one for one in bores if isinstance(one, Circle))
-        view.diameter([circle], sized.roller_bore(view.fits, circle.radius))
+        view.diameter([circle], sized.roller_bore(view.fits, parts.mechanism, circle.radius))
     if gear == "driver":
         rim = Circle("", (0.0, 0.0), parts.sizes.rim)
         view.diameter([rim], f"rim {sized.lock(view.fits, parts.mechanism, rim.radius)}")

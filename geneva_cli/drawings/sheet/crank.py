@@ -124,8 +124,7 @@ def draw_roller(view: View, mechanism: Mechanism) -> None:
     view.cross(axis, roller)
     view.diameter(circles[:1], sized.roller(view.fits, mechanism, roller))
     if pin:
-        own = sized.bore if loose else sized.roller_bore
-        view.diameter(circles[1:], own(view.fits, pin + loose))
+        view.diameter(circles[1:], sized.roller_bore(view.fits, mechanism, pin + loose))
         view.remark(f"turns on its pin {sized.shaft(view.fits, pin)}, which is pressed in")
 
 

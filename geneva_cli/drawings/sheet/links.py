@@ -141,5 +141,5 @@ def _rows(members: Sequence[Member], mechanism: Mechanism) -> Iterator[tuple[str
             outside = sized.shaft(fits, outer)
         elif rolls:
             outside = sized.roller(fits, mechanism, outer)
-        inside = "".join(sized.roller_bore(fits, bore.radius) for bore in bores)
+        inside = "".join(sized.roller_bore(fits, mechanism, bore.radius) for bore in bores)
         yield plate.name, outside, inside, length(plate.thickness)

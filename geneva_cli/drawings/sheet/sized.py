@@ -54,9 +54,10 @@ def pin_hole(fits: Fits, mechanism: Mechanism, radius: float) -> str:
     return fitted(fits, 2.0 * radius, "Ø ", "H7" if smaller else "P7")
 
 
-def roller_bore(fits: Fits, radius: float) -> str:
-    """Return the diameter of the bore that turns on the pin."""
-    return fitted(fits, 2.0 * radius, "Ø ", "F7")
+def roller_bore(fits: Fits, mechanism: Mechanism, radius: float) -> str:
+    """Return the diameter of a bore that turns on a pin: F7, or H7 if already wider by a fit."""
+    wider = mechanism.spec.size.allowances.shaft_fit_mm
+    return fitted(fits, 2.0 * radius, "Ø ", "H7" if wider else "F7")
 
 
 def bore(fits: Fits, radius: float) -> str:

@@ -11,8 +11,9 @@ from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, circle_of
 from geneva_cli.drawings.sheet.view import View, grouped, times
-from geneva_cli.layout.bores import around
+from geneva_cli.layout.bores import around, radius_of, section_note
 from geneva_cli.layout.written import length
+from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 
 
 def draw_frame(
@@ -92,8 +93,18 @@ def draw_shaft(view: View, shaft: Plate | Stack) -> None:
     view.centre_line((0.0, 0.0), (long, 0.0))
     view.linear((0.0, -first), (long, -first), 0.0, length(long))
     if isinstance(shaft, Plate):
-        view.linear((0.0, -first), (0.0, first), 0.5 * math.pi, sized.shaft(view.fits, first))
+        view.linear((0.0, -first), (0.0, first), 0.5 * math.pi, _diameter(view, shaft.outline))
+        note = section_note(shaft.outline)
+        if note:
+            view.remark(note if view.fits.turned.is_iso else note.replace(" P9", ""))
         return
     for step in steps:
         radius, size = around(step.outline), f"{length(step.thickness)} long"
         view.remark(f"{sized.plain(2.0 * radius, 'Ø ')}, {size}: {step.name}")
+
+
+def _diameter(view: View, section: Shape) -> str:
+    """Return the diameter around a shaft; without a fit for a hexagon, whose corners are free."""
+    radius = around(section)
+    has_corners = radius > radius_of(section) + SAME_ON_SHEET
+    return sized.plain(2.0 * radius, "Ø ") if has_corners else sized.shaft(view.fits, radius)

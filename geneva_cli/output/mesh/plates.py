@@ -18,6 +18,7 @@ from geneva_cli.curves.measure import fraction_at
 from geneva_cli.curves.moments import oriented
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment
+from geneva_cli.errors import GenevaError
 from geneva_cli.output.mesh.polygons import (
     Triangle,
     arc_chords,
@@ -69,7 +70,10 @@ def plate_mesh(plate: Plate, tolerance: float) -> Surface:
     >>> len(plate_mesh(disc, 0.1).triangles)  # 50 chords: 2 x 48 in the faces, 2 x 50 in the wall
     196
     """
-    outline, *holes = plate_contours(plate)
+    contours = plate_contours(plate)
+    if not contours:  # its outline is rounding
+        raise GenevaError(f"{plate.name}: its outline and holes leave no wall, so it has no mesh")
+    outline, *holes = contours
     return _PlateMesh(plate, oriented(outline, holes), tolerance).surface()
 
 

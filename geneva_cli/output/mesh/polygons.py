@@ -127,7 +127,7 @@ def triangles(loops: Sequence[Sequence[Point]], name: str) -> list[Triangle]:
             for loop, first in zip(loops, starts, strict=False)
         ]
         cut = [_left((p, q, r)) for p, q, r in earcut(numbered[0], numbered[1:])]
-        if _is_closed(cut, loops):
+        if cut and _is_closed(cut, loops):
             return cut
     raise GenevaError(
         f"{name}: its outline and holes leave no wall, so it has no mesh; use a smaller --tolerance"
