@@ -142,7 +142,7 @@ def test_sheets_say_what_they_are():
     design = of(crank_bore="D", wheel_bore="hex", crank_bore_mm=10.0, wheel_bore_mm=16.0)
     texts = [label.text for label in design.sheet().texts]
     assert "hexagon 16 across flats" in texts
-    assert texts.count("flat, 9 to the far side") == 2  # arm and disc
+    assert texts.count("flat, 9 to the far side") == 3  # arm, disc and shaft
     assert not [text for text in texts if text.startswith("Ø 16 H7")][1:]  # the frame's alone
 
 
