@@ -157,7 +157,11 @@ def _field(spec: Spec, key: str) -> Field:
 
 def taken(thing: T, which: Which) -> T:
     """Reduce an object of a batch to some designs; ``which`` is a mask or their numbers."""
-    return cast("T", _changed(thing, lambda array: array[which], {}))
+    if isinstance(which, slice):
+        return cast("T", _changed(thing, lambda array: array[which], {}))
+    # a third of the time of an index
+    numbers = which.nonzero()[0] if which.dtype == bool else which
+    return cast("T", _changed(thing, lambda array: array.take(numbers, axis=0), {}))
 
 
 def selection(thing: T) -> Callable[[Which], T]:
