@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.kinematics.paths.samples import blocks, joined, points
+from geneva_cli.kinematics.paths.samples import joined, points
 from geneva_cli.kinematics.roller_path import RollerPath
 from geneva_cli.linkage.wheels import PathWheels
-from geneva_cli.numerics.arrays import Array, Number, Whole
+from geneva_cli.numerics.arrays import Array, Number, Whole, blocks
 
 SAME_PEAK = 1e-8  # fraction by which two wheels' peak velocities may differ and count as equal
 

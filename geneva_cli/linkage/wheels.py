@@ -13,9 +13,9 @@ import numpy as np
 
 from geneva_cli.kinematics.paths.course import PinCourse, PlacedWheel, leaves_slot, peak_bounds
 from geneva_cli.kinematics.paths.pairs import DOUBLE_ROOT_SLOPE, EndPairs, newton, pairs, residual
-from geneva_cli.kinematics.paths.samples import PathSamples, blocks, joined, points, sampled
+from geneva_cli.kinematics.paths.samples import PathSamples, joined, points, sampled
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, blocks
 
 SAME_ENTRY = 1e-6  # radians: entries nearer to each other are one
 

@@ -15,7 +15,7 @@ from typing import NamedTuple, TypeAlias, cast
 import numpy as np
 
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.numerics.arrays import Array, Complex, Mask, Record, Which, Whole
+from geneva_cli.numerics.arrays import Array, Complex, Mask, Record, Which, Whole, blocks
 
 Where: TypeAlias = "Which | tuple[slice | int | Whole, slice | int | Whole]"
 
@@ -166,9 +166,3 @@ def _joined(parts: Sequence[object], axis: int) -> object:
     if isinstance(parts[0], tuple):
         return joined(cast("Sequence[tuple[object, ...]]", parts), axis)
     return np.concatenate(cast("Sequence[Array]", parts), axis)
-
-
-def blocks(count: int, size: int) -> Iterator[slice]:
-    """Slices of ``size`` rows that cover all ``count`` rows; one empty slice if there are none."""
-    for start in range(0, max(count, 1), size):
-        yield slice(start, min(start + size, count))
