@@ -211,6 +211,14 @@ def joined(records: Sequence[Record]) -> Record:
     return record_of(records[0], [numpy.concatenate(arrays, axis=-1) for arrays in columns])
 
 
+def numbers_of(which: Mask | Whole) -> Whole:
+    """Numbers of some designs, from a mask or from their numbers.
+
+    Taking by numbers needs a third of the time of an index.
+    """
+    return cast("Whole", which.nonzero()[0] if which.dtype == bool else which)
+
+
 def columns_taken(values: Arrays, which: Which) -> Arrays:
     """Some columns of values (..., m), as they lie in memory.
 
@@ -219,8 +227,7 @@ def columns_taken(values: Arrays, which: Which) -> Arrays:
     """
     if isinstance(which, slice):
         return values[..., which]
-    numbers = which.nonzero()[0] if which.dtype == bool else which
-    return values.take(numbers, axis=-1)
+    return values.take(numbers_of(which), axis=-1)
 
 
 def rows_taken(values: Array, which: Which) -> Array:

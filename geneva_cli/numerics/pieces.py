@@ -15,7 +15,16 @@ import numpy as np
 
 from geneva_cli.numerics import chebyshev
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, columns_taken, joined, rows_taken
+from geneva_cli.numerics.arrays import (
+    Array,
+    Mask,
+    Which,
+    Whole,
+    columns_taken,
+    joined,
+    numbers_of,
+    rows_taken,
+)
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
 
 AT_END = 1e-9  # fraction of a row: a zero this near to an end, such as a motion's, is the end's own
@@ -66,8 +75,8 @@ class Rows(NamedTuple):
 
     def take(self, which: Which) -> Rows:
         """Some of the rows, by a mask or their numbers."""
-        if not isinstance(which, slice) and which.dtype == bool:
-            which = which.nonzero()[0]
+        if not isinstance(which, slice):
+            which = numbers_of(which)
         design, span, u, x, edge = self
         ends = (columns_taken(u, which), columns_taken(x, which), columns_taken(edge, which))
         return Rows(columns_taken(design, which), columns_taken(span, which), *ends)

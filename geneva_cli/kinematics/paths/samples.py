@@ -15,7 +15,16 @@ from typing import NamedTuple, TypeAlias, cast
 import numpy as np
 
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.numerics.arrays import Array, Complex, Mask, Record, Which, Whole, blocks
+from geneva_cli.numerics.arrays import (
+    Array,
+    Complex,
+    Mask,
+    Record,
+    Which,
+    Whole,
+    blocks,
+    numbers_of,
+)
 
 Where: TypeAlias = "Which | tuple[slice | int | Whole, slice | int | Whole]"
 
@@ -39,8 +48,7 @@ class PathPoints(NamedTuple):
         """Select some of the points."""
         if not isinstance(where, np.ndarray):
             return PathPoints._make(part[where] for part in self)
-        # a third of the time of an index
-        numbers = where.nonzero()[0] if where.dtype == bool else where
+        numbers = numbers_of(where)
         return PathPoints._make(part.take(numbers, axis=0) for part in self)
 
     def at_samples(self, row: Whole, column: Whole) -> PathPoints:
