@@ -139,11 +139,12 @@ def _impacts(
             torque = (taken(engagement.motion, of)(place, 2).arrays()[2] + drag[of])[:, 0]
             return sense[live] * gained(x, live)[1], -sense[live] * torque
 
-        slows = np.flatnonzero(sense * gained(span, every)[1] < 0.0)
+        ahead_at_exit, speed_at_exit = gained(span, every)
+        slows = np.flatnonzero(sense * speed_at_exit < 0.0)
         most = span.copy()  # where it is farthest from the wall that it left
         most[slows] = find_roots(partial(_of, faster, slows), turn[slows], span[slows])
         crosses = (play > 0.0) & (play <= sense * gained(most, every)[0])
-        returns = (play > 0.0) & ~crosses & (sense * gained(span, every)[0] < 0.0)
+        returns = (play > 0.0) & ~crosses & (sense * ahead_at_exit < 0.0)
         there = np.flatnonzero(crosses | returns)
         gap = np.where(crosses, play, 0.0)
 

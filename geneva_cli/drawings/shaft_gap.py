@@ -15,7 +15,7 @@ import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.measure import at
-from geneva_cli.curves.moments import with_material_left
+from geneva_cli.curves.moments import oriented
 from geneva_cli.curves.plates import Group, Member, Part, Plate, Stack, plates
 from geneva_cli.curves.shapes import Arc, Point, Segment, as_contour
 from geneva_cli.machine.mechanism import Mechanism
@@ -156,9 +156,8 @@ def _rings(member: Member) -> Iterator[Ring]:
     from geneva_cli.layout.projection import placed
 
     for plate, origin in _plates(member.part):
-        shapes = [placed(as_contour(s), origin, 0.0) for s in (plate.outline, *plate.holes)]
-        sides = [with_material_left(shape, i == 0) for i, shape in enumerate(shapes)]
-        inner = max(0.0, float(Polyarc(sides).signed(np.zeros((1, 2)))[0]))
+        shapes = [placed(one, origin, 0.0) for one in oriented(plate.outline, plate.holes)]
+        inner = max(0.0, float(Polyarc(shapes).signed(np.zeros((1, 2)))[0]))
         outer = max(math.hypot(*p) for piece in shapes[0].segments for p in _far(piece))
         yield Ring(plate.name, plate.layer, member.at, inner, outer, plate.low, plate.high)
 
