@@ -127,13 +127,14 @@ def _bored(
 
     Unless ``keyed``, the crank's bore is not sized by its key.
     """
+    held = _held_force_N(assembly, sizes)  # which no bore changes
+    loads = loads._replace(wheel_N=max(loads.wheel_N, held), crank_N=max(loads.crank_N, held))
     wheel = _wheel_bored(assembly, sizes, loads)
     return _crank_bored(assembly, wheel, loads, space, keyed)
 
 
 def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
     spec, end, wall = assembly.full.spec, sizes.slot_end, sizes.wall_min
-    force = max(loads.wheel_N, _held_force_N(assembly, sizes))
     size = spec.size
     fixed = size.wheel_bore_mm is not None or spec.shaft.wheel_diameter_mm is not None
     if fixed or not sizes.wheel_bore:
@@ -145,7 +146,7 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
         reach, hub = wheel_reach_and_hub(size, 0.5 * d, wall, end)
         trial = sizes._replace(wheel_bore=0.5 * d, wheel_reach=reach, wheel_hub=hub)
         parts = stressed(assembly, trial)
-        shaft = shaft_holds_both(spec, "wheel", parts.wheel_shaft, force, loads.wheel_Nm)
+        shaft = shaft_holds_both(spec, "wheel", parts.wheel_shaft, loads.wheel_N, loads.wheel_Nm)
         if shaft and key_holds(spec, parts.wheel_key, loads.wheel_Nm):
             break
     return trial
@@ -199,6 +200,5 @@ def _with_crank_bore(assembly: Assembly, sizes: Sizes, bore: float) -> Sizes:
 
 def _crank_holds(assembly: Assembly, sizes: Sizes, loads: PartLoads, keyed: bool) -> bool:
     parts, spec = stressed(assembly, sizes), assembly.full.spec
-    force = max(loads.crank_N, _held_force_N(assembly, sizes))
-    shaft = shaft_holds_both(spec, "crank", parts.crank_shaft, force, loads.crank_Nm)
+    shaft = shaft_holds_both(spec, "crank", parts.crank_shaft, loads.crank_N, loads.crank_Nm)
     return shaft and (not keyed or key_holds(spec, parts.crank_key, loads.crank_Nm))

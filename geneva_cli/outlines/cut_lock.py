@@ -33,16 +33,18 @@ def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
         return lock
     near = SAME_LENGTH * assembly.L
 
-    def arcs(contours: Iterable[Contour], radius: float, away: float) -> Iterator[Arc]:
-        """Yield the arcs of a radius whose centres are at a distance from the axis."""
-        pieces = (piece for contour in contours for piece in contour.segments)
-        for arc in (piece for piece in pieces if isinstance(piece, Arc)):
-            if abs(arc.radius - radius) < near and abs(math.hypot(*arc.centre) - away) < near:
-                yield arc
-
-    half = min([lock.half, *(0.5 * abs(a.sweep) for a in arcs(parts.crank, lock.lock, 0.0))])
-    recesses = arcs([parts.wheel], lock.recess, assembly.L)
+    locking = cut_arcs(parts.crank, lock.lock, 0.0, near)
+    half = min([lock.half, *(0.5 * abs(arc.sweep) for arc in locking)])
+    recesses = cut_arcs([parts.wheel], lock.recess, assembly.L, near)
     corners = {math.hypot(*end) for one in recesses for end in (one.start, one.end)}
     others = sorted(r for r in corners if abs(r - lock.corner) > near)  # than the widest mouth's
     tried = [lock._replace(half=half, corner=r) for r in (lock.corner, *others)]
     return max(tried, key=lambda one: float(one.contact().play))
+
+
+def cut_arcs(contours: Iterable[Contour], radius: float, away: float, near: float) -> Iterator[Arc]:
+    """Yield the arcs of a radius whose centres are ``away`` from the axis, both within ``near``."""
+    pieces = (piece for contour in contours for piece in contour.segments)
+    for arc in (piece for piece in pieces if isinstance(piece, Arc)):
+        if abs(arc.radius - radius) < near and abs(math.hypot(*arc.centre) - away) < near:
+            yield arc

@@ -27,11 +27,11 @@ from geneva_cli.analysis.tolerance.random_machines import (
     spread,
 )
 from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst
-from geneva_cli.curves.shapes import Arc, Contour
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
+from geneva_cli.outlines.cut_lock import cut_arcs
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.sphere.shells import Shells
 from geneva_cli.verdict.tolerance.needed import RequiredClearances, required_clearances
@@ -210,15 +210,12 @@ def flat_locks(outlines: Outlines) -> list[Lock]:
     near = SAME * assembly.L
     radii = {
         round(math.hypot(*end) / near): math.hypot(*end)
-        for arc in _arcs(outlines.wheel)
-        if abs(math.hypot(*arc.centre) - assembly.L) < near and abs(arc.radius - size.recess) < near
+        for arc in cut_arcs([outlines.wheel], size.recess, assembly.L, near)
         for end in (arc.start, arc.end)
     }
     halves = {
         round(arc.sweep / SAME): 0.5 * abs(arc.sweep)
-        for part in outlines.crank
-        for arc in _arcs(part)
-        if math.hypot(*arc.centre) < near and abs(arc.radius - size.lock) < near
+        for arc in cut_arcs(outlines.crank, size.lock, 0.0, near)
     }
     return [
         Lock(assembly.L, assembly.sign, size.lock, size.recess, radius, half)
@@ -240,7 +237,3 @@ def sphere_locks(shells: Shells) -> list[SphereLock]:
         SphereLock(ball.radius_mm, ball.axes, ball.lock, ball.recess, ball.rim, half)
         for half in halves.values()
     ]
-
-
-def _arcs(contour: Contour) -> list[Arc]:
-    return [one for one in contour.segments if isinstance(one, Arc)]
