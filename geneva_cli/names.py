@@ -113,7 +113,7 @@ def unit_of(name: str) -> str | None:
     ('rad/s', None)
     """
     last = "_" + name.rpartition(".")[2]  # a column may be its unit alone, such as rpm
-    return UNITS.get(_unit_end(last))
+    return UNITS.get(unit_end(last))
 
 
 def spoken(name: str) -> tuple[str, str]:
@@ -147,11 +147,11 @@ def described(name: str) -> tuple[str, str]:
 
 def _divided(name: str) -> tuple[str, str]:
     """A name without its unit's ending, and the unit."""
-    end = _unit_end(name)
+    end = unit_end(name)
     return name.removesuffix(end), UNITS.get(end, "")
 
 
-def _unit_end(name: str) -> str:
+def unit_end(name: str) -> str:
     """The longest ending of a name that is a unit; empty without one."""
     _, *parts = name.split("_")
     ends = ("_" + "_".join(parts[start:]) for start in range(len(parts)))

@@ -11,7 +11,7 @@ from typing import Any
 
 from geneva_cli.document import Block, Curves, Document, Fact, Facts, Grid
 from geneva_cli.figure import Axis, Curve, Figure, Panel
-from geneva_cli.names import UNITS, unit_of
+from geneva_cli.names import UNITS, unit_end, unit_of
 from geneva_cli.spec.units import ratio
 from geneva_cli.table import Table
 
@@ -68,7 +68,7 @@ def _named(name: str) -> tuple[str, float]:
     """A name with the other units at the end of its parts, and the size of its value's unit."""
     parts, size = [], 1.0
     for part in name.split("."):
-        end = next((end for end in UNITS if f"_{part}".endswith(end)), "")
+        end = unit_end(f"_{part}")
         unit = UNITS.get(end, "")
         other, own = _other(unit)
         size = own if unit else size

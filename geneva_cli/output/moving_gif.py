@@ -58,11 +58,12 @@ def _draw(pen: Any, scene: Scene, t: float, margin: float, scale: float) -> None
     """Draw the scene at an input angle; ``margin`` is in mm, ``scale`` in pixels per mm."""
     x0, _, _, y1 = scene.box
     frame = scene.frame
+    turned_by = value_at(frame.angle, t) if frame else 0.0
 
     def on_paper(p: Point) -> Point:
         if frame:
             x, y = frame.centre
-            (p,) = _placed([(p[0] - x, p[1] - y)], x, y, value_at(frame.angle, t))
+            (p,) = _placed([(p[0] - x, p[1] - y)], x, y, turned_by)
         return (p[0] - x0 + margin) * scale, (y1 + margin - p[1]) * scale
 
     for body in scene.bodies:

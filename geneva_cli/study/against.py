@@ -158,12 +158,12 @@ def _servo_rms_Nm(design: Design) -> float:
     motor, first, law = design.spec.motor, design.timings[0], LAWS["servo"]
     unit = math.radians(first.index_deg or 0.0) / first.motion_s**2
     inertia, resisting = inertia_kgm2(design.spec), resisting_torque_Nm(design.spec)
+    turns = -resisting / inertia if inertia else 0.0  # where the load begins to drive
     mean = 0.0
     for low, high in pairwise((0.0, *law.breaks, 1.0)):
         middle, slope = map(float, law(0.5 * (low + high), 3).derivatives()[2:])
         rise = 0.5 * slope * (high - low)
         ends = [(middle - rise) * unit, (middle + rise) * unit]
-        turns = -resisting / inertia if inertia else 0.0
         inner = [turns] if min(ends) < turns < max(ends) else []
         for one, two in pairwise((ends[0], *inner, ends[1])):
             drives = inertia * 0.5 * (one + two) + resisting > 0.0
