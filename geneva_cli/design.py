@@ -462,7 +462,7 @@ class Design:
         size = self.spec.size
         if size.face_width_mm is None and size.wheel_thickness_mm is None:
             return None  # before the import of what draws parts
-        from geneva_cli.parts.wheel_inertia import known_wheel_body
+        from geneva_cli.parts.wheel_body import known_wheel_body
 
         return known_wheel_body(self.mechanism)
 

@@ -21,8 +21,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.crank import crank_contours, is_whole
-from geneva_cli.outlines.walls.straight import straight_walls
-from geneva_cli.outlines.wheel import wheel_contour
+from geneva_cli.outlines.wheel import slot_walls, wheel_contour
 
 if TYPE_CHECKING:
     from geneva_cli.outlines.bounds import FlatPairs
@@ -112,17 +111,6 @@ def drawn(assembly: Assembly, sizes: Sizes, tolerance: float = 0.0) -> Outlines:
     if assembly.full.spec.wheel.stopped:
         wheel = wheel_contour(assembly, sizes, walls, convex=True)
     return Outlines(assembly, sizes, walls, wheel, crank, relief, gaps, close, fine)
-
-
-def slot_walls(
-    assembly: Assembly, sizes: Sizes, engagement: Engagement, tolerance: float, curves: str = "arcs"
-) -> Contour:
-    """Return the walls of a slot, straight or curved; ``curves`` is "arcs" or "cubics"."""
-    if engagement.slot.curved:
-        from geneva_cli.outlines.walls.curved import curved_walls
-
-        return curved_walls(assembly, sizes, engagement, tolerance, curves)
-    return straight_walls(assembly, sizes, engagement)
 
 
 def _relieved(bare: Gaps, sizes: Sizes, close: float) -> tuple[list[Contour], str, Gaps]:

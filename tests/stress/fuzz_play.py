@@ -17,8 +17,7 @@ from test_outline import made
 from geneva_cli.collisions.free_angles import EXACT, free_angles
 from geneva_cli.collisions.gaps import Gaps
 from geneva_cli.errors import GenevaError
-from geneva_cli.outlines.outlines import slot_walls
-from geneva_cli.outlines.wheel import wheel_contour
+from geneva_cli.outlines.wheel import slot_walls, wheel_contour
 
 SECONDS = 30  # of one machine
 WIDTHS, RECESSES = 3, 10  # of slots, and of recesses for each: walls of curved slots cost the most
