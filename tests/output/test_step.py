@@ -23,9 +23,9 @@ from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, about, b
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.inks import INKS
+from geneva_cli.output.splines import pieces
 from geneva_cli.output.step import chunks
 from geneva_cli.output.step.entities import real, words
-from geneva_cli.output.step.splines import pieces
 
 # Relative. Coordinates have 12 decimals: of parts of 100 mm, 14 digits, and sums of areas lose one.
 VOLUME = 1e-12
