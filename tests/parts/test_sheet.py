@@ -20,11 +20,12 @@ from geneva_cli import EllipticalGears, Linear, load
 from geneva_cli.curves import marks
 from geneva_cli.curves.board import Board
 from geneva_cli.curves.measure import bounds
+from geneva_cli.curves.placed import in_place
 from geneva_cli.curves.shapes import Contour, Line
 from geneva_cli.curves.sheet import Label
 from geneva_cli.curves.sphere import place
 from geneva_cli.design import Design
-from geneva_cli.drawings.sheet.cut import faces, positioned
+from geneva_cli.drawings.sheet.cut import faces
 from geneva_cli.drawings.sheet.paper import FORMATS, SCALES
 from geneva_cli.drawings.sheet.points import gear_tables, polyline, tables
 from geneva_cli.drawings.sphere.drawings import wheel_cone
@@ -214,7 +215,7 @@ def test_the_section_shows_what_the_plane_of_the_axes_cuts(name, sheets):
     """Against the polygons of the plates at their places, cut by a line in shapely."""
     parts = sheets(name)[0].drawn(TOLERANCE).flat.within(TOLERANCE, "arcs")
     cut = faces(parts.members, 1.0)
-    for own, plate in positioned(parts.members):
+    for own, plate in in_place(parts.members):
         rings = [vertices(shape, 0.01) for shape in (plate.outline, *plate.holes)]
         solid = Polygon(rings[0], rings[1:])
         x0, _, x1, _ = solid.bounds
@@ -223,7 +224,7 @@ def test_the_section_shows_what_the_plane_of_the_axes_cuts(name, sheets):
         shown = [face for face in cut if face.plate == own]
         if shown and name != "side-crank-z6":
             assert len(shown) == len(getattr(chord, "geoms", [chord]))
-        copies = sum(1 for other, _ in positioned(parts.members) if other == own)
+        copies = sum(1 for other, _ in in_place(parts.members) if other == own)
         if copies == 1:
             # chords of 1.5 mm have sagittas of 0.06 mm on 5 mm, at a crossing aslant more
             length = sum(face.right - face.left for face in shown)
