@@ -71,9 +71,11 @@ def _entity(space: BaseLayout, layer: str, piece: Piece) -> None:
     else:
         spline = space.add_spline(degree=3, dxfattribs=attributes)
         spline.control_points = piece.poles
+        # about as long as the curve, so that the decimals of knots are those of lengths
+        scale = sum(map(math.dist, piece.poles, piece.poles[1:])) / piece.knots[-1]
         # a cubic's ends are double knots, and the curve's quadruple ones
-        first, last = piece.knots[:1], piece.knots[-1:]
-        spline.knots = [*2 * first, *(knot for knot in piece.knots for _ in range(2)), *2 * last]
+        double = [scale * knot for knot in piece.knots for _ in range(2)]
+        spline.knots = [*double[:2], *double, *double[-2:]]
         spline.dxf.flags = 8  # in a plane
 
 
