@@ -161,7 +161,7 @@ def pitch_lines(parts: FlatParts, engagement: Engagement) -> list[Contour]:
 
 def _pitch_line(parts: FlatParts, engagement: Engagement) -> Contour:
     assembly = parts.outlines.assembly
-    fine = parts.outlines.fine if parts.tolerance is None else parts.tolerance
+    fine = 1e-3 if parts.tolerance is None else parts.tolerance  # mm, as a drawing's
     at = np.array([engagement.entry_deg, 0.0])
     x, y = engagement.slot(at, 0)
     if not engagement.slot.curved:

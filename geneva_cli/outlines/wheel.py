@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import NoReturn
 
 from geneva_cli.curves.measure import turned
@@ -21,10 +22,11 @@ LAYER = "WHEEL"
 EXTENDED_MOUTH = 0.2
 
 
+@lru_cache(maxsize=16)  # drawings, sheet and solids of one machine have the same walls
 def slot_walls(
     assembly: Assembly, sizes: Sizes, engagement: Engagement, tolerance: float, curves: str = "arcs"
 ) -> Contour:
-    """Return the walls of a slot, straight or curved; ``curves`` is "arcs" or "cubics"."""
+    """Return the cached walls of a slot, straight or curved; ``curves`` is "arcs" or "cubics"."""
     if engagement.slot.curved:
         from geneva_cli.outlines.walls.curved import curved_walls
 

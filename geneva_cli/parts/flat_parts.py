@@ -72,10 +72,9 @@ class FlatParts(EdgedParts):
     def walls(self, slot: Engagement) -> Contour:
         """Return the walls of a slot in the wheel's frame, with that slot ahead."""
         parts = self.outlines
-        if self.curves == "arcs" and self.tolerance in (None, parts.fine):
+        if self.tolerance is None:
             return parts.slots[slot]
-        fine = parts.fine if self.tolerance is None else self.tolerance
-        return slot_walls(parts.assembly, parts.sizes, slot, fine, self.curves)
+        return slot_walls(parts.assembly, parts.sizes, slot, self.tolerance, self.curves)
 
     @cached_property
     def wheel(self) -> Member:

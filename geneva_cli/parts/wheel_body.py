@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.curves.plates import plates
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.assembly import assembly
-from geneva_cli.layout.sizes import sizes
+from geneva_cli.layout.sizes import machine_sizes
 from geneva_cli.machine.materials import wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.wheel import slot_walls, wheel_contour
@@ -34,8 +33,7 @@ def wheel_body(mechanism: Mechanism) -> MassProperties | None:
         return shell_body(mechanism)
     from geneva_cli.curves.mass import added, mass_properties
 
-    where = assembly(mechanism)
-    size = sizes(where)
+    where, size = machine_sizes(mechanism)
     walls = {one: slot_walls(where, size, one, 1e-6 * where.L) for one in where.kinds}
     contour = wheel_contour(where, size, walls, spec.wheel.stopped)
     density = wheel_material(spec).density_kgm3

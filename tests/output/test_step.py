@@ -106,9 +106,8 @@ def test_random_outlines(corners, thickness):
 @pytest.mark.parametrize("name", ["turret", "internal-z6", "press-curved", "two-pins-z4"])
 def test_machines(name, curves):
     design = load(str(repo.DESIGNS / f"{name}.toml"))
-    proof = design.drawn(0.01)
     for part in ("wheel", "crank", "arm", "assembly"):
-        drawing = design.drawing(part, 0.01, curves, proof)
+        drawing = design.drawing(part, 0.01, curves)
         file = File("".join(chunks(drawing, "mm")))
         bodies, wanted = file.all("MANIFOLD_SOLID_BREP"), plates(drawing.solid)
         assert len(bodies) == len(wanted)

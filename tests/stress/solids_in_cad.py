@@ -242,7 +242,7 @@ def main():
         name = Path(path).stem
         try:
             design = load(path, options.set)
-            proof = design.drawn(0.001, "assembly")
+            proof = design.parts_model
         except GenevaError as error:
             print(f"{name:24} {str(error).partition(': ')[2][:70]}")
             continue
@@ -253,7 +253,7 @@ def main():
                 bad += not one(design, proof, name, part, curves, options.pictures)
         try:
             turned = load(path, [*options.set, "size.shafts=turned"])
-            proof = turned.drawn(0.001, "assembly")
+            proof = turned.parts_model
             bad += not one(turned, proof, f"{name}, turned", "assembly", "arcs", options.pictures)
         except GenevaError as error:
             print(f"{name:24} {str(error).partition(': ')[2][:70]}")
@@ -261,7 +261,7 @@ def main():
 
 
 def one(design, proof, name, part, curves, pictures):
-    drawing = design.drawing(part, 0.001, curves, proof)
+    drawing = design.drawing(part, 0.001, curves)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "part.step"
         path.write_text("".join(chunks(drawing, "mm")), encoding="ascii")
