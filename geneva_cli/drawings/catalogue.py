@@ -153,21 +153,16 @@ def part_sheet(model: PartsModel, part: str, tolerance_mm: float, curves: str) -
 
 def _maker(model: PartsModel, part: str) -> tuple[str | None, PartsOfMachine]:
     """Return the function that draws a part, and the parts of the machine that it takes."""
-    by = _drawn_by(model.kind, part)
+    by = model.kind.DRAWN.get(part)
     # the links and gears in front of a sphere are those of a flat machine
-    return (by, model.built) if by else (PARTS[part].drawing, model.flat)
-
-
-def _drawn_by(kind: PartsKind, name: str) -> str | None:
-    """Return the function that draws a part of a kind; or None."""
-    return kind.drawn_by(name, PARTS[name].drawing or PARTS[name].sheet)
+    return (by, model.built) if by else (PARTS[part].drawing or PARTS[part].sheet, model.flat)
 
 
 def _is_of(kind: PartsKind, name: str) -> bool:
     """Return True if machines with parts of a kind have it: a sphere may have flat links."""
     one = PARTS[name]
     flat = kind.HAS_FLAT_PARTS and (one.drawing or one.sheet or one.table)
-    return bool(one.every or _drawn_by(kind, name) or flat)
+    return bool(one.every or name in kind.DRAWN or flat)
 
 
 def require_cut(part: str, option: str = "--kerf") -> None:

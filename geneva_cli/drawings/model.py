@@ -146,7 +146,8 @@ class PartsModel:
 class PartsKind(ABC):
     """The parts of wheels of one kind; functions in tables are written ``module:function``."""
 
-    # functions that draw parts, or make their sheets, by the names of the parts
+    # functions that draw parts, or make their sheets, by the names of the parts, where they are not
+    # those of the catalogue
     DRAWN: ClassVar[Mapping[str, str]] = {}
     # functions that tabulate parts, where it is not the function of the catalogue
     TABLES: ClassVar[Mapping[str, str]] = {}
@@ -156,10 +157,6 @@ class PartsKind(ABC):
     TURNED: ClassVar[str] = "parts"
     # parts whose outlines are those of a surface laid flat
     LAID_FLAT: ClassVar[tuple[str, ...]] = ()
-
-    def drawn_by(self, name: str, flat: str | None) -> str | None:
-        """Return the function that draws a part; ``flat`` is that of flat machines."""
-        return self.DRAWN.get(name)
 
     @abstractmethod
     def built(self, model: PartsModel) -> PartsOfMachine:
@@ -187,10 +184,6 @@ class Flat(PartsKind):
 
     HAS_FLAT_PARTS: ClassVar[bool] = True
     TURNED: ClassVar[str] = "outlines"
-
-    def drawn_by(self, name: str, flat: str | None) -> str | None:
-        """Return the function that draws a part."""
-        return flat
 
     def built(self, model: PartsModel) -> FlatParts:
         """Return the parts."""

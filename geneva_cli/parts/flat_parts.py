@@ -69,6 +69,10 @@ class FlatParts(EdgedParts):
         """The outlines of wheel and crank; None for a wheel that is not drawn."""
         return self.outlines if self.mechanism.spec.is_flat else None
 
+    def require_wheel(self) -> None:
+        """Raise GenevaError for a wheel that is not drawn."""
+        _ = self.outlines
+
     def walls(self, slot: Engagement) -> Contour:
         """Return the walls of a slot in the wheel's frame, with that slot ahead."""
         parts = self.outlines
