@@ -805,6 +805,8 @@ class Design:
     def judge(self, part: str = "wheel") -> tuple[str, list[str]]:
         """The reason why a part cannot be written, empty if it can; and other problems.
 
+        Raises GenevaError for a flat wheel or crank that the sizes leave no place for.
+
         >>> Design(External(6)).judge()
         ('', [])
         """
@@ -813,6 +815,8 @@ class Design:
         from geneva_cli.verdict.failures import failures
 
         model = model_of(self.parts_model, part)
+        if model.mechanism.spec.is_flat:
+            _ = model.outlines  # their error comes before all checks
         is_own = model is self.parts_model
         return failures(self._judged if is_own else judged(model.mechanism, model), model)
 
