@@ -50,7 +50,7 @@ WHOLE = Spec(
     limits=Limits(
         pv_max_W_m2=1e8,
         roller_life_min_h=2e4,
-        slot_wear_max_mm_per_million=1e-3,
+        slot_wear_max_mm_per_million=2e-3,
         lock_stress_max_MPa=800.0,
         lock_deflection_max_deg=0.01,
     ),

@@ -12,6 +12,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.loads.strength import arm as arms
 from geneva_cli.loads.strength import roller, shafts
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress, shear_allowed_MPa
+from geneva_cli.loads.strength.wear import wears_mm
 from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
@@ -254,7 +255,9 @@ def wear(of: Designs) -> Columns:
         "roller_life_h": lasts.hours,
         # a roller that turns on its pin does not rub in the slot
         "slot_wear_mm_per_million": (
-            roller.wears_mm(of.machine, passages) if of.spec.load.rubs_in_slot else None
+            wears_mm(of.machine, [passage.rubbing_N for passage in passages])
+            if of.spec.load.rubs_in_slot
+            else None
         ),
     }
     bound = np.where(np.isfinite(force), of.loaded, np.inf * of.loaded)
