@@ -129,7 +129,7 @@ def summaries_from(
     """
     multiple_of, sources = sources_of(mechanism, names)
     totals = [one.total for one in each if one.total is not None]
-    means = means_from(mechanism, sources, np.sum(totals, axis=0), plain) if totals else {}
+    means = means_from(mechanism, sources, totals, plain) if totals else {}
     best: dict[str, LoadSummary[Array]] = {}
     for i, name in enumerate(sources):
         k = i + len(sources)

@@ -258,6 +258,11 @@ def test_loads_of_several_wheels_are_the_sum_over_a_turn(z, wheels):
         torque = np.empty(len(x))
         torque[order] = one.cycle.states(own[order]).input_torque_Nm
         total += torque
+    # a wheel's own bearings see one motion in a turn, the finger's see those of all wheels
+    for key, times in (("wheel_bearing_N", 1), ("crank_bearing_N", wheels)):
+        assert several.loads[key].mean == pytest.approx(times * one.loads[key].mean, rel=1e-12)
+        rms = math.sqrt(times) * one.loads[key].rms
+        assert several.loads[key].rms == pytest.approx(rms, rel=1e-12)
     summary = several.loads["input_torque_Nm"]
     peak = abs(total).max()
     assert summary.max == pytest.approx(total.max(), rel=1e-6)
