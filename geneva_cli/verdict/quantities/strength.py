@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from geneva_cli.analysis import pin as pins
+from geneva_cli.analysis.unbalance import centrifugal_N
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.strength import arm as arms
 from geneva_cli.loads.strength import roller, shafts
@@ -112,7 +113,10 @@ def _known(row: Number | None) -> Array:
 def wheel_shaft(of: Designs) -> Columns:
     """The wheel's shaft."""
     ends = _drawn(of, shafts.wheel_shaft(of.spec.shaft), "wheel")
-    return _shaft(of, ends, shafts.wheel_forces(of.spec), under_load(of).held)
+    held = under_load(of).held
+    if held and of.machine.frame:
+        held = held._replace(force_N=held.force_N + np.ravel(centrifugal_N(of.machine)))
+    return _shaft(of, ends, shafts.wheel_forces(of.machine), held)
 
 
 def crank_shaft(of: Designs) -> Columns:
