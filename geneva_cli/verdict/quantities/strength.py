@@ -46,7 +46,7 @@ def pin(of: Designs) -> Columns:
     width, out = load.contact_mm, {"allowed_MPa": allowed}
     if width is None:
         return out
-    force = load.force_N[:, None]
+    force = load.roller_N
     section = pins.pin(of.spec.size, width, load.pin_mm)
     under = section.under(force)
     stress = np.ravel(under.equivalent)
