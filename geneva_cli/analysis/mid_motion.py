@@ -86,10 +86,8 @@ def at_mid_motion(
 
 def _acceleration_after(engagement: Engagement, n: int) -> Jet:
     """The wheel's acceleration just after mid-motion, as an invariant: (n, 1)."""
-    motion, whole = engagement.motion, np.reshape(engagement.motion_deg, (-1, 1))
-    x = np.maximum(np.nextafter(0.0, 1.0), motion.BREAKS_TO * whole)
-    after = motion(np.broadcast_to(x, (n, 1)), 2).derivatives()[2]
-    return Jet([array(after)])
+    x = np.full((n, 1), 1e-300)  # 0 is exact, and a smaller number might become 0
+    return Jet([array(engagement.motion(x, 2).derivatives()[2])])
 
 
 def at_crossing(engagement: Engagement, case: LoadCase) -> dict[str, Array] | None:
