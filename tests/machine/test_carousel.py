@@ -539,7 +539,7 @@ def test_the_vibration_says_how_far_the_unbalance_winds_up():
     (text,) = (t for t in design.vibration().to_dict()["warnings"] if "off the wheel's axis" in t)
     moment = 2.0 * 0.05 * 0.1 * (2.0 * math.pi) ** 2
     assert f"up to {moment:.4g} N m on the shaft" in text
-    assert f"by {math.degrees(moment / 1e4):.4g} deg" in text
+    assert f"by {math.degrees(moment / 1e4):.4g}°" in text
     balanced = Mass("point", mass_kg=2.0, radius_mm=50.0, count=2)
     for other in (
         Design(External(6), Carousel(), mass=(balanced,), shaft=shaft),
