@@ -50,7 +50,9 @@ def at_mid_motion(
     with np.errstate(all="ignore"):
         at = contact(engagement, np.zeros((n, 1)))
         accelerations = at.acceleration, _acceleration_after(engagement, n)
-        jumps = np.abs(accelerations[1].c[0] - array(accelerations[0].c[0])) > 1e-9
+        before, after = (array(one.c[0]) for one in accelerations)
+        # the two halves of a law are equal there to some roundings, or its acceleration jumps
+        jumps = np.abs(after - before) > 1e-6 * (np.abs(after) + _common(engagement))
         near_places = [np.broadcast_to(x, (n, 1)) for x in (near, -near)]
         limits = [_limits(engagement, case, rows, x) for x in near_places]
         # The tangent points away from the axis at entry and exit; at a cusp both are one.
@@ -122,9 +124,14 @@ def _limit(jet: Jet, h: Array) -> Array:
 
 def _is_loaded(engagement: Engagement, case: LoadCase, torque: Number) -> Mask:
     """Return True if the wheel's torque at mid-motion is more than rounding."""
-    common = case.inertia_Nm * np.abs(engagement.motion(0.5 * engagement.entry_deg, 2).c[2])
-    loaded: Mask = np.abs(torque) > NEGLIGIBLE * (common + case.resists_Nm)
+    common = case.inertia_Nm * _common(engagement) + case.resists_Nm
+    loaded: Mask = np.abs(torque) > NEGLIGIBLE * common
     return loaded
+
+
+def _common(engagement: Engagement) -> Array:
+    """An acceleration of usual size, half-way between entry and mid-motion, as an invariant."""
+    return np.abs(array(engagement.motion(0.5 * engagement.entry_deg, 2).c[2]))
 
 
 def _limits(engagement: Engagement, case: LoadCase, rows: Rows, x: Array) -> list[Array]:
