@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.locking import Lock
+from geneva_cli.analysis.locking import Lock, loosest
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import arm_hub, arm_passing, hole_radius
 from geneva_cli.layout.assembly import Assembly
@@ -152,7 +152,7 @@ def lock_of(where: Assembly, size: Sizes) -> Lock:
         return lock
     near, far = abs(where.L - size.recess), where.L + size.recess
     tried = [lock._replace(corner=r) for r in sorted(corners) if near < r < far]
-    return max(tried, key=lambda one: float(one.contact().play), default=lock)
+    return loosest(tried) if tried else lock
 
 
 def key_of(standard: str | None, bore: float, length: float) -> KeyDimensions:

@@ -335,10 +335,15 @@ def test_the_spec_s_sizes_stay():
     "wheel",
     [External(6, offset_mm=5.0), External(5, offset_mm=-6.0), External(6, steps_deg=(66.0, 54.0))],
 )
-def test_sizes_are_for_the_lock_as_it_is_cut(wheel):
-    """The corners that leave the most play, from the mouths' formulas, are those of the drawing."""
-    size = Size(lock_clearance_mm=0.1, slot_clearance_mm=0.02)
+@pytest.mark.parametrize("clearance", [0.0, 0.1])
+def test_sizes_are_for_the_lock_as_it_is_cut(wheel, clearance):
+    """The corners that leave the most play, from the mouths' formulas, are those of the drawing.
+
+    They are the lower ones: the recess, of one radius about the crank's axis, ends sooner there.
+    """
+    size = Size(lock_clearance_mm=clearance, slot_clearance_mm=0.02)
     load = Load(inertia_kgm2=1e-3, dwell_torque_Nm=10.0)
     flat = sized(build(Spec(wheel, size=size, load=load)))
     # 1e-9 mm: a tenth of a digit of a drawing
     assert lock_of(*flat) == pytest.approx(cut_lock(*flat), abs=1e-9)
+    assert lock_of(*flat).corner < flat[1].rim - 1.0
