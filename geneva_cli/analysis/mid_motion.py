@@ -49,10 +49,10 @@ def at_mid_motion(
     out = []
     with np.errstate(all="ignore"):
         at = contact(engagement, np.zeros((n, 1)))
-        accelerations = at.acceleration, _acceleration_after(engagement, n)
-        before, after = (array(one.c[0]) for one in accelerations)
+        before, after = array(at.acceleration.c[0]), _acceleration_after(engagement, n)
         # the two halves of a law are equal there to some roundings, or its acceleration jumps
         jumps = np.abs(after - before) > 1e-6 * (np.abs(after) + _common(engagement))
+        accelerations = at.acceleration, Jet([after])
         near_places = [np.broadcast_to(x, (n, 1)) for x in (near, -near)]
         limits = [_limits(engagement, case, rows, x) for x in near_places]
         # The tangent points away from the axis at entry and exit; at a cusp both are one.
@@ -86,10 +86,10 @@ def at_mid_motion(
     return out
 
 
-def _acceleration_after(engagement: Engagement, n: int) -> Jet:
+def _acceleration_after(engagement: Engagement, n: int) -> Array:
     """The wheel's acceleration just after mid-motion, as an invariant: (n, 1)."""
     x = np.full((n, 1), 1e-300)  # 0 is exact, and a smaller number might become 0
-    return Jet([array(engagement.motion(x, 2).derivatives()[2])])
+    return array(engagement.motion(x, 2).derivatives()[2])
 
 
 def at_crossing(engagement: Engagement, case: LoadCase) -> dict[str, Array] | None:
