@@ -58,18 +58,6 @@ def contact_values(at: Contact[Jet]) -> Contact[Array]:
     return Contact._make([*[jet.c[0] for jet in jets], reactions, turned])
 
 
-def mirrored(at: Contact[Jet]) -> Contact[Jet]:
-    """The contact at the mirror images of places (n, k), in ascending order, without joints.
-
-    Motion, slot and loads must be symmetric.
-    """
-    jets, odd = [], ("acceleration", "offset", "along", "curvature")  # change their sign
-    for name, jet in zip(at._fields[:-2], at[:-2], strict=True):
-        even = name not in odd
-        jets.append(Jet([_mirror_image(c, even ^ (k % 2 > 0)) for k, c in enumerate(jet.c)]))
-    return Contact._make([*jets, None, None])
-
-
 def column(at: Contact[Jet], number: int) -> Contact[Jet]:
     """The contact at one of the places (n, k) of each design: (n, 1)."""
 
@@ -94,13 +82,6 @@ def _changed(at: Contact[Jet], change: Callable[[Array], Array]) -> Contact[Jet]
     turned = heading and tuple(map(of, heading))
     reactions = joints and tuple(((of(a), of(b)), (of(c), of(d))) for (a, b), (c, d) in joints)
     return Contact._make([*map(of, jets), reactions, turned])
-
-
-def _mirror_image(c: Number, same: bool) -> Number:
-    """Coefficients in reverse order of the places, and negative unless ``same``."""
-    if not isinstance(c, float):
-        c = c[:, ::-1]
-    return c if same else -c
 
 
 def contact(

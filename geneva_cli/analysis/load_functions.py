@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
-from geneva_cli.analysis.contact import Contact, column, contact, mirrored, rows
+from geneva_cli.analysis.contact import Contact, column, contact, rows
 from geneva_cli.analysis.forces import (
     NEGLIGIBLE,
     KnownValues,
@@ -29,7 +29,7 @@ from geneva_cli.analysis.quantities import PV, QUANTITIES
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Mask, Number, Which, Whole, all_true, array
+from geneva_cli.numerics.arrays import Mask, Number, Whole, all_true, array
 from geneva_cli.numerics.jet import Array, Jet
 
 if TYPE_CHECKING:
@@ -106,12 +106,6 @@ class LoadFunctions:
         self.spins = (
             own or case.guided or "slides" in self.kinds or "sliding_m_s" in names or PV in names
         )
-        radial = all_true(engagement.slot.offset == 0.0)
-        self.mirrored = radial and engagement.mirrored and not self.reactions
-        # the current block of designs: its slice, the designs, and places with their contact
-        self._slice: slice | None = None
-        self._block = batch
-        self._contacts: list[tuple[Array, Contact[Jet]]] = []
 
     @cached_property
     def spread(self) -> Array:
@@ -126,35 +120,18 @@ class LoadFunctions:
         in both halves, and the input gives at least as much as it gets back. In a curved slot a
         torque alone presses on one wall throughout, whose two halves differ in curvature.
         """
-        case = self.batch.case
-        alone = all_true(case.inertia_Nm == 0.0) and not self.engagement.slot.curved
+        case, engagement = self.batch.case, self.engagement
+        radial = all_true(engagement.slot.offset == 0.0)
+        alone = all_true(case.inertia_Nm == 0.0) and not engagement.slot.curved
         alone = alone or all_true(case.resists_Nm == 0.0)
-        return self.mirrored and alone and not (case.rubs or case.guided)
+        alone = alone and not (case.rubs or case.guided or self.reactions)
+        return radial and engagement.mirrored and alone
 
-    def at(self, x: Array, which: Which, order: int) -> ContactState:
-        """The state of some designs at places (m, k), degrees, with derivatives up to an order.
-
-        If the motion is symmetric, mirrored places share their contacts.
-        """
-        if self.n == 1:
-            return self._state(self.batch, x, order)
-        if not isinstance(which, slice):
-            return self._state(taken(self.batch, which), x, order)
-        if which != self._slice:
-            self._slice, self._block, self._contacts = which, taken(self.batch, which), []
-        if not self.mirrored:
-            return self._state(self._block, x, order)
-        _, case, _, wanted = self._block
-        for other, at in self._contacts if order == 0 else ():
-            if np.array_equal(other, -x[:, ::-1]):
-                return ContactState(case, mirrored(at), x.shape, wanted)
-        state = self._state(self._block, x, order)
-        self._contacts.append((x, state.contact))
-        return state
-
-    def _state(self, batch: LoadBatch, x: Array, order: int) -> ContactState:
-        at = contact(batch.engagement, x, order, self.reactions, self.spins)
-        return ContactState(batch.case, at, x.shape, batch.quantities)
+    def at(self, x: Array, which: Whole, order: int) -> ContactState:
+        """The state of some designs at places (m, k), degrees, with derivatives up to an order."""
+        engagement, case, _, wanted = self.batch if self.n == 1 else taken(self.batch, which)
+        at = contact(engagement, x, order, self.reactions, self.spins)
+        return ContactState(case, at, x.shape, wanted)
 
     def at_mid_motion(self, n: int) -> list[MidMotionValues]:
         """The quantities of n designs at mid-motion, which no span of curved slots reaches."""
