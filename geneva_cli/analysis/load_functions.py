@@ -16,7 +16,6 @@ import numpy as np
 from geneva_cli.analysis.contact import Contact, column, contact, rows
 from geneva_cli.analysis.forces import (
     NEGLIGIBLE,
-    KnownValues,
     LoadCase,
     QuantityValue,
     feeding,
@@ -300,7 +299,10 @@ def signed_instant(
     feeds: Number = 1.0
     if "feeds" in kinds:
         feeds = sign("feeds", feeding(case, at, drives, slides))
-    instant = Instant(case, at, drives, slides, feeds, known=KnownValues(torque, rubs))
+    instant = Instant(case, at, drives, slides, feeds)
+    instant.wheel_torque_Nm = torque  # known already
+    if rubs is not None:
+        instant.slip = rubs
     others: dict[str, Callable[[], Jet | None]] = {
         "grip": lambda: instant.grip,
         "leans": lambda: leaning(case, at, drives, slides),
