@@ -3,20 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import cached_property, partial
+from functools import partial
 from itertools import pairwise
 from typing import TypeAlias
 
 from geneva_cli.kinematics.engagement import Anchor
-from geneva_cli.numerics.arrays import (
-    SINGLE,
-    Batchable,
-    Whole,
-    are_alike,
-    are_designs,
-    array,
-    picked,
-)
+from geneva_cli.numerics.arrays import Batchable, Whole, are_designs, array, picked
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 
 Solve: TypeAlias = "Callable[[Anchor, Number], Jet]"
@@ -42,29 +34,20 @@ class Anchors(Batchable):
     def __iter__(self) -> Iterator[Anchor]:
         return iter(self.each)
 
-    @cached_property
-    def alike(self) -> bool:
-        """True if the anchors differ in numbers only, so that one call can serve them all.
-
-        Those of a batch do. A single design's may differ in more, as with a ratio file of gears.
-        """
-        one = isinstance(self.cuts[0], float) and isinstance(self.cuts[-1], float)
-        return not one or are_alike(self.each)
-
     def solved(self, input_deg: Number, solve: Solve) -> Jet:
         """Jet of ``solve(anchor, angles)``, with the anchor that serves each angle in degrees."""
-        of_batch = are_designs(input_deg, self.cuts[0], self.cuts[-1])
-        if (of_batch or not isinstance(input_deg, SINGLE)) and self.alike:
-            x = array(input_deg)
-            first, *others = [x > cut for cut in self.cuts]
-            index: Whole = first.astype(int)  # laid out as the angles
-            for past in others:
-                index = index + past
-            low, high = int(index.min(initial=len(self) - 1)), int(index.max(initial=0))
-            if low >= high:  # any anchor will do for no angles
-                return solve(self.each[high], input_deg)
-            return solve(picked(index - low, self.each[low : high + 1]), input_deg)
-        return piecewise(input_deg, self.cuts, [partial(solve, one) for one in self.each])
+        if not are_designs(input_deg, self.cuts[0], self.cuts[-1]):
+            return piecewise(input_deg, self.cuts, [partial(solve, one) for one in self.each])
+        # the anchors of a batch differ in numbers only, so that one call serves them all
+        x = array(input_deg)
+        first, *others = [x > cut for cut in self.cuts]
+        index: Whole = first.astype(int)  # laid out as the angles
+        for past in others:
+            index = index + past
+        low, high = int(index.min(initial=len(self) - 1)), int(index.max(initial=0))
+        if low >= high:  # any anchor will do for no angles
+            return solve(self.each[high], input_deg)
+        return solve(picked(index - low, self.each[low : high + 1]), input_deg)
 
 
 def cuts(degrees: Sequence[float]) -> list[float]:

@@ -253,20 +253,6 @@ def blocks(count: int, size: int) -> list[slice]:
     return [slice(i, min(i + size, count)) for i in range(0, count, size)] or [slice(0, 0)]
 
 
-def are_alike(records: Sequence[object]) -> bool:
-    """Return True if records differ in Python numbers only, as ``picked`` requires.
-
-    >>> are_alike(((1.0, len), (2.0, len))), are_alike(((1.0, len), (2.0, max)))
-    (True, False)
-    """
-    first = records[0]
-    if all(one is first for one in records):
-        return True
-    if isinstance(first, tuple):
-        return all(are_alike(each) for each in zip(*records, strict=True))
-    return all(isinstance(one, _PLAIN) for one in records)
-
-
 def are_designs(x: Number, *numbers: Number) -> bool:
     """Return True if angles are (n, k), or if one of the numbers is an array."""
     plain = isinstance(x, SINGLE) or x.ndim < 2
