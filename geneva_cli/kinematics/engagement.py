@@ -21,7 +21,6 @@ from geneva_cli.numerics.arrays import (
     all_true,
     array,
     blocks,
-    keep_freed_memory,
     library,
 )
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
@@ -269,8 +268,6 @@ class WheelMotion(Batchable, ABC):
 
         mirrored = self.symmetric and is_mirrored(input_deg)
         first = input_deg[: (len(input_deg) + 1) // 2] if mirrored else input_deg
-        if len(first) > BLOCK:
-            keep_freed_memory()
         out: list[Array] = []
         for block in blocks(len(first), BLOCK):
             values = self._requested(first[block], orders)
