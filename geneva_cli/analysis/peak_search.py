@@ -77,7 +77,7 @@ class _QuantityCurve(NamedTuple):
 
     def __call__(self, x: Array, which: Which, order: int) -> list[Array]:
         p = self.some(which)(np.asfortranarray(x), ORDERS[self.quantity] + order).arrays()
-        return _by_degrees(_quantity(self.quantity, p[1:]), x, order)
+        return by_degrees(_quantity(self.quantity, p[1:]), x, order)
 
 
 class _RoughCurve(NamedTuple):
@@ -88,7 +88,7 @@ class _RoughCurve(NamedTuple):
 
     def __call__(self, x: Array, which: Which, order: int) -> list[Array]:
         p = self.samples(x, which, ORDERS[self.quantity] + order)
-        return _by_degrees(_quantity(self.quantity, p), x, order)
+        return by_degrees(_quantity(self.quantity, p), x, order)
 
 
 def _quantity(quantity: str, p: tuple[Array, ...]) -> list[Array]:
@@ -103,7 +103,8 @@ def _quantity(quantity: str, p: tuple[Array, ...]) -> list[Array]:
     return out
 
 
-def _by_degrees(rates: Sequence[Array], x: Array, order: int) -> list[Array]:
+def by_degrees(rates: Sequence[Array], x: Array, order: int) -> list[Array]:
+    """A function and its derivatives up to an order by degrees, from those by radians."""
     return [np.broadcast_to(v * DEGREE**k, x.shape) for k, v in enumerate(rates[: order + 1])]
 
 

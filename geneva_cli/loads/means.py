@@ -70,8 +70,8 @@ def sums(load: LoadFunctions, pieces: Stretches, bounded: Mask, n: int, plain: b
     rooted = plain and any(name in SQUARED for name in load.names)
     needed = np.tile(bounded, (2 if plain else 1, 1))
     with np.errstate(all="ignore"):
-        ends, poles = (spread(a, w), spread(b, w)), 0.5 * np.pi * w
-        total = span_integrals(Integrands(rows, *ends, rooted), design, needed, poles=poles)
+        spans = Integrands(rows, spread(a, w), spread(b, w), rooted)
+        total = span_integrals(spans, design, needed)
         if load.engagement.slot.curved:
             total += _to_mid_motion(load, n, plain)
     total[~needed] = np.inf
