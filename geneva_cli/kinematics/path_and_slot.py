@@ -15,7 +15,6 @@ from geneva_cli.kinematics.engagement import (
     Slot,
     SlotAxis,
     WheelMotion,
-    is_mirrored,
 )
 from geneva_cli.kinematics.wheels import classic
 from geneva_cli.numerics.angles import radians
@@ -188,17 +187,16 @@ class ClassicMotion(StraightSlotMotion):
             size, at_deg = classic.power_peak(self.l, gap)
         return Peak(size, 0.0 - at_deg)
 
-    def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
-        """Wheel angle and its derivatives in closed form, shaped as in ``WheelMotion.derivatives``.
+    def _requested(self, input_deg: Array, orders: Sequence[int]) -> list[Array]:
+        """Wheel angle and its derivatives in closed form.
 
         Near the ends, angle and velocity are computed from the end to keep their relative accuracy.
         """
-        if not (isinstance(self.l, float) and input_deg.ndim == 1):
-            return super().derivatives(input_deg, orders)
-        from geneva_cli.kinematics.wheels.classic_arrays import ClassicArrays
+        if not isinstance(self.l, float):
+            return super()._requested(input_deg, orders)
+        from geneva_cli.kinematics.wheels import classic_arrays
 
-        arrays = ClassicArrays(self.sign, self.l, self.rest)
-        out = arrays.derivatives(input_deg, orders, is_mirrored(input_deg))
+        out = classic_arrays.derivatives(self.sign, self.l, self.rest, input_deg, orders)
         first = int(input_deg.searchsorted(self.entry_deg + END_DEG))
         last = int(input_deg.searchsorted(self.exit_deg - END_DEG))
         for part, side in ((slice(0, first), -1.0), (slice(last, None), 1.0)):
