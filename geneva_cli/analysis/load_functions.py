@@ -101,10 +101,6 @@ class LoadFunctions:
         # where links carry the roller, bearings and guide need the reactions of joints
         joints = own or "crank_bearing_N" in names or "guide_force_N" in names
         self.reactions = joints and engagement.reactions is not None
-        # these depend on sliding even without friction
-        self.spins = (
-            own or case.guided or "slides" in self.kinds or "sliding_m_s" in names or PV in names
-        )
 
     @cached_property
     def spread(self) -> Array:
@@ -129,7 +125,7 @@ class LoadFunctions:
     def at(self, x: Array, which: Whole, order: int) -> ContactState:
         """The state of some designs at places (m, k), degrees, with derivatives up to an order."""
         engagement, case, _, wanted = self.batch if self.n == 1 else taken(self.batch, which)
-        at = contact(engagement, x, order, self.reactions, self.spins)
+        at = contact(engagement, x, order, self.reactions)
         return ContactState(case, at, x.shape, wanted)
 
     def at_mid_motion(self, n: int) -> list[MidMotionValues]:
@@ -326,7 +322,7 @@ def _spread_deg(engagement: Engagement, case: LoadCase) -> Array:
     """
     # not at mid-motion itself, where a curved slot may have no slopes
     x = 0.01 * array(engagement.exit_deg)
-    _, _, lever, offset, *_ = at = contact(engagement, x, 2, reactions=False, spins=False)
+    _, _, lever, offset, *_ = at = contact(engagement, x, 2, reactions=False)
     velocity = at.velocity
     with np.errstate(all="ignore"):
         # arrays, as the quotient of a jet's floats by 0 is an error

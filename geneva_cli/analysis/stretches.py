@@ -89,7 +89,7 @@ def _between(engagement: Engagement, case: LoadCase, before: Stretch, after: Str
     if b - a > NEAR_CUSP * engagement.motion_deg * 1e-3 and before.drives != after.drives:
 
         def torque(travel: float) -> tuple[float, float]:
-            at = contact(engagement, a + travel, 1, reactions=False, spins=False)
+            at = contact(engagement, a + travel, 1, reactions=False)
             value, rise = wheel_torque(case, at).scalars()
             return value, rise * DEGREE
 
