@@ -50,13 +50,10 @@ def greatest(mechanism: Mechanism, name: str) -> Peak[float]:
     return Peak(float(most[0]), float(at_deg[0]))
 
 
-class Slope(NamedTuple):
-    """The square of the pressure angle's tangent, as a quantity of ``load_peaks``."""
-
-    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
-        """The quantity, which is bounded where its denominator is not 0."""
-        slope = i.at.offset / i.at.lever
-        return QuantityValue(slope * slope)
+def slope_squared(i: Instant[Jet]) -> QuantityValue[Jet]:
+    """The square of the pressure angle's tangent, bounded where its denominator is not 0."""
+    slope = i.at.offset / i.at.lever
+    return QuantityValue(slope * slope)
 
 
 @Known
@@ -100,7 +97,7 @@ def greatest_pressures(mechanism: Mechanism) -> PeakArray:
     curved = [e for e in mechanism.engagements if not is_straight(e)]
     if not all(np.all(retraces(engagement)) for engagement in curved):
         return Peak(*np.full((2, mechanism.designs), np.nan))
-    own: dict[str, LoadQuantity] = {"slope": Slope()}
+    own: dict[str, LoadQuantity] = {"slope": slope_squared}
     case = load_case(mechanism)._replace(inertia_Nm=0.0, hertz=None, efficiency=1.0).frictionless
     peak = load_peaks(mechanism, tuple(own), own, case)["slope"]
     # it is 0 throughout a radial slot
