@@ -149,8 +149,8 @@ def _greatest_square(engagement: Engagement, ratio: Array, frame: float) -> tupl
         both = acceleration * acceleration + turned * turned
         return by_degrees(both.arrays(), x, order)
 
-    places = [np.broadcast_to(x, (m, 1)).astype(float) for x in engagement.motion.breaks_deg]
-    return greatest_sizes(square, *places, unsure=engagement.motion.BREAKS_TO)
+    motion = engagement.motion
+    return greatest_sizes(square, *motion.breaks(m), unsure=motion.BREAKS_TO)
 
 
 def _swing(mechanism: Mechanism) -> Array:

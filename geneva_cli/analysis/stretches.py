@@ -27,10 +27,7 @@ from geneva_cli.numerics.search import Stretches
 
 def spans_of(engagement: Engagement, n: int) -> list[tuple[Array, Array]]:
     """Ends of the smooth parts of a motion, one after the other: (n, 1) each."""
-    places = [
-        np.broadcast_to(np.asarray(x, dtype=float), (n, 1)) for x in engagement.motion.breaks_deg
-    ]
-    out = []
+    places, out = engagement.motion.breaks(n), []
     pieces = smooth_pieces(places, engagement.motion.BREAKS_TO)
     for (a, b), (start, end) in zip(pairwise(places), pieces, strict=True):
         if engagement.slot.curved:

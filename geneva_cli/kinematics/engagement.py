@@ -243,6 +243,12 @@ class WheelMotion(Batchable, ABC):
         """Entry, places where a derivative may jump, mid-motion, and exit, in degrees."""
         return (self.entry_deg, 0.0, self.exit_deg)
 
+    def breaks(self, m: int) -> list[Array]:
+        """The places of ``breaks_deg`` as arrays of m designs, (m, 1) each."""
+        import numpy as np
+
+        return [np.broadcast_to(np.asarray(x, dtype=float), (m, 1)) for x in self.breaks_deg]
+
     @property
     def seams_deg(self) -> tuple[float, ...]:
         """Entry, every place where another formula takes over, and exit, in degrees.
