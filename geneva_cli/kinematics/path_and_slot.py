@@ -22,7 +22,6 @@ from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import (
     Batchable,
     Whole,
-    are_designs,
     array,
     library,
     parameter,
@@ -77,9 +76,9 @@ class AnchoredPath(Batchable):
 
     def solved(self, input_deg: Number, solve: Callable[[Anchor, Number], Jet]) -> Jet:
         """Jet of ``solve(anchor, angles)``, with the anchor that serves each angle in degrees."""
-        if not are_designs(input_deg, self.cuts[0], self.cuts[-1]):
+        if isinstance(self.cuts[0], float) and isinstance(self.cuts[-1], float):
             return piecewise(input_deg, self.cuts, [partial(solve, one) for one in self.anchors])
-        # the anchors of a batch differ in numbers only, so that one call serves them all
+        # the anchors of a batch differ in numbers only, so that one call serves all of them
         x = array(input_deg)
         first, *others = [x > cut for cut in self.cuts]
         index: Whole = first.astype(int)  # laid out as the angles

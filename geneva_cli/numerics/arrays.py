@@ -252,12 +252,6 @@ def blocks(count: int, size: int) -> list[slice]:
     return [slice(i, min(i + size, count)) for i in range(0, count, size)] or [slice(0, 0)]
 
 
-def are_designs(x: Number, *numbers: Number) -> bool:
-    """Return True if angles are (n, k), or if one of the numbers is an array."""
-    plain = isinstance(x, SINGLE) or x.ndim < 2
-    return not (plain and all(isinstance(one, float) for one in numbers))
-
-
 def all_true(condition: Truth) -> bool:
     """Return True if a condition, or each element of it, is true."""
     return condition if isinstance(condition, bool) else bool(condition.all())
