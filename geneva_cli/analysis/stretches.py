@@ -27,10 +27,7 @@ from geneva_cli.numerics.search import Stretches
 
 def spans_of(engagement: Engagement, n: int) -> list[tuple[Array, Array]]:
     """Ends of the smooth parts of a motion, one after the other: (n, 1) each."""
-    places = [
-        np.broadcast_to(np.asarray(x, dtype=float), (n, 1)) for x in engagement.motion.breaks_deg
-    ]
-    out = []
+    places, out = engagement.motion.breaks(n), []
     pieces = smooth_pieces(places, engagement.motion.BREAKS_TO)
     for (a, b), (start, end) in zip(pairwise(places), pieces, strict=True):
         if engagement.slot.curved:
@@ -96,7 +93,7 @@ def _between(engagement: Engagement, case: LoadCase, before: Stretch, after: Str
     if b - a > NEAR_CUSP * engagement.motion_deg * 1e-3 and before.drives != after.drives:
 
         def torque(travel: float) -> tuple[float, float]:
-            at = contact(engagement, a + travel, 1, reactions=False, spins=False)
+            at = contact(engagement, a + travel, 1, reactions=False)
             value, rise = wheel_torque(case, at).scalars()
             return value, rise * DEGREE
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from geneva_cli.analysis.carried import inertia_kgm2
 from geneva_cli.analysis.contact import is_straight
-from geneva_cli.analysis.forces import Forces, LoadCase, QuantityValue, load_case
+from geneva_cli.analysis.forces import LoadCase, QuantityValue, load_case
 from geneva_cli.analysis.instant import Instant
 from geneva_cli.analysis.load_functions import LoadFunctions, LoadQuantity, load_batch
 from geneva_cli.analysis.peak_search import PeakArray
@@ -50,13 +50,10 @@ def greatest(mechanism: Mechanism, name: str) -> Peak[float]:
     return Peak(float(most[0]), float(at_deg[0]))
 
 
-class Slope(NamedTuple):
-    """The square of the pressure angle's tangent, as a quantity of ``load_peaks``."""
-
-    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
-        """The quantity, which is bounded where its denominator is not 0."""
-        slope = i.at.offset / i.at.lever
-        return QuantityValue(slope * slope)
+def slope_squared(i: Instant[Jet]) -> QuantityValue[Jet]:
+    """The square of the pressure angle's tangent, bounded where its denominator is not 0."""
+    slope = i.at.offset / i.at.lever
+    return QuantityValue(slope * slope)
 
 
 @Known
@@ -100,7 +97,7 @@ def greatest_pressures(mechanism: Mechanism) -> PeakArray:
     curved = [e for e in mechanism.engagements if not is_straight(e)]
     if not all(np.all(retraces(engagement)) for engagement in curved):
         return Peak(*np.full((2, mechanism.designs), np.nan))
-    own: dict[str, LoadQuantity] = {"slope": Slope()}
+    own: dict[str, LoadQuantity] = {"slope": slope_squared}
     case = load_case(mechanism)._replace(inertia_Nm=0.0, hertz=None, efficiency=1.0).frictionless
     peak = load_peaks(mechanism, tuple(own), own, case)["slope"]
     # it is 0 throughout a radial slot
@@ -141,15 +138,16 @@ class Slowness(NamedTuple):
     inertia is w² times that at 1 rad/s, q. So the limit holds up to w² = (limit - q1 M) / q.
     """
 
-    of: Callable[[Forces[Jet]], Jet]
+    of: Callable[[Instant[Jet]], Jet]
     limit: float
     case: LoadCase  # at 1 rad/s
 
     def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
         """The quantity, which is unbounded where the place allows no speed."""
         unit = self.case.at_speed(0.0)._replace(resists_Nm=1.0)
-        factor = self.of(Forces(unit, i.at, i.drives, i.slides))
-        load = self.of(Forces(self.case._replace(resists_Nm=0.0), i.at, i.drives, i.slides))
+        factor = self.of(Instant(unit, i.at, i.drives, i.slides, i.feeds))
+        free = self.case._replace(resists_Nm=0.0)
+        load = self.of(Instant(free, i.at, i.drives, i.slides, i.feeds))
         left = self.limit - factor * self.case.resists_Nm
         # Where the wheel is not driven, any speed keeps the limit. The margin is then that next to
         # it, as at rest the load's sign is rounding.
@@ -160,14 +158,14 @@ class Slowness(NamedTuple):
 def _slowness(engagement: Engagement, case: LoadCase, limits: Mapping[str, float]) -> float:
     """The greatest of 1 / (highest speed that a place allows)²; infinite if one allows no speed."""
 
-    def square(result: Forces[Jet]) -> Jet:
-        assert result.square is not None  # there is a face width
-        return result.square
+    def square(i: Instant[Jet]) -> Jet:
+        assert i.stress_squared is not None  # there is a face width
+        return i.stress_squared
 
     eta = case.efficiency
-    factors: dict[str, list[Callable[[Forces[Jet]], Jet]]] = {
-        FORCE: [lambda result: result.force],
-        TORQUE: [lambda result: result.shaft * (1.0 / eta), lambda result: -result.shaft],
+    factors: dict[str, list[Callable[[Instant[Jet]], Jet]]] = {
+        FORCE: [lambda i: i.force_N],
+        TORQUE: [lambda i: i.lossless_torque_Nm * (1.0 / eta), lambda i: -i.lossless_torque_Nm],
         STRESS: [square],
     }
     own: dict[str, LoadQuantity] = {}

@@ -40,7 +40,6 @@ from geneva_cli.numerics.arrays import (
     Number,
     Which,
     Whole,
-    keep_freed_memory,
     numbers_of,
     record_of,
 )
@@ -92,7 +91,6 @@ def many(spec: Spec, varied: Mapping[str, object]) -> Many:
     if wrong:
         raise ValueError(f"{', '.join(wrong)}: cannot vary within a machine")
     (n,) = lengths
-    keep_freed_memory()
     columns = {**varied, **{key: values[:, None] for key, values in arrays.items()}}
     with np.errstate(all="ignore"), marking() as marks:
         try:

@@ -16,7 +16,7 @@ from geneva_cli.analysis.motion import motion_table
 from geneva_cli.analysis.peak_search import search_peaks
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.engagement import WheelMotion
-from geneva_cli.kinematics.wheels.classic_arrays import ClassicArrays
+from geneva_cli.kinematics.path_and_slot import ClassicMotion
 
 N = 2001
 
@@ -40,7 +40,7 @@ class Counter:
 @pytest.fixture
 def arrays(monkeypatch):
     """The closed forms of classic wheels over arrays."""
-    return Counter(monkeypatch, ClassicArrays, "_block", lambda orders, *rest: tuple(orders))
+    return Counter(monkeypatch, ClassicMotion, "_requested", tuple)
 
 
 def kinds(cls):

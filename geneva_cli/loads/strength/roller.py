@@ -20,7 +20,8 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.contact import Contact, contact, is_straight
-from geneva_cli.analysis.forces import Forces, LoadCase, load_case, sliding
+from geneva_cli.analysis.forces import LoadCase, load_case
+from geneva_cli.analysis.instant import Instant
 from geneva_cli.analysis.load_functions import (
     LoadBatch,
     LoadFunctions,
@@ -153,14 +154,14 @@ def passing(case: LoadCase, at: Contact[Jet], drives: Number, slides: Number) ->
 
     The first is the signed speed along the slot.
     """
-    forces = Forces(case, at, drives, slides)
-    rubs = abs(sliding(at, drives, case.radius).arrays()[0]) * case.L
+    here = Instant(case, at, drives, slides, 1.0)
+    rubs = abs(here.slip.arrays()[0]) * case.L
     with np.errstate(all="ignore"):
         # near the torque's change of sign the force may be slightly negative by rounding
-        force = np.maximum(forces.force.c[0], 0.0)
-        force = np.where(forces.grip.c[0] > 0.0, force, np.inf) * at.touches.c[0]
+        force = np.maximum(here.force_N.c[0], 0.0)
+        force = np.where(here.grip.c[0] > 0.0, force, np.inf) * at.touches.c[0]
         # nothing presses on a wall if nothing must be turned
-        force = np.where(forces.torque.c[0] == 0.0, 0.0, force)
+        force = np.where(here.wheel_torque_Nm.c[0] == 0.0, 0.0, force)
         along = at.along.arrays()[0] * case.L * at.touches.c[0]
         return [along, rubs, force * rubs, force**LIFE_EXPONENT * rubs]
 

@@ -177,7 +177,7 @@ def _bending_squared(i: Instant[Jet], axis: _Axis, overhang: Number) -> Jet:
     lever = axis.up * -b + L
     turn = axis.away - axis.across * (i.drives * rub)
     bent = lever * lever * (1.0 + rub * rub) + turn * turn * ((b - L) * (b + L))
-    return i.forces.force * i.forces.force * bent
+    return i.force_N * i.force_N * bent
 
 
 def wheel_forces(mechanism: Mechanism) -> ShaftForces:
