@@ -531,6 +531,16 @@ def test_the_carrier_has_an_eye_for_each_wheel():
     assert frame.name == "frame"
 
 
+def test_a_carrier_below_shafts_that_all_end_above_it():
+    """Their bearings are elsewhere: it has no holes, and eyes of L/20 about both axes."""
+    short = Size(crank_shaft_low_mm=-5.0, wheel_shaft_low_mm=-5.0)
+    design = Design(External(4), Carousel(), size=short)
+    (carrier,) = plates(design.drawing("frame").solid)
+    assert carrier.holes == ()
+    eyes = Polygon(vertices(carrier.outline, 1e-3))
+    assert eyes.bounds == pytest.approx((-5.0, -5.0, 105.0, 5.0), abs=2e-3)
+
+
 def test_the_vibration_says_how_far_the_unbalance_winds_up():
     """2 kg at 50 mm on a carrier of 100 mm: m e L w² at 2 pi rad/s, turned by it over 1e4 N m."""
     bodies = (Mass("point", mass_kg=2.0, radius_mm=50.0, angle_deg=30.0),)

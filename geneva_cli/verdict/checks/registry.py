@@ -116,6 +116,7 @@ SPHERE: Checks = {
 }
 # Checks of a rack's machine at rest.
 RACK: Checks = {
+    "beside_shafts_mm": "shafts:passing_rack",
     "gear_gap_mm": "shafts:passing_rack_gears",
     "cut_plate_mm": "process:thickest_of_rack",
     "cut_slot_mm": "process:width_in_rack",
