@@ -92,11 +92,11 @@ def peak_bounds(
     moments = _coefficients(width, course.moment, course.moment_slope)
     squares = _coefficients(width, square, -course.short_slope)
     inside = nodes[1:] <= motion
-    least = most = np.where(inside, moments[0] / squares[0], 0.0)
+    least = most = moments[0] / squares[0]
     # A quotient of cubics is between the quotients of their Bernstein coefficients.
     for moment, square in zip(moments[1:3], squares[1:3], strict=True):
         most = np.maximum(most, np.where(square > 0.0, moment / square, np.inf))
-    return least.max(axis=0), most.max(axis=0, where=inside, initial=0.0)
+    return tuple(np.where(inside, x, 0.0).max(axis=0) for x in (least, most))
 
 
 def _open(places: Array, course: PinCourse, inside: Mask, low: Array, far: Array) -> Mask:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from itertools import accumulate
 from typing import NamedTuple, TypeAlias, cast
 
 import numpy as np
@@ -113,9 +114,9 @@ def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
         rows = np.arange(counts[which].max(initial=1))[:, None]
         # After its own last sample a column repeats it.
         at = flat.taken(place[starts[which] + np.minimum(rows, counts[which] - 1)])
-        angle = np.zeros(at.phi.shape)
         turned = _turned(at.taken(slice(None, -1)), at.taken(slice(1, None)))
-        np.cumsum(turned, axis=0, out=angle[1:])
+        # by rows: NumPy's own sum along columns takes five times as long
+        angle = np.stack(list(accumulate(turned, initial=np.zeros(len(which)))))
         yield PathSamples(which, at, angle)
 
 
