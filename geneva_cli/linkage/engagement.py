@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.kinematics import path_and_slot
-from geneva_cli.kinematics.engagement import Anchor, Carrier, Engagement
+from geneva_cli.kinematics.engagement import Anchor, Carrier, Engagement, RoughMotion
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.kinematics.roller_path import (
     LinkRate,
@@ -39,23 +39,31 @@ ANCHORS = 4  # anchors on either side of the middle: near the wheel the path is 
 
 
 class LinkageMotion(StraightSlotMotion):
-    """Motion of a wheel on a linkage; ``centre`` is the wheel's centre in the path's frame."""
+    """Motion of a wheel on a linkage."""
 
     def __init__(
-        self,
-        path: AnchoredPath,
-        half_step: float,
-        body: LinkRate,
-        centre: tuple[float, float],
+        self, path: AnchoredPath, half_step: float, body: LinkRate, centre: tuple[float, float]
     ) -> None:
         super().__init__(path, half_step, mirrored=False)
-        self.body, self.centre = body, centre
+        self.about_centre = RoughLinkageMotion(body, *centre)
+
+    @property
+    def rough(self) -> RoughMotion:
+        """The motion without anchors."""
+        return self.about_centre
+
+
+class RoughLinkageMotion(NamedTuple):
+    """Motion of a wheel whose centre is at (x, y) in the path's frame."""
+
+    body: LinkRate
+    x: float
+    y: float
 
     def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
         """Speed and its derivatives at arrays of angles, computed from the path without anchors."""
         x, y = self.body.path.at(radians(input_deg) + self.body.middle, order + 1)
-        rate = turning(x - self.centre[0], y - self.centre[1]) * self.body.sense
-        return rate.arrays()
+        return (turning(x - self.x, y - self.y) * self.body.sense).arrays()
 
 
 def engagement_of(path: RollerPath, fit: Fit, step: HalfStep) -> tuple[Engagement, float]:
