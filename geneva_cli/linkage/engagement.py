@@ -131,26 +131,29 @@ def engagement_of_batch(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[E
     centre = ((p + rho * t) + (q - rho * u)) / 2
     places = [p, *(long_place(path, *crank) for crank in cranks[1:-1]), q]
     rays = [place - centre for place in places]
+    near = [ray.astype(complex) for ray in rays]
     L = np.abs(centre)
     half_way = rays[0] / np.abs(rays[0]) + rays[-1] / np.abs(rays[-1])
-    inside = [sense * rounded(np.angle(ray * half_way.conj())) for ray in rays[1:-1]]
+    # Arc tangents of long doubles take ten times as long.
+    turns = [(ray * half_way.conj()).astype(complex) for ray in rays[1:-1]]
+    inside = [sense * parameter(np.angle(turn)) for turn in turns]
     ends = (-1.0, *[0.0] * len(inside), 1.0)
     distance = rounded(L)
     anchors = tuple(
         Anchor(
             rounded(gap * i * (180 / LONG_PI)),
             wheel,
-            rounded(np.abs(ray) / L),
+            parameter(np.abs(ray)) / distance,
             along_ray(
                 path.about(exactly(sine), exactly(cosine)),
-                (rounded(ray.real), rounded(ray.imag)),
+                (parameter(ray.real), parameter(ray.imag)),
                 sense,
                 distance,
                 end,
             ),
         )
         for i, (sine, cosine), ray, wheel, end in zip(
-            range(-ANCHORS, ANCHORS + 1), cranks, rays, (-b, *inside, b), ends, strict=True
+            range(-ANCHORS, ANCHORS + 1), cranks, near, (-b, *inside, b), ends, strict=True
         )
     )
     ahead = sense * rounded(np.angle(-rays[ANCHORS] * centre.conj()))
