@@ -8,6 +8,7 @@ cubics of the crank angle. They show if an entry and an exit can have a line in 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
@@ -96,20 +97,17 @@ def boxes_of(samples: PathSamples, b: Array) -> Boxes:
         lines = _lines(at, angle, origin, side * lean)
         arcs = _arcs(phi, width, lines[:, :-1], lines[:, 1:])
         flat = Arcs._make(x.reshape(*x.shape[:-2], -1) for x in arcs)
-        sides.append((flat, arcs.spans()))
+        sides.append((flat, [_two_turns(span, whole) for span in arcs.spans()]))
     parts = []
     for sense, ((one, entries), (two, exits)) in ((1.0, sides), (-1.0, sides[::-1])):
         use = possible & arcs.turns(sense)  # the tangent turns alike for both sides
-        first, last, turns = _overlaps(use, entries, exits, whole)
-        row = first % len(design)
+        row, first, last, turns = _overlaps(use, entries, exits)
         turn = turns * whole.take(row)
-        strip, cubics = one.strip.take(first, axis=-1), two.cubics.take(last, axis=-1)
-        near = np.flatnonzero(_may_cross(strip, cubics, turn))
-        row, first, last = row[near], first[near], last[near]
-        one, two = one.taken(first), two.taken(last)
-        two.phi[:] += math.tau * turns[near]
-        box = (samples.which[row], np.full(len(row), sense), one, two, turn[near], origin[row])
-        parts.append(_crossing(Boxes(*box)))
+        near = _crossing(one, first, two, last, turn)
+        row, entry, exit_ = row[near], one.taken(first[near]), two.taken(last[near])
+        exit_.phi[:] += math.tau * turns[near]
+        senses = np.full(len(row), sense)
+        parts.append(Boxes(samples.which[row], senses, entry, exit_, turn[near], origin[row]))
     boxes: Boxes = joined(parts, -1)
     return boxes
 
@@ -148,42 +146,49 @@ def _may_cross(strip: Array, cubics: Array, turn: Array) -> Mask:
     return may
 
 
-def _crossing(boxes: Boxes) -> Boxes:
-    """Boxes whose exit may cross the entry's strip, and the other way round."""
-    entry, exit_, turn = boxes.entry, boxes.exit, boxes.turn
-    by_exit = _may_cross(entry.strip, exit_.cubics, turn)
-    return boxes.taken(np.flatnonzero(by_exit & _may_cross(exit_.strip, entry.cubics, -turn)))
+def _crossing(one: Arcs, first: Whole, two: Arcs, last: Whole, turn: Array) -> Whole:
+    """Pairs of arcs for entry and exit of which each may cross the strip of the other."""
+    strip, cubics = one.strip.take(first, axis=-1), two.cubics.take(last, axis=-1)
+    near = np.flatnonzero(_may_cross(strip, cubics, turn))
+    strip, cubics = two.strip.take(last[near], axis=-1), one.cubics.take(first[near], axis=-1)
+    return near[_may_cross(strip, cubics, -turn[near])]
+
+
+def _two_turns(values: Array, whole: Array) -> NDArray[np.float32]:
+    """Angles and offsets (2, n, m) in a turn and the next, (2, 2 n, m); angles rise by ``whole``.
+
+    Single numbers are in the same order, so that no overlap is lost.
+    """
+    next_turn = values + np.stack((whole, 0.0 * whole))[:, None]
+    return np.concatenate((values, next_turn), axis=1, dtype=np.float32, casting="same_kind")
 
 
 def _overlaps(
-    use: Mask, entries: tuple[Array, Array], exits: tuple[Array, Array], whole: Array
-) -> tuple[Whole, Whole, Whole]:
-    """Entries and exits in a turn after each whose spans overlap: their numbers, and turns.
+    use: Mask, entries: Sequence[NDArray[np.float32]], exits: Sequence[NDArray[np.float32]]
+) -> tuple[Whole, Whole, Whole, Mask]:
+    """Entries and exits in a turn after each whose spans overlap: design, numbers, and turns.
 
-    Angles rise by ``whole`` in a turn. ``turns`` is 1 for an exit in the turn after the entry's.
+    Spans are the least and greatest angles and offsets in two turns. ``turns`` is 1 for an exit in
+    the turn after the entry's.
     """
     count, designs = use.shape
-    may = use[:, None] & _later(use, use)
-
-    def single(x: Array) -> NDArray[np.float32]:
-        return x.astype(np.float32)  # in order still, so that no overlap is lost
-
-    for least, most, low, high, rise in zip(*entries, *exits, (whole, 0.0), strict=True):
-        may &= _later(single(low), single(low + rise)) <= single(most)[:, None]
-        may &= _later(single(high), single(high + rise)) >= single(least)[:, None]
+    may = use[:, None] & _later(np.concatenate((use, use)))
+    for least, most, low, high in zip(*entries, *exits, strict=True):
+        may &= _later(low) <= most[:count, None]
+        may &= _later(high) >= least[:count, None]
     place = np.flatnonzero(may)
-    pair, design = np.divmod(place, designs)
-    entry, after = np.divmod(pair, count - 1)
-    exit_ = entry + after + 1
+    pair = place // designs
+    entry = pair // (count - 1)
+    exit_ = pair - (count - 2) * entry + 1
+    design = place - designs * pair
     turns = exit_ >= count
-    return entry * designs + design, (exit_ - count * turns) * designs + design, turns
+    return design, entry * designs + design, (exit_ - count * turns) * designs + design, turns
 
 
-def _later(this: NDArray[T], following: NDArray[T]) -> NDArray[T]:
-    """Values of the other arcs after each arc, (n, n - 1, m), from those of two turns, (n, m)."""
-    both = np.concatenate((this, following))
-    step, size = both.strides
-    return as_strided(both[1:], (len(this), len(this) - 1, both.shape[1]), (step, step, size))
+def _later(both: NDArray[T]) -> NDArray[T]:
+    """Values of the other arcs after each arc, (n, n - 1, m), from those of two turns, (2 n, m)."""
+    count, (step, size) = len(both) // 2, both.strides
+    return as_strided(both[1:], (count, count - 1, both.shape[1]), (step, step, size))
 
 
 class Crossings(NamedTuple):
@@ -227,17 +232,20 @@ def halved(path: RollerPath, boxes: Boxes, b: Array) -> Boxes:
     lean = boxes.sense * (b[boxes.which, 0] - 0.5 * math.pi)
     which, origin, lean = np.tile(boxes.which, 2), np.tile(boxes.origin, 2), np.append(lean, -lean)
     halves = _halves(path.roughly(which), joined([boxes.entry, boxes.exit], -1), origin, lean)
-    low, high = halves.spans()
     turns = halves.turns(np.tile(boxes.sense, 4))
     box = np.tile(np.arange(count), 4)
     entry, exit_ = (box + 2 * count * np.repeat(of, count) for of in ((0, 0, 1, 1), (0, 1, 0, 1)))
     exit_ += count
     turn = boxes.turn[box]
-    ahead = np.stack((turn, 0.0 * turn))
-    overlap = (low[:, exit_] + ahead <= high[:, entry]) & (high[:, exit_] + ahead >= low[:, entry])
-    may = np.flatnonzero(overlap.all(axis=0) & turns[entry] & turns[exit_])
-    one, two, box, turn = halves.taken(entry[may]), halves.taken(exit_[may]), box[may], turn[may]
-    return _crossing(Boxes(boxes.which[box], boxes.sense[box], one, two, turn, boxes.origin[box]))
+    may = turns[entry] & turns[exit_]
+    for low, high, ahead in zip(*halves.spans(), (turn, 0.0), strict=True):
+        may &= low.take(exit_) + ahead <= high.take(entry)
+        may &= high.take(exit_) + ahead >= low.take(entry)
+    may = np.flatnonzero(may)
+    entry, exit_, box, turn = entry[may], exit_[may], box[may], turn[may]
+    near = _crossing(halves, entry, halves, exit_, turn)
+    box, sides = box[near], [halves.taken(side[near]) for side in (entry, exit_)]
+    return Boxes(boxes.which[box], boxes.sense[box], *sides, turn[near], boxes.origin[box])
 
 
 def _halves(path: RollerPath, arcs: Arcs, origin: Complex, lean: Array) -> Arcs:
