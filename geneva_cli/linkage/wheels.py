@@ -20,12 +20,18 @@ from geneva_cli.kinematics.paths.course import (
     open_intervals,
     peak_bounds,
 )
-from geneva_cli.kinematics.paths.pairs import DOUBLE_ROOT_SLOPE, EndPairs, newton, pairs, residual
+from geneva_cli.kinematics.paths.pairs import (
+    DOUBLE_ROOT_SLOPE,
+    SAME_ENTRY,
+    EndPairs,
+    firsts,
+    newton,
+    pairs,
+    residual,
+)
 from geneva_cli.kinematics.paths.samples import PathSamples, joined, points, sampled
 from geneva_cli.kinematics.roller_path import RollerPath
 from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
-
-SAME_ENTRY = 1e-6  # radians: entries nearer to each other are one
 
 
 class PathWheels(NamedTuple):
@@ -70,7 +76,6 @@ def wheels(path: RollerPath, b: Array) -> WheelSearch:
     with np.errstate(all="ignore"):
         every = list(sampled(path, len(b)))
         ends, doubtful = pairs(path, every, b)
-        ends = ends.taken(_firsts(ends))
         rest = residual(ends, b)
         steep = np.abs(rest.det) >= DOUBLE_ROOT_SLOPE * np.abs(rest.by_exit)
         doubtful = doubtful.taken(~_lead_to(doubtful, ends.taken(steep), b))
@@ -78,7 +83,7 @@ def wheels(path: RollerPath, b: Array) -> WheelSearch:
         # A path that stops has no direction there; boxes around such a point hold no pair.
         doubtful = doubtful.taken(np.flatnonzero(np.isfinite(doubtful.at.phi).all(axis=1)))
         # doubtful entries within 1e-4 radians lead to one wheel
-        doubtful = doubtful.taken(_firsts(doubtful, 1e-4))
+        doubtful = doubtful.taken(firsts(doubtful.which, doubtful.at.phi, 1e-4))
         ends, sense = ends.taken(steep), rest.sense[steep]
         block = np.zeros(len(b), dtype=int)
         for i, samples in enumerate(every):
@@ -93,15 +98,6 @@ def followed(path: RollerPath, phi: Array, sense: Array) -> PathWheels:
     with np.errstate(all="ignore"):
         ends = EndPairs(np.zeros(len(phi), dtype=int), points(path, phi))
         return _followed(path, [(next(sampled(path, 1)), ends, sense)])
-
-
-def _firsts(ends: EndPairs, same: float = SAME_ENTRY) -> Whole:
-    """First of each group of equal pairs."""
-    place = ends.at.phi[:, 0] % math.tau
-    order = np.lexsort((place, ends.which))
-    new = np.ones(len(order), dtype=bool)
-    new[1:] = (np.diff(ends.which[order]) != 0) | (np.diff(place[order]) > same)
-    return order[new]
 
 
 def _lead_to(doubtful: EndPairs, ends: EndPairs, b: Array) -> Mask:

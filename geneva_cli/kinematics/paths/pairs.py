@@ -26,6 +26,7 @@ radians of the crank counts as a cusp, and pairs in it may be missed.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from typing import NamedTuple
 
@@ -39,6 +40,7 @@ from geneva_cli.numerics.tolerances import ROUNDED
 
 # Slope of the index angle along the family of pairs: a root with less is double, or nearly so.
 DOUBLE_ROOT_SLOPE = 1e-5
+SAME_ENTRY = 1e-6  # radians: entries nearer to each other are one
 
 
 class EndPairs(NamedTuple):
@@ -76,23 +78,40 @@ class Residual(NamedTuple):
 
 
 def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> PairSearch:
-    """All pairs for designs with half index angles b, (n, 1), from samples of their paths."""
+    """All pairs for designs with half index angles b, (n, 1), from samples of their paths.
+
+    They are in the order of designs and entries.
+    """
     boxes = joined([boxes_of(some, b) for some in samples], -1)
-    solved, halvings = [], 9  # of a box
+    roots, halvings = [], 9  # of a box
     for depth in range(halvings + 1):
         crossing = crossings(boxes)
         last = depth == halvings
         tried = np.flatnonzero(crossing.one | last)
-        ends, close = _solved(path, boxes.taken(tried), crossing.phi[tried], b)
-        solved.append(ends.taken(close))
+        phi, close = _solved(path, boxes.taken(tried), crossing.phi[tried], b)
+        which = boxes.which[tried]
+        roots.append((which[close], phi[close]))
         rest = np.concatenate((np.flatnonzero(~(crossing.one | crossing.none)), tried[~close]))
         if last or not len(rest):
             break
         boxes = halved(path, boxes.taken(rest), b)
-    ends = ends.taken(np.flatnonzero(~close))
+    which_of_root, at_root = joined(roots)
+    first = firsts(which_of_root, at_root)
+    ends = ends_at(path, which_of_root[first], at_root[first])
+    doubtful = ends_at(path, which[~close], phi[~close])
     # a pair without a root whose index angle is this near, in radians, may be a double root
-    near = np.flatnonzero(np.abs(residual(ends, b).excess) < 1e-5)
-    return PairSearch(joined(solved), ends.taken(near))
+    near = np.flatnonzero(np.abs(residual(doubtful, b).excess) < 1e-5)
+    return PairSearch(ends, doubtful.taken(near))
+
+
+def firsts(which: Whole, phi: Array, same: float = SAME_ENTRY) -> Whole:
+    """First of each group of pairs of a design with equal entries."""
+    # by designs and entries: a turn is less than 8 radians
+    key = 8.0 * which + phi[:, 0] % math.tau
+    order = np.argsort(key, kind="stable")
+    new = np.ones(len(order), dtype=bool)
+    new[1:] = np.diff(key[order]) > same
+    return order[new]
 
 
 def ends_at(path: RollerPath, which: Whole, phi: Array) -> EndPairs:
@@ -126,8 +145,8 @@ def newton(ends: EndPairs, rest: Residual) -> Array:
     return step
 
 
-def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[EndPairs, Mask]:
-    """Newton's method from places in boxes: its end points, and a mask of those in their box."""
+def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[Array, Mask]:
+    """Newton's method from places in boxes: where it ends, and a mask of ends in their box."""
     low = np.stack((boxes.entry.phi, boxes.exit.phi), axis=1)
     width = np.stack((boxes.entry.width, boxes.exit.width), axis=1)
     high = low + width
@@ -147,4 +166,4 @@ def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[EndPa
         done = np.abs(move).max(axis=1) < 1e-6
         close[live] = done & inside
         live = live[~done & inside]
-    return ends_at(path, boxes.which, phi), close
+    return phi, close
