@@ -184,9 +184,9 @@ def _block_followed(
     node[[0, -1]] = count
     node[exit_, np.arange(len(kept))] = count + 1
     node = node * len(row) + kept
-    nodes, *full = (x.take(node) for x in (since, *course))
+    nodes, full = since.take(node), PinCourse._make(x.take(node) for x in course)
     nodes[-1] = math.tau
-    wheel, ends, motion, full = wheel.taken(kept), ends.taken(kept), motion[kept], PinCourse(*full)
+    wheel, ends, motion = wheel.taken(kept), ends.taken(kept), motion[kept]
     bounds = peak_bounds(nodes, motion, wheel, full)
     every = PathWheels(ends.which, ends.at.phi, wheel.sense, *bounds)
     return every, wheel, open_intervals(nodes, full, motion)

@@ -244,8 +244,8 @@ def halved(path: RollerPath, boxes: Boxes, b: Array) -> Boxes:
     may = np.flatnonzero(may)
     entry, exit_, box, turn = entry[may], exit_[may], box[may], turn[may]
     near = _crossing(halves, entry, halves, exit_, turn)
-    box, sides = box[near], [halves.taken(side[near]) for side in (entry, exit_)]
-    return Boxes(boxes.which[box], boxes.sense[box], *sides, turn[near], boxes.origin[box])
+    box, one, two = box[near], halves.taken(entry[near]), halves.taken(exit_[near])
+    return Boxes(boxes.which[box], boxes.sense[box], one, two, turn[near], boxes.origin[box])
 
 
 def _halves(path: RollerPath, arcs: Arcs, origin: Complex, lean: Array) -> Arcs:
