@@ -191,39 +191,32 @@ def _later(both: NDArray[T]) -> NDArray[T]:
     return as_strided(both[1:], (count, count - 1, both.shape[1]), (step, step, size))
 
 
-class Crossings(NamedTuple):
-    """Crossings of the lines' cubics, and what the cubics show of a box."""
+def cross_once(boxes: Boxes) -> Mask:
+    """True for boxes whose lines agree once at most.
 
-    one: Mask  # True if the box has one pair, near ``phi``
-    none: Mask  # True if the box has no pair
-    phi: Array
-
-
-def crossings(boxes: Boxes) -> Crossings:
-    """Crossings of the cubics of entry and exit.
-
-    If the directions of the two in the plane of lines are apart, they cross once or not at all.
+    The directions of entry and exit in the plane of lines are apart. Curves that are nearly
+    parallel somewhere may cross twice, within the error of the cubics.
     """
-    entry, exit_ = boxes.entry, boxes.exit
-    x, y = np.diff(entry.cubics, axis=1)[:, :, None]
-    u, v = np.diff(exit_.cubics, axis=1)[:, None]
+    x, y = np.diff(boxes.entry.cubics, axis=1)[:, :, None]
+    u, v = np.diff(boxes.exit.cubics, axis=1)[:, None]
     cross = x * v - y * u
     cross *= np.sign(cross[1, 1])
-    # Curves that are nearly parallel somewhere may cross twice, within the error of the cubics.
-    once = cross.min(axis=(0, 1)) > 0.1 * cross.max(axis=(0, 1))
-    place, move = np.full((2, 2, len(once)), 0.5)  # fractions of the widths
-    for _ in range(3):  # Newton steps
+    apart: Mask = cross.min(axis=(0, 1)) > 0.1 * cross.max(axis=(0, 1))
+    return apart
+
+
+def crossings(boxes: Boxes) -> Array:
+    """Crank angles at which the cubics of entry and exit cross, in two columns."""
+    entry, exit_ = boxes.entry, boxes.exit
+    place = np.full((2, len(boxes.which)), 0.5)  # fractions of the widths
+    for _ in range(3):  # Newton steps: the pair itself may be off the crossing by 0.05
         (p, (x, y)), (q, (u, v)) = entry.at(place[0]), exit_.at(place[1])
         off, up = q - p
         off += boxes.turn
-        move = np.stack((off * v - up * u, off * y - up * x)) / (x * v - y * u)
-        place = np.clip(place + move, -OVERLAP, 1.0 + OVERLAP)
-    # Fractions of the widths: after a move by less than a twentieth the next would be below a
-    # hundredth. The pair itself may be off the crossing by 0.05, and a quarter is safe.
-    once &= np.abs(move).max(axis=0) < 0.05
-    inside = np.abs(place - 0.5).max(axis=0) <= 0.5 + 0.25
-    phi = [arcs.phi + of * arcs.width for arcs, of in zip((entry, exit_), place, strict=True)]
-    return Crossings(once & inside, once & ~inside, np.stack(phi, axis=1))
+        place += np.stack((off * v - up * u, off * y - up * x)) / (x * v - y * u)
+        np.clip(place, -OVERLAP, 1.0 + OVERLAP, out=place)
+    one, two = (arcs.phi + of * arcs.width for arcs, of in zip((entry, exit_), place, strict=True))
+    return np.stack((one, two), axis=1)
 
 
 def halved(path: RollerPath, boxes: Boxes, b: Array) -> Boxes:

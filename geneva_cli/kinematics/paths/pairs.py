@@ -32,7 +32,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.kinematics.paths.boxes import OVERLAP, Boxes, boxes_of, crossings, halved
+from geneva_cli.kinematics.paths.boxes import (
+    OVERLAP,
+    Boxes,
+    boxes_of,
+    cross_once,
+    crossings,
+    halved,
+)
 from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, joined, points
 from geneva_cli.kinematics.roller_path import RollerPath
 from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
@@ -85,20 +92,18 @@ def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> PairSea
     boxes = joined([boxes_of(some, b) for some in samples], -1)
     roots, halvings = [], 9  # of a box
     for depth in range(halvings + 1):
-        crossing = crossings(boxes)
-        last = depth == halvings
-        tried = np.flatnonzero(crossing.one | last)
-        phi, close = _solved(path, boxes.taken(tried), crossing.phi[tried], b)
-        which = boxes.which[tried]
-        roots.append((which[close], phi[close]))
-        rest = np.concatenate((np.flatnonzero(~(crossing.one | crossing.none)), tried[~close]))
-        if last or not len(rest):
+        once = cross_once(boxes) | (depth == halvings)
+        some = boxes.taken(np.flatnonzero(once))
+        phi, close = _solved(path, some, crossings(some), b)
+        roots.append((some.which[close], phi[close]))
+        once[once] = close
+        if once.all() or depth == halvings:
             break
-        boxes = halved(path, boxes.taken(rest), b)
+        boxes = halved(path, boxes.taken(np.flatnonzero(~once)), b)
     which_of_root, at_root = joined(roots)
     first = firsts(which_of_root, at_root)
     ends = ends_at(path, which_of_root[first], at_root[first])
-    doubtful = ends_at(path, which[~close], phi[~close])
+    doubtful = ends_at(path, some.which[~close], phi[~close])
     # a pair without a root whose index angle is this near, in radians, may be a double root
     near = np.flatnonzero(np.abs(residual(doubtful, b).excess) < 1e-5)
     return PairSearch(ends, doubtful.taken(near))
