@@ -8,7 +8,7 @@ cubics of the crank angle. They show if an entry and an exit can have a line in 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
@@ -82,8 +82,11 @@ class Boxes(NamedTuple):
         return Boxes(which[where], sense[where], *sides, turn[where], origin[where])
 
 
-def boxes_of(samples: PathSamples, b: Array) -> Boxes:
-    """Boxes between adjacent samples that may contain a pair; b are half index angles (m, 1)."""
+def boxes_of(samples: PathSamples, b: Array) -> Iterator[Boxes]:
+    """Boxes between adjacent samples that may contain a pair, for each sense of the wheel.
+
+    b are half index angles (m, 1).
+    """
     at, lean = samples.at, 0.5 * math.pi - b[samples.which, 0]
     # Near a sharp bend all lines pass one point. Measured from there their offsets are small.
     design = np.arange(len(lean))
@@ -98,7 +101,6 @@ def boxes_of(samples: PathSamples, b: Array) -> Boxes:
         arcs = _arcs(phi, width, lines[:, :-1], lines[:, 1:])
         flat = Arcs._make(x.reshape(*x.shape[:-2], -1) for x in arcs)
         sides.append((flat, [_two_turns(span, whole) for span in arcs.spans()]))
-    parts = []
     for sense, ((one, entries), (two, exits)) in ((1.0, sides), (-1.0, sides[::-1])):
         use = possible & arcs.turns(sense)  # the tangent turns alike for both sides
         row, first, last, turns = _overlaps(use, entries, exits)
@@ -107,9 +109,7 @@ def boxes_of(samples: PathSamples, b: Array) -> Boxes:
         row, entry, exit_ = row[near], one.taken(first[near]), two.taken(last[near])
         exit_.phi[:] += math.tau * turns[near]
         senses = np.full(len(row), sense)
-        parts.append(Boxes(samples.which[row], senses, entry, exit_, turn[near], origin[row]))
-    boxes: Boxes = joined(parts, -1)
-    return boxes
+        yield Boxes(samples.which[row], senses, entry, exit_, turn[near], origin[row])
 
 
 def _lines(at: PathPoints, angle: Array, origin: Complex, lean: Array) -> Array:

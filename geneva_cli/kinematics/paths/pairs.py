@@ -89,7 +89,7 @@ def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> PairSea
 
     They are in the order of designs and entries.
     """
-    boxes = joined([boxes_of(some, b) for some in samples], -1)
+    boxes = joined([part for some in samples for part in boxes_of(some, b)], -1)
     roots, halvings = [], 9  # of a box
     for depth in range(halvings + 1):
         once = cross_once(boxes) | (depth == halvings)
