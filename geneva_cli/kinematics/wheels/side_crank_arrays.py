@@ -28,7 +28,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Mask, Number, Which, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Number, Whole
 
 SCAN = 10  # intervals over half the motion; 8 miss none of a million designs, 6 miss twelve
 
@@ -52,9 +52,9 @@ class SideCrankWheels(NamedTuple):
     rest2: Array  # (1-l)²
     big: Array  # 1 + 4 l + l²
 
-    def taken(self, which: Which) -> SideCrankWheels:
+    def taken(self, which: Whole) -> SideCrankWheels:
         """Return some of the wheels."""
-        return SideCrankWheels._make(v[which] for v in self)
+        return SideCrankWheels._make(v.take(which) for v in self)
 
 
 def wheels(sign: Number, l: Number, rest: Number, A: Number) -> SideCrankWheels:
@@ -155,7 +155,7 @@ def _compete(
 ) -> None:
     """Put greater sizes of some designs, and their places, into ``best``; NaN where unknown."""
     which = np.flatnonzero(some)
-    count = 8192  # designs in a block: the scan's arrays stay in the processor's cache
+    count = 16384  # designs in a block: more leave the processor's cache, fewer need more calls
     for block in (which[i : i + count] for i in range(0, len(which), count)):
         part = w.taken(block)
         with np.errstate(all="ignore"):
