@@ -206,7 +206,7 @@ def cross_once(boxes: Boxes) -> Mask:
 
 
 def crossings(boxes: Boxes) -> Array:
-    """Crank angles at which the cubics of entry and exit cross, in two columns."""
+    """Crank angles at which the cubics of entry and exit cross, in two rows."""
     entry, exit_ = boxes.entry, boxes.exit
     place = np.full((2, len(boxes.which)), 0.5)  # fractions of the widths
     for _ in range(3):  # Newton steps: the pair itself may be off the crossing by 0.05
@@ -215,8 +215,8 @@ def crossings(boxes: Boxes) -> Array:
         off += boxes.turn
         place += np.stack((off * v - up * u, off * y - up * x)) / (x * v - y * u)
         np.clip(place, -OVERLAP, 1.0 + OVERLAP, out=place)
-    one, two = (arcs.phi + of * arcs.width for arcs, of in zip((entry, exit_), place, strict=True))
-    return np.stack((one, two), axis=1)
+    sides = zip((entry, exit_), place, strict=True)
+    return np.stack([arcs.phi + of * arcs.width for arcs, of in sides])
 
 
 def halved(path: RollerPath, boxes: Boxes, b: Array) -> Boxes:

@@ -146,29 +146,31 @@ def newton(ends: EndPairs, rest: Residual) -> Array:
     excess = rest.sense * rest.excess
     by_entry = excess * rest.by_exit - rest.away * turn_out
     by_exit = -excess * rest.by_entry - rest.away * turn
-    step: Array = np.stack((by_entry, by_exit), axis=1) / rest.det[:, None]
-    return step
+    step: Array = np.stack((by_entry, by_exit)) / rest.det
+    return step.T
 
 
 def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[Array, Mask]:
-    """Newton's method from places in boxes: where it ends, and a mask of ends in their box."""
-    low = np.stack((boxes.entry.phi, boxes.exit.phi), axis=1)
-    width = np.stack((boxes.entry.width, boxes.exit.width), axis=1)
-    high = low + width
-    close = np.zeros(len(phi), dtype=bool)
-    live = np.arange(len(phi))
+    """Newton's method from places in boxes, (2, n): where it ends, and a mask of ends in their box.
+
+    The ends are in two columns.
+    """
+    low = np.stack((boxes.entry.phi, boxes.exit.phi))
+    width = np.stack((boxes.entry.width, boxes.exit.width))
+    close = np.zeros(len(boxes.which), dtype=bool)
+    live: Whole = np.arange(len(close))
     for _ in range(12):  # Newton steps
         if not len(live):
             break
-        ends = ends_at(path, boxes.which[live], phi[live])
-        rest = residual(ends, b)
-        move = newton(ends, rest)
-        move *= np.minimum(1.0, (width[live] / np.abs(move)).min(axis=1))[:, None]
-        phi[live] += move
-        off = np.maximum(low[live] - phi[live], phi[live] - high[live]) / width[live]
-        inside = (off <= OVERLAP + ROUNDED).all(axis=1)
+        before, start, wide = (x.take(live, axis=1) for x in (phi, low, width))
+        ends = ends_at(path, boxes.which.take(live), before.T)
+        move = newton(ends, residual(ends, b)).T
+        move *= np.minimum(1.0, (wide / np.abs(move)).min(axis=0))
+        phi[:, live] = after = before + move
+        off = np.maximum(start - after, after - (start + wide)) / wide
+        inside = off.max(axis=0) <= OVERLAP + ROUNDED
         # radians: half of the digits; the next step gives all of them
-        done = np.abs(move).max(axis=1) < 1e-6
+        done = np.abs(move).max(axis=0) < 1e-6
         close[live] = done & inside
         live = live[~done & inside]
-    return phi, close
+    return phi.T, close
