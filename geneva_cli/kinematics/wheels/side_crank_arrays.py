@@ -165,11 +165,16 @@ def _compete(
             before = here = np.zeros(len(x))
             for step in range(4):  # secant steps, from a parabola's root
                 last, here = here, zero(near, np.cos(x))
-                slope = (here - last) / (x - before) if step else slope
+                if step:  # rounding may leave a step of 0, or one against the rise
+                    rise = (here - last) / (x - before)
+                    slope = np.where(rise > 0.0, rise, slope)
                 before, x = x, x - here / slope
+                # radians: the error after so short a step moves a peak by less than rounding
+                close = abs(x - before) < 1e-7
+                if close.all():
+                    break
             size, at = value(near, x)
-            # radians: the error after so short a step moves a peak by less than rounding
-            known = (abs(x - before) < 1e-7) & (low <= x) & (x <= high)
+            known = close & (low <= x) & (x <= high)
         # a design may have several: the greatest, or what is not known, is written last
         order = np.argsort(np.where(known, size, np.inf))
         order = order[(size > best[0][of])[order] | ~known[order]]
