@@ -158,7 +158,7 @@ def _block_followed(
     first = samples.at.phi[0, row]
     entry = first + (ends.at.phi[:, 0] - first) % math.tau
     motion = ends.at.phi[:, 1] - ends.at.phi[:, 0]
-    before = (samples.at.phi[:-1].take(row, axis=1) <= entry).sum(axis=0, dtype=np.int16)
+    before = (samples.at.phi[:-1].take(row, axis=1) <= entry).sum(axis=0, dtype=np.int32)
     sample = before + np.arange(count)[:, None]
     turned = sample >= count
     place = (sample - count * turned) * len(samples.which) + row
@@ -179,7 +179,7 @@ def _block_followed(
     good |= (samples_since < SAME_ENTRY) | (samples_since > math.tau - SAME_ENTRY)
     kept = np.flatnonzero(good.all(axis=0))
     # put the ends among the samples, and the entry again a turn later
-    exit_ = inside.sum(axis=0, dtype=np.int16)[kept] + 1
+    exit_ = inside.sum(axis=0, dtype=np.int32)[kept] + 1
     node = np.arange(-1, count + 2)[:, None] - (np.arange(count + 3)[:, None] > exit_)
     node[[0, -1]] = count
     node[exit_, np.arange(len(kept))] = count + 1
