@@ -29,9 +29,9 @@ from geneva_cli.kinematics.paths.pairs import (
     pairs,
     residual,
 )
-from geneva_cli.kinematics.paths.samples import PathSamples, joined, points, sampled
+from geneva_cli.kinematics.paths.samples import PathSamples, points, sampled
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, joined
 
 
 class PathWheels(NamedTuple):
@@ -79,7 +79,7 @@ def wheels(path: RollerPath, b: Array) -> WheelSearch:
         rest = residual(ends, b)
         steep = np.abs(rest.det) >= DOUBLE_ROOT_SLOPE * np.abs(rest.by_exit)
         doubtful = doubtful.taken(~_lead_to(doubtful, ends.taken(steep), b))
-        doubtful = joined([doubtful, ends.taken(~steep)])
+        doubtful = joined([doubtful, ends.taken(~steep)], 0)
         # A path that stops has no direction there; boxes around such a point hold no pair.
         doubtful = doubtful.taken(np.flatnonzero(np.isfinite(doubtful.at.phi).all(axis=1)))
         # doubtful entries within 1e-4 radians lead to one wheel
@@ -138,7 +138,7 @@ def _followed(path: RollerPath, parts: Iterable[tuple[PathSamples, EndPairs, Arr
         intervals = intervals._replace(wheel=intervals.wheel + count)
         blocks.append((wheels, placed, intervals))
         count += len(wheels.which)
-    wheels, placed, intervals = joined(blocks)
+    wheels, placed, intervals = joined(blocks, 0)
     fails = leaves_slot(path, placed, wheels.which, wheels.phi[:, 0], intervals)
     return wheels.taken(~fails)
 

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 import numpy as np
 from numpy.lib.stride_tricks import as_strided
 
-from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, joined, points
+from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, points
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Whole
+from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Whole, joined
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -224,7 +224,7 @@ def halved(path: RollerPath, boxes: Boxes, b: Array) -> Boxes:
     count = len(boxes.which)
     lean = boxes.sense * (b[boxes.which, 0] - 0.5 * math.pi)
     which, origin, lean = np.tile(boxes.which, 2), np.tile(boxes.origin, 2), np.append(lean, -lean)
-    halves = _halves(path.roughly(which), joined([boxes.entry, boxes.exit], -1), origin, lean)
+    halves = _halves(path.roughly(which), joined([boxes.entry, boxes.exit]), origin, lean)
     turns = halves.turns(np.tile(boxes.sense, 4))
     box = np.tile(np.arange(count), 4)
     entry, exit_ = (box + 2 * count * np.repeat(of, count) for of in ((0, 0, 1, 1), (0, 1, 0, 1)))

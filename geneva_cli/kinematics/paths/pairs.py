@@ -40,9 +40,9 @@ from geneva_cli.kinematics.paths.boxes import (
     crossings,
     halved,
 )
-from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, joined, points
+from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, points
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, joined
 from geneva_cli.numerics.tolerances import ROUNDED
 
 # Slope of the index angle along the family of pairs: a root with less is double, or nearly so.
@@ -89,7 +89,7 @@ def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> PairSea
 
     They are in the order of designs and entries.
     """
-    boxes = joined([part for some in samples for part in boxes_of(some, b)], -1)
+    boxes = joined([part for some in samples for part in boxes_of(some, b)])
     roots, halvings = [], 9  # of a box
     for depth in range(halvings + 1):
         once = cross_once(boxes) | (depth == halvings)
@@ -100,7 +100,7 @@ def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> PairSea
         if once.all() or depth == halvings:
             break
         boxes = halved(path, boxes.taken(np.flatnonzero(~once)), b)
-    which_of_root, at_root = joined(roots)
+    which_of_root, at_root = joined(roots, 0)
     first = firsts(which_of_root, at_root)
     ends = ends_at(path, which_of_root[first], at_root[first])
     doubtful = ends_at(path, some.which[~close], phi[~close])

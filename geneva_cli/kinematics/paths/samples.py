@@ -9,9 +9,9 @@ All this happens near a cusp.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 from itertools import accumulate
-from typing import NamedTuple, TypeAlias, cast
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -20,10 +20,10 @@ from geneva_cli.numerics.arrays import (
     Array,
     Complex,
     Mask,
-    Record,
     Which,
     Whole,
     blocks,
+    joined,
     numbers_of,
 )
 
@@ -113,7 +113,8 @@ def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
     phi = np.array([(i + 0.3) * (math.tau / steps) for i in range(steps + 1)])
     every = np.arange(count)
     # samples of 256 designs stay in the processor's cache
-    base = joined([_rows(path.roughly(every[i]), phi, len(every[i])) for i in blocks(count, 256)])
+    parts = (every[i] for i in blocks(count, 256))
+    base = joined([_rows(path.roughly(i), phi, len(i)) for i in parts], 0)
     ends = [base.heading.taken((slice(None), i)) for i in (slice(None, -1), slice(1, None))]
     row, column = np.nonzero(_missed(*ends))
     extra = _between(path, row, *(end.taken((row, column)) for end in ends))
@@ -174,17 +175,3 @@ def _between(
         left, right = starts.taken(missed), ends.taken(missed)
         which = np.concatenate((which, which))[missed]
     return added
-
-
-def joined(parts: Sequence[Record], axis: int = 0) -> Record:
-    """Concatenate records of arrays."""
-    fields = [_joined(field, axis) for field in zip(*parts, strict=True)]
-    make: Callable[..., object] = type(parts[0])
-    return cast("Record", tuple(fields) if make is tuple else make(*fields))
-
-
-def _joined(parts: Sequence[object], axis: int) -> object:
-    """Concatenate members of records: arrays, or nested records."""
-    if isinstance(parts[0], tuple):
-        return joined(cast("Sequence[tuple[object, ...]]", parts), axis)
-    return np.concatenate(cast("Sequence[Array]", parts), axis)
