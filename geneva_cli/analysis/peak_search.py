@@ -49,7 +49,7 @@ class _MotionSamples:
     """
 
     def __init__(self, motion: WheelMotion, m: int, quantities: Sequence[str]) -> None:
-        self.motion, self.some = motion, selection(motion)
+        self.motion, self.some = motion.rough, selection(motion.rough)
         self.every = slice(0, m)
         self.order = 1 + max(ORDERS[name] for name in quantities)
         self.kept: dict[tuple[int, float], tuple[Array, ...]] = {}
@@ -64,7 +64,7 @@ class _MotionSamples:
 
     def _rates(self, x: Array, which: Which, order: int) -> tuple[Array, ...]:
         every = isinstance(which, slice) and which == self.every
-        motion: WheelMotion = self.motion if every else self.some(which)
+        motion = self.motion if every else self.some(which)
         # Designs lie side by side in memory: each operation runs along all of them.
         return motion.rough_rates(np.asfortranarray(x), order - 1)
 
@@ -167,9 +167,9 @@ def _part(
     here = places[which]
     some = motion if len(here) == len(places) else taken(motion, which)
     samples, edges = _MotionSamples(some, len(here), quantities), np.hsplit(here, here.shape[1])
-    peaks = {}
+    own, peaks = selection(some), {}
     for name in quantities:
-        curve = _QuantityCurve(samples.some, name)
+        curve = _QuantityCurve(own, name)
         rough = Rough(_RoughCurve(samples, name), some.ROUGH_TO)
         sizes = greatest_sizes(curve, *edges, rough=rough, unsure=some.BREAKS_TO)
         peaks[name] = PeakArray(*sizes)

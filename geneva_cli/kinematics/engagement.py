@@ -189,6 +189,13 @@ class ClosedPeaks(Protocol):
         """Peak of a quantity, or None if it needs the general search."""
 
 
+class RoughMotion(Protocol):
+    """A wheel's motion for a first search."""
+
+    def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
+        """Approximate speed and its derivatives at arrays of angles."""
+
+
 class WheelMotion(Batchable, ABC):
     """The wheel's angle as the input turns, from rest to rest."""
 
@@ -215,6 +222,11 @@ class WheelMotion(Batchable, ABC):
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
         """Wheel speed over input speed, with derivatives, computed without the angle itself."""
         return self(input_deg, order + 1).derivative()
+
+    @property
+    def rough(self) -> RoughMotion:
+        """The part of the motion that ``rough_rates`` needs: less of it is copied for a search."""
+        return self
 
     def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
         """Approximate speed and its derivatives at arrays of angles, for a first search.
