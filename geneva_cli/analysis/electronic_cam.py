@@ -204,9 +204,9 @@ def cam_pairs(mechanism: Mechanism, count: int, tolerance_deg: float) -> CamPoin
     else:
         raise GenevaError(f"{count} periods need more than {most} pairs; give fewer --turns")
     ends = grid * np.rint(ends / grid)
-    apart = np.append(True, np.diff(ends) >= least_deg)
-    apart[-1] = True
-    ends = ends[apart]
+    near = np.diff(ends) < least_deg
+    near[-1], near[-2] = False, near[-2] or near[-1]  # the end stays, the place before it goes
+    ends = ends[np.append(True, ~near)]
     slave = np.empty_like(ends)
     for stretch in stretches:
         here = (ends >= stretch.begin_deg - grid) & (ends <= stretch.end_deg + grid)

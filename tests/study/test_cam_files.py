@@ -141,6 +141,19 @@ def test_beckhoff_pairs(name):
     assert 0.95 * error_deg <= off <= 1.01 * error_deg
 
 
+def test_a_short_dwell_ends_with_one_pair():
+    """A dwell of 0.05 degrees has no pair of its own: its table ends 0.1 degrees or more after one."""
+    settings = ["motion.law=cycloidal", "motion.alpha0_deg=-239.95", "motion.ratio=matched"]
+    design = load("designs/press-straight.toml", settings)
+    assert design.mechanism.dwell_deg(0) == pytest.approx(0.05)
+    text, _, error_deg = cam(design, "beckhoff", None, TOLERANCE)
+    pairs = beckhoff(text)
+    assert np.diff(pairs[0]).min() >= 1000
+    assert (pairs[:, -1] == (3_600_000, 600_000)).all()
+    master, slave = true_motion(design)
+    assert abs(np.interp(master, *(1e-4 * pairs)) - slave).max() <= 1.01 * error_deg
+
+
 def test_fewer_errors_with_more_points():
     """The error of degree five falls with the sixth power of the width: 64 times for halves."""
     design = load("designs/turret.toml")
