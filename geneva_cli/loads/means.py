@@ -82,12 +82,16 @@ def sources_of(
 def means_from(
     mechanism: Mechanism, names: Sequence[str], sums: Array, plain: bool
 ) -> dict[str, LoadMeans]:
-    """The means of quantities over a period, from their integrals ``sums``: (m,) each."""
+    """The means of quantities over a period, from their integrals ``sums``: (m,) each.
+
+    Several cranks move the wheel in turn: the shaft of each bears the force in its own motions.
+    """
     every, out = sums / (np.ravel(mechanism.under_load.period_deg) * DEGREE), {}
     for i, name in enumerate(names):
-        square, mean = every[i], None
+        share = 1.0 / len(mechanism.spec.drive.cranks) if name == "crank_bearing_N" else 1.0
+        square, mean = every[i] * share, None
         if plain:
-            mean = every[len(names) + i]
+            mean = every[len(names) + i] * share
             # a mean whose square is so small a fraction of the mean square is rounding
             nought = np.isfinite(square) & (mean * mean <= 1e-30 * square)
             mean = np.where(nought, 0.0, mean)

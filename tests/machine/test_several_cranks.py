@@ -18,8 +18,9 @@ from shapely.ops import unary_union
 
 from geneva_cli import Crank, Cycloidal, Design, EllipticalGears, External, Load, Motion
 from geneva_cli.drawings.parts_list import parts_list
+from geneva_cli.loads.means import load_means
 from geneva_cli.machine.both_ways import backwards
-from geneva_cli.machine.many import may_vary
+from geneva_cli.machine.many import many, may_vary
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.scene import place_at, value_at
@@ -316,6 +317,27 @@ def test_the_report_lists_when_each_crank_moves_the_wheel_behind_gears():
     assert rows[0]["exit_deg"] - rows[0]["entry_deg"] != pytest.approx(
         rows[1]["exit_deg"] - rows[1]["entry_deg"]
     )
+
+
+@pytest.mark.parametrize(("z", "places"), [(8, (0,)), (8, (0, 3)), (4, (0, 2, 1))])
+def test_each_crank_s_bearings_bear_its_own_motions(z, places):
+    """Without friction the force is |I w² psi'' + M|/rho in one motion of a turn, and 0 else."""
+    inertia, torque, distance = 0.02, 0.5, 0.1
+    crank = Crank(n_rpm=40.0, rollers=len(places), crank_steps=places if places[1:] else None)
+    design = Design(External(z), crank, load=Load(inertia_kgm2=inertia, torque_Nm=torque))
+    a = np.linspace(-1.0, 1.0, 200_001) * (math.pi / 2.0 - math.pi / z)
+    l, w = math.sin(math.pi / z), 2.0 * math.pi * 40.0 / 60.0
+    square = 1.0 - 2.0 * l * np.cos(a) + l * l
+    turning = -l * (1.0 - l * l) * np.sin(a) / square**2
+    force = np.abs(inertia * w * w * turning + torque) / (distance * np.sqrt(square))
+    # trapezoids: the corner where the force changes its wall costs some 1e-9
+    mean, squares = (np.trapezoid(f, a) / math.tau for f in (force, force * force))
+    bearing = design.loads["crank_bearing_N"]
+    assert bearing.mean == pytest.approx(mean, rel=1e-7)
+    assert bearing.rms == pytest.approx(math.sqrt(squares), rel=1e-7)
+    batch = many(design.spec, {"drive.n_rpm": np.array([40.0, 50.0])}).machine
+    together = load_means(batch, ["crank_bearing_N"])["crank_bearing_N"]
+    assert together.rms[0] == pytest.approx(bearing.rms, rel=1e-12)
 
 
 def test_slots_do_not_vary_in_a_batch_of_cranks_that_turn_both_ways():

@@ -142,7 +142,7 @@ def test_beckhoff_pairs(name):
 
 
 def test_a_short_dwell_ends_with_one_pair():
-    """A dwell of 0.05 degrees has no pair of its own: its table ends 0.1 degrees or more after one."""
+    """A dwell of 0.05 degrees has no pair at its beginning, only the one at its end."""
     settings = ["motion.law=cycloidal", "motion.alpha0_deg=-239.95", "motion.ratio=matched"]
     design = load("designs/press-straight.toml", settings)
     assert design.mechanism.dwell_deg(0) == pytest.approx(0.05)
