@@ -82,13 +82,10 @@ def sources_of(
 def means_from(
     mechanism: Mechanism, names: Sequence[str], sums: Array, plain: bool
 ) -> dict[str, LoadMeans]:
-    """The means of quantities over a period, from their integrals ``sums``: (m,) each.
-
-    Several cranks move the wheel in turn: the shaft of each bears the force in its own motions.
-    """
+    """The means of quantities over a period, from their integrals ``sums``: (m,) each."""
     every, out = sums / (np.ravel(mechanism.under_load.period_deg) * DEGREE), {}
     for i, name in enumerate(names):
-        share = 1.0 / len(mechanism.spec.drive.cranks) if name == "crank_bearing_N" else 1.0
+        share = 1.0 / _taking_turns(mechanism, name)
         square, mean = every[i] * share, None
         if plain:
             mean = every[len(names) + i] * share
@@ -97,6 +94,15 @@ def means_from(
             mean = np.where(nought, 0.0, mean)
         out[name] = LoadMeans(mean, np.sqrt(square))
     return out
+
+
+def _taking_turns(mechanism: Mechanism, name: str) -> int:
+    """The number of cranks or wheels, of which one moves at a time, where a quantity is of one."""
+    drive = mechanism.spec.drive
+    if name == "crank_bearing_N":
+        return len(drive.cranks)
+    of_wheel = ("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "wheel_bearing_N")
+    return max(1, drive.wheels_on_carrier) if name in of_wheel else 1
 
 
 def _sums_of(load: LoadFunctions, n: int, plain: bool) -> Array:

@@ -554,3 +554,20 @@ def test_a_batch_of_carriers_with_several_fingers():
         for one, other in pairs:
             x = 0.3 * one.entry_deg
             assert np.array_equal(one.motion(x).c[1], other.motion(x).c[1])
+
+
+@pytest.mark.parametrize("wheels", [1, 2, 3])
+def test_means_of_a_wheel_count_its_own_motions_alone(wheels):
+    """Of any number of wheels each makes a quarter turn in the carrier's 2 s, and then rests.
+
+    Its inertia takes as much as it gives back, so that the mean torque is the drag's in a quarter
+    of the time. The finger moves all wheels, and its bearings bear the force of each.
+    """
+    load = Load(inertia_kgm2=0.02, torque_Nm=0.5)
+    loads = Design(External(4), Carousel(wheels=wheels, n_rpm=30.0), load=load).loads
+    assert loads["omega_rad_s"].mean == pytest.approx(0.25 * math.pi, rel=1e-12)
+    assert loads["wheel_torque_Nm"].mean == pytest.approx(0.125, rel=1e-12)
+    finger, wheel = loads["crank_bearing_N"], loads["wheel_bearing_N"]
+    # a straight slot without friction: both shafts bear the roller's force
+    assert finger.mean == pytest.approx(wheels * wheel.mean, rel=1e-12)
+    assert finger.rms == pytest.approx(math.sqrt(wheels) * wheel.rms, rel=1e-12)

@@ -88,7 +88,10 @@ built = pytest.mark.parametrize(("z", "places"), BUILT)
 @pytest.mark.sampled(3)
 @built
 def test_motion_and_loads_are_those_of_one_crank(z, places):
-    """Equal to the last digit: the same engine, which other tests prove by closed forms."""
+    """Equal to the last digit: the same engine, which other tests prove by closed forms.
+
+    Only the means of a crank's bearings are those of its own motions, one in as many as cranks.
+    """
     several = with_cranks(z, places)
     one = Design(External(z), Crank(rollers=len(places)), load=LOAD)
     moving, own = (design.motion(181).to_dict() for design in (several, one))
@@ -96,7 +99,12 @@ def test_motion_and_loads_are_those_of_one_crank(z, places):
     answers, own = (design.report.table.to_dict() for design in (several, one))
     for name in own:
         if name.startswith(("timing.", "jerk.", "loads.", "cycle.", "life.", "strength.")):
-            assert answers[name] == own[name]
+            shares = {"mean": len(places), "rms": math.sqrt(len(places))}
+            bearing, _, which = name.rpartition(".")
+            if bearing == "cycle.crank_bearing_N" and which in shares:
+                assert answers[name] == pytest.approx(own[name] / shares[which], rel=1e-15)
+            else:
+                assert answers[name] == own[name]
 
 
 def polygons(group):
