@@ -52,15 +52,16 @@ def means_from(
 
 
 def _in_period(mechanism: Mechanism, names: Sequence[str], each: Sequence[Array]) -> Array:
-    """The integrals over a period; of a bearing those of one crank, the greatest, or of one wheel.
+    """The integrals over a period; of bearings the greatest crank's, of wheels one wheel's.
 
     The cranks work in turn. So do the wheels on a carrier, which are all alike.
     """
     drive = mechanism.spec.drive
+    of_wheel = ("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "wheel_bearing_N")
     cranks, wheels = len(drive.cranks), max(1, drive.wheels_on_carrier)
     total: Array = np.sum(each, axis=0)
     for i in range(len(total)):
-        if names[i % len(names)] == "wheel_bearing_N":
+        if names[i % len(names)] in of_wheel:
             total[i] /= wheels
         if names[i % len(names)] == "crank_bearing_N" and cranks > 1:
             own = [sum(one[i] for one in each[k::cranks]) for k in range(min(cranks, len(each)))]

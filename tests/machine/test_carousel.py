@@ -612,3 +612,16 @@ def test_the_wheel_s_shaft_bears_its_bodies(count):
     torque = design.loads["wheel_torque_Nm"]
     assert greatest * a * 0.9999 <= moment
     assert moment <= 1.5 * math.hypot(greatest * a, max(torque.max, -torque.min))
+
+
+@pytest.mark.parametrize("wheels", [1, 2, 3])
+def test_means_of_a_wheel_count_its_own_motions_alone(wheels):
+    """Of any number of wheels each makes a quarter turn in the carrier's 2 s, and then rests.
+
+    Its inertia takes as much as it gives back, so that the mean torque is the drag's in a quarter
+    of the time.
+    """
+    load = Load(inertia_kgm2=0.02, torque_Nm=0.5)
+    loads = Design(External(4), Carousel(wheels=wheels, n_rpm=30.0), load=load).loads
+    assert loads["omega_rad_s"].mean == pytest.approx(0.25 * math.pi, rel=1e-12)
+    assert loads["wheel_torque_Nm"].mean == pytest.approx(0.125, rel=1e-12)
