@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -69,17 +69,16 @@ class _KindRows(NamedTuple):
     errors: list[str]
 
 
-def search(target: Target, meanwhile: Callable[[], None] | None = None) -> Ranking:
+def search(target: Target) -> Ranking:
     """The machines that meet the requirement, in order; no part has been turned yet.
 
-    ``meanwhile`` is a task for this process while others search. Raises GenevaError, saying what is
-    within reach, if there is none.
+    Raises GenevaError, saying what is within reach, if there is none.
     """
     request = _requested(target)
     target = target._replace(bounds=request.bounds, sort=request.sort)
     narrowed = target.with_times()
     narrowed.refuse_contradictions()
-    by_kind = _all_kinds(narrowed, request.names, meanwhile=meanwhile)
+    by_kind = _all_kinds(narrowed, request.names)
     # the error message says how near they come
     if target.acceleration_max is None and not any(kind.keeps for kind in by_kind):
         by_kind = _all_kinds(target, request.names, how_near=True)
@@ -130,7 +129,6 @@ def _all_kinds(
     target: Target,
     names: Sequence[str],
     how_near: bool = False,
-    meanwhile: Callable[[], None] | None = None,
     which: Sequence[bool] = (),
 ) -> list[_KindRows]:
     """The results of all kinds of machines, or of ``which``, in order, from all cores."""
@@ -140,7 +138,7 @@ def _all_kinds(
     many = which or wheels > 6  # a smaller search ends before a second process has started
     workers = min(len(order), cores()) if many else 1
     work = partial(_kind_rows, names=names, how_near=how_near)
-    done = mapped(work, [tasks[i] for i in order], workers, "machines", meanwhile)
+    done = mapped(work, [tasks[i] for i in order], workers, "machines")
     done = tracked(done, "kinds of machines", len(order))
     results = dict(zip(order, done, strict=True))
     return [results[i] for i in sorted(results)]

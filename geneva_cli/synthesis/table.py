@@ -17,7 +17,6 @@ from geneva_cli.synthesis.rows import Candidate, MachineRow
 from geneva_cli.synthesis.search import TURNED, Ranking, search
 from geneva_cli.synthesis.turns import Turns, same_turn
 from geneva_cli.table import Table, rows_table
-from geneva_cli.verdict.checks.registry import import_checks
 
 NAMES = ("no", *Candidate._fields)
 
@@ -26,8 +25,7 @@ def synthesis_table(
     target: Target, count: int = TURNED, buildable: bool = False, ranking: Ranking | None = None
 ) -> Table:
     """One row for each machine, numbered from 1, as ``turned`` returns them."""
-    # the processes that turn need these imports, which are loaded while others search
-    ranking = ranking or search(target, import_checks if count else None)
+    ranking = ranking or search(target)
     rows = [
         (one.no, *one.row.candidate, *one.row.extra) for one in turned(ranking, count, buildable)
     ]
