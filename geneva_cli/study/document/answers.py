@@ -9,7 +9,7 @@ from geneva_cli.design import Design
 from geneva_cli.document import Block, Grid, Heading, Row, TextList
 from geneva_cli.kinematics.wheels.gearing import Output
 from geneva_cli.loads.figures import AXIS_BY_NAME
-from geneva_cli.loads.summary import QuantitySummary
+from geneva_cli.loads.summaries import LoadSummary
 from geneva_cli.study.document.facts import (
     RemainingValues,
     capital,
@@ -79,7 +79,7 @@ def loads(design: Design, left: RemainingValues) -> Iterator[Block]:
     own = {name: left.take(name) for name in ("loads", "cycle")}
     page = design.loads_page.to_dict()
     yield Heading("Loads")
-    heads = ("Quantity", "Unit", *map(_column, QuantitySummary._fields))
+    heads = ("Quantity", "Unit", *map(_column, LoadSummary._fields))
     rows: list[Row] = []
     for row in page["loads"]:
         axis = AXIS_BY_NAME[row.pop("quantity")]
