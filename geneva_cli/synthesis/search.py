@@ -17,7 +17,7 @@ from geneva_cli.study.sweep.constraints import Constraint, is_number
 from geneva_cli.study.target import TURNS, Target
 from geneva_cli.synthesis.best import best
 from geneva_cli.synthesis.families import closed
-from geneva_cli.synthesis.families.every import Kind, families, kinds, longest_first
+from geneva_cli.synthesis.families.every import Kind, families, kinds
 from geneva_cli.synthesis.families.family import natural_deg, pieces
 from geneva_cli.synthesis.limited import (
     breaks_limit,
@@ -122,16 +122,13 @@ def _all_kinds(
     which: Sequence[bool] = (),
 ) -> list[_KindRows]:
     """The results of all kinds of machines, or of ``which``, in order, from all cores."""
-    tasks = kinds(target)
-    order = [i for i in longest_first(target) if not which or which[i]]
+    tasks = [task for i, task in enumerate(kinds(target)) if not which or which[i]]
     wheels = len(target.gearings) * len(target.z) * len(target.laws)
     many = which or wheels > 6  # a smaller search ends before a second process has started
-    workers = min(len(order), cores()) if many else 1
+    workers = min(len(tasks), cores()) if many else 1
     work = partial(_kind_rows, names=names, how_near=how_near)
-    done = mapped(work, [tasks[i] for i in order], workers, "machines")
-    done = tracked(done, "kinds of machines", len(order))
-    results = dict(zip(order, done, strict=True))
-    return [results[i] for i in sorted(results)]
+    done = mapped(work, tasks, workers, "machines")
+    return list(tracked(done, "kinds of machines", len(tasks)))
 
 
 def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) -> _KindRows:

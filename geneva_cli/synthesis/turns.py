@@ -1,8 +1,4 @@
-"""Checks that fail in full turns of machines; machines with equal positions are turned once.
-
-A drive in front of a crank changes when the parts reach a position, and not the positions. So
-machines that differ in it, or in the speed, are turned once.
-"""
+"""The checks that fail in full turns of machines."""
 
 from __future__ import annotations
 
@@ -16,11 +12,8 @@ from geneva_cli.collisions.machine_parts import MachineParts, WorkLimit
 from geneva_cli.collisions.one_motion import one_motion
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import CLEARLY
-from geneva_cli.study.target import USUAL_RPM
 from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.checks.play import finds_slot
 from geneva_cli.verdict.checks.registry import check_named, standing, standing_checks, turn_checks
@@ -33,7 +26,7 @@ LOST = 6.0
 
 
 class Failure(NamedTuple):
-    """A failing check: its name, its input angle in the machine of ``same_turn``, its ratio.
+    """A failing check: its name, its input angle, its ratio.
 
     ``ratio`` is the value over its limit, 0 if there is no such ratio.
     """
@@ -47,49 +40,25 @@ class Failure(NamedTuple):
         return self.name == HAND_OVER_PLAY and self.ratio > ratio
 
 
-def same_turn(spec: Spec) -> Spec:
-    """The machine that represents all machines whose parts go through the same positions."""
-    drive = spec.drive
-    if spec.motion is None and drive.CRANKED:
-        m, angles = drive.rollers, drive.roller_angles_deg
-        return spec.replace(drive=Crank(n_rpm=USUAL_RPM, rollers=m, roller_angles_deg=angles))
-    return spec.replace(drive=drive.replace(n_rpm=USUAL_RPM))
-
-
-class Turns:
-    """Machines as they are turned, each once."""
-
-    def __init__(self) -> None:
-        self._turns: dict[Spec, _Turn] = {}
-
-    def failing(self, machine: Mechanism) -> list[Failure]:
-        """The checks of a machine's parts that fail, or the key that prevents the parts."""
-        turn = self._turn(machine)
-        return [*turn.standing(machine), *turn.turning]
-
-    def first_failing(self, machine: Mechanism) -> list[Failure]:
-        """The checks that fail at rest, or else those that fail in the turn."""
-        turn = self._turn(machine)
-        return turn.standing(machine) or turn.turning
-
-    def some_failing(self, machine: Mechanism, known: Iterable[Failure]) -> list[Failure]:
-        """Some checks that fail, tried first where checks were ``known`` to fail."""
-        turn = self._turn(machine)
-        early = turn.still_failing(machine, known)
-        return early or turn.standing(machine) or turn.turning
-
-    def _turn(self, machine: Mechanism) -> _Turn:
-        own = same_turn(machine.spec)
-        if own not in self._turns:
-            self._turns[own] = _Turn(machine if own == machine.spec else build(own))
-        return self._turns[own]
-
-
-class _Turn:
+class Turn:
     """The parts of a machine and their full turn, as far as it is checked."""
 
     def __init__(self, machine: Mechanism) -> None:
-        self._model = PartsModel(machine, advice=False)
+        self._machine, self._model = machine, PartsModel(machine, advice=False)
+
+    @property
+    def failing(self) -> list[Failure]:
+        """The checks of the parts that fail, or the key that prevents the parts."""
+        return [*self._standing, *self._turning]
+
+    @property
+    def first_failing(self) -> list[Failure]:
+        """The checks that fail at rest, or else those that fail in the turn."""
+        return self._standing or self._turning
+
+    def some_failing(self, known: Iterable[Failure]) -> list[Failure]:
+        """Some checks that fail, tried first where checks were ``known`` to fail."""
+        return self._still_failing(known) or self.first_failing
 
     @cached_property
     def _parts(self) -> MachineParts | Failure:
@@ -100,7 +69,7 @@ class _Turn:
             return _prevented_by(error)
 
     @cached_property
-    def turning(self) -> list[Failure]:
+    def _turning(self) -> list[Failure]:
         """The checks of the turn that fail."""
         parts = self._parts
         if isinstance(parts, Failure):
@@ -110,23 +79,24 @@ class _Turn:
         except WorkLimit:
             return [Failure("full_turn")]
 
-    def standing(self, machine: Mechanism) -> list[Failure]:
-        """The checks at rest that fail, for a machine with the same positions."""
+    @cached_property
+    def _standing(self) -> list[Failure]:
+        """The checks at rest that fail."""
         if isinstance(self._parts, Failure):
             return [self._parts]
-        if not machine.spec.has_parts:
+        if not self._machine.spec.has_parts:
             return []
-        return _failures(standing_checks(self._model.over(machine).built))
+        return _failures(standing_checks(self._model.built))
 
-    def still_failing(self, machine: Mechanism, known: Iterable[Failure]) -> list[Failure]:
+    def _still_failing(self, known: Iterable[Failure]) -> list[Failure]:
         """The first check of ``known`` at rest that fails, or else those of the turn.
 
-        The latter are tried at the places where they failed, if the turn is not computed yet.
+        The latter are tried at the places where they failed.
         """
         parts = self._parts
-        if "turning" in vars(self) or isinstance(parts, Failure) or not machine.spec.has_parts:
+        if isinstance(parts, Failure) or not self._machine.spec.has_parts:
             return []
-        built, among = self._model.over(machine).built, standing(machine)
+        built, among = self._model.built, standing(self._machine)
         at_rest = (check_named(among, one.name, built) for one in known)
         first = next((check for check in at_rest if check and check.passes is False), None)
         if first:
