@@ -7,7 +7,6 @@ from typing import NamedTuple
 
 from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
-from geneva_cli.linkage.wheels_for_paths import searches_kept
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import omega
@@ -157,8 +156,7 @@ def rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[Machi
 
     The reasons are added to ``errors``.
     """
-    with searches_kept():  # every machine is tested in a batch first
-        candidates = _rows(target, [with_peak_limit(target, spec) for spec in specs], errors)
+    candidates = _rows(target, [with_peak_limit(target, spec) for spec in specs], errors)
     return [row if row and _moves_as_required(target, row) else None for row in candidates]
 
 
