@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.analysis.peaks import worst, worst_of
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.spec.load_limits import QUANTITIES
+from geneva_cli.spec import load_limits
 from geneva_cli.verdict.checks.check import Check, compared
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ def limited_load(name: str, mechanism: Mechanism) -> Check | None:
     from geneva_cli.verdict.quantities.designs import number_of, single  # for names alone, none
     from geneva_cli.verdict.quantities.loads import greatest
 
-    peaks, load = single(mechanism).columns(greatest), QUANTITIES[name]
+    peaks, load = single(mechanism).columns(greatest), load_limits.limited_load(name)
     most, at_deg = peaks[f"{load}.max"], peaks[f"{load}.at_deg"]
     assert most is not None  # the spec refuses a limit without a load
     assert at_deg is not None

@@ -13,7 +13,7 @@ from geneva_cli.machine.many import alone
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.latest import Known
-from geneva_cli.spec.load_limits import load_limits
+from geneva_cli.spec.load_limits import LIMITED, limits_by_key
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.forces import LoadCase
@@ -121,4 +121,4 @@ def single(mechanism: Mechanism) -> Designs:
 
 def limited_loads(spec: Spec) -> list[str]:
     """The whole names of the loads that the spec limits, which its checks request."""
-    return [f"loads.{load}.max" for load in load_limits(spec.limits)]
+    return [LIMITED[key] for key in limits_by_key(spec.limits)]
