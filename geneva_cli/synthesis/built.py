@@ -10,8 +10,9 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.synthesis.parts import SPARE, USUAL, exact, parts, with_roller
 from geneva_cli.synthesis.parts_data import parts_data
-from geneva_cli.synthesis.turns import HAND_OVER_PLAY, LOST, Failure, Turn
+from geneva_cli.synthesis.turns import HAND_OVER_PLAY, Turn, failing_of, is_lost
 from geneva_cli.verdict.checks import checks
+from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION, applicable
 
 # keys that conflict with a crank's bore
@@ -48,16 +49,16 @@ def built(spec: Spec, fixed: frozenset[str] = frozenset()) -> Built:
     if {one.name for one in failing} <= SHAFT:  # test whether other checks fail too
         failing = known = turn.failing
     for other in _others(spec, {one.name for one in failing}, fixed):
-        if any(one.exceeds(LOST) for one in failing):
+        if any(map(is_lost, failing)):
             break
         failing = _other_failing(other, known)
         if not failing:
             return Built(other, "")
-        known = [*dict.fromkeys((*failing, *known))]
+        known = [*{(one.name, one.at_deg): one for one in (*failing, *known)}.values()]
     return Built(spec, _names([*motion, *turn.failing]))
 
 
-def _names(failing: Sequence[Failure]) -> str:
+def _names(failing: Sequence[Check]) -> str:
     return ", ".join(one.name for one in failing)
 
 
@@ -87,7 +88,7 @@ def _others(spec: Spec, trouble: set[str], fixed: frozenset[str]) -> Iterator[Sp
         yield from (one for one in larger if not parts(build(one)).why)
 
 
-def _other_failing(spec: Spec, known: Sequence[Failure]) -> list[Failure]:
+def _other_failing(spec: Spec, known: Sequence[Check]) -> list[Check]:
     """Some of the checks that fail with other sizes, after those ``known`` to fail before.
 
     The sizes change nothing in the motion but the undercut, which a smaller roller reduces.
@@ -96,9 +97,12 @@ def _other_failing(spec: Spec, known: Sequence[Failure]) -> list[Failure]:
     named = dict(LIMITS)
     if UNDERCUT in {one.name for one in known}:
         named[UNDERCUT] = MOTION[UNDERCUT]
-    before = [Failure(c.name) for c in applicable(named, machine) if c.passes is False]
-    return before or Turn(machine).some_failing(known) or _of_motion(machine)
+    return (
+        failing_of(applicable(named, machine))
+        or Turn(machine).some_failing(known)
+        or _of_motion(machine)
+    )
 
 
-def _of_motion(machine: Mechanism) -> list[Failure]:
-    return [Failure(c.name) for c in checks(machine, parts=False) if c.passes is False]
+def _of_motion(machine: Mechanism) -> list[Check]:
+    return failing_of(checks(machine, parts=False))

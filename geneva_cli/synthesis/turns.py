@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import cached_property
-from typing import NamedTuple
 
 from geneva_cli.collisions.full_turn import full_turn
 from geneva_cli.collisions.glance import gap_about, play_about
@@ -14,7 +13,7 @@ from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import CLEARLY
-from geneva_cli.verdict.checks.check import Check
+from geneva_cli.verdict.checks.check import Check, refused
 from geneva_cli.verdict.checks.play import finds_slot
 from geneva_cli.verdict.checks.registry import check_named, standing, standing_checks, turn_checks
 
@@ -25,21 +24,6 @@ HAND_OVER_PLAY = "hand_over_play_deg"
 LOST = 6.0
 
 
-class Failure(NamedTuple):
-    """A failing check: its name, its input angle, its ratio.
-
-    ``ratio`` is the value over its limit, 0 if there is no such ratio.
-    """
-
-    name: str
-    at_deg: float | None = None
-    ratio: float = 0.0
-
-    def exceeds(self, ratio: float) -> bool:
-        """Return True if the play between lock and slot exceeds ``ratio`` times its limit."""
-        return self.name == HAND_OVER_PLAY and self.ratio > ratio
-
-
 class Turn:
     """The parts of a machine and their full turn, as far as it is checked."""
 
@@ -47,77 +31,74 @@ class Turn:
         self._machine, self._model = machine, PartsModel(machine, advice=False)
 
     @property
-    def failing(self) -> list[Failure]:
+    def failing(self) -> list[Check]:
         """The checks of the parts that fail, or the key that prevents the parts."""
         return [*self._standing, *self._turning]
 
     @property
-    def first_failing(self) -> list[Failure]:
+    def first_failing(self) -> list[Check]:
         """The checks that fail at rest, or else those that fail in the turn."""
         return self._standing or self._turning
 
-    def some_failing(self, known: Iterable[Failure]) -> list[Failure]:
+    def some_failing(self, known: Iterable[Check]) -> list[Check]:
         """Some checks that fail, tried first where checks were ``known`` to fail."""
         return self._still_failing(known) or self.first_failing
 
     @cached_property
-    def _parts(self) -> MachineParts | Failure:
-        """The parts, or the key that prevents them."""
+    def _parts(self) -> MachineParts | Check:
+        """The parts, or a failing check that names the key that prevents them."""
         try:
             return self._model.parts
         except GenevaError as error:
-            return _prevented_by(error)
+            return refused(str(error.key[-1]) if error.key else "outline", error)
 
     @cached_property
-    def _turning(self) -> list[Failure]:
+    def _turning(self) -> list[Check]:
         """The checks of the turn that fail."""
         parts = self._parts
-        if isinstance(parts, Failure):
+        if isinstance(parts, Check):
             return []
         try:
-            return _failures(turn_checks(parts, full_turn(one_motion(parts))))
-        except WorkLimit:
-            return [Failure("full_turn")]
+            return failing_of(turn_checks(parts, full_turn(one_motion(parts))))
+        except WorkLimit as error:
+            return [refused("full_turn", error)]
 
     @cached_property
-    def _standing(self) -> list[Failure]:
+    def _standing(self) -> list[Check]:
         """The checks at rest that fail."""
-        if isinstance(self._parts, Failure):
+        if isinstance(self._parts, Check):
             return [self._parts]
         if not self._machine.spec.has_parts:
             return []
-        return _failures(standing_checks(self._model.built))
+        return failing_of(standing_checks(self._model.built))
 
-    def _still_failing(self, known: Iterable[Failure]) -> list[Failure]:
+    def _still_failing(self, known: Iterable[Check]) -> list[Check]:
         """The first check of ``known`` at rest that fails, or else those of the turn.
 
         The latter are tried at the places where they failed.
         """
         parts = self._parts
-        if isinstance(parts, Failure) or not self._machine.spec.has_parts:
+        if isinstance(parts, Check) or not self._machine.spec.has_parts:
             return []
         built, among = self._model.built, standing(self._machine)
         at_rest = (check_named(among, one.name, built) for one in known)
         first = next((check for check in at_rest if check and check.passes is False), None)
         if first:
-            return [Failure(first.name)]
+            return [first]
         return [one for one in known if _fails_at_the_same_place(parts, one)]
 
 
-def _prevented_by(error: GenevaError) -> Failure:
-    """The key that an error about parts names."""
-    return Failure(str(error.key[-1]) if error.key else "outline")
+def is_lost(check: Check) -> bool:
+    """Return True for so much play between lock and slot that no smaller roller helps."""
+    return check.name == HAND_OVER_PLAY and (check.value or 0.0) > LOST * (check.limit or 0.0)
 
 
-def _failures(checks: Iterable[Check]) -> list[Failure]:
-    return [
-        Failure(c.name, c.at_deg, c.value / c.limit if c.value and c.limit else 0.0)
-        for c in checks
-        if c.passes is False
-    ]
+def failing_of(checks: Iterable[Check]) -> list[Check]:
+    """The checks that fail."""
+    return [check for check in checks if check.passes is False]
 
 
-def _fails_at_the_same_place(parts: MachineParts, one: Failure) -> bool:
+def _fails_at_the_same_place(parts: MachineParts, one: Check) -> bool:
     """Return True if a check that failed with other sizes fails with these at the same place."""
     if one.at_deg is None:
         return False

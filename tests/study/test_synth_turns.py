@@ -21,8 +21,8 @@ from geneva_cli.synthesis.parts import USUAL, exact, parts, with_roller
 from geneva_cli.synthesis.parts_data import distances_at_rest, parts_data
 from geneva_cli.synthesis.reading import read_target
 from geneva_cli.synthesis.search import search
-from geneva_cli.synthesis.turns import Failure, Turn
-from geneva_cli.verdict.checks import checks
+from geneva_cli.synthesis.turns import Turn
+from geneva_cli.verdict.checks import Check, checks
 from geneva_cli.verdict.checks.play import finds_slot
 
 
@@ -59,19 +59,19 @@ def test_a_play_that_fails_is_found_where_it_failed_before():
     largest = whole.turn.hand_over
     assert largest.deg > finds_slot(whole.parts)
     assert 0.9 < play_about(whole.parts, largest.at_deg) / largest.deg <= 1.0 + 1e-6
-    seen = [Failure("hand_over_play_deg", largest.at_deg)]
+    seen = [Check("hand_over_play_deg", None, "at most", None, False, at_deg=largest.at_deg)]
     assert Turn(build(with_roller(spec, 4.0))).some_failing(seen) == seen
 
 
 def test_a_check_at_rest_that_failed_before_is_computed_first(monkeypatch):
     """The crank's shaft meets the input crank whatever the roller; the turn is not begun."""
     drive = SideCrank(A=0.9999)
-    known = [Failure("link_gap_mm")]
+    known = [Check("link_gap_mm", None, "at least", None, False)]
     machine = build(with_roller(Spec(External(20), drive), 2.0))
     assert "link_gap_mm" in failing_names(machine)
     monkeypatch.setattr(turns, "full_turn", None)
     monkeypatch.setattr(turns, "standing_checks", None)
-    assert Turn(machine).some_failing(known) == known
+    assert [one.name for one in Turn(machine).some_failing(known)] == ["link_gap_mm"]
 
 
 def failing_names(machine):
