@@ -17,8 +17,7 @@ from geneva_cli.analysis.contact import is_straight
 from geneva_cli.analysis.forces import LoadCase, QuantityValue, load_case
 from geneva_cli.analysis.instant import Instant
 from geneva_cli.analysis.load_functions import LoadFunctions, LoadQuantity, load_batch
-from geneva_cli.analysis.peak_search import PeakArray
-from geneva_cli.analysis.quantities import FORCE, SQUARED, STRESS, TORQUE, sources
+from geneva_cli.analysis.quantities import FORCE, SQUARED, STRESS, TORQUE
 from geneva_cli.kinematics.engagement import Engagement, Peak
 from geneva_cli.kinematics.pitch_curve import retraces
 from geneva_cli.loads.cycle import cycle_of
@@ -28,7 +27,6 @@ from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.numerics.greatest import first_greatest
 from geneva_cli.numerics.jet import Jet
-from geneva_cli.numerics.latest import Known
 from geneva_cli.spec.load_limits import load_limits
 
 
@@ -56,28 +54,7 @@ def slope_squared(i: Instant[Jet]) -> QuantityValue[Jet]:
     return QuantityValue(slope * slope)
 
 
-@Known
-def limited_peaks(mechanism: Mechanism) -> dict[str, Peak[float]]:
-    """The greatest sizes of the loads that the spec limits, as ``limited_load_peaks`` has them."""
-    return {name: peak_of(one, 0) for name, one in limited_load_peaks(mechanism).items()}
-
-
-def limited_load_peaks(mechanism: Mechanism) -> dict[str, PeakArray]:
-    """The greatest sizes of the loads that ``[limits]`` bounds, and their input angles: (m,).
-
-    A load without a value, such as a stress without a face width, is left out.
-    """
-    known, limited = sources(mechanism), load_limits(mechanism.spec.limits)
-    names = [name for name in limited if name in known]
-    return load_peaks(mechanism, names) if names else {}
-
-
-def peak_of(peaks: PeakArray, i: int) -> Peak[float]:
-    """The peak of one design."""
-    return Peak(float(peaks.max[i]), float(peaks.at_deg[i]))
-
-
-@Known
+@lru_cache(maxsize=16)
 def greatest_pressure(mechanism: Mechanism) -> Peak[float]:
     """The greatest pressure angle, degrees, and its input angle.
 
@@ -86,23 +63,11 @@ def greatest_pressure(mechanism: Mechanism) -> Peak[float]:
     for engagement in mechanism.engagements:
         if not is_straight(engagement) and not retraces(engagement):
             return Peak(90.0, mechanism.shown_deg(engagement.mid_deg))
-    return peak_of(greatest_pressures(mechanism), 0)
-
-
-def greatest_pressures(mechanism: Mechanism) -> PeakArray:
-    """The greatest pressure angles of m designs and their input angles, degrees: (m,).
-
-    They are NaN for a batch with pins that cross the radius of their slots at mid-motion.
-    """
-    curved = [e for e in mechanism.engagements if not is_straight(e)]
-    if not all(np.all(retraces(engagement)) for engagement in curved):
-        return Peak(*np.full((2, mechanism.designs), np.nan))
     own: dict[str, LoadQuantity] = {"slope": slope_squared}
     case = load_case(mechanism)._replace(inertia_Nm=0.0, hertz=None, efficiency=1.0).frictionless
     peak = load_peaks(mechanism, tuple(own), own, case)["slope"]
-    # it is 0 throughout a radial slot
-    angle, at_deg = np.degrees(np.arctan(np.sqrt(peak.max))), peak.at_deg
-    return Peak(angle, np.where(angle > 0.0, at_deg, 0.0))
+    angle = np.degrees(np.arctan(np.sqrt(peak.max))).item()
+    return Peak(angle, peak.at_deg.item() if angle else 0.0)  # 0 throughout a radial slot
 
 
 @lru_cache(maxsize=16)

@@ -16,7 +16,7 @@ designs are searched together, one block of designs after the other.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import Generic, NamedTuple, cast
+from typing import Generic, NamedTuple, TypeVar, cast
 
 import numpy as np
 
@@ -38,7 +38,7 @@ from geneva_cli.analysis.quantities import (
     outermost,
 )
 from geneva_cli.analysis.stretches import on_breaks, spans_of
-from geneva_cli.kinematics.engagement import Engagement, K
+from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.loads.groups import of_groups
 from geneva_cli.loads.means import means_from, sources_of, sums
 from geneva_cli.machine.mechanism import Mechanism
@@ -46,20 +46,22 @@ from geneva_cli.numerics.arrays import Number
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.search import SearchResult, search
 
+S = TypeVar("S", float, "float | None", Array)  # of one design, as printed, of a batch
 
-class LoadSummary(NamedTuple, Generic[K]):
+
+class LoadSummary(NamedTuple, Generic[S]):
     """Greatest and least over the motions, mean and root mean square over a period.
 
     Input angles are as shown; values are infinite if unbounded. Each is (m,) for m designs, or a
-    number of one.
+    number of one; as it is printed, None for a value that is not known.
     """
 
-    max: K
-    max_at_deg: K
-    min: K
-    min_at_deg: K
-    mean: K | None = None  # None if not requested
-    rms: K | None = None
+    max: S
+    max_at_deg: S
+    min: S
+    min_at_deg: S
+    mean: S | None = None  # None if not requested
+    rms: S | None = None
 
 
 class EngagementExtremes(NamedTuple):

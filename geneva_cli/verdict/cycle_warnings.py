@@ -11,13 +11,15 @@ from geneva_cli.analysis.quantities import FORCE, STRESS
 from geneva_cli.errors import Notice
 from geneva_cli.loads import loads
 from geneva_cli.loads.cycle import Cycle, cycle_of
-from geneva_cli.loads.summary import QuantitySummary
+from geneva_cli.loads.summaries import LoadSummary
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.load_limits import limits_by_key, load_limits
 
 
-def cycle_warnings(cycle: Cycle, summaries: Mapping[str, QuantitySummary]) -> list[Notice]:
+def cycle_warnings(
+    cycle: Cycle, summaries: Mapping[str, LoadSummary[float | None]]
+) -> list[Notice]:
     """Warnings about a wheel that drives the motor or lags, for the summaries of its loads."""
     return [*_back_driven(cycle, summaries), *_lags(cycle.mechanism)]
 
@@ -38,7 +40,9 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
     return out
 
 
-def _back_driven(cycle: Cycle, summaries: Mapping[str, QuantitySummary]) -> Iterator[Notice]:
+def _back_driven(
+    cycle: Cycle, summaries: Mapping[str, LoadSummary[float | None]]
+) -> Iterator[Notice]:
     torque, noun = summaries["input_torque_Nm"], cycle.mechanism.output.noun
     least, most = torque.min, torque.max
     if least is None or not least < -ROUNDED * abs(most or least):

@@ -1,4 +1,4 @@
-"""Rows of synth turned: those with the same turn at once, and what fails seen early."""
+"""Rows of synth turned, and what fails seen early."""
 
 import numpy as np
 import pytest
@@ -9,22 +9,20 @@ from geneva_cli.kinematics.laws.standard import ModifiedSine
 from geneva_cli.kinematics.motion import Motion
 from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.kinematics.wheels.internal import Internal
-from geneva_cli.kinematics.wheels.spherical import Spherical
 from geneva_cli.machine.drives.cam import Cam
 from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.drives.elliptical_gears import EllipticalGears
 from geneva_cli.machine.drives.gear_sector import GearSector
 from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.synthesis import turns
-from geneva_cli.synthesis.built import built, built_together
+from geneva_cli.synthesis.built import built
 from geneva_cli.synthesis.parts import USUAL, exact, parts, with_roller
 from geneva_cli.synthesis.parts_data import distances_at_rest, parts_data
 from geneva_cli.synthesis.reading import read_target
 from geneva_cli.synthesis.search import search
-from geneva_cli.synthesis.turns import Failure, Turns, same_turn
-from geneva_cli.verdict.checks import checks
+from geneva_cli.synthesis.turns import Turn
+from geneva_cli.verdict.checks import Check, checks
 from geneva_cli.verdict.checks.play import finds_slot
 
 
@@ -36,45 +34,18 @@ def four_bar():
     return spec
 
 
-@pytest.mark.parametrize("wheel", [External(5), Spherical(5)], ids=["plates", "shells"])
-def test_what_turns_alike_is_turned_once(wheel, monkeypatch):
-    """A drive in front of a crank, and the speed, change when and not where."""
-    drives = (Crank(n_rpm=30.0), SideCrank(A=0.3), EllipticalGears(eccentricity=0.2), Crank())
-    specs = [Spec(wheel, drive) for drive in drives]
-    assert len({same_turn(spec) for spec in specs}) == 1
-    turned = []
-    whole = turns.full_turn
-    monkeypatch.setattr(turns, "full_turn", lambda parts: turned.append(1) or whole(parts))
-    found = built_together(specs)
-    assert len(turned) == 1
-    assert [(one.spec, one.trouble) for one in found] == [(spec, "") for spec in specs]
-    assert not [c for spec in specs[:2] for c in checks(build(spec)) if c.passes is False]
-
-
-def test_other_rollers_and_laws_turn_otherwise():
-    motion = Motion(ModifiedSine(), ratio="matched")
-    specs = [
-        Spec(External(6)),
-        Spec(External(6), Crank(rollers=2)),
-        Spec(External(6), motion=motion),
-        with_roller(Spec(External(6)), 4.0),
-    ]
-    assert len({same_turn(spec) for spec in specs}) == len(specs)
-
-
 def test_a_gap_that_fails_is_found_where_it_failed_before(four_bar):
     """With the next roller, at the place where a larger one touched: the whole turn agrees."""
     L = build(four_bar).center_distance_mm
-    known = Turns()
     large, next_, fits = (with_roller(four_bar, exact(x * L)) for x in (0.05, 0.04, 0.025))
-    seen = known.failing(build(large))
+    seen = Turn(build(large)).failing
     assert [one.name for one in seen] == ["gap_mm"]
-    assert [one.name for one in Turns().first_failing(build(large))] == ["gap_mm"]
-    parts = PartsModel(build(same_turn(next_))).parts
+    assert [one.name for one in Turn(build(large)).first_failing] == ["gap_mm"]
+    parts = PartsModel(build(next_)).parts
     assert gap_about(parts, seen[0].at_deg) < -parts.contact
-    assert known.some_failing(build(next_), seen) == seen
+    assert Turn(build(next_)).some_failing(seen) == seen
     assert [c.name for c in checks(build(next_)) if c.passes is False] == ["gap_mm"]
-    assert known.some_failing(build(fits), seen) == []
+    assert Turn(build(fits)).some_failing(seen) == []
 
 
 def test_a_play_that_fails_is_found_where_it_failed_before():
@@ -84,23 +55,23 @@ def test_a_play_that_fails_is_found_where_it_failed_before():
     """
     rows = search(read_target(motion_deg="180", z="6", external=True, rollers=1)).rows
     (spec,) = [row.spec for row in rows if row.candidate.drive == "cam"]
-    whole = PartsModel(build(same_turn(spec)))
+    whole = PartsModel(build(spec))
     largest = whole.turn.hand_over
     assert largest.deg > finds_slot(whole.parts)
     assert 0.9 < play_about(whole.parts, largest.at_deg) / largest.deg <= 1.0 + 1e-6
-    seen = [Failure("hand_over_play_deg", largest.at_deg)]
-    assert Turns().some_failing(build(with_roller(spec, 4.0)), seen) == seen
+    seen = [Check("hand_over_play_deg", None, "at most", None, False, at_deg=largest.at_deg)]
+    assert Turn(build(with_roller(spec, 4.0))).some_failing(seen) == seen
 
 
 def test_a_check_at_rest_that_failed_before_is_computed_first(monkeypatch):
     """The crank's shaft meets the input crank whatever the roller; the turn is not begun."""
     drive = SideCrank(A=0.9999)
-    known = [Failure("link_gap_mm")]
+    known = [Check("link_gap_mm", None, "at least", None, False)]
     machine = build(with_roller(Spec(External(20), drive), 2.0))
     assert "link_gap_mm" in failing_names(machine)
     monkeypatch.setattr(turns, "full_turn", None)
     monkeypatch.setattr(turns, "standing_checks", None)
-    assert Turns().some_failing(machine, known) == known
+    assert [one.name for one in Turn(machine).some_failing(known)] == ["link_gap_mm"]
 
 
 def failing_names(machine):
@@ -151,13 +122,12 @@ def test_a_wheel_that_is_free_by_far_is_given_up(wheel, alpha0_deg, radii, end, 
     free as lets that find its slot. Six more radii are usual, each of which would be turned.
     """
     tried = []
-    whole = Turns._turn
 
-    def turn(known, machine):
+    def turn(machine):
         tried.append(machine.roller_radius_mm)
-        return whole(known, machine)
+        return Turn(machine)
 
-    monkeypatch.setattr(Turns, "_turn", turn)
+    monkeypatch.setattr("geneva_cli.synthesis.built.Turn", turn)
     spec = Spec(wheel, Cam(), motion=Motion(ModifiedSine(), alpha0_deg=alpha0_deg))
     found = built(spec)
     assert [*dict.fromkeys(tried)] == radii

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import reduce
+from functools import lru_cache, reduce
 from typing import NamedTuple
 
 import numpy as np
@@ -33,7 +33,7 @@ class PartLoads(NamedTuple):
         return PartLoads(*(float(np.ravel(row)[i]) for row in self))
 
 
-@Known
+@lru_cache(maxsize=16)
 def own_loads(mechanism: Mechanism) -> PartLoads:
     """The greatest loads of a machine in its own direction as numbers, cached for its checks."""
     return part_loads(mechanism).of(0)

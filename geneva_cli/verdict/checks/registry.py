@@ -172,13 +172,6 @@ def turn_checks(parts: MachineParts, turn: FullTurn) -> Iterator[Check]:
     yield from applicable(TURNING, parts, turn)
 
 
-def import_checks() -> None:
-    """Import all checks at once: processes that are forked then have them."""
-    for among in (MOTION, LIMITS, *STANDING.values(), TURNING, PROOFS):
-        for by in among.values():
-            load_named(f"verdict.checks.{by}")
-
-
 def check_named(among: Checks, name: str, *of: object) -> Check | None:
     """The check with this name; None if it is not in the list, or does not apply."""
     check: Check | None = None

@@ -145,9 +145,10 @@ def _drawn(of: Designs, ends: shafts.ShaftDimensions, part: str) -> shafts.Shaft
     return ends
 
 
-def _number(of: Designs, values: Array) -> float:
+def _number(of: Designs, values: Number) -> float:
     """Values (m,) as a machine has its numbers: a float, or (m, 1) in a batch."""
-    return values.item() if of.single else parameter(values[:, None])
+    every = np.asarray(values)
+    return every.item() if of.single else parameter(every[:, None])
 
 
 def _shaft(

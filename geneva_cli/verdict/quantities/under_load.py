@@ -19,16 +19,16 @@ from geneva_cli.machine.materials import roller_material
 from geneva_cli.numerics.arrays import Array, Number, library, parameter
 from geneva_cli.verdict.part_sizes import (
     LockSizes,
-    PartSizes,
+    batched,
     design_lock_sizes,
     layouts_lock_sizes,
-    part_sizes,
     rack_horns,
     stressed_parts,
 )
 
 if TYPE_CHECKING:
     from geneva_cli.layout.ball import Ball
+    from geneva_cli.layout.stressed import Stressed
     from geneva_cli.loads.strength.horn_search import HornStress
     from geneva_cli.loads.strength.lock import LockUnderTorque
     from geneva_cli.loads.strength.part_loads import PartLoads
@@ -145,12 +145,12 @@ class UnderLoad:
         return lock.loaded_locks(self.machine, sizes.half_width, sizes.lock, width)
 
     @cached_property
-    def parts(self) -> PartSizes | None:
-        """The dimensions of stressed parts; None if no design has parts, or a load."""
+    def parts(self) -> Stressed | None:
+        """The dimensions of stressed parts, (m,); None if no design has parts, or a load."""
         if not self.machine.spec.is_loaded:
             return None
         each = zip(self.designs.each, self.layouts, strict=True)
-        return part_sizes([stressed_parts(*one) for one in each])
+        return batched([stressed_parts(*one) for one in each])
 
     @property
     def contact_mm(self) -> float | None:
@@ -158,7 +158,7 @@ class UnderLoad:
         width = self.machine.spec.size.face_width_mm
         if width is not None or self.parts is None:
             return width
-        return parameter(self.parts.contact[:, None])
+        return parameter(np.reshape(self.parts.contact, (-1, 1)))
 
     @cached_property
     def pin_mm(self) -> Number:
