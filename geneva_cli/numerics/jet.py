@@ -206,9 +206,13 @@ def cosines_after(sine: Number, cosine: Number, order: int) -> list[Number]:
 
 def sine_versine(x: Jet) -> tuple[Jet, Jet]:
     """sin x and 1 - cos x, the latter without cancellation."""
+    m = library(x.c[0])
+    half = m.sin(0.5 * x.c[0])
+    versine = 2.0 * half * half
+    if len(x.c) == 1:  # the cosine would be of no use
+        return Jet((m.sin(x.c[0]),)), Jet((versine,))
     s, c = sin_cos(x)
-    half = library(x.c[0]).sin(0.5 * x.c[0])
-    return s, Jet((2.0 * half * half, *[-a for a in c.c[1:]]))
+    return s, Jet((versine, *[-a for a in c.c[1:]]))
 
 
 def sine_versine_of(rate: Jet, y: Number, x: Number, order: int) -> tuple[Jet, Jet]:

@@ -19,6 +19,7 @@ from geneva_cli.layout.reliefs import has_arcs, without_lock
 from geneva_cli.layout.sizes import sizes
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.latest import KEPT
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.crank import crank_contours, is_whole
 from geneva_cli.outlines.walls.straight import straight_walls
@@ -100,7 +101,7 @@ def outlines(mechanism: Mechanism, tolerance: float = 0.0) -> Outlines:
     return drawn(where, sizes(where), tolerance)
 
 
-@lru_cache(maxsize=2)  # the lock's dimensions and the parts are of one machine
+@lru_cache(maxsize=KEPT)  # a sweep cuts the locks of its designs first, and then turns the parts
 def drawn(assembly: Assembly, sizes: Sizes, tolerance: float = 0.0) -> Outlines:
     """Return the cached outlines of an assembly with known sizes, within ``tolerance`` mm."""
     kinds, L = assembly.kinds, assembly.L

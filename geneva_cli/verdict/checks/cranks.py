@@ -54,10 +54,12 @@ def _least(edge: tuple[Array, Array], one: Member, other: Member) -> tuple[float
     opposite: Array = around - (other.turn - one.turn) + math.pi
     taken = _support(edge, around) + _support(edge, opposite)
     # in each interval of the direction of the other's axis, from its middle to both ends
-    gap = np.full(count, -math.inf)
-    for off in range(-count // 4, count // 4 + 1):
+    gap, quarter = np.full(count, -math.inf), count // 4
+    wrapped = np.concatenate((taken[-quarter:], taken, taken[:quarter]))
+    for off in range(-quarter, quarter + 1):
         least = abs(between) * math.cos((abs(off) + 0.5) * step)
-        gap = np.maximum(gap, least - np.roll(taken, -off))
+        start = quarter + off
+        np.maximum(gap, least - wrapped[start : start + count], out=gap)
     i = int(np.argmin(gap))
     seen = math.atan2(between.imag, between.real) - one.turn  # at input angle 0
     # rounded far below the step of the directions
