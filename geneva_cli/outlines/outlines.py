@@ -18,7 +18,7 @@ from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.reliefs import has_arcs, without_lock
 from geneva_cli.layout.sizes import sizes
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, keep_freed_memory
 from geneva_cli.numerics.latest import KEPT
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.crank import crank_contours, is_whole
@@ -104,6 +104,7 @@ def outlines(mechanism: Mechanism, tolerance: float = 0.0) -> Outlines:
 @lru_cache(maxsize=KEPT)  # a sweep cuts the locks of its designs first, and then turns the parts
 def drawn(assembly: Assembly, sizes: Sizes, tolerance: float = 0.0) -> Outlines:
     """Return the cached outlines of an assembly with known sizes, within ``tolerance`` mm."""
+    keep_freed_memory()  # walls and the full turn take large arrays again and again
     kinds, L = assembly.kinds, assembly.L
     fine = max(0.5 * CURVED * L, tolerance)
     walls = {engagement: slot_walls(assembly, sizes, engagement, fine) for engagement in kinds}
