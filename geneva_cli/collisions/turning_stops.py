@@ -66,7 +66,8 @@ class TurningStops(Stops):
             y = -2.0 * sign * r * h * g / d
             # few of these are on the arc itself, rather than on the rest of its circle
             fits = np.flatnonzero(own.face(p, x, y, self.ahead[p] - angle, other.sense[q]))
-            n, p, q, s, x, y, on, lead = (one[fits] for one in (n, p, q, s, x, y, on, lead))
+            n, p, q, on = (which[fits] for which in (n, p, q, on))
+            s, x, y, lead = (values[fits] for values in (s, x, y, lead))
             good = other.face(q, x, y, towards[n, q] - others.turn[n], -own.sense[p])
             lever = own.sense[p] * other.radius[q]
             touch = np.hypot(s - lever * x, lever * y)
