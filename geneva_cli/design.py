@@ -462,7 +462,7 @@ class Design:
         size = self.spec.size
         if size.face_width_mm is None and size.wheel_thickness_mm is None:
             return None  # before the import of what draws parts
-        from geneva_cli.parts.wheel_inertia import known_wheel_body
+        from geneva_cli.parts.wheel_body import known_wheel_body
 
         return known_wheel_body(self.mechanism)
 
@@ -607,32 +607,11 @@ class Design:
         return self.parts_model.outlines
 
     @question
-    def drawn(self, tolerance_mm: float, part: str = "wheel") -> PartsModel:
-        """The parts as they are written for a tolerance in mm, and their full turn.
-
-        Raises GenevaError for a tolerance out of range. Also raises it without flat parts, unless
-        ``part`` is drawn without them.
-
-        >>> Design(External(6)).drawn(0.01).outlines.relief
-        'arc'
-        """
-        from geneva_cli.drawings.catalogue import is_alone, machine_of, require_tolerance
-        from geneva_cli.drawings.model import PartsModel
-        from geneva_cli.outlines.outlines import outlines
-
-        mechanism = machine_of(self.mechanism, part)
-        require_tolerance(mechanism, tolerance_mm)
-        if not mechanism.spec.is_flat and is_alone(mechanism, part):
-            return PartsModel(mechanism)
-        return PartsModel(mechanism, outlines(mechanism, tolerance_mm))
-
-    @question
     def drawing(
         self,
         part: str,
         tolerance_mm: float = 0.001,
         curves: str = "arcs",
-        of: PartsModel | None = None,
         kerf_mm: float | None = None,
         dog_bones_mm: float | None = None,
         centre_marks: bool = False,
@@ -647,16 +626,15 @@ class Design:
         >>> Design(External(6)).drawing("wheel").layers
         ('WHEEL', 'BORE')
         """
-        from geneva_cli.drawings.catalogue import part_drawing
+        from geneva_cli.drawings.catalogue import model_of, part_drawing
 
         if curves not in CURVES:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
-        model = of or self.drawn(tolerance_mm, part)
-        picture = part_drawing(model, part, tolerance_mm, CURVES[curves])
+        picture = part_drawing(self.parts_model, part, tolerance_mm, CURVES[curves])
         if dog_bones_mm is not None:
             from geneva_cli.drawings.milling import with_dog_bones
 
-            picture = with_dog_bones(picture, model, dog_bones_mm)
+            picture = with_dog_bones(picture, model_of(self.parts_model, part), dog_bones_mm)
         if centre_marks:
             from geneva_cli.drawings.centre_marks import with_centre_marks
 
@@ -670,9 +648,7 @@ class Design:
         return paths(picture, kerf_mm)
 
     @question
-    def cutter(
-        self, part: str, cutter_mm: float, dog_bones: bool = False, of: PartsModel | None = None
-    ) -> tuple[str, list[str]]:
+    def cutter(self, part: str, cutter_mm: float, dog_bones: bool = False) -> tuple[str, list[str]]:
         """The reason why a milling cutter cannot cut a part, empty if it can; and warnings.
 
         Warnings are about corners that it leaves round, unless there are dog bones, and narrow
@@ -685,18 +661,16 @@ class Design:
         from geneva_cli.drawings.milling import judged
 
         require_cut(part, "--cutter")
-        model = of or self.drawn(0.001, part)
-        refused, left = judged(self.drawing(part, of=model), cutter_mm)
+        refused, left = judged(self.drawing(part), cutter_mm)
         if refused or not dog_bones:
             return refused, left
-        return judged(self.drawing(part, of=model, dog_bones_mm=cutter_mm), cutter_mm)
+        return judged(self.drawing(part, dog_bones_mm=cutter_mm), cutter_mm)
 
     @question
     def sheet(
         self,
         tolerance_mm: float = 0.001,
         curves: str = "arcs",
-        of: PartsModel | None = None,
         part: str = "sheet",
         units: str = "mm",
     ) -> Sheet:
@@ -714,9 +688,8 @@ class Design:
 
         if curves not in CURVES:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
-        model = of or self.drawn(tolerance_mm, part)
         with writing_in(units):
-            return part_sheet(model, part, tolerance_mm, CURVES[curves])
+            return part_sheet(self.parts_model, part, tolerance_mm, CURVES[curves])
 
     @question
     def save(
@@ -755,14 +728,14 @@ class Design:
         if not sheet and self.is_table(part, drawn):
             show(self.part_table(part, tolerance_mm), path, inputs=files)
             return
-        model, curves = self.drawn(tolerance_mm, part), usual_curves(path, "")
-        refused = self.judge(model)[0] if self.spec.is_turned and not force else ""
+        curves = usual_curves(path, "")
+        refused = self.judge(part)[0] if self.spec.is_turned and not force else ""
         if refused:
             raise GenevaError(f"{cut(path, 300)}: not written: {refused}")
         if sheet:
-            draw_sheet(self.sheet(tolerance_mm, curves, model, part), path, inputs=files)
+            draw_sheet(self.sheet(tolerance_mm, curves, part), path, inputs=files)
         else:
-            draw(self.drawing(part, tolerance_mm, curves, model), path, inputs=files)
+            draw(self.drawing(part, tolerance_mm, curves), path, inputs=files)
 
     def _repr_html_(self) -> str:
         """HTML for a notebook: description and verdict, the machine, its curves, the report."""
@@ -785,7 +758,7 @@ class Design:
         >>> first.name, first.value, first.must_be, first.limit, first.passes
         ('dwell_deg', 240.0, 'at least', 0.0, True)
         """
-        return self._judged(None)
+        return self._proved(None)
 
     @question
     def proved_to(self, to_mm: float) -> list[Check]:
@@ -800,16 +773,22 @@ class Design:
 
         allowed = Range(0.0, self.mechanism.roller_radius_mm, "(]")
         require_mm("--proof", to_mm, allowed, "the roller's radius")
-        return self._judged(to_mm)
+        return self._proved(to_mm)
 
-    def _judged(self, proof_mm: float | None) -> list[Check]:
-        from geneva_cli.verdict.advice import judged
+    def _proved(self, proof_mm: float | None) -> list[Check]:
         from geneva_cli.verdict.checks import proofs
 
-        if self.spec.is_turned:
-            return [*judged(self.mechanism, self.parts_model), *proofs(self.parts_model, proof_mm)]
+        turned = self.spec.is_turned
+        return [*self._judged, *(proofs(self.parts_model, proof_mm) if turned else ())]
+
+    @answer
+    def _judged(self) -> list[Check]:
+        """Every check but the proof."""
+        from geneva_cli.verdict.advice import judged
+
         # a machine without parts is judged without NumPy
-        return judged(self.mechanism, self.parts_model if self.spec.has_parts else None)
+        needs_model = self.spec.is_turned or self.spec.has_parts
+        return judged(self.mechanism, self.parts_model if needs_model else None)
 
     @property
     def passes(self) -> bool:
@@ -823,17 +802,23 @@ class Design:
         return all_pass(self.checks)
 
     @question
-    def judge(self, model: PartsModel) -> tuple[str, list[str]]:
-        """The reason why drawn parts cannot be written, empty if they can; and other problems.
+    def judge(self, part: str = "wheel") -> tuple[str, list[str]]:
+        """The reason why a part cannot be written, empty if it can; and other problems.
 
-        >>> wheel = Design(External(6))
-        >>> wheel.judge(wheel.drawn(0.01))
+        Raises GenevaError for a flat wheel or crank that the sizes leave no place for.
+
+        >>> Design(External(6)).judge()
         ('', [])
         """
+        from geneva_cli.drawings.catalogue import model_of
         from geneva_cli.verdict.advice import judged
         from geneva_cli.verdict.failures import failures
 
-        return failures(judged(model.mechanism, model), model)
+        model = model_of(self.parts_model, part)
+        if model.mechanism.spec.is_flat:
+            _ = model.outlines  # their error comes before all checks
+        is_own = model is self.parts_model
+        return failures(self._judged if is_own else judged(model.mechanism, model), model)
 
     @question
     def tolerance(

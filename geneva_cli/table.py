@@ -211,6 +211,17 @@ def in_digits(value: float, digits: int) -> str:
     return NO_BOUND if endless else f"{value + 0.0:.{digits}g}"
 
 
+def in_decimals(value: float, decimals: int) -> str:
+    """A number with at most so many decimals, zero without a sign.
+
+    >>> in_decimals(173.20508, 3), in_decimals(20.0, 3), in_decimals(-1e-9, 0)
+    ('173.205', '20', '0')
+    """
+    text = f"{value:.{decimals}f}"
+    text = text.rstrip("0").rstrip(".") if "." in text else text
+    return "0" if text == "-0" else text
+
+
 def _whole(column: Any) -> Any:
     """A column as one array, including one that is computed in pieces."""
     import numpy as np

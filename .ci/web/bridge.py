@@ -85,11 +85,10 @@ def file_of(name: str) -> bytes:
 
 def _all_files(design: Design) -> bytes:
     """The files of ``geneva export`` in an archive."""
-    model = design.drawn(0.001, "assembly")
-    refused = design.judge(model)[0] if design.spec.has_parts else ""
+    refused = design.judge()[0] if design.spec.has_parts else ""
     if refused:
         raise GenevaError(f"not written: {refused}")
-    files, _ = export_files(design, trade_of(None), model)
+    files, _ = export_files(design, trade_of(None))
     data = io.BytesIO()
     with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as archive:
         for file in files:

@@ -242,17 +242,25 @@ def _root(square: V) -> V:
     return sqrt(square) if isinstance(square, Jet) else np.sqrt(square)
 
 
-def signs(case: LoadCase, at: Contact[V]) -> tuple[Array, Array, Array]:
-    """Signs of the wheel's torque, of the sliding and of the input's torque."""
-    drives = np.copysign(1.0, value(wheel_torque(case, at)))
+def signs(
+    case: LoadCase, at: Contact[V], drives: Array | None = None
+) -> tuple[Array, Array, Array]:
+    """Signs of the wheel's torque, unless known, of the sliding and of the input's torque."""
+    if drives is None:
+        drives = np.copysign(1.0, value(wheel_torque(case, at)))
     slides = np.copysign(1.0, value(sliding(at, drives, case.radius)))
     return drives, slides, np.copysign(1.0, value(feeding(case, at, drives, slides)))
 
 
-def bounded_loads(case: LoadCase, at: Contact[Array]) -> Instant[Array]:
-    """The values at a contact with the signs that they have there, as ``bounded`` has them."""
+def bounded_loads(
+    case: LoadCase, at: Contact[Array], drives: Array | None = None
+) -> Instant[Array]:
+    """The values at a contact with the signs that they have there, as ``bounded`` has them.
+
+    ``drives`` is the sign of the wheel's torque, if known.
+    """
     with np.errstate(all="ignore"):
-        return bounded(Instant(case, at, *signs(case, at)))
+        return bounded(Instant(case, at, *signs(case, at, drives)))
 
 
 def values(instant: Instant[Jet]) -> Instant[Array]:

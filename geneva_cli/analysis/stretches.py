@@ -40,6 +40,13 @@ def spans_of(engagement: Engagement, n: int) -> list[tuple[Array, Array]]:
     return out
 
 
+def smooth_ranges(engagement: Engagement) -> list[tuple[float, float]]:
+    """Ends of the smooth parts of one design's motion, clear of the breaks between them."""
+    places = [np.array([[x]]) for x in engagement.motion.breaks_deg]
+    pieces = smooth_pieces(places, engagement.motion.BREAKS_TO)
+    return [(start.item(), end.item()) for start, end in pieces]
+
+
 def to_mid_motion(engagement: Engagement, stretches: Stretches, n: int) -> Stretches:
     """Stretches extended to the mid-motion of a curved slot, where searches stop short."""
     if not engagement.slot.curved:

@@ -60,10 +60,9 @@ def run(
     design = load(spec, settings or ())
     if not output:
         raise GenevaError("the files need a folder: give -o FOLDER")
-    model = design.drawn(0.001, "assembly")
     if design.spec.is_turned:
-        require_written(design, design.judge(model), force)
-    files, missing = export_files(design, needed, model)
+        require_written(design, design.judge(), force)
+    files, missing = export_files(design, needed)
     entries = [Entry(file.name, file.content) for file in files]
     with replacing_folder(output, entries, design.spec.files) as folder:
         for file in files:

@@ -135,23 +135,20 @@ def run(
         return
     if samples is not None:
         raise GenevaError("--samples is for tables of points; drawings take --tolerance")
-    model = design.drawn(tolerance, part)
     if design.spec.is_turned:
-        require_written(design, design.judge(model), force)
+        require_written(design, design.judge(part), force)
     if sheet:
         _refuse(kerf, cutter, center_marks)
         if fill is not None:
             raise GenevaError(
                 "--fill is for single parts and the assembly; a sheet has lines alone"
             )
-        draw_sheet(
-            design.sheet(tolerance, curves, model, part, units), output, format, files, **own
-        )
+        draw_sheet(design.sheet(tolerance, curves, part, units), output, format, files, **own)
     else:
         if cutter is not None:
-            require_written(design, design.cutter(part, cutter, dog_bones, model), force)
+            require_written(design, design.cutter(part, cutter, dog_bones), force)
         bones = cutter if dog_bones else None
-        drawing = design.drawing(part, tolerance, curves, model, kerf, bones, center_marks)
+        drawing = design.drawing(part, tolerance, curves, kerf, bones, center_marks)
         draw(drawing, output, format, units, files, **own)
     warn(design)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from geneva_cli.curves.measure import Box, bounds
+from geneva_cli.curves.measure import Box, bounds_of
 from geneva_cli.curves.shapes import Arc, Point, Shape
 from geneva_cli.errors import GenevaError
 
@@ -54,8 +54,6 @@ class Drawing(NamedTuple):
 
 def extent(drawing: Drawing) -> Box:
     """Smallest box around all shapes; raises GenevaError if there are none."""
-    boxes = [bounds(shape) for shape in drawing.shapes]
-    if not boxes:
+    if not drawing.shapes:
         raise GenevaError("nothing to draw: a drawing must have a shape")
-    low_x, low_y, high_x, high_y = zip(*boxes, strict=True)
-    return Box(min(low_x), min(low_y), max(high_x), max(high_y))
+    return bounds_of(drawing.shapes)

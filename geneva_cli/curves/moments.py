@@ -42,11 +42,6 @@ class Moments(NamedTuple):
         """Centre of mass of a uniform plate."""
         return self.x / self.area, self.y / self.area
 
-    def turned(self, angle: float) -> Moments:
-        """Moments after a rotation about the origin, radians counterclockwise."""
-        c, s = math.cos(angle), math.sin(angle)
-        return Moments(self.area, c * self.x - s * self.y, s * self.x + c * self.y, self.polar)
-
     def times(self, factor: float) -> Moments:
         """Moments multiplied by a factor."""
         return Moments(*[factor * part for part in self])

@@ -27,7 +27,6 @@ class Part(NamedTuple):
     drawing: str | None = None
     sheet: str | None = None  # as a drawing sheet with dimensions
     cut: bool = False  # True if it is cut out of a plate
-    alone: bool = False  # True if it is drawn without the outlines of wheel and crank
     in_front: bool = False  # True if it belongs to a first wheel, in front of the crank
     every: bool = False  # True if every machine has it
 
@@ -41,14 +40,14 @@ PARTS = {
     "crank": Part(drawing="drawings.part_drawings:crank", cut=True),
     "arm": Part(drawing="drawings.part_drawings:arm", cut=True),
     "number-wheel": Part(cut=True),
-    "links": Part(drawing="drawings.part_drawings:links", cut=True, alone=True),
+    "links": Part(drawing="drawings.part_drawings:links", cut=True),
     "first-wheel": Part(drawing="drawings.part_drawings:wheel", cut=True, in_front=True),
     "first-crank": Part(drawing="drawings.part_drawings:crank", cut=True, in_front=True),
-    "frame": Part(drawing="drawings.part_drawings:frame", cut=True, alone=True),
+    "frame": Part(drawing="drawings.part_drawings:frame", cut=True),
     "guide": Part(cut=True),
     "parts": Part("drawings.parts_list:parts_table", every=True),
     "assembly": Part(drawing="drawings.machine_drawing:machine"),
-    "gears": Part("layout.gear_curves:gears_table", "drawings.part_drawings:gears", alone=True),
+    "gears": Part("layout.gear_curves:gears_table", "drawings.part_drawings:gears"),
     "groove": Part("layout.groove:groove_table", "drawings.part_drawings:groove"),
     "groove-plate": Part(drawing="drawings.part_drawings:groove_plate", cut=True),
     "coupon": Part(drawing="drawings.coupon:coupon", cut=True),
@@ -115,23 +114,12 @@ def require_tolerance(mechanism: Mechanism, tolerance_mm: float) -> None:
     require_mm("--tolerance", tolerance_mm, allowed, "the roller's radius")
 
 
-def is_alone(mechanism: Mechanism, part: str) -> bool:
-    """Return True if a part is drawn without the outlines of wheel and crank."""
-    own = PARTS.get(part)
-    if own is None:
-        return False
-    in_plane = mechanism.spec.wheel.FLAT
-    return own.alone or (not in_plane and _drawn_by(kind_of(mechanism), part) is not None)
-
-
-def machine_of(mechanism: Mechanism, part: str) -> Mechanism:
-    """Return the machine that a part belongs to: itself, or the first of two wheels in series.
+def model_of(model: PartsModel, part: str) -> PartsModel:
+    """Return the model of the machine that a part belongs to: itself, or the first of two wheels.
 
     Raises GenevaError for a part of a first wheel if there is none.
     """
-    if part not in PARTS or not PARTS[part].in_front:
-        return mechanism
-    return _loaded("parts.first_pair:first_pair")(mechanism)
+    return model.front if part in PARTS and PARTS[part].in_front else model
 
 
 def part_drawing(model: PartsModel, part: str, tolerance_mm: float, curves: str) -> Drawing:
@@ -142,6 +130,8 @@ def part_drawing(model: PartsModel, part: str, tolerance_mm: float, curves: str)
     _require_known(part)
     if part in SHEETS:
         raise GenevaError(f"--part {part} is a drawing sheet, not a drawing to cut")
+    model = model_of(model, part)
+    require_tolerance(model.mechanism, tolerance_mm)
     is_table(model.mechanism, part, drawn=True)
     by, built = _maker(model, part)
     drawing: Drawing = _loaded(by)(built.within(tolerance_mm, curves))
@@ -156,27 +146,23 @@ def part_sheet(model: PartsModel, part: str, tolerance_mm: float, curves: str) -
     require_drawn(model.mechanism, part)
     if not is_sheet(part):
         raise GenevaError(f"--part {part} is no drawing sheet; use {', '.join(SHEETS)}")
+    require_tolerance(model.mechanism, tolerance_mm)
     by, built = _maker(model, part)
     return _loaded(by)(built.within(tolerance_mm, curves))
 
 
 def _maker(model: PartsModel, part: str) -> tuple[str | None, PartsOfMachine]:
     """Return the function that draws a part, and the parts of the machine that it takes."""
-    by = _drawn_by(model.kind, part)
+    by = model.kind.DRAWN.get(part)
     # the links and gears in front of a sphere are those of a flat machine
-    return (by, model.built) if by else (PARTS[part].drawing, model.flat)
-
-
-def _drawn_by(kind: PartsKind, name: str) -> str | None:
-    """Return the function that draws a part of a kind; or None."""
-    return kind.drawn_by(name, PARTS[name].drawing or PARTS[name].sheet)
+    return (by, model.built) if by else (PARTS[part].drawing or PARTS[part].sheet, model.flat)
 
 
 def _is_of(kind: PartsKind, name: str) -> bool:
     """Return True if machines with parts of a kind have it: a sphere may have flat links."""
     one = PARTS[name]
     flat = kind.HAS_FLAT_PARTS and (one.drawing or one.sheet or one.table)
-    return bool(one.every or _drawn_by(kind, name) or flat)
+    return bool(one.every or name in kind.DRAWN or flat)
 
 
 def require_cut(part: str, option: str = "--kerf") -> None:

@@ -13,12 +13,13 @@ import numpy as np
 
 from geneva_cli.curves.drawing import Annotations, Drawing, LevelDistance
 from geneva_cli.curves.measure import turned
+from geneva_cli.curves.placed import placed
 from geneva_cli.curves.plates import Group, Member
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape, about
 from geneva_cli.drawings.part_drawings import PITCH, pitch_lines
 from geneva_cli.kinematics.layout import Joint
 from geneva_cli.layout.link_positions import links_at
-from geneva_cli.layout.projection import once, outlines_of, placed, shapes, titled, uncovered
+from geneva_cli.layout.projection import once, outlines_of, shapes, titled, uncovered
 from geneva_cli.layout.roller_paths import roller_reaches
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH

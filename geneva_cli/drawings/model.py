@@ -19,8 +19,6 @@ from geneva_cli.machine.mechanism import Mechanism
 if TYPE_CHECKING:
     from geneva_cli.collisions.full_turn import FullTurn
     from geneva_cli.collisions.machine_parts import MachineParts, WorkLimit
-    from geneva_cli.layout.assembly import Assembly
-    from geneva_cli.layout.plain_sizes import Sizes
     from geneva_cli.layout.stressed import Stressed
     from geneva_cli.outlines.outlines import Outlines
     from geneva_cli.outlines.rack_outlines import RackOutlines
@@ -32,37 +30,28 @@ if TYPE_CHECKING:
     from geneva_cli.parts.sphere.sphere_parts import SphereParts
 
     NamedBuilds: TypeAlias = list[tuple[str, Callable[[], PartsOfMachine]]]
-    Known: TypeAlias = tuple[Outlines | None, Shells | None]
 
 
 class PartsModel:
     """The outlines, the parts and the full turn of one machine, shared by all who need them.
 
     What makes them is imported at its first use: most runs need few of the parts.
-    ``known`` and ``known_shells`` are its outlines or its shells, if they are computed already.
     Without ``advice`` an error does not name the roller that fits, which takes long to find.
     """
 
-    def __init__(
-        self,
-        mechanism: Mechanism,
-        known: Outlines | None = None,
-        advice: bool = True,
-        known_shells: Shells | None = None,
-    ) -> None:
-        self.mechanism = mechanism
-        self.known, self.known_shells = known, known_shells
-        self.advice = advice
+    def __init__(self, mechanism: Mechanism, advice: bool = True) -> None:
+        self.mechanism, self.advice = mechanism, advice
         self.kind = kind_of(mechanism)
 
     def over(self, mechanism: Mechanism) -> PartsModel:
         """Return the model of a machine whose parts have the same outlines and positions."""
         from geneva_cli.layout.assembly import input_of
 
-        to_input = input_of(mechanism)
-        assembly = self.parts.assembly._replace(full=mechanism, to_input=to_input)
-        known, shells = self.kind.known(self, assembly)
-        return PartsModel(mechanism, known, self.advice, shells)
+        own, to_input = self.parts, input_of(mechanism)
+        model = PartsModel(mechanism, self.advice)
+        parts = own.over(own.assembly._replace(full=mechanism, to_input=to_input))
+        vars(model)[self.kind.TURNED] = parts
+        return model
 
     def following(self, mechanism: Mechanism) -> PartsModel:
         """Return the model of the next design, with these outlines and this turn if they are equal.
@@ -86,37 +75,30 @@ class PartsModel:
             for spec in (self.mechanism.spec, mechanism.spec)
         )
         try:
-            return own == other and machine_sizes(mechanism)[1] == self.sizes
+            return own == other and machine_sizes(mechanism)[1] == self.outlines.sizes
         except GenevaError:
             return False
 
     @cached_property
-    def assembly(self) -> Assembly:
-        """Positions of flat parts; raises GenevaError for a machine without them."""
-        from geneva_cli.layout.assembly import assembly
+    def front(self) -> PartsModel:
+        """The model of the first of two wheels in series; raises GenevaError if there is one."""
+        from geneva_cli.parts.first_pair import first_pair
 
-        return self.known.assembly if self.known else assembly(self.mechanism)
-
-    @cached_property
-    def sizes(self) -> Sizes:
-        """The sizes of flat parts; raises GenevaError where those of the spec leave no wheel."""
-        from geneva_cli.layout.sizes import machine_sizes
-
-        return self.known.sizes if self.known else machine_sizes(self.mechanism)[1]
+        return PartsModel(first_pair(self.mechanism))
 
     @cached_property
     def outlines(self) -> Outlines:
         """The outlines; raises GenevaError where the sizes leave none."""
-        from geneva_cli.outlines.outlines import drawn
+        from geneva_cli.outlines.outlines import outlines
 
-        return self.known or drawn(self.assembly, self.sizes)
+        return outlines(self.mechanism)
 
     @cached_property
     def shells(self) -> Shells:
         """The shells of a machine on a sphere; raises GenevaError where the sizes leave none."""
         from geneva_cli.parts.sphere.shells import shells
 
-        return self.known_shells or shells(self.mechanism, self.advice)
+        return shells(self.mechanism, self.advice)
 
     @cached_property
     def flat(self) -> FlatParts:
@@ -164,18 +146,17 @@ class PartsModel:
 class PartsKind(ABC):
     """The parts of wheels of one kind; functions in tables are written ``module:function``."""
 
-    # functions that draw parts, or make their sheets, by the names of the parts
+    # functions that draw parts, or make their sheets, by the names of the parts, where they are not
+    # those of the catalogue
     DRAWN: ClassVar[Mapping[str, str]] = {}
     # functions that tabulate parts, where it is not the function of the catalogue
     TABLES: ClassVar[Mapping[str, str]] = {}
     # True if it has all parts of flat machines as well, such as links and gears
     HAS_FLAT_PARTS: ClassVar[bool] = False
+    # the property of a model that holds what is turned
+    TURNED: ClassVar[str] = "parts"
     # parts whose outlines are those of a surface laid flat
     LAID_FLAT: ClassVar[tuple[str, ...]] = ()
-
-    def drawn_by(self, name: str, flat: str | None) -> str | None:
-        """Return the function that draws a part; ``flat`` is that of flat machines."""
-        return self.DRAWN.get(name)
 
     @abstractmethod
     def built(self, model: PartsModel) -> PartsOfMachine:
@@ -188,10 +169,6 @@ class PartsKind(ABC):
     def all_built(self, model: PartsModel) -> NamedBuilds:
         """Return names and functions of all parts."""
         return [("all parts", lambda: model.built)]
-
-    def known(self, model: PartsModel, assembly: Assembly) -> Known:
-        """Return the outlines or shells of a machine of the same sizes, with its assembly."""
-        return None, None
 
     def dimensions(self, model: PartsModel) -> Iterator[Dimension | Missing]:
         """Yield the dimensions of the parts, or the reason why there are none."""
@@ -206,10 +183,7 @@ class Flat(PartsKind):
     """Plates in the plane, whose functions stand in the catalogue."""
 
     HAS_FLAT_PARTS: ClassVar[bool] = True
-
-    def drawn_by(self, name: str, flat: str | None) -> str | None:
-        """Return the function that draws a part."""
-        return flat
+    TURNED: ClassVar[str] = "outlines"
 
     def built(self, model: PartsModel) -> FlatParts:
         """Return the parts."""
@@ -219,15 +193,12 @@ class Flat(PartsKind):
         """Return the outlines."""
         return model.outlines
 
-    def known(self, model: PartsModel, assembly: Assembly) -> Known:
-        """Return the outlines with an assembly."""
-        return model.outlines.over(assembly), None
-
 
 class Ball(PartsKind):
     """Shells of a sphere, on shafts that meet at its centre; links and gears before it are flat."""
 
     HAS_FLAT_PARTS: ClassVar[bool] = True
+    TURNED: ClassVar[str] = "shells"
     LAID_FLAT: ClassVar[tuple[str, ...]] = ("wheel", "crank", "arm")
     TABLES: ClassVar[Mapping[str, str]] = {"wheel": "layout.meridians:meridians_table"}
     DRAWN: ClassVar[Mapping[str, str]] = {
@@ -251,10 +222,6 @@ class Ball(PartsKind):
     def all_built(self, model: PartsModel) -> NamedBuilds:
         """Return names and functions of the shells, and of links and gears."""
         return _before_links(model)
-
-    def known(self, model: PartsModel, assembly: Assembly) -> Known:
-        """Return the shells with an assembly."""
-        return None, model.shells.over(assembly)
 
     def dimensions(self, model: PartsModel) -> Iterator[Dimension | Missing]:
         """Yield the dimensions of the shells."""

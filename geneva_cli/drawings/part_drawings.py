@@ -14,6 +14,7 @@ import numpy as np
 
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.measure import bounds, turned
+from geneva_cli.curves.placed import in_place
 from geneva_cli.curves.plates import Group, Member, Plate
 from geneva_cli.curves.shapes import (
     Arc,
@@ -25,7 +26,7 @@ from geneva_cli.curves.shapes import (
 )
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.layout.projection import drawing_of, once, outlines_of, placed, shapes, titled
+from geneva_cli.layout.projection import drawing_of, once, outlines_of, shapes, titled
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.plates import arm_plate
@@ -98,13 +99,9 @@ def _side_by_side(plates: Iterable[Plate], between: float) -> Iterator[Member]:
     top = 0.0
     for plate in dict.fromkeys(plates):
         box = bounds(plate.outline)
-        up = (0.0, top - box.y0)
-        yield Member(  # moved itself, so that the kerf finds its outlines in the drawing
-            plate._replace(
-                outline=placed(plate.outline, up, 0.0),
-                holes=tuple(placed(hole, up, 0.0) for hole in plate.holes),
-            )
-        )
+        # moved itself, so that the kerf finds its outlines in the drawing
+        ((_, moved),) = in_place([Member(plate, (0.0, top - box.y0))])
+        yield Member(moved)
         top += box.y1 - box.y0 + between
 
 
@@ -164,7 +161,7 @@ def pitch_lines(parts: FlatParts, engagement: Engagement) -> list[Contour]:
 
 def _pitch_line(parts: FlatParts, engagement: Engagement) -> Contour:
     assembly = parts.outlines.assembly
-    fine = parts.outlines.fine if parts.tolerance is None else parts.tolerance
+    fine = 1e-3 if parts.tolerance is None else parts.tolerance  # mm, as a drawing's
     at = np.array([engagement.entry_deg, 0.0])
     x, y = engagement.slot(at, 0)
     if not engagement.slot.curved:

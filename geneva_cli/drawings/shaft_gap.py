@@ -16,7 +16,8 @@ import numpy as np
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.measure import at
 from geneva_cli.curves.moments import oriented
-from geneva_cli.curves.plates import Group, Member, Part, Plate, Stack, plates
+from geneva_cli.curves.placed import in_place
+from geneva_cli.curves.plates import Member, plates
 from geneva_cli.curves.shapes import Arc, Point, Segment, as_contour
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
@@ -153,24 +154,11 @@ def _rings_of(members: Iterable[Member]) -> list[Ring]:
 
 def _rings(member: Member) -> Iterator[Ring]:
     """Yield the rings of a part's plates about the axis that it turns on."""
-    from geneva_cli.layout.projection import placed
-
-    for plate, origin in _plates(member.part):
-        shapes = [placed(one, origin, 0.0) for one in oriented(plate.outline, plate.holes)]
-        inner = max(0.0, float(Polyarc(shapes).signed(np.zeros((1, 2)))[0]))
-        outer = max(math.hypot(*p) for piece in shapes[0].segments for p in _far(piece))
+    for _, plate in in_place([Member(member.part)]):
+        contours = oriented(plate.outline, plate.holes)
+        inner = max(0.0, float(Polyarc(contours).signed(np.zeros((1, 2)))[0]))
+        outer = max(math.hypot(*p) for piece in contours[0].segments for p in _far(piece))
         yield Ring(plate.name, plate.layer, member.at, inner, outer, plate.low, plate.high)
-
-
-def _plates(part: Part, origin: Point = (0.0, 0.0)) -> Iterator[tuple[Plate, Point]]:
-    """Yield the plates of a part that turns with its axis, and the positions of their origins."""
-    if isinstance(part, Group):
-        for member in part.members:
-            yield from _plates(member.part, member.at)
-    elif isinstance(part, Stack):
-        yield from ((plate._replace(name=part.name), origin) for plate in part.plates)
-    elif isinstance(part, Plate):
-        yield part, origin
 
 
 def _far(piece: Segment) -> Iterator[Point]:

@@ -26,16 +26,31 @@ if TYPE_CHECKING:
     from geneva_cli.kinematics.plane_motion import PlaneMotion
 
 
-class Assembly(NamedTuple):
-    """Positions of a machine's parts by the input angle of a plain crank, in degrees.
+class Passage(NamedTuple):
+    """A roller's passage through a slot: its engagement, and the input angle of mid-motion."""
 
-    ``motions`` has for each motion of a turn its engagement, and the input angle, degrees, by which
-    its middle follows that of the first one. ``rollers`` has for each roller the engagement in
-    which it runs through a slot, and the same angle. There is one roller for each motion, but two
-    where gears drive between them. ``slots`` has engagement and direction of each slot of the
-    wheel, or of each pair of slots, counterclockwise from the first. ``rests`` are the directions
-    of the crank's axis, seen from the wheel, while the wheel rests. Each lies half-way between two
-    slots.
+    engagement: Engagement
+    mid: float  # degrees
+
+    @property
+    def entry(self) -> float:
+        """Input angle at which the roller enters, degrees."""
+        return self.mid + self.engagement.entry_deg
+
+    @property
+    def exit(self) -> float:
+        """Input angle at which the roller leaves, degrees."""
+        return self.mid + self.engagement.exit_deg
+
+
+class Assembly(NamedTuple):
+    """Positions of a machine's parts by the input angle, in degrees: mostly of a plain crank.
+
+    ``motions`` are those of a turn, and ``rollers`` has the passage of each roller. There is one
+    roller for each motion, but two where gears drive between them. ``slots`` has engagement and
+    direction of each slot of the wheel, or of each pair of slots, counterclockwise from the first.
+    ``rests`` are the directions of the crank's axis, seen from the wheel, while the wheel rests.
+    Each lies half-way between two slots.
     """
 
     mechanism: Mechanism
@@ -43,8 +58,8 @@ class Assembly(NamedTuple):
     sign: float  # +1 external, -1 internal
     turn_deg: float  # input angle in a whole turn of the crank
     span_deg: float  # input angle over which the parts are checked: a whole turn, or one motion
-    motions: tuple[tuple[Engagement, float], ...]
-    rollers: tuple[tuple[Engagement, float], ...]
+    motions: tuple[Passage, ...]
+    rollers: tuple[Passage, ...]
     slots: tuple[tuple[Engagement, float], ...]
     rests: tuple[float, ...]
     full: Mechanism  # the machine of the spec, with the drive of its crank
@@ -97,9 +112,9 @@ class Assembly(NamedTuple):
         if engagement.groove is not None:
             from geneva_cli.layout.groove import roller_in_groove
 
-            return self.L * roller_in_groove(engagement.groove, at)
+            return self.L * roller_in_groove(engagement.groove, engagement.own_deg(at))
         x, y = engagement.path(at, 0)
-        return self.L * np.column_stack((x.c[0], y.c[0]))
+        return self.L * np.column_stack((x.c[0] + 0.0 * at, y.c[0] + 0.0 * at))
 
     def crank(self, input_deg: Array, first: Array | None = None) -> Array:
         """Return the crank's direction, radians: that of its first roller at input angle 0.
@@ -192,24 +207,31 @@ def assembled(mechanism: Mechanism) -> Assembly:
         mechanism = build(spec.replace(drive=crank, drive_before=None, size=no_gears))
     elif spec.drive_before:  # slots and path are by the angle of the drive's own input shaft
         mechanism = build(spec.replace(drive_before=None, size=no_gears))
+    return _turned(mechanism, full, to_input)
+
+
+def assembled_by_input(mechanism: Mechanism) -> Assembly:
+    """Return the assembly of a machine by the angle of its own input shaft."""
+    return _turned(mechanism, mechanism, _same)
+
+
+def _turned(mechanism: Mechanism, full: Mechanism, to_input: Callable[[float], float]) -> Assembly:
     turn = 360.0 * mechanism.spec.turns
     periods = round(turn / mechanism.period_deg)
     motions = tuple(
-        (engagement, engagement.mid_deg + k * mechanism.period_deg)
+        Passage(engagement, engagement.mid_deg + k * mechanism.period_deg)
         for k in range(periods)
         for engagement in mechanism.engagements
     )
     rollers = tuple(
-        (passage, behind - ahead)
+        Passage(passage, behind - ahead)
         for engagement, behind in motions
         for passage, ahead in engagement.passages
     )
-    L = mechanism.center_distance_mm
-    sign = spec.wheel.SIGN
-    around = _around(mechanism)
-    moves = spec.wheel.plane_motion(L)
+    L, wheel = mechanism.center_distance_mm, mechanism.spec.wheel
+    around, moves = _around(mechanism), wheel.plane_motion(L)
     return Assembly(
-        mechanism, L, sign, turn, turn, motions, rollers, *around, full, to_input, moves
+        mechanism, L, wheel.SIGN, turn, turn, motions, rollers, *around, full, to_input, moves
     )
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.measure import S, mapped, turned
-from geneva_cli.curves.plates import Group, Member, Part, Plate, Stack
-from geneva_cli.curves.shapes import Circle, Point, Shape
+from geneva_cli.curves.placed import in_place
+from geneva_cli.curves.plates import Member, Part
+from geneva_cli.curves.shapes import Circle, Shape
 from geneva_cli.machine.mechanism import Mechanism
 
 # in the order of a drawing
@@ -41,20 +41,8 @@ def _order(shape: Shape) -> tuple[int, bool]:
 
 def shapes(members: Iterable[Member]) -> Iterator[Shape]:
     """Yield the outlines and holes of plates at their positions."""
-    for one in members:
-        if isinstance(one.part, Group):
-            own: Iterable[Shape] = shapes(one.part.members)
-        else:
-            assert isinstance(one.part, Plate | Stack)
-            own = [shape for plate in one.part.plates for shape in (plate.outline, *plate.holes)]
-        yield from (placed(shape, one.at, one.turn) for shape in own)
-
-
-def placed(shape: S, at: Point, turn: float) -> S:
-    """Return a shape turned about its own origin, and then moved."""
-    if at == (0.0, 0.0) and not turn:
-        return shape
-    return mapped(turned(shape, turn), lambda p: (p[0] + at[0], p[1] + at[1]))
+    for _, plate in in_place(members):
+        yield from (plate.outline, *plate.holes)
 
 
 def with_frame(moving: Iterable[Member], standing: Iterable[Member]) -> tuple[Shape, ...]:

@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 
+from geneva_cli.table import in_decimals
+
 # The unit of the sheet that is being drawn, and its size in mm. Each thread has its own.
 _unit: ContextVar[tuple[str, float]] = ContextVar("unit", default=("mm", 1.0))
 
@@ -42,8 +44,7 @@ def number(value: float, decimals: int = 3) -> str:
     >>> number(173.20508), number(20.0)
     ('173.205', '20')
     """
-    text = f"{round(value, decimals) + 0.0:.{decimals}f}"  # no -0
-    return text.rstrip("0").rstrip(".") if "." in text else text
+    return in_decimals(value, decimals)
 
 
 def degrees(angle: float, decimals: int = 3) -> str:

@@ -13,9 +13,9 @@ import numpy as np
 
 from geneva_cli.kinematics.paths.course import PinCourse, PlacedWheel, leaves_slot, peak_bounds
 from geneva_cli.kinematics.paths.pairs import DOUBLE_ROOT_SLOPE, EndPairs, newton, pairs, residual
-from geneva_cli.kinematics.paths.samples import PathSamples, joined, points, sampled
+from geneva_cli.kinematics.paths.samples import PathSamples, points, sampled
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, blocks
+from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, blocks, joined
 
 SAME_ENTRY = 1e-6  # radians: entries nearer to each other are one
 
@@ -67,7 +67,7 @@ def wheels(path: RollerPath, b: Array) -> WheelSearch:
         rest = residual(ends, b)
         steep = np.abs(rest.det) >= DOUBLE_ROOT_SLOPE * np.abs(rest.by_exit)
         doubtful = doubtful.taken(~_lead_to(doubtful, ends.taken(steep), b))
-        doubtful = joined([doubtful, ends.taken(~steep)])
+        doubtful = joined([doubtful, ends.taken(~steep)], 0)
         # A path that stops has no direction there; boxes around such a point hold no pair.
         doubtful = doubtful.taken(np.flatnonzero(np.isfinite(doubtful.at.phi).all(axis=1)))
         # doubtful entries within 1e-4 radians lead to one wheel
@@ -79,7 +79,7 @@ def wheels(path: RollerPath, b: Array) -> WheelSearch:
         for i, samples in enumerate(every):
             mine = block[ends.which] == i
             kept.append(_followed(path, samples, ends.taken(mine), sense[mine]))
-    return WheelSearch(joined(kept), doubtful)
+    return WheelSearch(joined(kept, 0), doubtful)
 
 
 def followed(path: RollerPath, phi: Array, sense: Array) -> PathWheels:
@@ -131,7 +131,7 @@ def _apart(phi: Array, others: Array) -> Array:
 def _followed(path: RollerPath, samples: PathSamples, ends: EndPairs, sense: Array) -> PathWheels:
     """Wheels of the pairs between which the roller stays in its slot."""
     parts = blocks(len(sense), 512)  # the samples of 512 wheels stay in the processor's cache
-    return joined([_block_followed(path, samples, ends.taken(i), sense[i]) for i in parts])
+    return joined([_block_followed(path, samples, ends.taken(i), sense[i]) for i in parts], 0)
 
 
 def _block_followed(

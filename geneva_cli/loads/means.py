@@ -62,8 +62,8 @@ def load_means(
     def summed(some: LoadBatch, n: int) -> tuple[Array]:
         return (_sums_of(LoadFunctions(some), n, "mean" in requested),)
 
-    sums = sum(of_groups(one, summed)[0] for one in every)
-    means = means_from(mechanism, sources, np.asarray(sums), "mean" in requested)
+    each = [of_groups(one, summed)[0] for one in every]
+    means = means_from(mechanism, sources, each, "mean" in requested)
     return {name: means[source].times(factor) for name, (source, factor) in multiple_of.items()}
 
 
@@ -80,10 +80,14 @@ def sources_of(
 
 
 def means_from(
-    mechanism: Mechanism, names: Sequence[str], sums: Array, plain: bool
+    mechanism: Mechanism, names: Sequence[str], each: Sequence[Array], plain: bool
 ) -> dict[str, LoadMeans]:
-    """The means of quantities over a period, from their integrals ``sums``: (m,) each."""
-    every, out = sums / (np.ravel(mechanism.under_load.period_deg) * DEGREE), {}
+    """The means of quantities over a period: (m,) each.
+
+    ``each`` are the integrals over each engagement, as ``sums`` returns them.
+    """
+    every, out = _in_period(mechanism, names, each), {}
+    every /= np.ravel(mechanism.under_load.period_deg) * DEGREE
     for i, name in enumerate(names):
         square, mean = every[i], None
         if plain:
@@ -93,6 +97,23 @@ def means_from(
             mean = np.where(nought, 0.0, mean)
         out[name] = LoadMeans(mean, np.sqrt(square))
     return out
+
+
+def _in_period(mechanism: Mechanism, names: Sequence[str], each: Sequence[Array]) -> Array:
+    """The integrals over a period; of a bearing those of one crank, the greatest, or of one wheel.
+
+    The cranks work in turn. So do the wheels on a carrier, which are all alike.
+    """
+    drive = mechanism.spec.drive
+    cranks, wheels = len(drive.cranks), max(1, drive.wheels_on_carrier)
+    total: Array = np.sum(each, axis=0)
+    for i in range(len(total)):
+        if names[i % len(names)] == "wheel_bearing_N":
+            total[i] /= wheels
+        if names[i % len(names)] == "crank_bearing_N" and cranks > 1:
+            own = [sum(one[i] for one in each[k::cranks]) for k in range(min(cranks, len(each)))]
+            total[i] = np.max(own, axis=0) * min(1.0, len(each) / cranks)
+    return total
 
 
 def _sums_of(load: LoadFunctions, n: int, plain: bool) -> Array:

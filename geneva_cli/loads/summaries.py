@@ -32,6 +32,7 @@ from geneva_cli.analysis.peak_search import PeakArray, greater
 from geneva_cli.analysis.quantities import (
     FORCE,
     NEVER_NEGATIVE,
+    PRESSED,
     SQUARED,
     STRESS,
     outermost,
@@ -129,7 +130,7 @@ def summaries_from(
     """
     multiple_of, sources = sources_of(mechanism, names)
     totals = [one.total for one in each if one.total is not None]
-    means = means_from(mechanism, sources, np.sum(totals, axis=0), plain) if totals else {}
+    means = means_from(mechanism, sources, totals, plain) if totals else {}
     best: dict[str, LoadSummary[Array]] = {}
     for i, name in enumerate(sources):
         k = i + len(sources)
@@ -156,8 +157,13 @@ def _ends_of(name: str, most: Array, least: Array) -> list[Array]:
     if it is rounding compared with the other.
     """
     ends = [np.maximum(x, 0.0) if name in NEVER_NEGATIVE else np.asarray(x) for x in (most, least)]
-    ends = [np.sqrt(x) if name in SQUARED else x for x in ends]
-    # below 1e-14 of the peak, a value is rounding
+    if name in PRESSED:  # the square goes with the force, and has its rounding
+        return [np.sqrt(x) for x in _without_rounding(ends)]
+    return _without_rounding([np.sqrt(x) if name in SQUARED else x for x in ends])
+
+
+def _without_rounding(ends: Sequence[Array]) -> list[Array]:
+    """Greatest and least, 0 for one that is below 1e-14 of the other: that is rounding."""
     level = 1e-14 * np.maximum(*[np.where(np.isfinite(x), np.abs(x), 0.0) for x in ends])
     return [np.where(np.abs(x) > level, x, 0.0) for x in ends]
 

@@ -198,17 +198,23 @@ def record_of(like: Record, parts: Sequence[object]) -> Record:
     return cast("Record", tuple(parts) if make is tuple else make(*parts))
 
 
-def joined(records: Sequence[Record]) -> Record:
-    """Several records of arrays as one, each array joined along its last axis.
+def joined(records: Sequence[Record], axis: int = -1) -> Record:
+    """Several records of arrays, or of such records, as one: each array joined along an axis.
 
     >>> import numpy as np
     >>> joined([(np.zeros(1), np.ones((2, 1))), (np.zeros(2), np.ones((2, 2)))])[1].shape
     (2, 3)
     """
+    return record_of(records[0], [_joined(row, axis) for row in zip(*records, strict=True)])
+
+
+def _joined(parts: Sequence[object], axis: int) -> object:
+    """Members of records as one: arrays, or nested records."""
+    if isinstance(parts[0], tuple):
+        return joined(cast("Sequence[tuple[object, ...]]", parts), axis)
     import numpy
 
-    columns = cast("Iterable[tuple[Array, ...]]", zip(*records, strict=True))
-    return record_of(records[0], [numpy.concatenate(arrays, axis=-1) for arrays in columns])
+    return numpy.concatenate(cast("Sequence[Array]", parts), axis)
 
 
 def numbers_of(which: Mask | Whole) -> Whole:

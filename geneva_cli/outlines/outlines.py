@@ -13,17 +13,16 @@ from geneva_cli.collisions.pairs import Pose
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.layout.assembly import Assembly, assembly
+from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.reliefs import has_arcs, without_lock
-from geneva_cli.layout.sizes import sizes
+from geneva_cli.layout.sizes import machine_sizes
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, keep_freed_memory
 from geneva_cli.numerics.latest import KEPT
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.crank import crank_contours, is_whole
-from geneva_cli.outlines.walls.straight import straight_walls
-from geneva_cli.outlines.wheel import wheel_contour
+from geneva_cli.outlines.wheel import slot_walls, wheel_contour
 
 if TYPE_CHECKING:
     from geneva_cli.outlines.bounds import FlatPairs
@@ -51,7 +50,6 @@ class Outlines(NamedTuple):
     relief: str
     gaps: Gaps
     close: float
-    fine: float  # mm, the tolerance of the curves that are fitted to curved walls
 
     @property
     def contact(self) -> float:
@@ -91,40 +89,26 @@ class Outlines(NamedTuple):
         return abs(float(Polyarc(self.crank).signed(np.zeros((1, 2)))[0]))
 
 
-def outlines(mechanism: Mechanism, tolerance: float = 0.0) -> Outlines:
-    """Return the outlines in lines and arcs, within ``tolerance`` mm, as the full turn needs them.
+def outlines(mechanism: Mechanism) -> Outlines:
+    """Return the outlines in lines and arcs, as accurate as the full turn needs them.
 
-    A tolerance finer than the walls' accuracy is raised to that. The crank's outline is exact.
     Raises GenevaError where the machine has no flat parts, or its sizes leave none.
     """
-    where = assembly(mechanism)
-    return drawn(where, sizes(where), tolerance)
+    return drawn(*machine_sizes(mechanism))
 
 
 @lru_cache(maxsize=KEPT)  # a sweep cuts the locks of its designs first, and then turns the parts
-def drawn(assembly: Assembly, sizes: Sizes, tolerance: float = 0.0) -> Outlines:
-    """Return the cached outlines of an assembly with known sizes, within ``tolerance`` mm."""
+def drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
+    """Return the cached outlines of an assembly with known sizes."""
     keep_freed_memory()  # walls and the full turn take large arrays again and again
     kinds, L = assembly.kinds, assembly.L
-    fine = max(0.5 * CURVED * L, tolerance)
-    walls = {engagement: slot_walls(assembly, sizes, engagement, fine) for engagement in kinds}
+    walls = {one: slot_walls(assembly, sizes, one, 0.5 * CURVED * L) for one in kinds}
     close = (CURVED if any(engagement.slot.curved for engagement in kinds) else SAME_LENGTH) * L
     wheel = wheel_contour(assembly, sizes, walls)
     crank, relief, gaps = _relieved(Gaps(assembly, sizes, wheel, []), sizes, close)
     if assembly.full.spec.wheel.stopped:
         wheel = wheel_contour(assembly, sizes, walls, convex=True)
-    return Outlines(assembly, sizes, walls, wheel, crank, relief, gaps, close, fine)
-
-
-def slot_walls(
-    assembly: Assembly, sizes: Sizes, engagement: Engagement, tolerance: float, curves: str = "arcs"
-) -> Contour:
-    """Return the walls of a slot, straight or curved; ``curves`` is "arcs" or "cubics"."""
-    if engagement.slot.curved:
-        from geneva_cli.outlines.walls.curved import curved_walls
-
-        return curved_walls(assembly, sizes, engagement, tolerance, curves)
-    return straight_walls(assembly, sizes, engagement)
+    return Outlines(assembly, sizes, walls, wheel, crank, relief, gaps, close)
 
 
 def _relieved(bare: Gaps, sizes: Sizes, close: float) -> tuple[list[Contour], str, Gaps]:

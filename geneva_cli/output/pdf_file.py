@@ -16,6 +16,7 @@ from geneva_cli.curves import helvetica
 from geneva_cli.curves.measure import as_cubic, halved
 from geneva_cli.curves.shapes import Arc, Cubic, Point, Segment, Shape, as_contour
 from geneva_cli.errors import clean
+from geneva_cli.table import in_decimals
 
 POINT = 72.0 / 25.4  # points per millimetre
 # a power of ten is raised: its size and its height, over that of the text
@@ -128,5 +129,4 @@ def point(p: Point) -> str:
 
 def number(value: float) -> str:
     """A number with at most five decimals, without a negative zero."""
-    text = f"{value:.5f}".rstrip("0").rstrip(".")
-    return "0" if text == "-0" else text
+    return in_decimals(value, 5)

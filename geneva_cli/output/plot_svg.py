@@ -13,6 +13,7 @@ from geneva_cli.figure import Figure
 from geneva_cli.output.plot_layout import LEFT, PAGE, START, TEXT, Frame, Path, Pen, Point, blocks
 from geneva_cli.output.strokes import DARK, LIGHT, Paper, colour, dashes
 from geneva_cli.output.ticks import named
+from geneva_cli.table import in_decimals
 
 
 def chunks(figure: Figure) -> Iterator[str]:
@@ -137,5 +138,4 @@ def _at(place: Point) -> str:
 
 def _n(value: float) -> str:
     """A number with at most two decimals, without a negative zero."""
-    text = f"{value:.2f}".rstrip("0").rstrip(".")
-    return "0" if text == "-0" else text
+    return in_decimals(value, 2)

@@ -5,15 +5,14 @@ The lowest plates come first, so that the upper ones cover them; bores stay open
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
-from geneva_cli.curves.measure import mapped, turned
-from geneva_cli.curves.plates import Group, Member, Part, Plate, Stack
+from geneva_cli.curves.measure import mapped
+from geneva_cli.curves.placed import in_place
+from geneva_cli.curves.plates import Member, Part, Plate
 from geneva_cli.curves.shapes import Contour, Shape, as_contour
 from geneva_cli.output.inks import INKS, inks
 from geneva_cli.output.svg_paths import number, path
-
-Move = Callable[[Shape], Shape]
 
 
 def filled(solid: Part, fill: str, unit: float, mm: float) -> Iterator[str]:
@@ -54,29 +53,14 @@ def rings(solid: Part, unit: float = 1.0) -> list[tuple[str, tuple[Contour, ...]
     Of plates of one shape above each other, such as a counter's wheels, only the highest is there:
     their tints would add up.
     """
-    every = sorted(_placed(solid, lambda shape: shape), key=lambda p: (p[0].high, p[0].low))
+    every = sorted((plate for _, plate in in_place([Member(solid)])), key=_heights)
 
     def in_unit(shape: Shape) -> Contour:
         return as_contour(mapped(shape, lambda p: (p[0] / unit, p[1] / unit), lambda r: r / unit))
 
-    drawn = [
-        (plate.layer, tuple(in_unit(move(s)) for s in (plate.outline, *plate.holes)))
-        for plate, move in every
-    ]
+    drawn = [(one.layer, tuple(map(in_unit, (one.outline, *one.holes)))) for one in every]
     return list(dict.fromkeys(reversed(drawn)))[::-1]
 
 
-def _placed(part: Part, move: Move) -> Iterator[tuple[Plate, Move]]:
-    """Each plate with the transformation of its outline to its place."""
-    if isinstance(part, Plate | Stack):
-        yield from ((plate, move) for plate in part.plates)
-        return
-    assert isinstance(part, Group)
-    for member in part.members:
-        yield from _placed(member.part, _then(member, move))
-
-
-def _then(member: Member, move: Move) -> Move:
-    """The transformation to a member's place in its group, and then ``move``."""
-    x, y = member.at
-    return lambda shape: move(mapped(turned(shape, member.turn), lambda p: (p[0] + x, p[1] + y)))
+def _heights(plate: Plate) -> tuple[float, float]:
+    return plate.high, plate.low

@@ -55,6 +55,9 @@ class EdgedParts(PartsOfMachine):
         kind, tolerance = fit.KINDS[self.curves], self.tolerance
         return lambda curve, a, b: kind(curve, a, b, tolerance)
 
+    def require_wheel(self) -> None:
+        """Raise GenevaError where only links and gears are drawn; other parts have a wheel."""
+
     @property
     @abstractmethod
     def _framed(self) -> FrameAndShafts:

@@ -19,7 +19,8 @@ from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.outlines.outlines import Outlines, outlines
 from geneva_cli.parts.links import Links, drawn_links
-from geneva_cli.parts.plates import locking_plates, wheel_plate
+from geneva_cli.parts.plates import locking_plates
+from geneva_cli.parts.wheel import wheel_plate
 
 
 def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:
@@ -73,6 +74,6 @@ def in_front(first: Outlines, bars: Links, L: float) -> Iterator[Member]:
         return Member(own, (x, 0.0), turn)
 
     # at mid-motion the first slot of the first wheel's frame points at the first crank
-    yield placed(wheel_plate(first, first.wheel), L, 0.0)
+    yield placed(wheel_plate(first.assembly, first.sizes, first.wheel), L, 0.0)
     for plate in locking_plates(first):
         yield placed(plate, L + first.assembly.L, math.pi)

@@ -16,20 +16,20 @@ from geneva_cli.curves.hole_walls import require_faces
 from geneva_cli.curves.plates import Group, Member, Plate, plates
 from geneva_cli.curves.shapes import Contour, Point
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.kinematics.layout import Dimension, Joint
-from geneva_cli.layout.link_positions import links_at
+from geneva_cli.kinematics.layout import Dimension
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.crank import roller_centres
-from geneva_cli.outlines.outlines import Outlines, outlines, slot_walls
-from geneva_cli.outlines.wheel import wheel_contour
+from geneva_cli.outlines.outlines import Outlines, outlines
+from geneva_cli.outlines.wheel import slot_walls, wheel_contour
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
 from geneva_cli.parts.edged_parts import EdgedParts, FrameAndShafts
 from geneva_cli.parts.frame import framed
-from geneva_cli.parts.link_sizes import places, point_at_zero
+from geneva_cli.parts.link_sizes import roller_pins
 from geneva_cli.parts.links import Links, drawn_links
-from geneva_cli.parts.plates import arm_plate, locking_plates, roller_plates, wheel_part
+from geneva_cli.parts.plates import arm_plate, locking_plates, roller_plates
 from geneva_cli.parts.shafts import crank_hub
+from geneva_cli.parts.wheel import wheel_part
 
 if TYPE_CHECKING:
     from geneva_cli.layout.missing import NamedParts
@@ -68,13 +68,16 @@ class FlatParts(EdgedParts):
         """The outlines of wheel and crank; None for a wheel that is not drawn."""
         return self.outlines if self.mechanism.spec.is_flat else None
 
+    def require_wheel(self) -> None:
+        """Raise GenevaError for a wheel that is not drawn."""
+        _ = self.outlines
+
     def walls(self, slot: Engagement) -> Contour:
         """Return the walls of a slot in the wheel's frame, with that slot ahead."""
         parts = self.outlines
-        if self.curves == "arcs" and self.tolerance in (None, parts.fine):
+        if self.tolerance is None:
             return parts.slots[slot]
-        fine = parts.fine if self.tolerance is None else self.tolerance
-        return slot_walls(parts.assembly, parts.sizes, slot, fine, self.curves)
+        return slot_walls(parts.assembly, parts.sizes, slot, self.tolerance, self.curves)
 
     @cached_property
     def wheel(self) -> Member:
@@ -86,7 +89,7 @@ class FlatParts(EdgedParts):
             stopped = self.mechanism.spec.wheel.stopped
             contour = wheel_contour(parts.assembly, parts.sizes, walls, stopped)
         turn = float(parts.assembly.wheel(np.zeros(1))[0])
-        return self._edged([Member(wheel_part(parts, contour), turn=turn)])[0]
+        return self._edged([Member(wheel_part(parts.assembly, parts.sizes, contour), turn=turn)])[0]
 
     @cached_property
     def orbiting(self) -> tuple[Member, ...]:
@@ -138,12 +141,7 @@ class FlatParts(EdgedParts):
 
     def _on_links(self) -> tuple[Point, ...]:
         """Return the centres of rollers on links in the plane below the wheel."""
-        return tuple(
-            point_at_zero(joint)
-            for link in links_at(self.mechanism, np.zeros(1))
-            for joint, kind in zip(places(link), link.kinds, strict=True)
-            if link.plane == 1 and kind in (Joint.ROLLER, Joint.CARRIED)
-        )
+        return tuple(at for link, at in roller_pins(self.mechanism) if link.plane == 1)
 
     @cached_property
     def crank_hub(self) -> Plate | None:

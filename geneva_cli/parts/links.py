@@ -16,6 +16,7 @@ import numpy as np
 
 from geneva_cli.curves.hole_walls import apart, plate_wall
 from geneva_cli.curves.hull import convex_hull
+from geneva_cli.curves.placed import placed
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour, Point, Shape
 from geneva_cli.errors import GenevaError
@@ -291,11 +292,9 @@ def _placed(plate: Plate, where: complex, direction: complex) -> Member:
 def placed_holes(member: Member) -> Iterator[Circle]:
     """Yield the round holes of a plate at their positions at input angle 0."""
     assert isinstance(member.part, Plate)
-    turn, (x, y) = cmath.rect(1.0, member.turn), member.at
     for hole in member.part.holes:
         if isinstance(hole, Circle):
-            z = complex(*hole.centre) * turn + complex(x, y)
-            yield Circle(hole.layer, (z.real, z.imag), hole.radius)
+            yield placed(hole, member.at, member.turn)
 
 
 def _circle(layer: str, at: complex, radius: float) -> Circle:

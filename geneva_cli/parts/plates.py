@@ -1,33 +1,15 @@
-"""Wheel and crank as solids: their outlines extruded along the axis.
+"""The crank as solids: its outlines extruded along the axis.
 
-The wheel stands on the plane z = 0; the arm is below it, and carries the locking disc and the pins.
+The wheel stands on the plane z = 0. The arm is below it, and carries the locking disc and the pins.
 """
 
 from __future__ import annotations
 
-from geneva_cli.curves.plates import Group, Member, Plate
-from geneva_cli.curves.shapes import Circle, Contour
+from geneva_cli.curves.plates import Plate
+from geneva_cli.curves.shapes import Circle
 from geneva_cli.outlines.crank import crank_circles, is_whole
 from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.outlines.wheel import wheel_circles
-from geneva_cli.outlines.wheel_hub import wheel_hub
 from geneva_cli.parts.arm import CrankArm, bolts
-
-
-def wheel_plate(parts: Outlines, contour: Contour) -> Plate:
-    """Return the wheel as a plate; an internal wheel's contour is the opening in its disc."""
-    circles = wheel_circles(parts.assembly, parts.sizes)
-    bores = [circle for circle in circles if circle.layer == "BORE"]
-    outside = [circle for circle in circles if circle.layer != "BORE"]
-    outline, *openings = [*outside, contour]
-    high = parts.sizes.wheel_thickness
-    return Plate("wheel", contour.layer, outline, (*openings, *bores), 0.0, high)
-
-
-def wheel_part(parts: Outlines, contour: Contour) -> Plate | Group:
-    """Return the wheel, with its hub below it if the spec has one."""
-    plate, hub = wheel_plate(parts, contour), wheel_hub(parts.assembly, parts.sizes)
-    return Group(plate.name, (Member(plate), Member(hub))) if hub else plate
 
 
 def arm_plate(parts: Outlines, arm: CrankArm) -> Plate:

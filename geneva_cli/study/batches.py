@@ -70,9 +70,10 @@ def _split(spec: Spec, keys: dict[Any, list[BatchKey]]) -> tuple[Any, dict[str, 
     kinds = (type(spec.wheel), type(spec.drive), before, spec.motion and spec.motion.law)
     if kinds not in keys:
         keys[kinds] = [*_keys(spec)]
-    shape: list[Any] = [kinds]
-    own = {}
-    tables = vars(spec)
+    own, tables = {}, vars(spec)
+    # loads, sizes and all the rest: equal in a batch, as their keys do not vary in it
+    apart = "wheel", "drive", "drive_before", "motion", "path", "title"
+    shape: list[Any] = [kinds, *(value for name, value in tables.items() if name not in apart)]
     for table, attribute, name, varies in keys[kinds]:
         value = vars(tables[attribute_of(table)])[attribute]
         if varies and isinstance(value, (int, float)) and not isinstance(value, bool):

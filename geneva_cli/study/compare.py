@@ -80,7 +80,8 @@ def differing(table: Table) -> Table:
 def _same(cell: Cell, first: Cell) -> bool:
     """Return True if two cells are equal, numbers apart from rounding."""
     if isinstance(cell, float) and isinstance(first, float):
-        return math.isclose(cell, first, rel_tol=ROUNDED)
+        # a play of 0 degrees has a rounding of 1e-14; the least power of a watch is some 1e-12 W
+        return math.isclose(cell, first, rel_tol=ROUNDED, abs_tol=1e-13)
     return cell == first
 
 

@@ -9,7 +9,6 @@ from functools import partial
 from typing import NamedTuple, TypeVar
 
 from geneva_cli.design import CURVES, Design
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.drawings.single_parts import SinglePart, single_parts
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.layout.missing import Missing
@@ -62,20 +61,17 @@ def trade_of(name: str | None) -> Trade:
     return TRADES[name]
 
 
-def export_files(
-    design: Design, trade: Trade, model: PartsModel
-) -> tuple[list[ExportFile], list[Missing]]:
+def export_files(design: Design, trade: Trade) -> tuple[list[ExportFile], list[Missing]]:
     """The files of a design for a trade, and parts that cannot be built.
 
-    ``model`` has its outlines. A spherical machine has no bed of parts, and its outlines are those
+    A spherical machine has no bed of parts, and its outlines are those
     of wheel, crank and arm laid flat.
 
-    >>> design = Design(External(6))
-    >>> files, _ = export_files(design, trade_of("laser"), design.drawn(0.001))
+    >>> files, _ = export_files(Design(External(6)), trade_of("laser"))
     >>> [file.name for file in files][:3]
     ['wheel-1x-10mm.dxf', 'locking-disc-1x-10mm.dxf', 'arm-1x-10mm.dxf']
     """
-    kind = model.kind
+    model = design.parts_model
     files: list[ExportFile] = []
     missing: list[Missing] = []
     for format in trade.single:
@@ -83,11 +79,13 @@ def export_files(
         fine = curve_tolerance(None, "", format)
         parts, missing = single_parts(model, fine, curves)
         if format == "dxf":
-            files += _laid_flat(design, model, fine)
+            files += _laid_flat(design, fine)
         files += _single(parts, format)
     # shells do not lie on a bed
-    names = [name for name in trade.whole if not (kind.LAID_FLAT and name.startswith("plate."))]
-    files += [ExportFile(name, CONTENTS[name], _writer(design, model, name)) for name in names]
+    names = [
+        name for name in trade.whole if not (model.kind.LAID_FLAT and name.startswith("plate."))
+    ]
+    files += [ExportFile(name, CONTENTS[name], _writer(design, name)) for name in names]
     files.append(
         ExportFile("parts.csv", "list of parts", partial(show, design.part_table("parts")))
     )
@@ -116,11 +114,11 @@ def _slug(name: str) -> str:
     return re.sub("[^a-z0-9]+", "-", name.lower().replace("'", "")).strip("-")
 
 
-def _laid_flat(design: Design, model: PartsModel, tolerance_mm: float) -> Iterator[ExportFile]:
+def _laid_flat(design: Design, tolerance_mm: float) -> Iterator[ExportFile]:
     """Yield the outlines of a spherical machine's cones."""
-    for part in model.kind.LAID_FLAT:
+    for part in design.parts_model.kind.LAID_FLAT:
         try:
-            drawing = design.drawing(part, tolerance_mm, of=model)
+            drawing = design.drawing(part, tolerance_mm)
         except GenevaError:  # a machine without an arm; the list of parts has the reason
             continue
         yield ExportFile(
@@ -130,7 +128,7 @@ def _laid_flat(design: Design, model: PartsModel, tolerance_mm: float) -> Iterat
         )
 
 
-def _writer(design: Design, model: PartsModel, name: str) -> Callable[[str], None]:
+def _writer(design: Design, name: str) -> Callable[[str], None]:
     """The function that writes a file of the whole machine."""
 
     def write(path: str) -> None:
@@ -144,10 +142,10 @@ def _writer(design: Design, model: PartsModel, name: str) -> Callable[[str], Non
 
             animate(scene(design), path)
         elif stem == "sheet":
-            draw_sheet(design.sheet(of=model), path)
+            draw_sheet(design.sheet(), path)
         else:
             fine = curve_tolerance(None, "", format)
-            draw(design.drawing(stem, fine, usual_curves("", format), model), path)
+            draw(design.drawing(stem, fine, usual_curves("", format)), path)
 
     return write
 

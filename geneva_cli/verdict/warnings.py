@@ -15,7 +15,7 @@ from geneva_cli.kinematics.laws.law import Law
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import BEFORE
-from geneva_cli.parts.wheel_inertia import known_wheel_body
+from geneva_cli.parts.wheel_body import known_wheel_body
 from geneva_cli.verdict.carried_warnings import carried_warnings, unlikely_warnings
 from geneva_cli.verdict.motion_warnings import motion_warnings
 from geneva_cli.verdict.parts_warnings import process_warnings, turn_warnings

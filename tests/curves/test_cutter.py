@@ -137,8 +137,8 @@ def test_a_bone_that_has_no_room_is_refused():
 def two_pins():
     """A locking disc whose sector reliefs have corners, and its dog bones."""
     design = load(str(repo.DESIGNS / "two-pins-z4.toml"))
-    model = design.drawn(0.001, "crank")
-    return design, model, design.drawing("crank", of=model, dog_bones_mm=6.0)
+    model = design.parts_model
+    return design, model, design.drawing("crank", dog_bones_mm=6.0)
 
 
 def test_the_disc_locks_where_it_did(two_pins):
@@ -154,7 +154,7 @@ def test_the_disc_locks_where_it_did(two_pins):
             if isinstance(s, Arc) and abs(s.radius - lock) < 1e-9 and math.hypot(*s.centre) < 1e-9
         ]
 
-    plain, arcs = locking(design.drawing("crank", of=model))
+    plain, arcs = locking(design.drawing("crank"))
     disc, same = locking(freed_drawing)
     assert same == arcs
     assert len(disc.segments) == len(plain.segments) + 2
@@ -166,15 +166,15 @@ def test_the_disc_locks_where_it_did(two_pins):
 
 def test_the_verdict_on_a_part(two_pins):
     design, model, _ = two_pins
-    refused, left = design.cutter("crank", 6.0, of=model)
+    refused, left = design.cutter("crank", 6.0)
     assert not refused
     corners = [text for text in left if "leaves a radius of 3 mm" in text]
     assert len(corners) == 2
-    assert design.cutter("crank", 6.0, dog_bones=True, of=model) == (
+    assert design.cutter("crank", 6.0, dog_bones=True) == (
         "",
         [text for text in left if text not in corners],
     )
-    refused, _ = design.cutter("wheel", 30.0, of=model)
+    refused, _ = design.cutter("wheel", 30.0)
     width = 2.0 * model.outlines.sizes.half_width
     assert refused.endswith(f"is narrower; use a cutter up to {width:g} mm")
 
@@ -201,13 +201,13 @@ def test_the_command(tmp_path):
 
 
 def test_what_is_no_part_to_cut(two_pins):
-    design, model, _ = two_pins
+    design, *_ = two_pins
     with pytest.raises(
         GenevaError, match="--cutter applies only to parts that are cut out of a plate"
     ):
-        design.cutter("assembly", 3.0, of=model)
+        design.cutter("assembly", 3.0)
     with pytest.raises(GenevaError, match="--cutter 0: must be above 0, at most 1000 mm"):
-        design.cutter("crank", 0.0, of=model)
+        design.cutter("crank", 0.0)
 
 
 def test_a_keyway_without_room_for_two_dog_bones_names_a_cutter_that_has():

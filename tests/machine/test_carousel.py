@@ -39,6 +39,7 @@ from geneva_cli.scene import place_at, value_at
 from geneva_cli.study.against import against
 from geneva_cli.study.animation.scene import scene
 from geneva_cli.verdict.quantities.groups import GROUPS
+from geneva_cli.verdict.strength import strength
 
 WHEELS = [External(3), External(4), External(6), External(12), Internal(3), Internal(6)]
 every = pytest.mark.parametrize("wheel", WHEELS, ids=lambda w: f"{w.NAME}-{w.z}")
@@ -258,6 +259,11 @@ def test_loads_of_several_wheels_are_the_sum_over_a_turn(z, wheels):
         torque = np.empty(len(x))
         torque[order] = one.cycle.states(own[order]).input_torque_Nm
         total += torque
+    # a wheel's own bearings see one motion in a turn, the finger's see those of all wheels
+    for key, times in (("wheel_bearing_N", 1), ("crank_bearing_N", wheels)):
+        assert several.loads[key].mean == pytest.approx(times * one.loads[key].mean, rel=1e-12)
+        rms = math.sqrt(times) * one.loads[key].rms
+        assert several.loads[key].rms == pytest.approx(rms, rel=1e-12)
     summary = several.loads["input_torque_Nm"]
     peak = abs(total).max()
     assert summary.max == pytest.approx(total.max(), rel=1e-6)
@@ -533,7 +539,7 @@ def test_the_vibration_says_how_far_the_unbalance_winds_up():
     (text,) = (t for t in design.vibration().to_dict()["warnings"] if "off the wheel's axis" in t)
     moment = 2.0 * 0.05 * 0.1 * (2.0 * math.pi) ** 2
     assert f"up to {moment:.4g} N m on the shaft" in text
-    assert f"by {math.degrees(moment / 1e4):.4g} deg" in text
+    assert f"by {math.degrees(moment / 1e4):.4g}°" in text
     balanced = Mass("point", mass_kg=2.0, radius_mm=50.0, count=2)
     for other in (
         Design(External(6), Carousel(), mass=(balanced,), shaft=shaft),
@@ -554,3 +560,45 @@ def test_a_batch_of_carriers_with_several_fingers():
         for one, other in pairs:
             x = 0.3 * one.entry_deg
             assert np.array_equal(one.motion(x).c[1], other.motion(x).c[1])
+
+
+@pytest.mark.parametrize("count", [POINTS, 1])
+def test_the_wheel_s_shaft_bears_its_bodies(count):
+    """Newton's law for the points: the force of pin and bodies on the pivot is within the bound.
+
+    The bound adds sizes, so that it is above the vector sum, by half of it at most.
+    """
+    wheel, mass, n, L, a = External(5), 0.7, 120.0, 0.25, 0.04
+    bodies = Mass("point", mass_kg=mass, count=count, radius_mm=1000.0 * HELD)
+    design = Design(
+        wheel,
+        Carousel(n_rpm=n),
+        mass=(bodies,),
+        size=Size(center_distance_mm=1000.0 * L),
+        shaft=Shaft(wheel_overhang_mm=1000.0 * a, bending_factor=1.0),
+    )
+    witness, w = witness_of(wheel), mp.mpf(n) * mp.pi / 30
+    places = design.cycle.mechanism.engagements
+    greatest = 0.0
+    for one in places:
+        turned = one.mid_angle or 0.0
+        for fraction in np.linspace(-0.98, 0.98, 25):
+            c = mp.radians(mp.mpf(float(fraction * one.exit_deg)))
+            total = mp.mpc(0)
+            for k in range(count):
+                angle = mp.mpf(2 * k) * mp.pi / POINTS + turned
+                total += mass * mpmath.diff(
+                    lambda x, angle=angle: L * mp.expj(x) - HELD * mp.expj(witness.slot(x) + angle),
+                    c,
+                    2,
+                )
+            pin = design.cycle.states(np.array([one.mid_deg + float(mp.degrees(c))])).pin_force_N[0]
+            slot = 1j * mp.expj(witness.slot(c))
+            # on the pivot: the pin's force, on either wall, less what speeds the bodies up
+            inert = w**2 * total
+            sums = (abs(pin * slot - inert), abs(pin * slot + inert))
+            greatest = max(greatest, *map(float, sums))
+    moment = strength(design.mechanism)["strength.wheel_shaft.moment_Nm"]
+    torque = design.loads["wheel_torque_Nm"]
+    assert greatest * a * 0.9999 <= moment
+    assert moment <= 1.5 * math.hypot(greatest * a, max(torque.max, -torque.min))

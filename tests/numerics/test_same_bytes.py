@@ -27,7 +27,7 @@ from geneva_cli.analysis.motion import motion_table
 from geneva_cli.curves import fit
 from geneva_cli.layout.assembly import assembly
 from geneva_cli.layout.groove import groove_curve
-from geneva_cli.outlines.outlines import slot_walls
+from geneva_cli.outlines.wheel import slot_walls
 from geneva_cli.layout.sizes import sizes
 def load(path):
     return design.load(path).mechanism

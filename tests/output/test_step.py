@@ -23,9 +23,9 @@ from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, about, b
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.inks import INKS
+from geneva_cli.output.splines import pieces
 from geneva_cli.output.step import chunks
 from geneva_cli.output.step.entities import real, words
-from geneva_cli.output.step.splines import pieces
 
 # Relative. Coordinates have 12 decimals: of parts of 100 mm, 14 digits, and sums of areas lose one.
 VOLUME = 1e-12
@@ -106,9 +106,8 @@ def test_random_outlines(corners, thickness):
 @pytest.mark.parametrize("name", ["turret", "internal-z6", "press-curved", "two-pins-z4"])
 def test_machines(name, curves):
     design = load(str(repo.DESIGNS / f"{name}.toml"))
-    proof = design.drawn(0.01)
     for part in ("wheel", "crank", "arm", "assembly"):
-        drawing = design.drawing(part, 0.01, curves, proof)
+        drawing = design.drawing(part, 0.01, curves)
         file = File("".join(chunks(drawing, "mm")))
         bodies, wanted = file.all("MANIFOLD_SOLID_BREP"), plates(drawing.solid)
         assert len(bodies) == len(wanted)

@@ -11,8 +11,8 @@ from geneva_cli.curves.mass import mass_properties
 from geneva_cli.curves.shapes import Circle, Contour, Line
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.plates import wheel_plate
-from geneva_cli.parts.wheel_inertia import wheel_body
+from geneva_cli.parts.wheel import wheel_plate
+from geneva_cli.parts.wheel_body import wheel_body
 from geneva_cli.spec.tables import Size
 
 DIN = "DIN 6885-1"
@@ -71,7 +71,7 @@ def test_the_mass_is_without_them():
     whole = of(center_distance_mm=200.0, wheel_bore_mm=25.0, wheel_thickness_mm=10.0)
     holed = whole.with_("size.dial_bolts", 4).with_("size.dial_bolt_mm", 6.0)
     holed = holed.with_("size.wheel_keyway", DIN)
-    plates = [wheel_plate(d.parts, d.parts.wheel) for d in (whole, holed)]
+    plates = [wheel_plate(d.parts.assembly, d.parts.sizes, d.parts.wheel) for d in (whole, holed)]
     masses = [mass_properties(plate, 7850.0).mass_kg for plate in plates]
     # the keyway: 8 mm wide from its top down to the bore's circle
     half = math.asin(4.0 / 12.5)

@@ -11,14 +11,13 @@ from geneva_cli import Design, External, GenevaPair, Load, Size, load
 from geneva_cli.curves.mass import mass_properties
 from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Circle
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 
 
 @pytest.fixture(scope="module")
 def pair():
     design = load(str(repo.DESIGNS / "geneva-pair.toml"))
-    return design, design.drawn(0.001, "first-wheel")
+    return design, design.parts_model.front
 
 
 def bore(drawing):
@@ -39,25 +38,24 @@ def test_it_is_a_plain_wheel_and_turns(pair):
         External(first.first_z),
         size=Size(L, design.mechanism.roller_radius_mm, lock_radius_mm=model.outlines.sizes.lock),
     )
-    assert design.drawing("first-wheel", of=model).shapes[0] == plain.drawing("wheel").shapes[0]
-    assert design.judge(model) == ("", [])
+    assert design.drawing("first-wheel").shapes[0] == plain.drawing("wheel").shapes[0]
+    assert design.judge("first-wheel") == ("", [])
 
 
 def test_its_shafts_are_those_of_the_second_crank_and_of_the_first_link(pair):
-    design, model = pair
-    second = PartsModel(design.mechanism)
-    assert bore(design.drawing("first-wheel", of=model)) == bore(design.drawing("crank", of=second))
-    links = design.drawing("links", of=second)
+    design, _ = pair
+    assert bore(design.drawing("first-wheel")) == bore(design.drawing("crank"))
+    links = design.drawing("links")
     (link,) = (plate for plate in plates(links.solid) if plate.name == "first crank")
     shaft = next(hole for hole in link.holes if hole.centre[0] == 0.0)
-    assert bore(design.drawing("first-crank", of=model)) == shaft.radius
+    assert bore(design.drawing("first-crank")) == shaft.radius
 
 
 def test_it_is_in_the_list_below_the_second_cranks_arm(pair):
-    design, model = pair
+    design, _ = pair
     rows = {row["name"]: row for row in design.part_table("parts").to_rows()}
     for name, part in (("first wheel", "first-wheel"), ("first locking disc", "first-crank")):
-        row, drawing = rows[name], design.drawing(part, of=model)
+        row, drawing = rows[name], design.drawing(part)
         plate = next(p for p in plates(drawing.solid) if p.layer in ("WHEEL", "CRANK"))
         assert row["mass_kg"] == mass_properties(plate, 7850.0).mass_kg
         # in the plane of the first crank's roller, between the arm and that crank
@@ -101,7 +99,7 @@ def test_the_first_pair_by_hand(first):
     assert b == rows["first crank"]["thickness_mm"]
     bent = 32.0 * force * 0.5 * b / (math.pi * d**3)
     assert found["first_pin_stress_MPa"].value == pytest.approx(bent, rel=1e-12)
-    front = PartsModel(design.mechanism).flat.front
+    front = design.parts_model.flat.front
     own = front.outlines.sizes
     r, R = own.half_width, own.recess
     h = first * s - r - R

@@ -33,8 +33,8 @@ MOUNTS = 4
 @cache
 def made(name):
     design = load(str(repo.DESIGNS / f"{name}.toml"))
-    proof = design.drawn(0.001)
-    return design, proof, design.drawing("frame", of=proof)
+    proof = design.parts_model
+    return design, proof, design.drawing("frame")
 
 
 def rows(design, row):
@@ -144,9 +144,9 @@ def test_it_is_below_all_that_moves_and_has_walls(name):
 
 
 def test_a_guide_is_screwed_on_where_its_own_holes_are():
-    design, proof, drawing = made("slider-crank")
+    design, _, drawing = made("slider-crank")
     holes = [s for s in drawing.shapes if isinstance(s, Circle)][2:4]
-    bars = design.drawing("assembly", of=proof).shapes
+    bars = design.drawing("assembly").shapes
     for hole in holes:
         assert any(
             s.centre == pytest.approx(hole.centre) and s.radius == pytest.approx(hole.radius)
@@ -175,12 +175,12 @@ def test_marks_stand_in_every_hole_of_any_part():
     wheel = keyed.drawing("wheel", centre_marks=True)
     middles = [shape.segments[0] for shape in wheel.shapes if shape.layer == "CENTER"]
     assert [line.start[1] for line in middles] == [0.0, -1.25 * keyed.parts.sizes.wheel_bore]
-    design, proof, _ = made("side-crank-z6")
-    links = design.drawing("links", of=proof, centre_marks=True)
+    design, *_ = made("side-crank-z6")
+    links = design.drawing("links", centre_marks=True)
     circles = {shape.centre for shape in links.shapes if isinstance(shape, Circle)}
     level = [shape.segments[0] for shape in links.shapes if shape.layer == "CENTER"][::2]
     found = sorted((0.5 * (line.start[0] + line.end[0]), line.start[1]) for line in level)
     assert found == [pytest.approx(centre) for centre in sorted(circles)]
-    plain = design.drawing("links", of=proof)
+    plain = design.drawing("links")
     assert links.shapes[: len(plain.shapes)] == plain.shapes
     assert links.solid == plain.solid

@@ -215,7 +215,7 @@ def test_a_bore_that_leaves_no_noncircular_gear_is_refused():
     for gear, key in (("driven", "arm_bore_mm"), ("driver", "link_bore_mm")):
         of = design("elliptical-gears").with_(f"size.{key}", 71.0)
         with pytest.raises(GenevaError, match=rf"no blank of the {gear} gear.*below 70,.*{key}"):
-            _ = of.drawn(0.001).flat.gear_pair
+            _ = of.parts_model.flat.gear_pair
 
 
 def test_a_blank_has_one_closed_outline():

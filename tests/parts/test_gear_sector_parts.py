@@ -19,7 +19,7 @@ from geneva_cli.curves.shapes import Arc, Circle
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.planes import planes
-from geneva_cli.parts.wheel_inertia import wheel_body
+from geneva_cli.parts.wheel_body import wheel_body
 from geneva_cli.study.animation.pushes import pushes
 from geneva_cli.study.animation.scene import scene
 from geneva_cli.study.animation.turn import MachineTurn
@@ -179,7 +179,7 @@ def test_the_wheels_mass_is_what_its_outline_holds(name):
     assert rows["mass_kg"][i] == pytest.approx(7850.0 * 1e-8 * 0.5 * cross.sum(), rel=1e-6)
     polar = 7850.0 * 1e-14 * (cross * square).sum() / 12.0
     assert rows["inertia_kgm2"][i] == pytest.approx(polar, rel=1e-6)
-    own = wheel_body(design.mechanism)  # by slots and rim apart
+    own = wheel_body(design.mechanism)  # of the same outline
     assert own.inertia_kgm2 == pytest.approx(rows["inertia_kgm2"][i], rel=1e-13)
 
 

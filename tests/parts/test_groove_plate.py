@@ -20,8 +20,8 @@ OFF = 5e-3  # mm: those, the walls' own tolerance of 0.001, and shapely's arcs
 @pytest.fixture(scope="module")
 def cam():
     design = load(str(repo.DESIGNS / "cam-geneva.toml"))
-    proof = design.drawn(0.001)
-    return design, proof, design.drawing("groove-plate", of=proof)
+    proof = design.parts_model
+    return design, proof, design.drawing("groove-plate")
 
 
 def test_the_roller_fills_the_groove_all_round(cam):
@@ -52,7 +52,7 @@ def test_it_lies_about_its_roller_and_below_the_crank(cam):
         assert row["mass_kg"] == mass_properties(plate, 7850.0).mass_kg
     # the frame has its four holes, where they are in the machine
     L = design.mechanism.center_distance_mm
-    held = design.drawing("frame", of=proof).shapes
+    held = design.drawing("frame").shapes
     for hole in ring.holes[1:]:
         at = hole.centre[0] + L, hole.centre[1]
         assert any(isinstance(s, Circle) and s.centre == pytest.approx(at) for s in held)

@@ -20,11 +20,12 @@ from geneva_cli import EllipticalGears, Linear, load
 from geneva_cli.curves import marks
 from geneva_cli.curves.board import Board
 from geneva_cli.curves.measure import bounds
+from geneva_cli.curves.placed import in_place
 from geneva_cli.curves.shapes import Contour, Line
 from geneva_cli.curves.sheet import Label
 from geneva_cli.curves.sphere import place
 from geneva_cli.design import Design
-from geneva_cli.drawings.sheet.cut import faces, positioned
+from geneva_cli.drawings.sheet.cut import faces
 from geneva_cli.drawings.sheet.paper import FORMATS, SCALES
 from geneva_cli.drawings.sheet.points import gear_tables, polyline, tables
 from geneva_cli.drawings.sphere.drawings import wheel_cone
@@ -212,9 +213,9 @@ def test_each_item_of_the_list_has_one_balloon(path, sheets):
 @pytest.mark.parametrize("name", ["turret", "internal-z6", "cam-geneva", "side-crank-z6"])
 def test_the_section_shows_what_the_plane_of_the_axes_cuts(name, sheets):
     """Against the polygons of the plates at their places, cut by a line in shapely."""
-    parts = sheets(name)[0].drawn(TOLERANCE).flat.within(TOLERANCE, "arcs")
+    parts = sheets(name)[0].parts_model.flat.within(TOLERANCE, "arcs")
     cut = faces(parts.members, 1.0)
-    for own, plate in positioned(parts.members):
+    for own, plate in in_place(parts.members):
         rings = [vertices(shape, 0.01) for shape in (plate.outline, *plate.holes)]
         solid = Polygon(rings[0], rings[1:])
         x0, _, x1, _ = solid.bounds
@@ -223,7 +224,7 @@ def test_the_section_shows_what_the_plane_of_the_axes_cuts(name, sheets):
         shown = [face for face in cut if face.plate == own]
         if shown and name != "side-crank-z6":
             assert len(shown) == len(getattr(chord, "geoms", [chord]))
-        copies = sum(1 for other, _ in positioned(parts.members) if other == own)
+        copies = sum(1 for other, _ in in_place(parts.members) if other == own)
         if copies == 1:
             # chords of 1.5 mm have sagittas of 0.06 mm on 5 mm, at a crossing aslant more
             length = sum(face.right - face.left for face in shown)
@@ -319,7 +320,7 @@ def test_small_machines_are_enlarged_and_large_ones_fill_their_paper(sheets):
 def test_points_of_a_curved_slot_are_on_it():
     """The table as it is printed: chords within what it says, of the points that `slot` gives."""
     design = load(str(repo.DESIGNS / "press-curved.toml"))
-    (block,) = tables(design.drawn(TOLERANCE).outlines, 0.01)
+    (block,) = tables(design.parts_model.outlines, 0.01)
     downwards = sorted(block.labels, key=lambda label: (-label.at[1], label.at[0]))
     texts = [label.text for label in downwards]
     numbers = [float(text) for text in texts if re.fullmatch(r"-?\d+\.\d{3}", text)]
@@ -345,7 +346,7 @@ def test_points_of_a_slot_laid_flat_are_on_the_sphere():
 
     Within the rounding to three decimals and a tenth of the table's tolerance.
     """
-    ball = load(str(repo.DESIGNS / "spherical-z6.toml")).drawn(TOLERANCE).shells.ball
+    ball = load(str(repo.DESIGNS / "spherical-z6.toml")).parts_model.shells.ball
     cone, R, b = wheel_cone(ball), ball.radius_mm, math.pi / ball.z
     points = printed(flat_slot(ball, TOLERANCE))
     assert points[-1][1] == 0.0 > max(y for _, y in points[:-1])

@@ -303,8 +303,8 @@ def test_an_interval_that_is_left_open_is_named(monkeypatch):
 
 def checked(parts, turn_of=None, to_mm=None):
     """The check of parts whose sampled turn may be that of other parts."""
-    model = PartsModel(parts.assembly.full, parts)
-    vars(model)["_turn"] = full_turn(turn_of or parts)
+    model = PartsModel(parts.assembly.full)
+    vars(model).update(outlines=parts, _turn=full_turn(turn_of or parts))
     return least_gap_check("gap_proved_mm", model, to_mm)
 
 

@@ -17,8 +17,7 @@ from test_outline import made
 from geneva_cli.collisions.free_angles import EXACT, free_angles
 from geneva_cli.collisions.gaps import Gaps
 from geneva_cli.errors import GenevaError
-from geneva_cli.outlines.outlines import slot_walls
-from geneva_cli.outlines.wheel import wheel_contour
+from geneva_cli.outlines.wheel import slot_walls, wheel_contour
 
 SECONDS = 30  # of one machine
 WIDTHS, RECESSES = 3, 10  # of slots, and of recesses for each: walls of curved slots cost the most
@@ -31,7 +30,8 @@ MORE = (0.001, 0.01, 0.05, 0.2)  # mm, at L = 100: one may leave no horn
 def wider(found, more_slot):
     """A machine with the same crank, and slots with more clearance, mm a side."""
     size = found.sizes._replace(half_width=found.sizes.half_width + more_slot)
-    walls = {e: slot_walls(found.assembly, size, e, found.fine) for e in found.assembly.kinds}
+    fine = 1e-6 * found.assembly.L  # as ``outlines`` draws them
+    walls = {e: slot_walls(found.assembly, size, e, fine) for e in found.assembly.kinds}
     return found._replace(sizes=size, slots=walls)
 
 
@@ -61,9 +61,9 @@ def places(found, rng):
 def require_no_less_play(found, rng, widths, recesses):
     """Return the number of wheels; those without a horn are left out."""
     at = places(found, rng)
-    # Walls of curved slots are known to ``fine``; those of the same slots are the same.
+    # Walls of curved slots are known to 1e-6 L; those of the same slots are the same.
     curved = any(e.slot.curved for e in found.assembly.kinds)
-    spare = 2.0 * found.fine if curved else 0.0
+    spare = 2e-6 * found.assembly.L if curved else 0.0
     depths = [0.0, *np.cumsum([rng.choice(MORE) for _ in range(recesses - 1)]).tolist()]
     eased = {depths[0], depths[-1]} if curved else set(depths)  # a play with spare takes its time
     narrower, count = {}, 0

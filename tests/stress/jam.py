@@ -186,10 +186,10 @@ def cranked(design, folder, larger=0.0):
     Returns its play as well.
     """
     turns = design.spec.output.turns
-    proof = design.drawn(0.001) if turns else design.parts_model
+    proof = design.parts_model
     assembly, L = proof.parts.assembly, proof.parts.assembly.L
     for part in ("wheel", "crank"):
-        draw(design.drawing(part, of=proof), str(folder / f"{part}.dxf"))
+        draw(design.drawing(part), str(folder / f"{part}.dxf"))
     wheel, _ = outlines(folder / "wheel.dxf", "WHEEL", SAGITTA * L)
     crank, _ = outlines(folder / "crank.dxf", "CRANK", SAGITTA * L)
     _, circles = outlines(folder / "crank.dxf", "ROLLER", SAGITTA * L)

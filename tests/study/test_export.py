@@ -114,7 +114,7 @@ def test_points_of_gears_are_in_the_folder(name, tmp_path):
 @pytest.mark.parametrize("trade", [None, *TRADES])
 def test_every_design_has_files_of_other_names(design, trade):
     made = load(str(design))
-    files, missing = export_files(made, trade_of(trade), made.drawn(0.001, "assembly"))
+    files, missing = export_files(made, trade_of(trade))
     names = [file.name for file in files]
     assert len(names) == len(set(names)) and not missing
     assert {"parts.csv", "spec.toml"} <= set(names)

@@ -176,3 +176,14 @@ def test_a_search_gives_its_parts_in_their_order(options, monkeypatch):
     )
     assert searching._all_kinds(target, ()) == kinds(target)
     assert begun != kinds(target)
+
+
+def test_specs_of_one_kind_keep_their_own_loads_and_sizes():
+    """A force goes with the inertia, and with 1/L: three times the one, a third of the other."""
+    specs = [
+        Spec(External(6), load=Load(inertia_kgm2=inertia), size=Size(center_distance_mm=L))
+        for inertia, L in ((1.0, 100.0), (3.0, 100.0), (1.0, 300.0))
+    ]
+    (one,), (heavy,), (wide,) = numbers(specs, ["loads.pin_force_N.max"])
+    assert heavy == pytest.approx(3.0 * one, rel=1e-12)
+    assert wide == pytest.approx(one / 3.0, rel=1e-12)

@@ -303,7 +303,7 @@ def test_an_error_is_no_advice() -> None:
     assert rows
     for c in rows:
         assert "no plate is left" in c.why and "no plate is left" not in c.nearest
-    _, warned = design.judge(design.drawn(0.01))
+    _, warned = design.judge()
     assert warned and not any("some would pass" in said for said in warned)
 
 

@@ -10,7 +10,7 @@ from functools import cache, partial
 from typing import Any, NamedTuple
 
 from geneva_cli.curves.measure import bounds, bounds_of
-from geneva_cli.curves.plates import Member, Plate, Stack, plates
+from geneva_cli.curves.plates import Member, Plate, Stack, plates, steps_of
 from geneva_cli.curves.shapes import Shape
 from geneva_cli.curves.sheet import Sheet
 from geneva_cli.drawings.parts_list import part_rows
@@ -21,7 +21,6 @@ from geneva_cli.drawings.sheet.cut import (
     balloons_in_section,
     draw_section,
     faces,
-    steps,
 )
 from geneva_cli.drawings.sheet.paper import scale_name, smaller
 from geneva_cli.drawings.sheet.view import Block, View
@@ -54,7 +53,7 @@ def shown_on_sheet(
     area = sum((box.x1 - box.x0) * (box.y1 - box.y0) for box in boxes)
     kinds = enumerate(alike(every), 1)
     flat = ((i, one) for i, kind in kinds for one in kind if isinstance(one, Plate | Stack))
-    items = {step: i for i, part in flat for step in steps(part)}
+    items = {step: i for i, part in flat for step in steps_of(part)}
     # chords of 1.5 mm on a part of 500 mm: spans are within 0.1 mm on any paper
     cut = faces(members, 500.0 / max(sizes))
     return SheetContent(members, together, rows, max(sizes), area, items, cut)

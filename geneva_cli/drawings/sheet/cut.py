@@ -7,16 +7,16 @@ not cut have their balloons in the view of the assembled machine.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 from geneva_cli.curves.board import chords
 from geneva_cli.curves.measure import at, mapped
-from geneva_cli.curves.plates import Group, Member, Plate, Stack
+from geneva_cli.curves.placed import in_place
+from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Point, Shape, two_arcs
 from geneva_cli.curves.sheet import HATCH, OUTLINE, line, rectangle
 from geneva_cli.drawings.sheet.view import View
-from geneva_cli.layout.projection import placed
 from geneva_cli.layout.written import length
 
 
@@ -35,33 +35,11 @@ class Face(NamedTuple):
         return (x, high), (x, low), (self.right, z), (self.left, z)
 
 
-def steps(part: Plate | Stack) -> list[Plate]:
-    """Return a plate, or the steps of a turned part under names of their own."""
-    if isinstance(part, Plate):
-        return [part]
-    return [step._replace(name=f"{part.name}: {step.name}") for step in part.plates]
-
-
-def positioned(members: Iterable[Member]) -> Iterator[tuple[Plate, Plate]]:
-    """Yield each plate in its own frame, and at its position."""
-    for one in members:
-        if isinstance(one.part, Group):
-            inner = positioned(one.part.members)
-        else:
-            assert isinstance(one.part, Plate | Stack)
-            inner = ((step, step) for step in steps(one.part))
-        for own, plate in inner:
-            outline, *holes = (
-                placed(shape, one.at, one.turn) for shape in (plate.outline, *plate.holes)
-            )
-            yield own, plate._replace(outline=outline, holes=tuple(holes))
-
-
 def faces(members: Iterable[Member], scale: float) -> list[Face]:
     """Return the faces that the plane y = 0 cuts, by chords of 1.5 mm at a scale."""
     return [
         Face(own, left, right)
-        for own, plate in positioned(members)
+        for own, plate in in_place(members)
         for left, right in _spans((plate.outline, *plate.holes), scale)
     ]
 
@@ -129,7 +107,7 @@ def balloons(
 ) -> None:
     """Draw balloons at the outlines of the items that have none yet."""
     tips: dict[int, list[Point]] = {}
-    for own, plate in positioned(members):
+    for own, plate in in_place(members):
         if items[own] not in without:
             tips.setdefault(items[own], []).extend(_around(plate.outline))
     for item, places in sorted(tips.items()):

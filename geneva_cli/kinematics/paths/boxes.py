@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 import numpy as np
 from numpy.lib.stride_tricks import as_strided
 
-from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, joined, points
+from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, points
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Whole
+from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Whole, joined
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -32,9 +32,9 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.kinematics.paths.boxes import OVERLAP, Boxes, boxes_of, crossings, halved
-from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, joined, points
+from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, points
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, joined
 from geneva_cli.numerics.tolerances import ROUNDED
 
 # Slope of the index angle along the family of pairs: a root with less is double, or nearly so.
@@ -92,7 +92,7 @@ def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> PairSea
     ends = ends.taken(np.flatnonzero(~close))
     # a pair without a root whose index angle is this near, in radians, may be a double root
     near = np.flatnonzero(np.abs(residual(ends, b).excess) < 1e-5)
-    return PairSearch(joined(solved), ends.taken(near))
+    return PairSearch(joined(solved, 0), ends.taken(near))
 
 
 def ends_at(path: RollerPath, which: Whole, phi: Array) -> EndPairs:

@@ -9,8 +9,8 @@ All this happens near a cusp.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from typing import NamedTuple, TypeAlias, cast
+from collections.abc import Iterator
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -19,10 +19,10 @@ from geneva_cli.numerics.arrays import (
     Array,
     Complex,
     Mask,
-    Record,
     Which,
     Whole,
     blocks,
+    joined,
     numbers_of,
 )
 
@@ -96,13 +96,15 @@ def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
     phi = np.array([(i + 0.3) * (math.tau / steps) for i in range(steps + 1)])
     every = np.arange(count)
     # samples of 256 designs stay in the processor's cache
-    base = joined([_rows(path.roughly(every[i]), phi, len(every[i])) for i in blocks(count, 256)])
+    base = joined(
+        [_rows(path.roughly(every[i]), phi, len(every[i])) for i in blocks(count, 256)], 0
+    )
     left, right = (base.taken((slice(None), x)) for x in (slice(None, -1), slice(1, None)))
     row, column = np.nonzero(_missed(left, right, _turned(left, right)))
     extra = _between(path, row, left.at_samples(row, column), right.at_samples(row, column))
     whose, flat = np.repeat(every, steps + 1), PathPoints._make(x.ravel() for x in base)
     if extra:
-        whose, flat = joined([(whose, flat), extra])
+        whose, flat = joined([(whose, flat), extra], 0)
     # by designs and crank angles: a turn and the first step are less than 8 radians
     place = np.argsort(8.0 * whose + flat.phi)
     counts = np.bincount(whose, minlength=count)
@@ -155,22 +157,8 @@ def _between(
         halves = ((left, middle), (middle, right))
         missed = [_missed(*half, _turned(*half)) for half in halves]
         left, right = (
-            joined([half[side].taken(m) for half, m in zip(halves, missed, strict=True)])
+            joined([half[side].taken(m) for half, m in zip(halves, missed, strict=True)], 0)
             for side in (0, 1)
         )
         which = np.concatenate([which[m] for m in missed])
-    return joined(added) if added else None
-
-
-def joined(parts: Sequence[Record], axis: int = 0) -> Record:
-    """Concatenate records of arrays."""
-    fields = [_joined(field, axis) for field in zip(*parts, strict=True)]
-    make: Callable[..., object] = type(parts[0])
-    return cast("Record", tuple(fields) if make is tuple else make(*fields))
-
-
-def _joined(parts: Sequence[object], axis: int) -> object:
-    """Concatenate members of records: arrays, or nested records."""
-    if isinstance(parts[0], tuple):
-        return joined(cast("Sequence[tuple[object, ...]]", parts), axis)
-    return np.concatenate(cast("Sequence[Array]", parts), axis)
+    return joined(added, 0) if added else None

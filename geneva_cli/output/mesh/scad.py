@@ -24,6 +24,7 @@ from geneva_cli.output.mesh.shells import shell_mesh
 from geneva_cli.output.mesh.solids import Place, solid_kinds
 from geneva_cli.output.mesh.surface import Surface
 from geneva_cli.output.solid_part import plate_contours
+from geneva_cli.table import in_decimals
 
 
 def data(drawing: Drawing, units: str) -> Iterator[bytes]:
@@ -66,7 +67,7 @@ def _moved(place: Place) -> str:
     if zz < 1.0:
         rows = ([*turn, by] for turn, by in zip(place.turn.tolist(), shift, strict=True))
         return f"multmatrix([{', '.join(_list(row, 12) for row in rows)}]) "
-    turn = _shown(math.degrees(math.atan2(yx, xx)), 9)
+    turn = in_decimals(math.degrees(math.atan2(yx, xx)), 9)
     moved = f"translate({_list(shift, DECIMALS)}) " if any(shift) else ""
     return moved + (f"rotate({turn}) " if turn != "0" else "")
 
@@ -85,7 +86,7 @@ def _plate(plate: Plate, tolerance: float) -> str:
     if holes:
         inside = [_flat(hole, False, tolerance) for hole in holes]
         flat = "\n".join(("difference() {", *(f"  {one}" for one in (flat, *inside)), "}"))
-    low, high = _shown(plate.low, DECIMALS), _shown(plate.thickness, DECIMALS)
+    low, high = in_decimals(plate.low, DECIMALS), in_decimals(plate.thickness, DECIMALS)
     above = "" if low == "0" else f"translate([0, 0, {low}]) "
     flat = flat.replace("\n", "\n    ")
     solid = f"  {above}linear_extrude(height = {high})\n    {flat}\n"
@@ -105,9 +106,9 @@ def _cross(hole: CrossHole, shapes: Sequence[Shape], tolerance: float) -> str:
     count = 2 * arc_chords(hole.radius, math.pi, tolerance)
     return (
         f"  translate({_list(at, DECIMALS)}) "
-        f"rotate([0, 90, {_shown(math.degrees(hole.turn), 9)}])\n"
-        f"    cylinder(h = {_shown(end - start + 2.0 * more, DECIMALS)}, "
-        f"r = {_shown(hole.radius, DECIMALS)}, $fn = {count});\n"
+        f"rotate([0, 90, {in_decimals(math.degrees(hole.turn), 9)}])\n"
+        f"    cylinder(h = {in_decimals(end - start + 2.0 * more, DECIMALS)}, "
+        f"r = {in_decimals(hole.radius, DECIMALS)}, $fn = {count});\n"
     )
 
 
@@ -115,7 +116,7 @@ def _flat(shape: Contour | Circle, outside: bool, tolerance: float) -> str:
     if isinstance(shape, Circle):
         count = 2 * arc_chords(shape.radius, math.pi, tolerance)
         at = f"translate({_list(shape.centre, DECIMALS)}) " if any(shape.centre) else ""
-        return f"{at}circle(r = {_shown(shape.radius, DECIMALS)}, $fn = {count});"
+        return f"{at}circle(r = {in_decimals(shape.radius, DECIMALS)}, $fn = {count});"
     corners = ",\n    ".join(_list(p, DECIMALS) for p in polygon(shape, outside, tolerance))
     return f"polygon([\n    {corners}]);"
 
@@ -128,10 +129,4 @@ def _polyhedron(surface: Surface) -> str:
 
 
 def _list(values: Sequence[float], decimals: int) -> str:
-    return f"[{', '.join(_shown(value, decimals) for value in values)}]"
-
-
-def _shown(value: float, decimals: int) -> str:
-    """A number without zeros at its end, and without a negative zero."""
-    text = f"{value:.{decimals}f}".rstrip("0").rstrip(".")
-    return "0" if text == "-0" else text
+    return f"[{', '.join(in_decimals(value, decimals) for value in values)}]"

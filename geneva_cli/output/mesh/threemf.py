@@ -16,6 +16,7 @@ from geneva_cli.errors import clean
 from geneva_cli.output.inks import inks
 from geneva_cli.output.mesh.polygons import DECIMALS
 from geneva_cli.output.mesh.solids import Body, Place, bodies
+from geneva_cli.table import in_decimals
 
 PACKAGE = "http://schemas.openxmlformats.org/package/2006"
 XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
@@ -66,8 +67,9 @@ def _model(title: str, kinds: list[Body]) -> Iterator[str]:
             f'<object id="{number}" type="model" name={_quoted(body.name)} '
             f'pid="{MATERIALS}" pindex="{layers.index(body.layer)}"><mesh>\n<vertices>\n'
         )
-        for x, y, z in body.surface.corners.tolist():
-            yield f'<vertex x="{_shown(x)}" y="{_shown(y)}" z="{_shown(z)}"/>\n'
+        for corner in body.surface.corners.tolist():
+            x, y, z = (in_decimals(value, DECIMALS) for value in corner)
+            yield f'<vertex x="{x}" y="{y}" z="{z}"/>\n'
         yield "</vertices>\n<triangles>\n"
         for a, b, c in body.surface.triangles.tolist():
             yield f'<triangle v1="{a}" v2="{b}" v3="{c}"/>\n'
@@ -83,12 +85,7 @@ def _transform(place: Place) -> str:
     """The position as the format has it: three images of the axes, and the shift."""
     # a rotation acts through a length, so it has more decimals than one
     turn = [f"{round(value, 12) + 0.0:.12g}" for value in place.turn.T.ravel().tolist()]
-    return " ".join([*turn, *(_shown(round(value, DECIMALS) + 0.0) for value in place.shift)])
-
-
-def _shown(value: float) -> str:
-    """A length without zeros at its end."""
-    return f"{value:.{DECIMALS}f}".rstrip("0").rstrip(".")
+    return " ".join([*turn, *(in_decimals(value, DECIMALS) for value in place.shift)])
 
 
 def _text(text: str) -> str:

@@ -14,9 +14,9 @@ from geneva_cli.curves.cross_holes import CrossHole, Opening
 from geneva_cli.curves.moments import with_material_left
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Circle, Shape
+from geneva_cli.output.splines import Piece
 from geneva_cli.output.step.curves import smooth_curve
 from geneva_cli.output.step.entities import Entities, edge, face, loop, real
-from geneva_cli.output.step.splines import Piece
 
 CUBICS = 128  # of an edge: their error is 5e-9 of the hole's radius, a hundredth of the file's
 

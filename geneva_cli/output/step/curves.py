@@ -7,8 +7,8 @@ from collections.abc import Iterable, Sequence
 from typing import TypeAlias
 
 from geneva_cli.curves.shapes import Arc, Line, Point
+from geneva_cli.output.splines import Piece
 from geneva_cli.output.step.entities import DIRECTION, Entities, listed, real
-from geneva_cli.output.step.splines import Piece
 
 Place: TypeAlias = tuple[float, float, float]
 

@@ -10,6 +10,7 @@ from geneva_cli.curves.moments import with_material_left
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point
 from geneva_cli.output.solid_part import plate_contours
+from geneva_cli.output.splines import Piece, pieces
 from geneva_cli.output.step.cross_holes import bored_walls
 from geneva_cli.output.step.curves import circle_at, curve, is_along, knots_of, level, unit_of
 from geneva_cli.output.step.edges import edge_faces
@@ -24,7 +25,6 @@ from geneva_cli.output.step.entities import (
     loop,
     real,
 )
-from geneva_cli.output.step.splines import Piece, pieces
 
 
 def solid(file: Entities, plate: Plate) -> str:

@@ -77,14 +77,18 @@ def _hollow(shapes: tuple[Shape, ...]) -> tuple[Shape, ...]:
 
 def _slots(turn: MachineTurn) -> tuple[Shape, ...]:
     """A symbol for a wheel without drawing: a disc with a line along each slot."""
-    spec, one = turn.mechanism.spec, turn.passages[0]
-    x, y = turn.pin(one, np.linspace(one.entry, one.exit, 181)).T
-    reach = np.hypot(x, y)
+    spec, reach = turn.mechanism.spec, _reach(turn)
     lines = [
         Contour(WHEEL, (Line(_at(reach.min(), a), _at(reach.max(), a)),), closed=False)
         for a in np.arange(spec.wheel.z) * math.tau / spec.wheel.z
     ]
     return (Circle(WHEEL, (0.0, 0.0), 1.02 * float(reach.max())), *lines)
+
+
+def _reach(turn: MachineTurn) -> Array:
+    """The distances of the first roller from the wheel's axis in its slot."""
+    one = turn.passages[0]
+    return np.hypot(*turn.assembly.driving(0, np.linspace(one.entry, one.exit, 181)).T)
 
 
 def _at(r: float, a: float) -> tuple[float, float]:
@@ -93,8 +97,7 @@ def _at(r: float, a: float) -> tuple[float, float]:
 
 def _mark(shapes: tuple[Shape, ...], turn: MachineTurn) -> Shape:
     """A dot behind the end of the first slot, which tells the slots apart."""
-    one = turn.passages[0]
-    least = float(np.hypot(*turn.pin(one, np.linspace(one.entry, one.exit, 181)).T).min())
+    least = float(_reach(turn).min())
     return Circle("PITCH", (0.78 * least if shapes else 1.01 * least, 0.0), 0.012 * turn.L)
 
 

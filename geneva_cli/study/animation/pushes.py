@@ -8,10 +8,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from geneva_cli.kinematics.layout import AxisPlace
+from geneva_cli.layout.assembly import Passage
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.scene import Push
-from geneva_cli.study.animation.turn import MachineTurn, RollerPassage
+from geneva_cli.study.animation.turn import MachineTurn
 
 
 def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
@@ -27,8 +28,8 @@ def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
         sound = np.isfinite(force)
         if not sound.any():
             continue
-        normal = _normals(one, local, turn)
-        pin = turn.pin(one, one.mid + local)
+        pin = turn.assembly.driving(i, one.mid + local)
+        normal = _normals(one, local, turn, pin)
         arm = pin[:, 0] * normal[:, 1] - pin[:, 1] * normal[:, 0]
         if not turn.mechanism.output.turns:
             arm = normal[:, 1]  # a rack is pushed along y
@@ -44,7 +45,7 @@ def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
             yield _moved_push(push, place, turn.L)
 
 
-def _normals(one: RollerPassage, local: Array, turn: MachineTurn) -> Array:
+def _normals(one: Passage, local: Array, turn: MachineTurn, pin: Array) -> Array:
     """Unit normals of the slot in the fixed frame, of either sign; projected from a sphere."""
     if not turn.mechanism.output.turns:
         return np.column_stack((0.0 * local, 1.0 + 0.0 * local))
@@ -62,7 +63,7 @@ def _normals(one: RollerPassage, local: Array, turn: MachineTurn) -> Array:
             (c * direction[:, 0] - s * direction[:, 1], s * direction[:, 0] + c * direction[:, 1])
         )
     else:
-        direction = turn.pin(one, one.mid + local)
+        direction = pin
     return np.column_stack((-direction[:, 1], direction[:, 0])) / np.hypot(*direction.T)[:, None]
 
 

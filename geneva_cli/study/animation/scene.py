@@ -147,10 +147,11 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
         return
     pinions = design.spec.wheel.pinions
     last, cranks = turn.passages[-1], len(design.mechanism.crank_places)
-    for one, after in zip(turn.passages, (*turn.passages[1:], None), strict=True):
-        which = f"roller {one.roller}" if len(turn.passages) > 1 else "the roller"
+    following = (*turn.passages[1:], None)
+    for i, (one, after) in enumerate(zip(turn.passages, following, strict=True)):
+        which = f"roller {i + 1}" if len(turn.passages) > 1 else "the roller"
         if cranks > 1:
-            which = f"crank {turn.on_crank(one.roller - 1).number}"
+            which = f"crank {turn.on_crank(i).number}"
         if not turn.rollers():
             which = "the driver"
         noun = f"{'first ' if pinions > 1 else ''}{design.mechanism.output.noun}"

@@ -8,13 +8,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from geneva_cli.curves.placed import placed
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Shape
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Link
 from geneva_cli.layout.link_positions import links_at, same
-from geneva_cli.layout.projection import placed
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.link_sizes import places
 from geneva_cli.scene import Body, Track

@@ -5,16 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.curves.plates import Plate
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.layout import AxisPlace, Joint, Link
 from geneva_cli.kinematics.plane_motion import turned_points
-from geneva_cli.layout.groove import roller_in_groove
+from geneva_cli.layout.assembly import Passage, assembled_by_input
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
@@ -26,43 +24,14 @@ from geneva_cli.study.animation.tracks import Moving, cut, resting, sampled, tra
 ANGLE_ERROR = 1e-7  # rad, of wheel and crank: a tenth of the page's own error
 
 
-class RollerPassage(NamedTuple):
-    """One roller's passage through a slot: its engagement, and mid-motion's input angle."""
-
-    engagement: Engagement
-    mid: float
-    roller: int  # from 1
-
-    @property
-    def entry(self) -> float:
-        """Input angle at which the wheel begins to move, degrees."""
-        return self.mid + self.engagement.entry_deg
-
-    @property
-    def exit(self) -> float:
-        """Input angle at which the wheel comes to rest, degrees."""
-        return self.mid + self.engagement.exit_deg
-
-
 class MachineTurn:
     """A machine's whole turn: input angles from the first entry on."""
 
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
-        self.L = mechanism.center_distance_mm
-        self.turn_deg = 360.0 * mechanism.spec.turns
-        periods = round(self.turn_deg / mechanism.period_deg)
-        each = mechanism.engagements
-        self.passages = tuple(
-            RollerPassage(one, one.mid_deg + k * mechanism.period_deg, k * len(each) + i + 1)
-            for k in range(periods)
-            for i, one in enumerate(each)
-        )
-        self._carried = [
-            (passage, one.mid - ahead)
-            for one in self.passages
-            for passage, ahead in one.engagement.passages
-        ]
+        self.assembly = assembled_by_input(mechanism)
+        self.L, self.turn_deg = self.assembly.L, self.assembly.turn_deg
+        self.passages = self.assembly.motions
         self.start = self.passages[0].entry
         self.end = self.start + self.turn_deg
         self._links: dict[bytes, tuple[Link, ...]] = {}
@@ -141,27 +110,16 @@ class MachineTurn:
         turned -= rate * behind  # cranks turn at one rate, also if that varies
         return self._sampled(lambda x: turned + first(x), ANGLE_ERROR, gain)
 
-    def pin(self, one: RollerPassage, input_deg: Array) -> Array:
-        """The centre of the roller that moves the wheel in a passage, mm, (n, 2)."""
-        return self._pin(one.engagement, one.mid, input_deg)
-
     def centre(self, number: int, input_deg: Array) -> Array:
         """The centre of a roller by its number, mm, (n, 2)."""
-        about_first, place = self._pin(*self._carried[number], input_deg), self.on_crank(number)
+        about_first, place = self.assembly.pin(number, input_deg), self.on_crank(number)
         return turned_points(about_first, np.full(len(input_deg), place.turn))
 
     def rollers(self) -> tuple[Place, ...]:
         """The centres of all rollers over the turn; none where teeth drive from entry to exit."""
         first = self.passages[0].engagement
-        numbers = range(len(self._carried)) if first.slot.touches(first.entry_deg) else ()
+        numbers = range(len(self.assembly.rollers)) if first.slot.touches(first.entry_deg) else ()
         return tuple(self._place(partial(self.centre, number)) for number in numbers)
-
-    def _pin(self, engagement: Engagement, mid: float, input_deg: Array) -> Array:
-        at = self._local(input_deg, mid)
-        if engagement.groove is not None:
-            return self.L * roller_in_groove(engagement.groove, engagement.own_deg(at))
-        x, y = (along.c[0] + 0.0 * at for along in engagement.path(at, 0))
-        return self.L * np.column_stack((x, y))
 
     def bars(self, outlines: Outlines | None) -> tuple[Bar, ...]:
         """The links with their plates; ``outlines`` are those of the other parts, if drawn."""
@@ -228,7 +186,7 @@ def _plates(
     return out
 
 
-def _by_motion(one: RollerPassage, mid: float, turned: float) -> Moving:
+def _by_motion(one: Passage, mid: float, turned: float) -> Moving:
     def moving(x: Array) -> tuple[Array, Array]:
         psi = one.engagement.motion(x - mid, 1)
         return turned + np.asarray(psi.c[0]), np.asarray(psi.c[1]) * (math.pi / 180.0)

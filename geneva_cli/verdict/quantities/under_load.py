@@ -16,7 +16,7 @@ from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.strength import lock, roller, shafts
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.machine.materials import roller_material
-from geneva_cli.numerics.arrays import Array, Number, parameter
+from geneva_cli.numerics.arrays import Array, Number, library, parameter
 from geneva_cli.verdict.part_sizes import (
     LockSizes,
     PartSizes,
@@ -45,10 +45,16 @@ class UnderLoad:
 
     @cached_property
     def force_N(self) -> Array:
-        """The greatest force on a roller."""
+        """The greatest force on a roller, along the wall's normal."""
         if self.designs.single and not np.isnan(self.loaded[0]):
             return np.array([self.part_loads.pin_N])  # its cached loads have it
         return self._peak(FORCE)
+
+    @cached_property
+    def roller_N(self) -> Array:
+        """The greatest force on a roller, with its friction along the wall; (m, 1)."""
+        friction = self.designs.load_case.friction
+        return self.force_N[:, None] * library(friction).hypot(1.0, friction)
 
     @cached_property
     def pv_W_m2(self) -> Array:
@@ -161,7 +167,7 @@ class UnderLoad:
         usual = pins.pin_diameter_mm(self.machine)
         if size.pin_mm is not None or width is None:
             return usual
-        stress = pins.pin(size, width, usual).under(self.force_N[:, None]).equivalent
+        stress = pins.pin(size, width, usual).under(self.roller_N).equivalent
         # where the usual pin holds, it is drawn
         holds = ~(stress > roller_material(self.machine.spec).allowed_MPa)
         parts = None if np.all(holds) else self.parts

@@ -51,13 +51,16 @@ def _cut_radii(model: PartsModel) -> Values:
     spec = model.mechanism.spec
     inside = spec.wheel.SIGN < 0.0
     if spec.is_flat:
+        from geneva_cli.layout.assembly import assembly
         from geneva_cli.layout.roller_paths import roller_paths
+        from geneva_cli.layout.sizes import machine_sizes
 
-        where, ends = model.assembly, roller_paths(model.assembly).ends
+        where = assembly(model.mechanism)
+        ends = roller_paths(where).ends
         mouth = max(where.L * scalar(s.entry_reach) for s in where.kinds)
         bottom = max(ends) if inside else min(ends)
         with suppress(GenevaError):  # ``parts.none`` gives the reason
-            rim = model.sizes.rim
+            rim = machine_sizes(model.mechanism)[1].rim
     return {
         "sizes.slot_mouth_radius_mm": mouth,
         "sizes.slot_bottom_radius_mm": bottom,

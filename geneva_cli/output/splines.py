@@ -47,9 +47,11 @@ def pieces(segments: Iterable[Segment]) -> list[Piece]:
     curve: list[Piece] = []
     run: list[Cubic] = []
     intervals: list[float] = []
+    uneven = 100.0  # greatest ratio of a spline's parameter intervals to its first
     for segment in _softened(list(segments)):
         interval = _interval(run[-1], segment, intervals[-1]) if run else 0.0
-        if run and not interval:
+        if run and not 1.0 / uneven < interval < uneven:
+            interval = 0.0
             curve.append(_spline(run, intervals))
             run, intervals = [], []
         if isinstance(segment, Cubic):
@@ -82,8 +84,7 @@ def _interval(before: Cubic, after: Segment, interval: float) -> float:
     if not isinstance(after, Cubic):
         return 0.0
     back, on = math.dist(before.second, before.end), math.dist(after.start, after.first)
-    uneven = 1e3  # greatest ratio of adjacent parameter intervals in one spline
-    if not back < uneven * on < uneven * uneven * back:
+    if not min(back, on) > 1e-9:  # mm: a handle without a direction
         return 0.0
     between = tuple(
         (p * on + q * back) / (back + on) for p, q in zip(before.second, after.first, strict=True)

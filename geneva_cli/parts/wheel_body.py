@@ -1,0 +1,50 @@
+"""The mass and inertia of the wheel, without its crank."""
+
+from __future__ import annotations
+
+from functools import lru_cache, reduce
+from typing import TYPE_CHECKING
+
+from geneva_cli.curves.plates import plates
+from geneva_cli.errors import GenevaError
+from geneva_cli.layout.sizes import machine_sizes
+from geneva_cli.machine.materials import wheel_material
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.outlines.wheel import slot_walls, wheel_contour
+from geneva_cli.parts.wheel import wheel_part
+
+if TYPE_CHECKING:
+    from geneva_cli.curves.mass import MassProperties
+
+
+def wheel_body(mechanism: Mechanism) -> MassProperties | None:
+    """Return mass and inertia of the wheel and its hub, if it has one; None without a thickness.
+
+    They are those of its outline, with curved walls as the full turn has them. Chamfers and
+    roundings of edges are not counted. On a sphere they are those of the shell and its hub. Raises
+    GenevaError where the machine has no parts, or its sizes leave none.
+    """
+    spec = mechanism.spec
+    if spec.size.wheel_thickness_mm is None and spec.size.face_width_mm is None:
+        return None
+    if spec.wheel.SHELLS:
+        from geneva_cli.parts.sphere.sphere_parts import shell_body  # only on a sphere
+
+        return shell_body(mechanism)
+    from geneva_cli.curves.mass import added, mass_properties
+
+    where, size = machine_sizes(mechanism)
+    walls = {one: slot_walls(where, size, one, 1e-6 * where.L) for one in where.kinds}
+    contour = wheel_contour(where, size, walls, spec.wheel.stopped)
+    density = wheel_material(spec).density_kgm3
+    solids = plates(wheel_part(where, size, contour))
+    return reduce(added, (mass_properties(one, density) for one in solids))
+
+
+@lru_cache(maxsize=16)
+def known_wheel_body(mechanism: Mechanism) -> MassProperties | None:
+    """Return the cached ``wheel_body`` of a machine; None too where its sizes leave no parts."""
+    try:
+        return wheel_body(mechanism)
+    except GenevaError:
+        return None
