@@ -24,8 +24,8 @@ from geneva_cli.kinematics.wheels.gearing import Gearing
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.spec.record import SHOWN_MAX, refuse_keywords, shortly
 from geneva_cli.spec.rules import plain
+from geneva_cli.spec.schema import SHOWN_MAX, refuse_keywords, shortly
 from geneva_cli.spec.tables import (
     Limits,
     Load,

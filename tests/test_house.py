@@ -213,7 +213,7 @@ ANY = {
     "loads.summary": {"_rows", "_cells"},
     "analysis.vibration.answers": {"values"},
     "kinematics.registry": {"_load_kind"},
-    "machine.spec": {"table"},
+    "machine.spec": {"replace", "table"},
     "drawings.catalogue": {"_loaded"},
     "drawings.sheet.composed": {"on_paper", "_composed", "_items"},
     "drawings.sheet.content": {"rows"},

@@ -1,5 +1,6 @@
 """Specs for tests in the words of a file: kinds by their names, with their keys."""
 
+import dataclasses
 import os
 from typing import NamedTuple
 
@@ -67,7 +68,7 @@ def Spec(wheel, drive=None, keys=None, motion=None, **rest):
     if isinstance(drive, _Common):
         drive = registry.drive(drive.kind)(**drive.common, **(keys or {}))
     elif keys:
-        drive = drive.replace(**keys)
+        drive = dataclasses.replace(drive, **keys)
     return machine_spec.Spec(wheel, drive, motion, **rest)
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from geneva_cli.curves.measure import at
@@ -15,11 +16,11 @@ from geneva_cli.curves.shapes import ORIGIN, Arc, Circle, Line, Point, Shape, ab
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.keyways import ParallelKey, key
 from geneva_cli.layout.written import length
-from geneva_cli.spec.record import Record
 from geneva_cli.spec.tables import Size
 
 
-class Bore(Record, ABC):
+@dataclass(frozen=True)
+class Bore(ABC):
     """A bore, and the section of the shaft in it; round in all that a shape does not change."""
 
     is_round: ClassVar[bool] = True  # a diameter is a dimension of the bore
@@ -66,6 +67,7 @@ class Bore(Record, ABC):
         return RoundBore(self.radius if turned else self.around)
 
 
+@dataclass(frozen=True)
 class RoundBore(Bore):
     """A round bore."""
 
@@ -76,6 +78,7 @@ class RoundBore(Bore):
         return Circle(layer, ORIGIN, self.radius)
 
 
+@dataclass(frozen=True)
 class KeyedBore(Bore):
     """A round bore with a keyway by a standard."""
 
@@ -125,6 +128,7 @@ class KeyedBore(Bore):
         return _turned(x, -half, direction), _turned(x, half, direction)
 
 
+@dataclass(frozen=True)
 class FlatBore(Bore):
     """A round bore with one flat, for the flattened end of a motor's shaft."""
 
@@ -147,6 +151,7 @@ class FlatBore(Bore):
         return closed(layer, [Line(second.end, first.start), first, second])
 
 
+@dataclass(frozen=True)
 class HexBore(Bore):
     """A hexagonal bore; its radius is half of its width across flats."""
 
@@ -236,7 +241,7 @@ def fitted(size: Size, bore: Bore) -> Bore:
             f"bore of {2.0 * bore.radius:g} mm",
             ("size", "shaft_fit_mm"),
         )
-    return bore.replace(radius=radius)
+    return replace(bore, radius=radius)
 
 
 def has_shape(size: Size, part: str) -> bool:

@@ -45,7 +45,6 @@ from geneva_cli.numerics.arrays import (
     record_of,
 )
 from geneva_cli.numerics.latest import Latest
-from geneva_cli.spec.record import names
 from geneva_cli.spec.rules import is_array
 from geneva_cli.spec.schema import Field, Points, SpecTable, fields, unknown
 
@@ -135,7 +134,7 @@ def changed(spec: Spec, values: Mapping[str, object]) -> Spec:
     parts: dict[str, SpecTable] = {}
     for table, new in tables.items():
         if spec.motion is not None and table == "motion":
-            own = {name: v for name, v in new.items() if name in names(Motion)}
+            own = {name: v for name, v in new.items() if name in Motion.__dataclass_fields__}
             law = {name: v for name, v in new.items() if name not in own}
             parts[table] = spec.motion.replace(law=spec.motion.law.replace(**law), **own)
         else:

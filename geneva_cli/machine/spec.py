@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, Self
 
@@ -11,8 +12,13 @@ from geneva_cli.kinematics.motion import Motion
 from geneva_cli.kinematics.wheels.gearing import Gearing, Output
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.numerics.arrays import all_true
-from geneva_cli.spec.record import Record
-from geneva_cli.spec.schema import SpecTable, refuse_kind
+from geneva_cli.spec.schema import (
+    SpecTable,
+    copied,
+    hash_once,
+    refuse_kind,
+    without_hash,
+)
 from geneva_cli.spec.tables import (
     DISTANCE_MM,
     LISTS,
@@ -85,7 +91,8 @@ def _no_load(key: str, keys: str) -> GenevaError:
     )
 
 
-class Spec(Record):
+@dataclass(frozen=True)
+class Spec:
     """All values from which a machine is built, as in the spec's file.
 
     ``path`` is that file, for messages; ``files`` are the CSV files of its points. ``drive_before``
@@ -96,20 +103,20 @@ class Spec(Record):
     """
 
     wheel: Gearing
-    drive: Drive = Crank()
+    drive: Drive = field(default_factory=Crank)
     motion: Motion | None = None
-    size: Size = Size()
-    load: Load = Load()
+    size: Size = field(default_factory=Size)
+    load: Load = field(default_factory=Load)
     mass: tuple[Mass, ...] = ()
-    support: Support = Support()
-    motor: Motor = Motor()
-    shaft: Shaft = Shaft()
-    material_wheel: WheelMaterial = WheelMaterial()
-    material_roller: RollerMaterial = RollerMaterial()
-    tolerance: Tolerance = Tolerance()
-    product: Product = Product()
-    limits: Limits = Limits()
-    drawing: TitleBlock = TitleBlock()
+    support: Support = field(default_factory=Support)
+    motor: Motor = field(default_factory=Motor)
+    shaft: Shaft = field(default_factory=Shaft)
+    material_wheel: WheelMaterial = field(default_factory=WheelMaterial)
+    material_roller: RollerMaterial = field(default_factory=RollerMaterial)
+    tolerance: Tolerance = field(default_factory=Tolerance)
+    product: Product = field(default_factory=Product)
+    limits: Limits = field(default_factory=Limits)
+    drawing: TitleBlock = field(default_factory=TitleBlock)
     title: str = ""
     path: str = ""
     files: tuple[str, ...] = ()
@@ -137,6 +144,20 @@ class Spec(Record):
         for key in LOADED:
             if limits[key] is not None:
                 refuse(self._unloaded, partial(_no_load, key, self.load_keys))
+
+    def __hash__(self) -> int:
+        return hash_once(self)
+
+    def __getstate__(self) -> dict[str, object]:
+        return without_hash(self)
+
+    def replace(self, **changes: Any) -> Self:
+        """Return a copy with some tables changed.
+
+        >>> Spec(External(6)).replace(wheel=Internal(6)).wheel.NAME
+        'internal'
+        """
+        return copied(self, changes)
 
     def table(self, name: str) -> dict[str, Any]:
         """Values of a table by key; those of ``motion`` include the keys of its law.

@@ -11,9 +11,10 @@ when a run starts takes longer than objects.
 
 from __future__ import annotations
 
+import dataclasses
 import inspect
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from types import NoneType, UnionType
 from typing import (
     Annotated,
@@ -22,17 +23,19 @@ from typing import (
     NamedTuple,
     Self,
     TypeAlias,
+    TypeVar,
+    dataclass_transform,
     get_args,
     get_origin,
 )
 
 from geneva_cli.errors import GenevaError, cut, few, nearest, refuse
-from geneva_cli.spec.record import REQUIRED as REQUIRED
-from geneva_cli.spec.record import Parameter, Record, parameters
 from geneva_cli.spec.rules import Csv, OneOf, Words, is_array, plain
 
 LIST: TypeAlias = tuple[float, ...]
 LIST_MAX = 1000
+SHOWN_MAX = 200  # characters of a value in a record that is shown shortly
+REQUIRED = dataclasses.MISSING
 _NAMES: dict[Any, str] = {
     LIST: "a list of numbers",
     str: "text",
@@ -67,10 +70,64 @@ class Field(NamedTuple):
         return self.rule if isinstance(self.rule, OneOf) else ()
 
 
-class SpecTable(Record):
-    """A table of the spec. Raises GenevaError, naming table and key, for an invalid value."""
+HASH = "_hash"  # name under which a record stores its own hash
+
+
+class _Signature:
+    """Signature of a table's class, for ``help`` and editors; it is computed when they ask."""
+
+    def __get__(self, table: object, kind: type[SpecTable]) -> inspect.Signature:
+        empty = inspect.Parameter.empty
+        by_keyword = inspect.Parameter.KEYWORD_ONLY
+        either = inspect.Parameter.POSITIONAL_OR_KEYWORD
+        every = sorted(_parameters(kind), key=lambda one: bool(one.kw_only))
+        return inspect.Signature(
+            [
+                inspect.Parameter(
+                    one.name,
+                    by_keyword if one.kw_only else either,
+                    default=empty if one.default is REQUIRED else one.default,
+                    annotation=one.type,
+                )
+                for one in every
+            ]
+        )
+
+
+@dataclass_transform(frozen_default=True, field_specifiers=(dataclasses.field,))
+class SpecTable:
+    """A table of the spec. Raises GenevaError, naming table and key, for an invalid value.
+
+    Each class of tables is a dataclass of its annotated fields, without a decorator, and frozen.
+    Their methods are written here, as generating them for each class slows the start of a run.
+    """
 
     TABLE: ClassVar[str] = ""  # its name in the file
+    __signature__ = _Signature()
+
+    def __init_subclass__(cls, kw_only: bool = False) -> None:
+        dataclasses.dataclass(init=False, eq=False, repr=False, kw_only=kw_only)(cls)
+
+    def __init__(self, *values: object, **named: object) -> None:
+        own, kind = vars(self), type(self)
+        if values:
+            named = _by_name(kind, values, named)
+        for one in _parameters(kind):
+            value = own[one.name] = named.get(one.name, one.default)
+            if value is REQUIRED:
+                raise TypeError(f"{kind.__name__} needs {one.name}")
+        self.__post_init__()
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise dataclasses.FrozenInstanceError(f"cannot assign to field {name!r}")
+
+    def __delattr__(self, name: str) -> None:
+        raise dataclasses.FrozenInstanceError(f"cannot delete field {name!r}")
+
+    def __new__(cls, *_: object, **named: object) -> Self:
+        """Refuse a keyword that is no field, with the nearest."""
+        refuse_keywords(cls.__name__, named, _names(cls))
+        return super().__new__(cls)
 
     def __post_init__(self) -> None:
         for field in fields(type(self)):
@@ -78,6 +135,26 @@ class SpecTable(Record):
             if value is not field.default:
                 value = checked(self.TABLE, field, value)
                 vars(self)[field.attribute] = value
+
+    def _values(self) -> dict[str, Any]:
+        """Values by field name."""
+        own = vars(self)
+        return {name: own[name] for name in _names(type(self))}
+
+    def __eq__(self, other: object) -> bool:
+        if not (isinstance(other, SpecTable) and type(other) is type(self)):
+            return NotImplemented
+        return self is other or self._values() == other._values()
+
+    def __hash__(self) -> int:
+        return hash_once(self)
+
+    def __getstate__(self) -> dict[str, object]:
+        return without_hash(self)
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name}={value!r}" for name, value in self._values().items())
+        return f"{type(self).__qualname__}({values})"
 
     def as_dict(self) -> dict[str, Any]:
         """Values by key.
@@ -104,6 +181,103 @@ class SpecTable(Record):
             value = field.default
         return self.replace(**{field.attribute: value})
 
+    def replace(self, **changes: Any) -> Self:
+        """Return a copy with some fields changed and checked.
+
+        >>> Spherical(6).replace(axes_deg=60.0)
+        Spherical(z=6, held_by=None, axes_deg=60.0)
+        """
+        return copied(self, changes)
+
+
+def _by_name(
+    kind: type[SpecTable], values: Sequence[object], named: dict[str, object]
+) -> dict[str, object]:
+    """Arguments by name. Raises TypeError for too many values, or one that is also named."""
+    names = [one.name for one in _parameters(kind) if not one.kw_only]
+    if len(values) > len(names):
+        most = f"at most {len(names)} arguments" if names else "no argument"
+        raise TypeError(f"{kind.__name__} takes {most} without a name, not {len(values)}")
+    by_place = dict(zip(names, values, strict=False))
+    for name in by_place.keys() & named:
+        raise TypeError(f"{kind.__name__} has two values of {name}")
+    return by_place | named
+
+
+T = TypeVar("T")
+
+
+def copied(record: T, changes: dict[str, Any]) -> T:
+    """Return a copy of a frozen record with some fields changed, checked like a new one.
+
+    It is ``dataclasses.replace`` for records without init-only fields, in half the time.
+    """
+    kind, own = type(record), vars(record)
+    names = _names(kind)
+    refuse_keywords(kind.__name__, changes, names)
+    new = object.__new__(kind)
+    vars(new).update({name: own[name] for name in names} | changes)
+    new.__post_init__()  # type: ignore[attr-defined]
+    return new
+
+
+def refuse_keywords(what: str, names: Iterable[str], known: Sequence[str]) -> None:
+    """Raise GenevaError for a keyword that ``what`` does not take, with the nearest one."""
+    for name in names:
+        if name not in known:
+            hint = nearest(name, known)
+            raise GenevaError(f"{what} has no {cut(name)}{hint}; it takes {few(name, known)}")
+
+
+def shortly(record: object) -> str:
+    """A record as Python writes it, without the fields that have their defaults.
+
+    >>> shortly(SideCrank(A=0.6))
+    'SideCrank(A=0.6)'
+    """
+    arguments = []
+    for one in dataclasses.fields(record):  # type: ignore[arg-type]
+        value = getattr(record, one.name)
+        factory = one.default_factory
+        default = one.default if factory is dataclasses.MISSING else factory()
+        if value != default:
+            text = shortly(value) if dataclasses.is_dataclass(value) else repr(value)
+            arguments.append(f"{one.name}={cut(text, SHOWN_MAX)}")
+    return f"{type(record).__name__}({', '.join(arguments)})"
+
+
+def hash_once(record: object) -> int:
+    """Hash of a frozen record, which stores it."""
+    own = vars(record)
+    if HASH not in own:
+        # includes the type, since many laws and drives have equal values
+        own[HASH] = hash((type(record), *[own[name] for name in _names(type(record))]))
+    value: int = own[HASH]
+    return value
+
+
+def without_hash(record: object) -> dict[str, object]:
+    """State of a record for another process, in which strings hash differently."""
+    return {name: value for name, value in vars(record).items() if name != HASH}
+
+
+_parameters_of: dict[type, tuple[dataclasses.Field[object], ...]] = {}
+_names_of: dict[type, tuple[str, ...]] = {}
+
+
+def _parameters(kind: type) -> tuple[dataclasses.Field[object], ...]:
+    """Fields of a dataclass, in their order."""
+    if kind not in _parameters_of:
+        _parameters_of[kind] = dataclasses.fields(kind)
+    return _parameters_of[kind]
+
+
+def _names(kind: type) -> tuple[str, ...]:
+    """Names of a dataclass's fields."""
+    if kind not in _names_of:
+        _names_of[kind] = tuple(one.name for one in _parameters(kind))
+    return _names_of[kind]
+
 
 _fields_of: dict[type[SpecTable], tuple[Field, ...]] = {}
 
@@ -121,14 +295,14 @@ def _fields(table: type[SpecTable]) -> tuple[Field, ...]:
     own = inspect.get_annotations(table, eval_str=True)
     known |= {
         one.name: _field(one, own[one.name])
-        for one in parameters(table)
+        for one in _parameters(table)
         # others are no keys: objects with their own keys, such as a motion's law
         if get_origin(own.get(one.name)) is Annotated
     }
-    return tuple(known[one.name] for one in parameters(table) if one.name in known)
+    return tuple(known[one.name] for one in _parameters(table) if one.name in known)
 
 
-def _field(one: Parameter, annotation: object) -> Field:
+def _field(one: dataclasses.Field[object], annotation: object) -> Field:
     annotated, rule, meaning = get_args(annotation)
     # an alternative (a | b) by its parts, anything else as it is; tuple[...] stays whole
     types = get_args(annotated) if isinstance(annotated, UnionType) else (annotated,)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
@@ -10,7 +11,6 @@ from geneva_cli.errors import GenevaError, cut, few
 from geneva_cli.figure import JOINED, LINE, POINTS, Axis, Curve, Figure, Panel, Piece
 from geneva_cli.loads.figures import AXIS_BY_NAME, LeftOut, figure
 from geneva_cli.machine.spec import Spec
-from geneva_cli.spec.record import names
 from geneva_cli.specfile.columns import Columns, read_columns
 from geneva_cli.study.spec_texts import designs_of, spec_texts
 from geneva_cli.verdict.quantities.names import whole_name
@@ -115,7 +115,7 @@ def _quantity(name: str) -> str | None:
 
 def _keys(table: Columns) -> list[str]:
     """The varied keys: the first columns that are keys of a spec."""
-    tables = {name.partition("_")[0] for name in names(Spec)}
+    tables = {field.name.partition("_")[0] for field in dataclasses.fields(Spec)}
     out = []
     for name in table.names:
         if "." not in name or name.partition(".")[0] not in tables:

@@ -1,6 +1,7 @@
 """What every registered wheel, drive and law must be: named as registered, all its keys known,
 and machines of it that can be kept, sent to another process and built again from their spec."""
 
+import dataclasses
 import pickle
 
 import numpy as np
@@ -11,7 +12,6 @@ from geneva_cli import design
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics import registry
 from geneva_cli.machine.mechanism import build
-from geneva_cli.spec.record import REQUIRED, names
 from geneva_cli.spec.schema import checked, fields
 
 KINDS = [
@@ -36,19 +36,21 @@ def test_a_kind_is_named_as_it_is_registered(registered, name):
 def test_every_field_of_a_kind_is_a_key(registered, name):
     cls = registered(name)
     found = fields(cls)
-    assert {f.attribute for f in found} == set(names(cls))
+    assert {f.attribute for f in found} == {f.name for f in dataclasses.fields(cls)}
     assert len({f.key for f in found}) == len(found)
     assert all(f.meaning and f.types for f in found)
     # what is not given is checked like anything else, and so must pass
     for field in found:
-        if field.default not in (REQUIRED, None):
+        if field.default not in (dataclasses.MISSING, None):
             assert checked(cls.TABLE, field, field.default) == field.default
 
 
 def test_kinds_with_the_same_values_have_hashes_of_their_own():
     """Else specs that differ in a kind alone are looked for among each other in every cache."""
     laws = [registry.law(name) for name in registry.LAWS]
-    plain = [law() for law in laws if all(f.default is not REQUIRED for f in fields(law))]
+    plain = [
+        law() for law in laws if all(f.default is not dataclasses.MISSING for f in fields(law))
+    ]
     assert len(plain) > 5
     assert len({hash(law) for law in plain}) == len(plain)
     assert {hash(law) for law in plain} == {hash(type(law)()) for law in plain}
