@@ -12,7 +12,6 @@ from geneva_cli.machine.drives.carousel import Carousel
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range, range_text
 from geneva_cli.spec.schema import fields
-from geneva_cli.specfile.reader import read
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.survey import parse_z
 from geneva_cli.study.sweep.constraints import (
@@ -130,6 +129,8 @@ def read_frame(path: str, settings: Sequence[str] = ()) -> Spec:
 
     Raises GenevaError where a search has nothing to choose, or does not know the drive.
     """
+    from geneva_cli.specfile.reader import read  # TOML, which a search without a spec does not need
+
     text = read(path, settings)
     spec = text.spec()
     with text.located():

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from geneva_cli.answer import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.design import Design
-from geneva_cli.document import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.loads.makers_form import RecommendedMotor, recommended_motor
 from geneva_cli.loads.summaries import LoadSummary
 from geneva_cli.loads.summary import no_load
