@@ -18,7 +18,7 @@ from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.reliefs import has_arcs, without_lock
 from geneva_cli.layout.sizes import machine_sizes
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Array, keep_freed_memory
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.latest import KEPT
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.crank import crank_contours, is_whole
@@ -100,7 +100,6 @@ def outlines(mechanism: Mechanism) -> Outlines:
 @lru_cache(maxsize=KEPT)  # a sweep cuts the locks of its designs first, and then turns the parts
 def drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
     """Return the cached outlines of an assembly with known sizes."""
-    keep_freed_memory()  # walls and the full turn take large arrays again and again
     kinds, L = assembly.kinds, assembly.L
     walls = {one: slot_walls(assembly, sizes, one, 0.5 * CURVED * L) for one in kinds}
     close = (CURVED if any(engagement.slot.curved for engagement in kinds) else SAME_LENGTH) * L

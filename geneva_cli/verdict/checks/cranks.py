@@ -16,7 +16,7 @@ from geneva_cli.analysis.carried import farthest_mm
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.plates import Member
 from geneva_cli.layout.roller_paths import roller_centres
-from geneva_cli.numerics.arrays import Array, keep_freed_memory
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.verdict.checks.check import Check, compared
@@ -69,7 +69,6 @@ def _least(edge: tuple[Array, Array], one: Member, other: Member) -> tuple[float
 def _support(edge: tuple[Array, Array], around: Array) -> Array:
     """Return how far a crank reaches from its axis in directions of its own frame, mm."""
     points, reach = edge
-    keep_freed_memory()
     out = []
     for some in np.split(around, len(around) // 100):  # so many stay in the cache
         along = np.outer(np.cos(some), points.real) + np.outer(np.sin(some), points.imag)
