@@ -25,6 +25,7 @@ from geneva_cli.kinematics import registry
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.sizing import SIZING_NAMES, sizing, sizings
 from geneva_cli.loads.strength import horn, lock, roller, shafts
+from geneva_cli.loads.strength.wear import wears_mm
 from geneva_cli.machine.many import many
 from geneva_cli.numerics.arrays import only_of
 from geneva_cli.spec.tables import (
@@ -271,14 +272,15 @@ def test_rollers(name):
     machine, each = designs(name)
     ways = roller.passages(machine)
     life = roller.lives(machine, roller.by_roller(machine))
-    worn = roller.wears_mm(machine, ways)
+    worn = wears_mm(machine, [way.rubbing_N for way in ways])
     for i, one in each:
         for way, passage in zip(ways, roller.passages(one), strict=True):
             records(way, i, passage, close=SUMMED)
         records(
             life, i, roller.Life(*only_of(roller.lives(one, roller.by_roller(one)))), close=SUMMED
         )
-        same(worn, i, roller.wears_mm(one, roller.passages(one)).item(), SUMMED)
+        rubbing_N = [passage.rubbing_N for passage in roller.passages(one)]
+        same(worn, i, wears_mm(one, rubbing_N).item(), SUMMED)
 
 
 def test_a_roller_that_turns_back_thrice_in_its_slot():

@@ -163,12 +163,14 @@ def _compete(
             design, low, high, x, slope = map(np.concatenate, columns)
             near, of = part.taken(design), block[design]
             before = here = np.zeros(len(x))
+            close = np.zeros(len(x), bool)
             for step in range(4):  # secant steps, from a parabola's root
                 last, here = here, zero(near, np.cos(x))
                 if step:  # rounding may leave a step of 0, or one against the rise
                     rise = (here - last) / (x - before)
                     slope = np.where(rise > 0.0, rise, slope)
-                before, x = x, x - here / slope
+                # a design that is close stays, so that it has the same peak in every batch
+                before, x = x, np.where(close, x, x - here / slope)
                 # radians: the error after so short a step moves a peak by less than rounding
                 close = abs(x - before) < 1e-7
                 if close.all():
