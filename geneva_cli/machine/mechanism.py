@@ -85,8 +85,17 @@ class Mechanism(NamedTuple):
     def layout(self) -> Layout:
         """Pivots and dimensions of the drive, and of the one before it about the crank's axis.
 
-        Of several cranks it has the axes behind the first.
+        Of several cranks it has the axes behind the first. Pivots have places only in a plane that
+        also has the axes of wheel and crank.
         """
+        spec, layout = self.spec, self._whole_layout
+        if spec.wheel.axes(self.center_distance_mm):
+            return layout
+        return tuple(one for one in layout if not isinstance(one, Pivot))
+
+    @property
+    def _whole_layout(self) -> Layout:
+        """The layout, with all pivots."""
         spec, plan = self.spec, self.plan
         own = spec.drive.layout(plan, spec.wheel.SIGN)
         _, *others = self.crank_places

@@ -340,3 +340,13 @@ def test_stations_that_differ():
     found = oscillators_of(machine, Oscillator(4.0, 0.0))
     assert found.ratio[:, 0] == pytest.approx([4.0, 4.0 * 132.0 / 108.0])
     assert np.isnan(found.steady_share).all()
+
+
+def test_a_stop_has_no_steady_state():
+    """It makes at most z - 1 motions in a row, from rest."""
+    design = Design(External(5, stop=True))
+    oscillators = oscillators_of(design.mechanism, Oscillator(4.0, 0.05))
+    assert np.isnan(oscillators.steady_share).all()
+    values = design.vibration(4.0, 0.05).to_dict()
+    assert values["steady_share"] is None
+    assert any("stop blocks the crank" in str(warning) for warning in values["warnings"])

@@ -131,3 +131,20 @@ def test_out_of_reach(sector, bound):
     named = float(str(refused.value).split(bound)[1].split()[0].rstrip(","))
     inside = named + (1e-3 if bound == "at least" else -1e-3)
     assert machine(3, inside, 0.5)
+
+
+@pytest.mark.parametrize(
+    ("z", "sector", "ratio", "words"),
+    [
+        # a slot of asin(3/4) turns the wheel by more than 90 degrees: no least sector
+        (4, 40.0, 3.0, "above 0 and at most 30"),
+        # asin(1/3): 2 (60 - 19.47)/0.5 = 162.12; all of the step in gear: 120/0.5
+        (3, 300.0, 0.5, "at least 162.115 and at most 240"),
+        (3, 100.0, 0.1, "needs a sector_deg of 1095.68, more than 330"),
+        # all of the step in gear: 120/0.35, but the key ends at 330
+        (3, 1.0, 0.35, "and at most 330"),
+    ],
+)
+def test_a_refusal_names_sectors_that_can_be_set(z, sector, ratio, words):
+    with pytest.raises(GenevaError, match=words):
+        machine(z, sector, ratio)

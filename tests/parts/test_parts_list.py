@@ -311,6 +311,17 @@ def test_kinds_in_other_sizes(name, tmp_path):
     test_a_machine_is_rebuilt_from_what_is_printed(path)
 
 
+@pytest.mark.parametrize("drive", ["side-crank", "elliptical-gears", "noncircular-gears"])
+def test_no_pivots_where_the_shafts_meet(drive, tmp_path):
+    """The crank's axis of a spherical wheel is in no plane with that of a gear beside it."""
+    key = "eccentricity = 0.3" if drive == "elliptical-gears" else "A = 0.4"
+    path = tmp_path / "spec.toml"
+    path.write_text(f'[wheel]\nz = 6\ngearing = "spherical"\n[drive]\nkind = "{drive}"\n{key}\n')
+    _, pivots, numbers = printed(path)
+    assert pivots == {}
+    assert numbers["sphere's radius"] == 100.0
+
+
 def test_every_kind_is_rebuilt():
     """No drive, and no gearing with a parts list, is left out of the designs."""
     specs = [load(str(path)).spec for path in DESIGNS]

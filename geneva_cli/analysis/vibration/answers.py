@@ -138,15 +138,21 @@ def _warnings(mechanism: Mechanism, load: Oscillator, least: float) -> list[Noti
                 "stiffness",
             )
         )
-    if not load.damping:
-        out.append(
-            Notice(
-                "not-known",
-                "steady_share is not computed: without damping (damping_ratio in [shaft], or "
-                "--damping) the vibration never dies out, and there is no steady state",
-            )
-        )
+    if why := _never_steady(mechanism, load):
+        out.append(Notice("not-known", f"steady_share is not computed: {why}"))
     return out
+
+
+def _never_steady(mechanism: Mechanism, load: Oscillator) -> str:
+    """Return the reason why there is no steady state; empty where there is one."""
+    if mechanism.spec.wheel.stopped:
+        return "the stop blocks the crank after z - 1 motions, too few for a steady state"
+    if not load.damping:
+        return (
+            "without damping (damping_ratio in [shaft], or --damping) the vibration never dies "
+            "out, and there is no steady state"
+        )
+    return ""
 
 
 def vibration_table(mechanism: Mechanism, load: Oscillator | None) -> Table:
@@ -168,7 +174,8 @@ def spectrum(mechanism: Mechanism, load: Oscillator, samples: int) -> Table:
         ratio = load.ratio * (n_rpm / speed)
         oscillators = Oscillators(mechanism, Swing(ratio, np.full(len(speed), load.damping)))
         share, turned = oscillators.share.max(axis=0), oscillators.residual_deg.max(axis=0)
-        settled = oscillators.steady_share.max(axis=0) if load.damping else [None] * len(speed)
+        known = not _never_steady(mechanism, load)
+        settled = oscillators.steady_share.max(axis=0) if known else [None] * len(speed)
         if not turns:
             turned = [None] * len(speed)
         return [speed, ratio, share, turned, oscillators.worst_share, settled]

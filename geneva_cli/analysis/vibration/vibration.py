@@ -200,10 +200,10 @@ class Oscillators:
 
     @cached_property
     def steady_share(self) -> Array:
-        """Residuals over the step in the steady state; NaN without damping.
+        """Residuals over the step in the steady state; NaN where there is none.
 
         A motion adds its own residual to the rest of all earlier ones: a geometric series. Without
-        damping it has no sum.
+        damping it has no sum, and a stop ends it after z - 1 motions.
         """
         exits, period = self._exits()
         first = np.ravel(self.mechanism.engagements[0].motion_deg)
@@ -216,7 +216,8 @@ class Oscillators:
                 ages = [(own - other) % period for other in exits]
                 left = sum(a * np.exp(rate * age) for a, age in zip(added, ages, strict=True))
                 rows.append(np.abs(left / sum_) / index.step)
-        return np.where(self.swing.damping > 0.0, rows, np.nan)
+        endless = not self.mechanism.spec.wheel.stopped
+        return np.where((self.swing.damping > 0.0) & endless, rows, np.nan)
 
     def _exits(self) -> tuple[list[Array], Array]:
         """Return input angles at the ends of the motions, and the period, as the load swings."""

@@ -7,6 +7,9 @@ stops the wheel in its own slot.
 The speeds agree at the crank angle a_t with sin²(a_t/2) = w (1-w) / (2l (1+u) (1 + 2u)), w = 1 -
 (1-l)(1+u). The acceleration jumps there, except for w = 0, u = l/(1-l): then a_t = 0 and the pitch
 circles are R and L - R. The step is 2 (b - psi_t) + u D.
+
+No ratio below that one gives the step, since b - psi_t is greatest at a_t = 0. With one above it the
+slot would still accelerate the wheel. In gear the roller then moves into the wall that it pushed.
 """
 
 from __future__ import annotations
@@ -59,7 +62,7 @@ class GearSector(PinPath, kw_only=True):
     gear_ratio: Annotated[
         float | str,
         Words(POSITIVE, ("shockless",)),
-        'wheel speed / crank speed in gear; "shockless" for no jump',
+        'wheel speed / crank speed in gear; "shockless" for no jump, other ratios exceed it slightly',
     ] = "shockless"
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
@@ -121,14 +124,25 @@ class GearSector(PinPath, kw_only=True):
         least, most = (2.0 * (half_step - _handover(u, x).turned(0.0)) / u for x in reversed(ends))
         refuse(
             (least > D) | (most < D),
-            lambda: GenevaError(
-                f"sector_deg = {self.sector_deg:g}: with gear_ratio = {u:g} it gives no step of "
-                f"{math.degrees(2.0 * half_step):.6g} deg; it must be at least "
-                f"{math.degrees(least):.6g} and at most {math.degrees(most):.6g}",
-                ("drive", "sector_deg"),
-            ),
+            lambda: self._no_step(half_step, math.degrees(least), math.degrees(most)),
         )
         return _handover(u, boundary(lambda x: _handover(u, x).turned(D) < half_step, *ends))
+
+    def _no_step(self, half_step: float, least_deg: float, most_deg: float) -> GenevaError:
+        """The error for a sector that gives no step, with the sectors that would give one."""
+        step = f"a step of {math.degrees(2.0 * half_step):.6g} deg"
+        if least_deg > 330.0:  # the key's own limit
+            return GenevaError(
+                f"gear_ratio = {self.gear_ratio:g}: {step} needs a sector_deg of {least_deg:.6g}, "
+                "more than 330; set a greater gear_ratio",
+                ("drive", "gear_ratio"),
+            )
+        least = f"at least {least_deg:.6g}" if least_deg > 0.0 else "above 0"
+        return GenevaError(
+            f"sector_deg = {self.sector_deg:g}: with gear_ratio = {self.gear_ratio:g} it does not "
+            f"give {step}; it must be {least} and at most {min(most_deg, 330.0):.6g}",
+            ("drive", "sector_deg"),
+        )
 
 
 class Handover(NamedTuple):
