@@ -8,8 +8,8 @@ The speeds agree at the crank angle a_t with sin²(a_t/2) = w (1-w) / (2l (1+u) 
 (1-l)(1+u). The acceleration jumps there, except for w = 0, u = l/(1-l): then a_t = 0 and the pitch
 circles are R and L - R. The step is 2 (b - psi_t) + u D.
 
-No ratio below that one gives the step, since b - psi_t is greatest at a_t = 0. With one above it the
-slot would still accelerate the wheel. In gear the roller then moves into the wall that it pushed.
+No ratio below that one gives the step, since b - psi_t is greatest at a_t = 0. With one above it
+the slot would still accelerate the wheel. In gear the roller then moves into the wall it pushed.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ class GearSector(PinPath, kw_only=True):
     gear_ratio: Annotated[
         float | str,
         Words(POSITIVE, ("shockless",)),
-        'wheel speed / crank speed in gear; "shockless" for no jump, other ratios exceed it slightly',
+        'wheel speed / crank speed in gear; "shockless" for no jump, others are slightly above it',
     ] = "shockless"
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
