@@ -176,6 +176,28 @@ def test_several_rollers_share_the_motions():
     assert life(build(two)).motions == pytest.approx(one.motions, rel=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("design", "a_turn"),
+    [
+        ("three-rollers-z4", 1.0),  # each roller of a crank passes one slot a turn
+        ("two-rollers-side-crank", 1.0),
+        ("two-cranks", 1.0),  # both turn once
+        ("unequal-steps", 1.0),
+        ("gear-sector", 1.0),
+        ("geneva-pair", 1.0 / 4.0),  # the second crank turns once in four turns of the input
+        ("wandering-hours", 3.0),  # three wheels come to the finger
+    ],
+)
+def test_passages_of_one_roller_in_an_hour(design, a_turn):
+    """Counted by hand: one roller's passages in a turn of the input."""
+    mechanism = load(str(DESIGNS / f"{design}.toml"))
+    capacity = RollerMaterial(dynamic_capacity_N=2000.0)
+    spec = mechanism.spec.replace(material_roller=capacity, load=Load(torque_Nm=5.0))
+    own = life(mechanism._replace(spec=spec))
+    an_hour = 60.0 * spec.drive.n_rpm * a_turn
+    assert own.motions / own.hours == pytest.approx(an_hour, rel=1e-12)
+
+
 def test_of_unequal_steps_the_worst_roller_counts():
     mechanism = load(str(DESIGNS / "unequal-steps.toml"))
     capacity = RollerMaterial(dynamic_capacity_N=2000.0)
