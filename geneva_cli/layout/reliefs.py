@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from collections.abc import Mapping
+from typing import NamedTuple, TypeAlias
 
+import numpy as np
+
+from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.numerics.tolerances import SAME_ANGLE
+
+# radii of the corners of each kind of slot's mouth at entry and exit, mm
+Mouths: TypeAlias = Mapping[Engagement, tuple[float, float]]
 
 
 class Relief(NamedTuple):
@@ -86,15 +93,45 @@ def merged(around: list[Relief]) -> list[Relief]:
     return joined
 
 
-def sectors(assembly: Assembly) -> list[tuple[float, float]]:
+def widened(assembly: Assembly, sizes: Sizes, mouths: Mouths) -> list[Relief]:
+    """Return the reliefs as wide as the wheel's horns need, with those that touch joined.
+
+    The horns of offset slots and of unequal steps may reach beyond a relief's edges.
+    """
+    return merged([_widened(assembly, sizes, one, mouths) for one in reliefs(assembly)])
+
+
+def _widened(assembly: Assembly, sizes: Sizes, one: Relief, mouths: Mouths) -> Relief:
+    """Return a relief that clears both horns beside the slot of its motion.
+
+    A horn's corner, p from the wheel's axis, is on the circle of the disc or of the recess where it
+    is chi from the line of centres: p² + L² - 2 p L cos chi = k². In the motion it comes from the
+    recess and passes the line. It reaches farthest round the crank where it leaves the disc.
+    """
+    engagement, behind = assembly.motions[one.motion]
+    L, half_step, middle = assembly.L, engagement.half_step, 0.5 * (one.start + one.end)
+    at = np.linspace(engagement.entry_deg, engagement.exit_deg, 2001)  # within 1e-5 degrees
+    turned = engagement.motion(at, 0).c[0]
+    start, end = one.start, one.end
+    for side, p in zip((1.0, -1.0), mouths[engagement], strict=True):
+        cosines = [(L * L + p * p - k * k) / (2.0 * L * p) for k in (sizes.lock, sizes.recess)]
+        if max(cosines) >= 1.0:  # the corner never comes into the disc
+            continue
+        leaves, rests = (math.acos(max(cosine, -1.0)) for cosine in cosines)
+        input_deg = float(np.interp(side * (leaves - half_step + rests), turned, at))
+        beyond = side * math.atan2(p * math.sin(leaves), L - p * math.cos(leaves))
+        off = math.remainder(assembly.lock(behind + input_deg) - beyond - middle, math.tau)
+        if abs(off) > one.half + SAME_ANGLE:
+            spare = math.copysign(sizes.relief / sizes.lock, off)
+            start, end = min(start, middle + off + spare), max(end, middle + off + spare)
+    return one._replace(start=start, end=end)
+
+
+def sectors(around: list[Relief]) -> list[tuple[float, float]]:
     """Return the sectors in which the disc locks: directions on the crank, radians, from and to."""
-    return [
-        (one.end, after)
-        for one, after in followed(reliefs(assembly))
-        if after - one.end > SAME_ANGLE
-    ]
+    return [(one.end, after) for one, after in followed(around) if after - one.end > SAME_ANGLE]
 
 
 def keyway_direction(assembly: Assembly) -> float:
     """Return the keyway's direction: the middle of a locking sector, away from reliefs."""
-    return next((0.5 * (start + end) for start, end in sectors(assembly)), math.pi)
+    return next((0.5 * (start + end) for start, end in sectors(reliefs(assembly))), math.pi)

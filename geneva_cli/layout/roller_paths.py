@@ -66,22 +66,31 @@ def least_mouth(L: float, recess: float, rim: float) -> float:
     return reach + 0.2 * (rim - reach)
 
 
-def mouth_corners(assembly: Assembly, r: float, recess: float, rim: float) -> list[float]:
-    """Return the radii of the corners between mouths and recesses, of all kinds of slots, mm.
+class MouthCorners(NamedTuple):
+    """Radii of the corners between a mouth and the recesses where the roller comes and goes, mm."""
+
+    entry: float
+    exit: float
+
+
+def mouth_corners(
+    assembly: Assembly, r: float, recess: float, rim: float
+) -> dict[Engagement, MouthCorners]:
+    """Return the corners of the mouth of each kind of slot.
 
     The mouths of offset slots and of unequal steps end at different radii. If the spec sets the
     rim, it moves all mouths by as much as the widest one.
     """
-    widest = [mouth(assembly, kind, r) for kind in assembly.kinds]
-    own = []
-    for kind, at in zip(assembly.kinds, widest, strict=True):
-        if kind.slot.offset:
-            own += [math.hypot(*corner(assembly, kind, end, r)) for end in (-1.0, 1.0)]
-        else:
-            own.append(at)
-    shift = rim - max(widest)
+    widest = {kind: mouth(assembly, kind, r) for kind in assembly.kinds}
+    shift = rim - max(widest.values())
     least = least_mouth(assembly.L, recess, rim) if assembly.sign > 0.0 else 0.0
-    return [max(at + shift, least) for at in own]
+
+    def own(kind: Engagement, end: float) -> float:
+        offset = kind.slot.offset
+        at = math.hypot(*corner(assembly, kind, end, r)) if offset else widest[kind]
+        return max(at + shift, least)
+
+    return {kind: MouthCorners(own(kind, -1.0), own(kind, 1.0)) for kind in widest}
 
 
 def rest(assembly: Assembly, engagement: Engagement, end: float) -> tuple[float, float]:

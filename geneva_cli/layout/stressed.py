@@ -19,7 +19,7 @@ from geneva_cli.layout.bores import reach_or_bore
 from geneva_cli.layout.keyways import key
 from geneva_cli.layout.link_positions import gear_plane, links_at
 from geneva_cli.layout.plain_sizes import Sizes, half_or, plane_span
-from geneva_cli.layout.reliefs import is_whole, sectors
+from geneva_cli.layout.reliefs import Mouths, Relief, is_whole, reliefs, sectors, widened
 from geneva_cli.layout.roller_paths import mouth_corners, roller_reaches
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
@@ -144,15 +144,24 @@ def lock_of(where: Assembly, size: Sizes) -> Lock:
 
     Its corner is that of the mouth that leaves the most play.
     """
-    half = min((0.5 * (end - start) for start, end in sectors(where)), default=math.nan)
+    mouths = mouth_corners(where, size.roller, size.recess, size.rim)
+    locking = sectors(_reliefs(where, size, mouths))
+    half = min((0.5 * (end - start) for start, end in locking), default=math.nan)
     edge = where.full.spec.size.lock_edge_mm or 0.0
     lock = Lock(where.L, where.sign, size.lock, size.recess, size.rim, half, edge)
-    corners = mouth_corners(where, size.roller, size.recess, size.rim)
+    corners = [radius for mouth in mouths.values() for radius in mouth]
     if max(corners) - min(corners) < SAME_LENGTH * where.L:
         return lock
     near, far = abs(where.L - size.recess), where.L + size.recess
     tried = [lock._replace(corner=r) for r in sorted(corners) if near < r < far]
     return loosest(tried) if tried else lock
+
+
+def _reliefs(where: Assembly, size: Sizes, mouths: Mouths) -> list[Relief]:
+    """Return the reliefs as they are cut: arcs end where the motions do."""
+    if not is_whole(where, size) or where.mechanism.spec.size.relief == "arc":
+        return reliefs(where)
+    return widened(where, size, mouths)
 
 
 def key_of(standard: str | None, bore: float, length: float) -> KeyDimensions:

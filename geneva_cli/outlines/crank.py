@@ -22,11 +22,12 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.bores import bore_of
 from geneva_cli.layout.plain_sizes import Sizes
-from geneva_cli.layout.reliefs import Relief, followed, keyway_direction, merged, reliefs
+from geneva_cli.layout.reliefs import Relief, followed, keyway_direction, reliefs, widened
 from geneva_cli.layout.reliefs import is_whole as is_whole
+from geneva_cli.layout.roller_paths import mouth_corners
 from geneva_cli.layout.roller_paths import roller_centres as roller_centres
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.outlines.locking_rings import LAYER, Swept, polar_points, rings, towards
+from geneva_cli.outlines.locking_rings import LAYER, Swept, rings
 
 
 def crank_contours(
@@ -43,7 +44,8 @@ def crank_contours(
         return rings(assembly, sizes, swept, spare)
     around = reliefs(assembly)
     if relief == "sector":
-        around = merged([_widened(sizes, one, swept) for one in around])
+        mouths = mouth_corners(assembly, sizes.roller, sizes.recess, sizes.rim)
+        around = widened(assembly, sizes, mouths)
     if sum(one.end - one.start for one in around) > math.tau - SAME_ANGLE:
         raise GenevaError(
             "nothing is left of the locking disc: its reliefs go all the way round; use fewer "
@@ -56,18 +58,6 @@ def crank_contours(
         if after - one.end > SAME_ANGLE:
             segments.append(about((0.0, 0.0), sizes.lock, one.end, after - one.end))
     return [closed(LAYER, segments)]
-
-
-def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:
-    """Return a relief as wide as the wheel needs: offset slots turn horns past its edges."""
-    middle = 0.5 * (one.start + one.end)
-    beyond = towards(*swept(one.motion), middle + math.pi, math.pi - one.half)
-    off = polar_points(*beyond, middle).direction
-    spare = sizes.relief / sizes.lock
-    low, high = float(off.min(initial=0.0)), float(off.max(initial=0.0))
-    start = middle + low - spare if low < -one.half - SAME_ANGLE else one.start
-    end = middle + high + spare if high > one.half + SAME_ANGLE else one.end
-    return one._replace(start=start, end=end)
 
 
 def crank_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:

@@ -18,12 +18,12 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
     """Return the lock: the narrowest arc of the crank, and the corner that leaves the most play.
 
-    Beyond the axis of an internal wheel's crank, and where offset slots turn their horns past a
-    relief's edges, the wheel leaves less than a sector between two reliefs. The mouths of offset
-    slots and of unequal steps end at different radii, and so do the recesses between them.
+    Beyond the crank's axis, as an internal wheel reaches, the wheel leaves less than a sector
+    between two reliefs. The mouths of offset slots and of unequal steps end at different radii, and
+    so do the recesses between them.
     """
-    lock, kinds = lock_of(assembly, sizes), assembly.kinds
-    if is_whole(assembly, sizes) and len(kinds) == 1 and not kinds[0].slot.offset:
+    lock = lock_of(assembly, sizes)
+    if is_whole(assembly, sizes):
         return lock
     from geneva_cli.outlines.outlines import drawn  # which few locks need
 

@@ -18,7 +18,7 @@ from geneva_cli.curves.shapes import Arc, Contour, Line, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.plain_sizes import Sizes
-from geneva_cli.layout.reliefs import sectors
+from geneva_cli.layout.reliefs import reliefs, sectors
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 
@@ -79,7 +79,7 @@ def rings(assembly: Assembly, sizes: Sizes, swept: Swept, spare: float) -> list[
             )
         return _ring(sizes, middle, half, *arc(half))
 
-    return [ring(*span) for span in sectors(assembly)]
+    return [ring(*span) for span in sectors(reliefs(assembly))]
 
 
 def widest(whole: float, clears: Callable[[float], bool]) -> float | None:

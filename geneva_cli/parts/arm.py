@@ -28,7 +28,7 @@ from geneva_cli.layout.arm_sizes import (
 )
 from geneva_cli.layout.bolt_holes import bolt_radius
 from geneva_cli.layout.bores import bore_of, has_shape
-from geneva_cli.layout.reliefs import keyway_direction, sectors
+from geneva_cli.layout.reliefs import keyway_direction, reliefs, sectors
 from geneva_cli.machine.least_wall import eye_about
 from geneva_cli.outlines.crank import crank_circles, is_whole, roller_centres
 from geneva_cli.outlines.outlines import Outlines
@@ -108,7 +108,7 @@ def bolts(parts: Outlines) -> list[Circle]:
 def _bolts(parts: Outlines, count: int) -> list[Circle]:
     """Return the holes of so many bolts in each sector, all of one size."""
     size, L = parts.assembly.mechanism.spec.size, parts.assembly.L
-    spans = sectors(parts.assembly) if parts.crank and count else []
+    spans = sectors(reliefs(parts.assembly)) if parts.crank and count else []
     directions = lock_bolt_directions([(start, end - start) for start, end in spans], count)
     rings = [_widest(parts, at) for at in directions]
     r = bolt_radius(size.lock_bolt_mm, L, min((half for _, half in rings), default=0.0))

@@ -4,7 +4,6 @@ The parts are compared with their hand calculation, and the sheet's dimensions w
 """
 
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -28,10 +27,11 @@ from geneva_cli.drawings.sheet.wheel import draw_wheel
 from geneva_cli.drawings.sphere.arm_drawing import arm_cone
 from geneva_cli.drawings.sphere.drawings import wheel_cone
 from geneva_cli.layout.bores import RoundBore, bore_of
-from geneva_cli.layout.reliefs import Relief, arc_floor
+from geneva_cli.layout.reliefs import arc_floor, reliefs, widened
+from geneva_cli.layout.roller_paths import mouth_corners
 from geneva_cli.layout.sizes import machine_sizes
 from geneva_cli.layout.stressed import stressed
-from geneva_cli.outlines.crank import _widened
+from geneva_cli.outlines.outlines import outlines
 from geneva_cli.parts.all_shafts import passing_arm
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.counter_parts import CounterParts
@@ -539,36 +539,32 @@ def test_a_low_mouth_is_raised_by_a_fifth():
     ]
 
 
-class Swept:
-    """Points of the wheel in a crank's frame, and the motions that they were asked for."""
-
-    def __init__(self, *polar):
-        self.motions = []
-        self.points = np.array([[r * math.cos(a), r * math.sin(a)] for r, a in polar]).T
-
-    def __call__(self, motion):
-        self.motions.append(motion)
-        return tuple(self.points)
-
-
 @pytest.mark.parametrize(
-    ("at", "start", "end"),
+    ("wheel", "passed"),
     [
-        ((), 2.6, 3.4),  # within the relief, which ends 0.4 from its middle
-        ((3.7,), 2.6, 3.75),  # 0.7 after the middle, and a clearance of 2 mm at 40 mm: 0.05
-        ((2.3,), 2.25, 3.4),
-        ((2.3, 3.7, 2.5, 3.5), 2.25, 3.75),  # the farthest to each side
-        ((-2.6,), 2.6, 2.0 * math.pi - 2.55),  # -2.6 is 3.68
+        (External(3, steps_deg=(131.9, 84.5, 143.6)), {2}),
+        (External(4, steps_deg=(48.3, 131.7)), {1}),
+        (External(8, steps_deg=(63.4, 26.6)), set()),
+        (External(6, offset_mm=12.0), set()),
     ],
 )
-def test_a_relief_is_as_wide_as_the_wheel_reaches(at, start, end):
-    """A disc of 40 mm with a relief from 2.6 to 3.4 radians, for motion 1."""
-    swept = Swept((30.0, 3.0), (20.0, 2.7), (20.0, 3.3), *((35.0, a) for a in at))
-    sizes = SimpleNamespace(lock=40.0, relief=2.0)
-    wide = _widened(sizes, Relief(2.6, 3.4, 1), swept)
-    # one digit of a direction is 4e-16
-    assert wide == pytest.approx((start, end, 1), abs=2e-15)
-    assert swept.motions == [1]
+def test_a_relief_is_as_wide_as_the_wheel_reaches(wheel, passed):
+    """All points of the wheel's outline, turned in steps of 0.002 degrees of the crank.
+
+    In a step the wheel turns up to 20 times as far, by 0.04 degrees. A horn reaches farthest where
+    it leaves the disc, so that its last point inside comes less far by about half of that.
+    """
+    parts = outlines(Design(wheel, size=Size(100.0, 4.0)).mechanism)
+    assembly, sizes = parts.assembly, parts.sizes
+    mouths = mouth_corners(assembly, sizes.roller, sizes.recess, sizes.rim)
+    wide = {one.motion: one for one in widened(assembly, sizes, mouths)}
+    for one in reliefs(assembly):
+        middle = 0.5 * (one.start + one.end)
+        x, y = parts.gaps.swept(one.motion, 0.002)
+        off = np.abs(np.remainder(np.arctan2(y, x) - middle + math.pi, math.tau) - math.pi).max()
+        assert (off > one.half + 1e-6) == (one.motion in passed)
+        reach = off + sizes.relief / sizes.lock if one.motion in passed else one.half
+        assert wide[one.motion].half == pytest.approx(reach, abs=math.radians(0.02))
 
 
 @pytest.mark.parametrize("direction", [0.0, 2.0])
