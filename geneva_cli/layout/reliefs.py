@@ -11,7 +11,7 @@ import numpy as np
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.plain_sizes import Sizes
-from geneva_cli.numerics.tolerances import SAME_ANGLE
+from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 
 # radii of the corners of each kind of slot's mouth at entry and exit, mm
 Mouths: TypeAlias = Mapping[Engagement, tuple[float, float]]
@@ -106,25 +106,31 @@ def _widened(assembly: Assembly, sizes: Sizes, one: Relief, mouths: Mouths) -> R
 
     A horn's corner, p from the wheel's axis, is on the circle of the disc or of the recess where it
     is chi from the line of centres: p² + L² - 2 p L cos chi = k². In the motion it comes from the
-    recess and passes the line. It reaches farthest round the crank where it leaves the disc.
+    recess, passes the line and leaves the disc. It reaches farthest round the crank by then.
     """
     engagement, behind = assembly.motions[one.motion]
     L, half_step, middle = assembly.L, engagement.half_step, 0.5 * (one.start + one.end)
-    at = np.linspace(engagement.entry_deg, engagement.exit_deg, 2001)  # within 1e-5 degrees
+    # samples 1/2000 of the motion apart bring a greatest value to 1e-5 degrees
+    at = np.linspace(engagement.entry_deg, engagement.exit_deg, 2001)
     turned = engagement.motion(at, 0).c[0]
-    start, end = one.start, one.end
-    for side, p in zip((1.0, -1.0), mouths[engagement], strict=True):
+    start, end, spare = one.start, one.end, sizes.relief / sizes.lock
+    corners = mouths.get(engagement) or next(iter(mouths.values()))  # slots are equal
+    for side, p in zip((1.0, -1.0), corners, strict=True):
         cosines = [(L * L + p * p - k * k) / (2.0 * L * p) for k in (sizes.lock, sizes.recess)]
         if max(cosines) >= 1.0:  # the corner never comes into the disc
             continue
         leaves, rests = (math.acos(max(cosine, -1.0)) for cosine in cosines)
-        input_deg = float(np.interp(side * (leaves - half_step + rests), turned, at))
-        beyond = side * math.atan2(p * math.sin(leaves), L - p * math.cos(leaves))
-        off = math.remainder(assembly.lock(behind + input_deg) - beyond - middle, math.tau)
-        if abs(off) > one.half + SAME_ANGLE:
-            spare = math.copysign(sizes.relief / sizes.lock, off)
-            start, end = min(start, middle + off + spare), max(end, middle + off + spare)
-    return one._replace(start=start, end=end)
+        last = side * (leaves - half_step + rests)
+        corner = side * (half_step - rests) + np.append(turned, last)
+        x, y = p * np.cos(corner) - L, p * np.sin(corner)
+        crank = assembly.crank(behind + np.append(at, np.interp(last, turned, at)))
+        off = np.remainder(np.arctan2(y, x) - crank - middle + math.pi, math.tau) - math.pi
+        off = off[np.hypot(x, y) < sizes.lock * (1.0 + SAME_LENGTH)]
+        if off.min(initial=0.0) < -one.half - SAME_ANGLE:
+            start = min(start, middle + off.min() - spare)
+        if off.max(initial=0.0) > one.half + SAME_ANGLE:
+            end = max(end, middle + off.max() + spare)
+    return one._replace(start=float(start), end=float(end))
 
 
 def sectors(around: list[Relief]) -> list[tuple[float, float]]:
