@@ -28,10 +28,8 @@ from geneva_cli import (
 )
 from geneva_cli.analysis.product import product_motion
 from geneva_cli.curves.plates import plates
-from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.loads import kinetic_power_W
 from geneva_cli.loads.sizing import sizing
-from geneva_cli.loads.summaries import load_summaries
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
@@ -269,18 +267,6 @@ def test_loads_of_several_wheels_are_the_sum_over_a_turn(z, wheels):
     assert values["energy_fluctuation_J"] == pytest.approx(swing, rel=1e-5)
     shaft = np.where(total > 0.0, total / 0.8, total * 0.8)
     assert values["motor_torque_rms_Nm"] == pytest.approx(math.sqrt((shaft**2).mean()), rel=1e-6)
-
-
-def test_a_batch_of_loads_is_each_design_alone():
-    """Sweeps and single designs give the same numbers, with several wheels too."""
-    spec = Spec(External(4), Carousel(wheels=3), load=Load(inertia_kgm2=0.1, torque_Nm=1.0))
-    inertias = np.array([0.01, 0.3])
-    batch = load_summaries(many(spec, {"load.inertia_kgm2": inertias}).machine, ["input_torque_Nm"])
-    for i, inertia in enumerate(inertias):
-        alone = cycle_of(build(spec.with_("load.inertia_kgm2", float(inertia)))).known
-        for name in ("max", "min", "mean", "rms"):
-            together = getattr(batch["input_torque_Nm"], name)[i]
-            assert together == pytest.approx(getattr(alone["input_torque_Nm"], name)[0], rel=1e-12)
 
 
 def values_of(design):

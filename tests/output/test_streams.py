@@ -9,6 +9,7 @@ import pytest
 from repo import GENEVA
 
 SOME = [["--help"], ["--version"], ["table", "--help"], ["table"], ["peaks", "spec.toml"]]
+SOME += [["peaks", "spec.toml", "--format", "json"], ["motion", "spec.toml", "--samples", "20000"]]
 
 some = pytest.mark.parametrize("arguments", SOME, ids=" ".join)
 full = pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full here")
