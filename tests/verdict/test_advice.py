@@ -10,9 +10,7 @@ from sampling import some
 from words import load
 
 from geneva_cli import Design
-from geneva_cli.loads import loads
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.numerics.latest import counted
 from geneva_cli.spec.schema import fields
 from geneva_cli.specfile.writer import keys_of
 from geneva_cli.study.verdicts import verdicts
@@ -258,40 +256,6 @@ def test_several_files_get_the_advice_of_each(tmp_path: Path) -> None:
     alone = [[c for c in judged(load(path)) if c.passes is False] for path in paths]
     assert together == alone
     assert all(rows[0].nearest for rows in alone)
-
-
-def test_searches_of_loads_count(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A trial costs more than its machine: the evaluations of its search for the greatest stress.
-
-    Before they were counted, some loaded machines behind other drives took 20 s.
-    """
-    mechanism = read(tmp_path, LOADED + "contact_stress_max_MPa = 250\n")
-    failing = [c for c in checks(mechanism, parts=False) if c.passes is False]
-    built: list[object] = []
-    monkeypatch.setattr(advice, "build", lambda spec: built.append(spec) or build(spec))
-    adviser = advice.Adviser(mechanism, failing, parts=False)
-    assert adviser.advice(failing)[0]
-    with counted() as one:
-        loads.greatest_pressure(build(mechanism.spec))
-    assert one.evaluations > 1
-    assert advice.WORK - adviser.work > (advice.TRIAL + 1) * len(built) > 0
-
-
-def test_trials_that_search_many_motions_are_fewer(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Three wheels with a body off the axis have nine motions a period: a trial takes 90 ms."""
-    mechanism = read(
-        tmp_path,
-        "[wheel]\nz = 3\n[drive]\nkind = 'carousel'\nwheels = 3\n[size]\nface_width_mm = 1\n"
-        "[load]\ninertia_kgm2 = 0.1\n[limits]\npin_force_max_N = 1\n"
-        "[[mass]]\nshape = 'point'\nmass_kg = 1\nradius_mm = 50\n",
-    )
-    built = []
-    monkeypatch.setattr(advice, "WORK", 80)
-    monkeypatch.setattr(advice, "build", lambda spec: built.append(spec) or build(spec))
-    judged(mechanism, parts=False)
-    assert 0 < len(built) * 9 <= advice.WORK
 
 
 @pytest.mark.long
