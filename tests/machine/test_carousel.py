@@ -6,9 +6,9 @@ from typing import NamedTuple
 import mpmath
 import numpy as np
 import pytest
-from drawing_witness import vertices
+from drawing_witness import polygon
 from mpmath import mp
-from shapely import Point, Polygon, affinity
+from shapely import Point, affinity
 
 from geneva_cli import (
     Carousel,
@@ -465,7 +465,7 @@ def test_wheels_pass_each_other_and_the_disc():
     design = Design(External(4), Carousel(wheels=3))
     (wheel,) = plates(design.drawing("wheel").solid)
     (disc,) = (one for one in plates(design.drawing("crank").solid) if one.layer == "CRANK")
-    own, lock = Polygon(vertices(wheel.outline, 1e-3)), Polygon(vertices(disc.outline, 1e-3))
+    own, lock = polygon(wheel.outline, 1e-3), polygon(disc.outline, 1e-3)
     L, witness = design.mechanism.center_distance_mm, witness_of(design.spec.wheel)
     half = witness.half_deg()
     nearest = math.inf
@@ -499,7 +499,7 @@ def test_the_carrier_has_an_eye_for_each_wheel():
         }
         assert all(min(abs(a - b) for b in axes) < 1e-9 for a in expected)
         assert len(axes) == wheels + 1
-        eyes = Polygon(vertices(carrier.outline, 1e-3))
+        eyes = polygon(carrier.outline, 1e-3)
         walls = [eyes.exterior.distance(Point(*h.centre)) - h.radius for h in carrier.holes]
         assert min(walls) >= 5.0 - 2e-3  # L/20, less a chord
         rows = design.part_table("parts").to_rows()
