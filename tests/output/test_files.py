@@ -16,7 +16,7 @@ import time
 
 import pytest
 import repo
-from repo import GENEVA
+from repo import GENEVA, get, put
 from sampling import some
 from typer.testing import CliRunner
 from words import load
@@ -38,16 +38,6 @@ def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     put("spec.toml", "[wheel]\nz = 6\n")
     return tmp_path
-
-
-def put(name, text):
-    with open(name, "w", encoding="utf-8", newline="") as file:
-        file.write(text)
-
-
-def get(name):
-    with open(name, encoding="utf-8", newline="") as file:
-        return file.read()
 
 
 def geneva(*arguments, **settings):

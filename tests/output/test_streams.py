@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 import pytest
-from repo import GENEVA
+from repo import GENEVA, put
 
 SOME = [["--help"], ["--version"], ["table", "--help"], ["table"], ["peaks", "spec.toml"]]
 SOME += [["peaks", "spec.toml", "--format", "json"], ["motion", "spec.toml", "--samples", "20000"]]
@@ -30,11 +30,6 @@ def folder(tmp_path, monkeypatch):
 @pytest.fixture(params=["", "1"], ids=["buffered", "unbuffered"])
 def environment(request):
     return os.environ | {"PYTHONUNBUFFERED": request.param}  # an empty text counts as unset
-
-
-def put(name, text):
-    with open(name, "w", encoding="utf-8") as file:
-        file.write(text)
 
 
 def run(arguments, environment=None, **settings):
