@@ -149,6 +149,9 @@ def test_a_load_without_a_bound_leaves_the_panel():
     assert (word.word, word.x) == ("max", pytest.approx(0.0, abs=1e-6))
     low, high = panel.bounds
     assert low == pytest.approx(design.loads["pin_force_N"].min)
+    # three times the force half-way between the ends and mid-motion
+    x = np.array([-0.5, 0.5]) * design.mechanism.engagements[0].exit_deg
+    assert high == pytest.approx(3.0 * design.cycle.states(x).pin_force_N.max(), rel=1e-9)
     ys = [y for _, y in points(curve)]
     assert max(ys) == high and all(math.isfinite(y) for y in ys)
     # no line runs along the edge
