@@ -51,7 +51,7 @@ if TYPE_CHECKING:
     from geneva_cli.drawings.model import PartsModel
     from geneva_cli.figure import Figure
     from geneva_cli.loads.cycle import Cycle
-    from geneva_cli.loads.summary import QuantitySummary
+    from geneva_cli.loads.summaries import LoadSummary
     from geneva_cli.outlines.outlines import Outlines
     from geneva_cli.specfile.reader import Text
     from geneva_cli.table import Table
@@ -415,7 +415,7 @@ class Design:
         return cycle_of(self.mechanism)
 
     @answer
-    def loads(self) -> Mapping[str, QuantitySummary]:
+    def loads(self) -> Mapping[str, LoadSummary[float | None]]:
         """Greatest, least, mean and root-mean-square of each load over a period, by its name.
 
         None for an unbounded value, or if the spec lacks its inputs. Newtons, newton metres,

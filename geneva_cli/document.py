@@ -7,40 +7,10 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 if TYPE_CHECKING:
     from geneva_cli.curves.drawing import Drawing
     from geneva_cli.figure import Figure
-    from geneva_cli.table import Table
 
 Value: TypeAlias = float | int | str | bool | None
 Row: TypeAlias = tuple[Value, ...]
 BAD = "FAILS"  # a cell that must be noticed
-PASSES, WARNS, FAILS = "passes", "warns", "fails"  # the state of a design
-
-
-class SummaryLine(NamedTuple):
-    """One answer about a design: its label, the answer, and its reason."""
-
-    label: str
-    text: str
-    note: str = ""
-    state: str = ""  # WARNS or FAILS for a warning or a failed check
-
-
-class Summary(NamedTuple):
-    """A short summary of one design: a headline, and one line for each answer.
-
-    ``state`` is PASSES, WARNS or FAILS; empty if nothing is judged.
-    """
-
-    head: str
-    lines: tuple[SummaryLine, ...] = ()
-    state: str = ""
-
-
-class Answer(NamedTuple):
-    """The answer of a command: summaries above a table for people, and the data for programs."""
-
-    summaries: tuple[Summary, ...]
-    page: Table | None
-    data: Table
 
 
 class Heading(NamedTuple):
@@ -102,7 +72,7 @@ Block: TypeAlias = Heading | Prose | TextList | Facts | Grid | Picture | Curves
 class Document(NamedTuple):
     """A title, the verdict with its reasons, and then the blocks.
 
-    ``state`` is PASSES, WARNS or FAILS.
+    ``state`` is that of an ``answer.Summary``.
     """
 
     title: str

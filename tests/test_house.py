@@ -20,7 +20,7 @@ ROOT = os.path.dirname(geneva_cli.__file__)
 FLOORS = [
     {"errors", "names", "progress"},
     {"table"},
-    {"spec", "numerics", "streams", "figure", "scene", "document", "manual"},
+    {"spec", "numerics", "streams", "figure", "scene", "answer", "document", "manual"},
     {"kinematics", "curves"},
     {"linkage"},
     {"machine"},

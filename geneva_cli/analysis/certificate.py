@@ -94,7 +94,7 @@ class Certificate(NamedTuple):
         if len(self.places) > 1:
             return "at two mirrored places" if self.mirrored else f"at {len(self.places)} places"
         (place,) = self.places
-        between = f"between {place.from_deg:.9g} and {place.to_deg:.9g} deg"
+        between = f"between {place.from_deg:.9g} and {place.to_deg:.9g}°"
         return "unique" if place.is_narrow else between
 
     @property
@@ -111,7 +111,7 @@ class Certificate(NamedTuple):
         a, b, below = self.open
         known = "no bound is known" if below is None else f"below {below:.6g}"
         return (
-            f"{self.quantity}.max at least {low}, not proved: open from {a:.15g} to {b:.15g} deg, "
+            f"{self.quantity}.max at least {low}, not proved: open from {a:.15g} to {b:.15g}°, "
             f"{known} there, after {self.intervals} intervals"
         )
 

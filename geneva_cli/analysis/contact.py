@@ -29,7 +29,7 @@ class Contact(NamedTuple, Generic[V]):
     spin: V  # rate of the roller's body relative to the wheel
     arm: V  # of friction at the wall about the wheel's axis, beyond M's: over the radius
     touches: V  # 0 while gears drive and no roller does, else 1
-    crank: V  # rate of the shaft that carries the crank; 0 where no load needs it
+    crank: V  # rate of the shaft that carries the crank
     # Reactions of the joints of the roller's body (the crank's shaft, a guide) to a force of 1
     # along the normal i t, to one along t, and to a couple of 1; None where there is only a shaft.
     reactions: tuple[tuple[tuple[V, V], tuple[V, V]], ...] | None = None
@@ -58,18 +58,6 @@ def contact_values(at: Contact[Jet]) -> Contact[Array]:
     return Contact._make([*[jet.c[0] for jet in jets], reactions, turned])
 
 
-def mirrored(at: Contact[Jet]) -> Contact[Jet]:
-    """The contact at the mirror images of places (n, k), in ascending order, without joints.
-
-    Motion, slot and loads must be symmetric.
-    """
-    jets, odd = [], ("acceleration", "offset", "along", "curvature")  # change their sign
-    for name, jet in zip(at._fields[:-2], at[:-2], strict=True):
-        even = name not in odd
-        jets.append(Jet([_mirror_image(c, even ^ (k % 2 > 0)) for k, c in enumerate(jet.c)]))
-    return Contact._make([*jets, None, None])
-
-
 def column(at: Contact[Jet], number: int) -> Contact[Jet]:
     """The contact at one of the places (n, k) of each design: (n, 1)."""
 
@@ -96,28 +84,19 @@ def _changed(at: Contact[Jet], change: Callable[[Array], Array]) -> Contact[Jet]
     return Contact._make([*map(of, jets), reactions, turned])
 
 
-def _mirror_image(c: Number, same: bool) -> Number:
-    """Coefficients in reverse order of the places, and negative unless ``same``."""
-    if not isinstance(c, float):
-        c = c[:, ::-1]
-    return c if same else -c
-
-
 def contact(
     engagement: Engagement,
     input_deg: Number,
     order: int = 0,
     reactions: bool = True,
-    spins: bool = True,
 ) -> Contact[Jet]:
     """The contact at input angles, degrees from an engagement's mid-motion, one or an array.
 
-    Without ``reactions`` those of the joints are None. Without ``spins`` the rotation of the
-    roller's body is 0, which is enough if sliding is not needed. At mid-motion of a curved slot
-    only the values have a limit, that of entry: there ``order`` must be 0.
+    Without ``reactions`` those of the joints are None. At mid-motion of a curved slot only the
+    values have a limit, that of entry: there ``order`` must be 0.
     """
     if is_straight(engagement) or all_true(input_deg != 0.0):
-        return _moving(engagement, input_deg, order, reactions=reactions, spins=spins)
+        return _moving(engagement, input_deg, order, reactions=reactions)
 
     def moving(x: Number) -> Jet:
         at = _moving(engagement, x, order, reactions=False)
@@ -145,7 +124,6 @@ def _moving(
     order: int,
     rates: Jet | None = None,
     reactions: bool = True,
-    spins: bool = True,
 ) -> Contact[Jet]:
     """The contact where the pin moves in its slot, or where the slot is straight.
 
@@ -163,11 +141,9 @@ def _moving(
         lever, offset, along, curvature = _curved(engagement, x, order, rates)
     upright = engagement.slot.upright(x, order)
     touches = constant + engagement.slot.touches(x)
-    spin = crank = constant
-    if spins:
-        body = engagement.carrier(x, order)
-        spin = (body - velocity * upright) * touches
-        crank = constant + (body if engagement.on_arm else engagement.shaft_rate(x, order))
+    body = engagement.carrier(x, order)
+    spin = (body - velocity * upright) * touches
+    crank = constant + (body if engagement.on_arm else engagement.shaft_rate(x, order))
     arm = (constant + upright) * touches
     joints = _reactions(engagement, x, lever, offset) if reactions else None
     heading = None

@@ -144,7 +144,7 @@ def cam_pieces(mechanism: Mechanism, count: int, tolerance_deg: float) -> Table:
 def cam_points(mechanism: Mechanism, count: int, tolerance_deg: float) -> CamPoints:
     """Points with velocity and acceleration, between which polynomials of degree five are drawn.
 
-    A point has one acceleration, so that a jump becomes a ramp over 0.01 degrees after it.
+    A point has one velocity and one acceleration: a jump becomes a ramp over 0.01 degrees after it.
     """
     first, error_deg, last = _period_points(mechanism, tolerance_deg, None)
     later = first
@@ -170,11 +170,11 @@ def _period_points(
     for stretch in _stretches(mechanism):
         nodes, (begin, end), errors = _halved(stretch, _quintic, tolerance_deg, LEAST_DEG)
         error_deg = max(error_deg, float(errors.max()))
-        if before is not None and abs(begin[2, 0] - before[2]) > 1e-9:
+        if before is not None and np.abs(begin[1:, 0] - before[1:]).max() > 1e-9:
             start = nodes[0]
             nodes[0] += min(0.01, 0.25 * (nodes[1] - start))
             after = stretch.states(nodes[:1], 1)
-            ramp = np.append(begin[:2, 0], before[2])[:, None]
+            ramp = np.append(begin[0, 0], before[1:])[:, None]
             begin[:, :1] = after
             points.append(np.vstack([[[start]], ramp]))
             error_deg = max(
@@ -204,9 +204,9 @@ def cam_pairs(mechanism: Mechanism, count: int, tolerance_deg: float) -> CamPoin
     else:
         raise GenevaError(f"{count} periods need more than {most} pairs; give fewer --turns")
     ends = grid * np.rint(ends / grid)
-    apart = np.append(True, np.diff(ends) >= least_deg)
-    apart[-1] = True
-    ends = ends[apart]
+    near = np.diff(ends) < least_deg
+    near[-1], near[-2] = False, near[-2] or near[-1]  # the end stays, the place before it goes
+    ends = ends[np.append(True, ~near)]
     slave = np.empty_like(ends)
     for stretch in stretches:
         here = (ends >= stretch.begin_deg - grid) & (ends <= stretch.end_deg + grid)

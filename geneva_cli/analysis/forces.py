@@ -15,7 +15,6 @@ body, rubs along the wall:
 from __future__ import annotations
 
 import math
-from functools import cached_property
 from typing import Generic, NamedTuple
 
 from geneva_cli.analysis.carried import MM, inertia_kgm2, resisting_torque_Nm, unbalance_kgm
@@ -258,7 +257,8 @@ def gain(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
     return at.velocity * _slot_grip(case, at, drives, slides) + lost
 
 
-def _grip(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+def wheel_grip(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+    """Torque on the wheel over L times the pin force."""
     grip = _slot_grip(case, at, drives, slides)
     return grip - guide_drag(case, at, drives, slides) * drives if case.guided else grip
 
@@ -311,100 +311,7 @@ def feeding(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V
     if all_true(case.frame == 0.0):
         return ratio * drives
     own = frame_torque(case, at)
-    return wheel_torque(case, at) * ratio + own * _grip(case, at, drives, slides)
-
-
-class KnownValues(NamedTuple, Generic[V]):
-    """Torque and sliding, if they are known from the signs already."""
-
-    torque: V | None = None
-    sliding: V | None = None
-
-
-class Forces(Generic[V]):
-    """The forces for a wheel torque of the sign ``drives`` and a sliding of the sign ``slides``.
-
-    They are jets, or their values, each computed at first use. Forces are unbounded where ``grip``
-    <= 0: there friction alone holds the wheel. Stresses are also unbounded where ``edge`` <= 0:
-    there the wall is more sharply curved than the roller.
-    """
-
-    at: Contact[V]
-
-    def __init__(
-        self,
-        case: LoadCase,
-        at: Contact[V],
-        drives: Number,
-        slides: Number,
-        known: KnownValues[V] | None = None,
-    ) -> None:
-        self.case, self.at, self.drives, self.slides = case, at, drives, slides
-        self.known: KnownValues[V] = known or KnownValues()
-
-    @cached_property
-    def torque(self) -> V:
-        """The torque that the wheel needs, N m."""
-        torque = self.known.torque
-        return wheel_torque(self.case, self.at) if torque is None else torque
-
-    @cached_property
-    def sliding(self) -> V:
-        """Speed at which the roller rubs along the wall, over L, per input radian."""
-        speed = self.known.sliding
-        return sliding(self.at, self.drives, self.case.radius) if speed is None else speed
-
-    @cached_property
-    def grip(self) -> V:
-        """Torque on the wheel over L times the pin force."""
-        return _grip(self.case, self.at, self.drives, self.slides)
-
-    @cached_property
-    def force(self) -> V:
-        """The force on the pin, along the wall's normal, N."""
-        return self.torque * self.drives / (self.grip * self.case.L)
-
-    @cached_property
-    def shaft(self) -> V:
-        """Torque on the input shaft before the efficiency, N m.
-
-        A carrier also takes the torque that speeds up the wheel against the ground.
-        """
-        if all_true(self.case.frame == 0.0):
-            return self.slot
-        return self.slot + frame_torque(self.case, self.at)
-
-    @cached_property
-    def slot(self) -> V:
-        """The part of the input's torque that goes through the slot, N m."""
-        slot = self.torque * self.at.velocity
-        return slot + self.rubbed if self.case.rubs or self.case.guided else slot
-
-    @cached_property
-    def rubbed(self) -> V:
-        """The part of the input's torque that friction takes, in the slot and in a guide, N m."""
-        rub = self.at.touches * (self.case.friction * self.slides)
-        torque = self.force * rub * self.sliding * self.case.L
-        if not self.case.guided:
-            return torque
-        drag = guide_drag(self.case, self.at, self.drives, self.slides)
-        return torque + self.force * drag * self.at.velocity * self.case.L
-
-    @cached_property
-    def edge(self) -> V | None:
-        """1 - curvature of the bearing wall's pitch curve times the roller's radius."""
-        # A wall at the roller's radius r from its pitch curve, of curvature k towards the wall, has
-        # 1/R_e = 1/r + k/(1 - k r) = 1/(r (1 - k r)).
-        if self.case.hertz is None:
-            return None
-        return 1.0 - self.at.curvature * (self.drives * self.case.radius)
-
-    @cached_property
-    def square(self) -> V | None:
-        """The square of the contact stress, MPa²; None without a face width."""
-        if self.case.hertz is None or self.edge is None:
-            return None
-        return self.force * self.at.touches * self.case.hertz / self.edge
+    return wheel_torque(case, at) * ratio + own * wheel_grip(case, at, drives, slides)
 
 
 def stress_margin(friction: V | None, edge: V | None) -> V | None:

@@ -13,16 +13,18 @@ import numpy as np
 
 from geneva_cli.analysis.contact import Contact, contact_values
 from geneva_cli.analysis.forces import (
-    Forces,
-    KnownValues,
     LoadCase,
     QuantityValue,
     feeding,
+    frame_torque,
+    guide_drag,
     sliding,
     stress_margin,
     value,
+    wheel_grip,
     wheel_torque,
 )
+from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Array, Jet, Number, V, sqrt
 
 # Names of an instant's quantities.
@@ -44,26 +46,20 @@ class Instant(Generic[V]):
     positive. A pin force is positive on the wall that drives the wheel, and negative on the wall
     that holds it back. A sliding speed is positive away from the wheel's axis. The input's torque
     and power are positive where the input drives the wheel, and negative where the wheel drives it.
+
+    Forces are unbounded where ``grip`` <= 0: there friction alone holds the wheel. Stresses are
+    also unbounded where ``edge`` <= 0: there the wall is more sharply curved than the roller.
     """
 
     at: Contact[V]
-    forces: Forces[V]
 
     def __init__(
-        self,
-        case: LoadCase,
-        at: Contact[V],
-        drives: Number,
-        slides: Number,
-        feeds: Number,
-        *,
-        known: KnownValues[V] | None = None,
+        self, case: LoadCase, at: Contact[V], drives: Number, slides: Number, feeds: Number
     ) -> None:
         self.case, self.at = case, at
         self.drives = drives  # sign of the wheel's torque
         self.slides = slides  # sign of the sliding
         self.feeds = feeds  # sign of the input's torque
-        self.forces = Forces(case, at, drives, slides, known)
 
     @classmethod
     def known(cls, quantities: Mapping[str, object]) -> Instant[Array]:
@@ -90,27 +86,81 @@ class Instant(Generic[V]):
     @cached_property
     def wheel_torque_Nm(self) -> V:
         """Torque at the wheel, N m: I alpha plus resistance."""
-        return self.forces.torque
+        return wheel_torque(self.case, self.at)
+
+    @cached_property
+    def slip(self) -> V:
+        """Speed at which the roller rubs along the wall, over L, per input radian."""
+        return sliding(self.at, self.drives, self.case.radius)
+
+    @cached_property
+    def grip(self) -> V:
+        """Torque on the wheel over L times the pin force, the margin of all forces."""
+        return wheel_grip(self.case, self.at, self.drives, self.slides)
+
+    @cached_property
+    def force_N(self) -> V:
+        """The force on the pin, along the wall's normal, N."""
+        return self.wheel_torque_Nm * self.drives / (self.grip * self.case.L)
 
     @cached_property
     def pin_force_N(self) -> V:
         """Pin force on the wall that bears, N, with its sign."""
-        return self.forces.force * self.drives
+        return self.force_N * self.drives
+
+    @cached_property
+    def edge(self) -> V | None:
+        """1 - curvature of the bearing wall's pitch curve times the roller's radius.
+
+        A wall at the roller's radius r from its pitch curve, of curvature k towards the wall, has
+        1/R_e = 1/r + k/(1 - k r) = 1/(r (1 - k r)).
+        """
+        if self.case.hertz is None:
+            return None
+        return 1.0 - self.at.curvature * (self.drives * self.case.radius)
 
     @cached_property
     def stress_squared(self) -> V | None:
         """The square of the contact stress, MPa²; None without a face width."""
-        return self.forces.square
+        if self.case.hertz is None or self.edge is None:
+            return None
+        return self.force_N * self.at.touches * self.case.hertz / self.edge
 
     @cached_property
     def sliding_m_s(self) -> V:
         """Sliding speed along the wall of a roller that is fixed to its pin, m/s."""
-        return self._rubs * self.at.touches
+        return self.slip * (self.case.L * self.case.speed_rad_s) * self.at.touches
+
+    @cached_property
+    def rubbed_Nm(self) -> V:
+        """The part of the input's torque that friction takes, in the slot and in a guide, N m."""
+        rub = self.at.touches * (self.case.friction * self.slides)
+        torque = self.force_N * rub * self.slip * self.case.L
+        if not self.case.guided:
+            return torque
+        drag = guide_drag(self.case, self.at, self.drives, self.slides)
+        return torque + self.force_N * drag * self.at.velocity * self.case.L
+
+    @cached_property
+    def slot_torque_Nm(self) -> V:
+        """The part of the input's torque that goes through the slot, before the efficiency, N m."""
+        slot = self.wheel_torque_Nm * self.at.velocity
+        return slot + self.rubbed_Nm if self.case.rubs or self.case.guided else slot
+
+    @cached_property
+    def lossless_torque_Nm(self) -> V:
+        """Torque of the input shaft before the efficiency, N m.
+
+        A carrier also takes the torque that speeds up the wheel against the ground.
+        """
+        if all_true(self.case.frame == 0.0):
+            return self.slot_torque_Nm
+        return self.slot_torque_Nm + frame_torque(self.case, self.at)
 
     @cached_property
     def input_torque_Nm(self) -> V:
         """Torque of the input shaft, N m, losses included."""
-        return self.forces.shaft * self._losses
+        return self.lossless_torque_Nm * self._losses
 
     @property
     def crank_torque_Nm(self) -> V:
@@ -119,7 +169,7 @@ class Instant(Generic[V]):
         It has the power that goes through the slot, at its own rate. On a carousel that is the
         standing shaft of the finger, which does not speed the wheels up against the ground.
         """
-        return self.forces.slot * self._losses / self.at.crank
+        return self.slot_torque_Nm * self._losses / self.at.crank
 
     @cached_property
     def power_W(self) -> V:
@@ -129,12 +179,12 @@ class Instant(Generic[V]):
     @cached_property
     def friction_W(self) -> V:
         """Power that friction turns to heat, in the slot and in a rack's guide, W."""
-        return self.forces.rubbed * self.case.speed_rad_s
+        return self.rubbed_Nm * self.case.speed_rad_s
 
     @cached_property
     def wheel_bearing_N(self) -> V:
         """Size of the force on the wheel, and so of its shaft's reaction, N."""
-        return self.forces.force * (1.0 + self._rub * self._rub) ** 0.5
+        return self.force_N * (1.0 + self._rub * self._rub) ** 0.5
 
     @cached_property
     def crank_bearing_squared(self) -> V:
@@ -151,19 +201,9 @@ class Instant(Generic[V]):
         return None if self.at.reactions is None else self._reaction(1)
 
     @cached_property
-    def grip(self) -> V:
-        """Margin of forces: where it is not above 0, friction alone holds the wheel."""
-        return self.forces.grip
-
-    @cached_property
     def friction_margin(self) -> V | None:
         """Margin of quantities that only friction makes unbounded; None without friction."""
         return self.grip if self.case.rubs or self.case.guided else None
-
-    @cached_property
-    def edge(self) -> V | None:
-        """Margin of the stress: where it is not above 0, the wall is sharper than the roller."""
-        return self.forces.edge
 
     @property
     def crank_bearing_N(self) -> V:
@@ -194,21 +234,6 @@ class Instant(Generic[V]):
         return QuantityValue(self.guide_squared, self.grip)
 
     @property
-    def pin_force(self) -> QuantityValue[V]:
-        """The pin force, N, and its margin and sign where unbounded."""
-        return QuantityValue(self.pin_force_N, self.grip, self.drives)
-
-    @property
-    def shaft(self) -> QuantityValue[V]:
-        """The input's torque, N m, and the margin that friction leaves."""
-        return QuantityValue(self.input_torque_Nm, self.friction_margin)
-
-    @cached_property
-    def _rubs(self) -> V:
-        """Speed at which the roller rubs along the wall, m/s."""
-        return self.forces.sliding * (self.case.L * self.case.speed_rad_s)
-
-    @property
     def _losses(self) -> Number:
         """Ratio of the input's torque to that without losses."""
         # The efficiency counts where the input drives. Where the wheel drives, the losses are not
@@ -234,25 +259,32 @@ class Instant(Generic[V]):
             normal[joint][i] * self.drives + tangent[joint][i] * rub - couple[joint][i] * turn
             for i in (0, 1)
         )
-        force = self.forces.force
-        return force * force * (x * x + y * y)
+        return self.force_N * self.force_N * (x * x + y * y)
 
 
 def _root(square: V) -> V:
     return sqrt(square) if isinstance(square, Jet) else np.sqrt(square)
 
 
-def signs(case: LoadCase, at: Contact[V]) -> tuple[Array, Array, Array]:
-    """Signs of the wheel's torque, of the sliding and of the input's torque."""
-    drives = np.copysign(1.0, value(wheel_torque(case, at)))
+def signs(
+    case: LoadCase, at: Contact[V], drives: Array | None = None
+) -> tuple[Array, Array, Array]:
+    """Signs of the wheel's torque, unless known, of the sliding and of the input's torque."""
+    if drives is None:
+        drives = np.copysign(1.0, value(wheel_torque(case, at)))
     slides = np.copysign(1.0, value(sliding(at, drives, case.radius)))
     return drives, slides, np.copysign(1.0, value(feeding(case, at, drives, slides)))
 
 
-def bounded_loads(case: LoadCase, at: Contact[Array]) -> Instant[Array]:
-    """The values at a contact with the signs that they have there, as ``bounded`` has them."""
+def bounded_loads(
+    case: LoadCase, at: Contact[Array], drives: Array | None = None
+) -> Instant[Array]:
+    """The values at a contact with the signs that they have there, as ``bounded`` has them.
+
+    ``drives`` is the sign of the wheel's torque, if known.
+    """
     with np.errstate(all="ignore"):
-        return bounded(Instant(case, at, *signs(case, at)))
+        return bounded(Instant(case, at, *signs(case, at, drives)))
 
 
 def values(instant: Instant[Jet]) -> Instant[Array]:

@@ -13,10 +13,9 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
-from geneva_cli.analysis.contact import Contact, column, contact, mirrored, rows
+from geneva_cli.analysis.contact import Contact, column, contact, rows
 from geneva_cli.analysis.forces import (
     NEGLIGIBLE,
-    KnownValues,
     LoadCase,
     QuantityValue,
     feeding,
@@ -29,7 +28,7 @@ from geneva_cli.analysis.quantities import PV, QUANTITIES
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Mask, Number, Which, Whole, all_true, array
+from geneva_cli.numerics.arrays import Mask, Number, Whole, all_true, array
 from geneva_cli.numerics.jet import Array, Jet
 
 if TYPE_CHECKING:
@@ -102,16 +101,6 @@ class LoadFunctions:
         # where links carry the roller, bearings and guide need the reactions of joints
         joints = own or "crank_bearing_N" in names or "guide_force_N" in names
         self.reactions = joints and engagement.reactions is not None
-        # these depend on sliding even without friction
-        self.spins = (
-            own or case.guided or "slides" in self.kinds or "sliding_m_s" in names or PV in names
-        )
-        radial = all_true(engagement.slot.offset == 0.0)
-        self.mirrored = radial and engagement.mirrored and not self.reactions
-        # the current block of designs: its slice, the designs, and places with their contact
-        self._slice: slice | None = None
-        self._block = batch
-        self._contacts: list[tuple[Array, Contact[Jet]]] = []
 
     @cached_property
     def spread(self) -> Array:
@@ -126,35 +115,18 @@ class LoadFunctions:
         in both halves, and the input gives at least as much as it gets back. In a curved slot a
         torque alone presses on one wall throughout, whose two halves differ in curvature.
         """
-        case = self.batch.case
-        alone = all_true(case.inertia_Nm == 0.0) and not self.engagement.slot.curved
+        case, engagement = self.batch.case, self.engagement
+        radial = all_true(engagement.slot.offset == 0.0)
+        alone = all_true(case.inertia_Nm == 0.0) and not engagement.slot.curved
         alone = alone or all_true(case.resists_Nm == 0.0)
-        return self.mirrored and alone and not (case.rubs or case.guided)
+        alone = alone and not (case.rubs or case.guided or self.reactions)
+        return radial and engagement.mirrored and alone
 
-    def at(self, x: Array, which: Which, order: int) -> ContactState:
-        """The state of some designs at places (m, k), degrees, with derivatives up to an order.
-
-        If the motion is symmetric, mirrored places share their contacts.
-        """
-        if self.n == 1:
-            return self._state(self.batch, x, order)
-        if not isinstance(which, slice):
-            return self._state(taken(self.batch, which), x, order)
-        if which != self._slice:
-            self._slice, self._block, self._contacts = which, taken(self.batch, which), []
-        if not self.mirrored:
-            return self._state(self._block, x, order)
-        _, case, _, wanted = self._block
-        for other, at in self._contacts if order == 0 else ():
-            if np.array_equal(other, -x[:, ::-1]):
-                return ContactState(case, mirrored(at), x.shape, wanted)
-        state = self._state(self._block, x, order)
-        self._contacts.append((x, state.contact))
-        return state
-
-    def _state(self, batch: LoadBatch, x: Array, order: int) -> ContactState:
-        at = contact(batch.engagement, x, order, self.reactions, self.spins)
-        return ContactState(batch.case, at, x.shape, batch.quantities)
+    def at(self, x: Array, which: Whole, order: int) -> ContactState:
+        """The state of some designs at places (m, k), degrees, with derivatives up to an order."""
+        engagement, case, _, wanted = self.batch if self.n == 1 else taken(self.batch, which)
+        at = contact(engagement, x, order, self.reactions)
+        return ContactState(case, at, x.shape, wanted)
 
     def at_mid_motion(self, n: int) -> list[MidMotionValues]:
         """The quantities of n designs at mid-motion, which no span of curved slots reaches."""
@@ -323,7 +295,10 @@ def signed_instant(
     feeds: Number = 1.0
     if "feeds" in kinds:
         feeds = sign("feeds", feeding(case, at, drives, slides))
-    instant = Instant(case, at, drives, slides, feeds, known=KnownValues(torque, rubs))
+    instant = Instant(case, at, drives, slides, feeds)
+    instant.wheel_torque_Nm = torque  # known already
+    if rubs is not None:
+        instant.slip = rubs
     others: dict[str, Callable[[], Jet | None]] = {
         "grip": lambda: instant.grip,
         "leans": lambda: leaning(case, at, drives, slides),
@@ -347,7 +322,7 @@ def _spread_deg(engagement: Engagement, case: LoadCase) -> Array:
     """
     # not at mid-motion itself, where a curved slot may have no slopes
     x = 0.01 * array(engagement.exit_deg)
-    _, _, lever, offset, *_ = at = contact(engagement, x, 2, reactions=False, spins=False)
+    _, _, lever, offset, *_ = at = contact(engagement, x, 2, reactions=False)
     velocity = at.velocity
     with np.errstate(all="ignore"):
         # arrays, as the quotient of a jet's floats by 0 is an error

@@ -22,7 +22,7 @@ The play is computed in the middle of a dwell, where the disc is symmetric to th
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
@@ -195,3 +195,11 @@ def _word(condition: Truth, yes: str, no: str) -> str:
     if isinstance(condition, bool):
         return yes if condition else no
     return cast("str", np.where(condition, yes, no))
+
+
+def loosest(locks: Sequence[Lock]) -> Lock:
+    """Return the lock with the most play, of single ones.
+
+    Of equal ones, as without clearance, it is that with the least reach: it takes the most force.
+    """
+    return max(locks, key=lambda one: (round(float(one.contact().play), 12), -float(one.reach)))

@@ -41,21 +41,33 @@ def at_mid_motion(
     of 0/0 the limits from both sides are returned. At a cusp the wall turns away from the roller on
     one side. A quantity without margin on the other side goes to 0 there. So does a quantity of a
     torque that changes sign nearer to mid-motion than the stretches.
+
+    A law that jumps at its middle, as ``s-curve`` without cruise and ramp, has another acceleration
+    after it. The slot then has a corner there, whose two sides are mirror images.
     """
     middle, near = np.zeros(n), NEAR_CUSP * np.reshape(engagement.entry_deg, (-1, 1))
     out = []
     with np.errstate(all="ignore"):
         at = contact(engagement, np.zeros((n, 1)))
-        torque = value(wheel_torque(case, at))
-        loaded = _is_loaded(engagement, case, torque)
+        before, after = array(at.acceleration.c[0]), _acceleration_after(engagement, n)
+        # the two halves of a law are equal there to some roundings, or its acceleration jumps
+        jumps = np.abs(after - before) > 1e-6 * (np.abs(after) + _common(engagement))
+        accelerations = at.acceleration, Jet([after])
         near_places = [np.broadcast_to(x, (n, 1)) for x in (near, -near)]
         limits = [_limits(engagement, case, rows, x) for x in near_places]
         # The tangent points away from the axis at entry and exit; at a cusp both are one.
         crosses = np.broadcast_to(~np.asarray(retraces(engagement)), (n, 1))
-        for sense in (1.0, -1.0):
+        for sense, acceleration, near_it in zip(
+            (1.0, -1.0), accelerations, near_places, strict=True
+        ):
             here = at._replace(
-                along=at.along * sense, offset=at.offset * sense, curvature=at.curvature * sense
+                acceleration=acceleration,
+                along=at.along * sense,
+                offset=at.offset * sense,
+                curvature=at.curvature * sense,
             )
+            torque = value(wheel_torque(case, here))
+            loaded = _is_loaded(engagement, case, torque)
             for k, row in enumerate(rows(here, *signs(case, here))):
                 known = np.broadcast_to(value(row.value), (n, 1))
                 margin = np.inf if row.margin is None else value(row.margin)
@@ -68,11 +80,16 @@ def at_mid_motion(
                     none = np.where(by_friction, np.nan, limit[k])
                     none = np.where(loaded, np.inf * row.sign, none)
                     limited = np.where(there, known, none)
-                    limited = np.where(crosses, limited, np.nan) if sense < 0.0 else limited
-                    out.append(MidMotionValues(k, middle, limited[:, 0]))
-        for x in near_places:
-            out += _without_torque(engagement, case, rows, torque, x)
+                    own = crosses | jumps | (sense > 0.0)
+                    out.append(MidMotionValues(k, middle, np.where(own, limited, np.nan)[:, 0]))
+            out += _without_torque(engagement, case, rows, torque, near_it)
     return out
+
+
+def _acceleration_after(engagement: Engagement, n: int) -> Array:
+    """The wheel's acceleration just after mid-motion, as an invariant: (n, 1)."""
+    x = np.full((n, 1), 1e-300)  # 0 is exact, and a smaller number might become 0
+    return array(engagement.motion(x, 2).derivatives()[2])
 
 
 def at_crossing(engagement: Engagement, case: LoadCase) -> dict[str, Array] | None:
@@ -107,9 +124,14 @@ def _limit(jet: Jet, h: Array) -> Array:
 
 def _is_loaded(engagement: Engagement, case: LoadCase, torque: Number) -> Mask:
     """Return True if the wheel's torque at mid-motion is more than rounding."""
-    common = case.inertia_Nm * np.abs(engagement.motion(0.5 * engagement.entry_deg, 2).c[2])
-    loaded: Mask = np.abs(torque) > NEGLIGIBLE * (common + case.resists_Nm)
+    common = case.inertia_Nm * _common(engagement) + case.resists_Nm
+    loaded: Mask = np.abs(torque) > NEGLIGIBLE * common
     return loaded
+
+
+def _common(engagement: Engagement) -> Array:
+    """An acceleration of usual size, half-way between entry and mid-motion, as an invariant."""
+    return np.abs(array(engagement.motion(0.5 * engagement.entry_deg, 2).c[2]))
 
 
 def _limits(engagement: Engagement, case: LoadCase, rows: Rows, x: Array) -> list[Array]:

@@ -49,7 +49,7 @@ class _MotionSamples:
     """
 
     def __init__(self, motion: WheelMotion, m: int, quantities: Sequence[str]) -> None:
-        self.motion, self.some = motion, selection(motion)
+        self.motion, self.some = motion.rough, selection(motion.rough)
         self.every = slice(0, m)
         self.order = 1 + max(ORDERS[name] for name in quantities)
         self.kept: dict[tuple[int, float], tuple[Array, ...]] = {}
@@ -64,7 +64,7 @@ class _MotionSamples:
 
     def _rates(self, x: Array, which: Which, order: int) -> tuple[Array, ...]:
         every = isinstance(which, slice) and which == self.every
-        motion: WheelMotion = self.motion if every else self.some(which)
+        motion = self.motion if every else self.some(which)
         # Designs lie side by side in memory: each operation runs along all of them.
         return motion.rough_rates(np.asfortranarray(x), order - 1)
 
@@ -77,7 +77,7 @@ class _QuantityCurve(NamedTuple):
 
     def __call__(self, x: Array, which: Which, order: int) -> list[Array]:
         p = self.some(which)(np.asfortranarray(x), ORDERS[self.quantity] + order).arrays()
-        return _by_degrees(_quantity(self.quantity, p[1:]), x, order)
+        return by_degrees(_quantity(self.quantity, p[1:]), x, order)
 
 
 class _RoughCurve(NamedTuple):
@@ -88,7 +88,7 @@ class _RoughCurve(NamedTuple):
 
     def __call__(self, x: Array, which: Which, order: int) -> list[Array]:
         p = self.samples(x, which, ORDERS[self.quantity] + order)
-        return _by_degrees(_quantity(self.quantity, p), x, order)
+        return by_degrees(_quantity(self.quantity, p), x, order)
 
 
 def _quantity(quantity: str, p: tuple[Array, ...]) -> list[Array]:
@@ -103,7 +103,8 @@ def _quantity(quantity: str, p: tuple[Array, ...]) -> list[Array]:
     return out
 
 
-def _by_degrees(rates: Sequence[Array], x: Array, order: int) -> list[Array]:
+def by_degrees(rates: Sequence[Array], x: Array, order: int) -> list[Array]:
+    """A function and its derivatives up to an order by degrees, from those by radians."""
     return [np.broadcast_to(v * DEGREE**k, x.shape) for k, v in enumerate(rates[: order + 1])]
 
 
@@ -135,8 +136,7 @@ def landmarks(motion: WheelMotion, quantity: str, m: int) -> Stationary:
 
     Between two consecutive ones it only rises or only falls.
     """
-    breaks = [np.broadcast_to(np.asarray(x, dtype=float), (m, 1)) for x in motion.breaks_deg]
-    pieces = smooth_pieces(breaks, motion.BREAKS_TO)
+    pieces = smooth_pieces(motion.breaks(m), motion.BREAKS_TO)
     first, last = (np.vstack(ends) for ends in zip(*pieces, strict=True))
     whole = _QuantityCurve(selection(motion), quantity)
 
@@ -154,9 +154,8 @@ def landmarks(motion: WheelMotion, quantity: str, m: int) -> Stationary:
 def search_peaks(motion: WheelMotion, quantities: Sequence[str]) -> dict[str, PeakArray]:
     """The peaks from the search only, without closed forms."""
     # mid-motion, where wheels have their narrowest peaks, is one of them
-    breaks = [x for x in motion.breaks_deg if not motion.symmetric or np.all(x <= 0.0)]
     m = designs_in(motion)
-    places = np.hstack([np.broadcast_to(x, (m, 1)) for x in breaks])
+    places = np.hstack([x for x in motion.breaks(m) if not motion.symmetric or np.all(x <= 0.0)])
     parts = [_part(motion, places, block, quantities) for block in blocks(m, GROUP)]
     return {name: joined([part[name] for part in parts]) for name in quantities}
 
@@ -168,9 +167,9 @@ def _part(
     here = places[which]
     some = motion if len(here) == len(places) else taken(motion, which)
     samples, edges = _MotionSamples(some, len(here), quantities), np.hsplit(here, here.shape[1])
-    peaks = {}
+    own, peaks = selection(some), {}
     for name in quantities:
-        curve = _QuantityCurve(samples.some, name)
+        curve = _QuantityCurve(own, name)
         rough = Rough(_RoughCurve(samples, name), some.ROUGH_TO)
         sizes = greatest_sizes(curve, *edges, rough=rough, unsure=some.BREAKS_TO)
         peaks[name] = PeakArray(*sizes)

@@ -25,12 +25,12 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.carried import G
-from geneva_cli.analysis.peak_search import PeakArray, greater, worst_peaks
+from geneva_cli.analysis.peak_search import PeakArray, by_degrees, greater, worst_peaks
 from geneva_cli.analysis.timing import timings
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import selection
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.angles import DEGREE, omega
+from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import Array, Which, parameter
 from geneva_cli.numerics.extrema import greatest_sizes
 
@@ -143,19 +143,14 @@ def _greatest_square(engagement: Engagement, ratio: Array, frame: float) -> tupl
     some, m = selection(engagement.motion), len(ratio)
 
     def square(x: Array, which: Which, order: int) -> list[Array]:
-        _, rate, *more = some(which)(np.asfortranarray(x), 2 + order).arrays()
-        p = (rate + frame, *more)
-        i2 = (ratio * ratio)[which][:, None]
-        out = [p[1] ** 2 + i2 * p[0] ** 4]
-        if order > 0:
-            out.append(2.0 * p[1] * p[2] + 4.0 * i2 * p[0] ** 3 * p[1])
-        if order > 1:
-            curved = 3.0 * p[0] ** 2 * p[1] ** 2 + p[0] ** 3 * p[2]
-            out.append(2.0 * (p[2] ** 2 + p[1] * p[3]) + 4.0 * i2 * curved)
-        return [np.broadcast_to(v * DEGREE**k, x.shape) for k, v in enumerate(out)]
+        rate = some(which).rate(np.asfortranarray(x), order + 1)
+        velocity, acceleration = rate.lower + frame, rate.derivative()
+        turned = velocity * velocity * ratio[which][:, None]
+        both = acceleration * acceleration + turned * turned
+        return by_degrees(both.arrays(), x, order)
 
-    places = [np.broadcast_to(x, (m, 1)).astype(float) for x in engagement.motion.breaks_deg]
-    return greatest_sizes(square, *places, unsure=engagement.motion.BREAKS_TO)
+    motion = engagement.motion
+    return greatest_sizes(square, *motion.breaks(m), unsure=motion.BREAKS_TO)
 
 
 def _swing(mechanism: Mechanism) -> Array:

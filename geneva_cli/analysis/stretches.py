@@ -27,10 +27,7 @@ from geneva_cli.numerics.search import Stretches
 
 def spans_of(engagement: Engagement, n: int) -> list[tuple[Array, Array]]:
     """Ends of the smooth parts of a motion, one after the other: (n, 1) each."""
-    places = [
-        np.broadcast_to(np.asarray(x, dtype=float), (n, 1)) for x in engagement.motion.breaks_deg
-    ]
-    out = []
+    places, out = engagement.motion.breaks(n), []
     pieces = smooth_pieces(places, engagement.motion.BREAKS_TO)
     for (a, b), (start, end) in zip(pairwise(places), pieces, strict=True):
         if engagement.slot.curved:
@@ -38,6 +35,13 @@ def spans_of(engagement: Engagement, n: int) -> list[tuple[Array, Array]]:
             end = np.where(b == 0.0, NEAR_CUSP * engagement.entry_deg, end)
         out.append((start, end))
     return out
+
+
+def smooth_ranges(engagement: Engagement) -> list[tuple[float, float]]:
+    """Ends of the smooth parts of one design's motion, clear of the breaks between them."""
+    places = [np.array([[x]]) for x in engagement.motion.breaks_deg]
+    pieces = smooth_pieces(places, engagement.motion.BREAKS_TO)
+    return [(start.item(), end.item()) for start, end in pieces]
 
 
 def to_mid_motion(engagement: Engagement, stretches: Stretches, n: int) -> Stretches:
@@ -89,7 +93,7 @@ def _between(engagement: Engagement, case: LoadCase, before: Stretch, after: Str
     if b - a > NEAR_CUSP * engagement.motion_deg * 1e-3 and before.drives != after.drives:
 
         def torque(travel: float) -> tuple[float, float]:
-            at = contact(engagement, a + travel, 1, reactions=False, spins=False)
+            at = contact(engagement, a + travel, 1, reactions=False)
             value, rise = wheel_torque(case, at).scalars()
             return value, rise * DEGREE
 

@@ -10,7 +10,6 @@ import numpy as np
 
 from geneva_cli.bench.formulas import Proportions, rates, textbook
 from geneva_cli.bench.method import Method, Task
-from geneva_cli.bench.scalar_loop import by_numba, grid_loop
 from geneva_cli.kinematics.laws.standard import ModifiedSine, SineGroup
 from geneva_cli.kinematics.motion import Motion
 from geneva_cli.kinematics.wheels.external import External
@@ -55,14 +54,6 @@ def side_cranks(sign: float, A: Any) -> Any:
     return peaks_on_grid(Proportions.of(sign, 6, A, np), partial(rates, np))
 
 
-def cranks_by_numba(sign: float, z: Any, A: Any) -> Any:
-    """Peaks of side-cranks at even angles, by a loop that Numba compiles."""
-    columns = np.broadcast_arrays(*Proportions.of(sign, z, A, np)[:3])
-    out = np.zeros((columns[0].size, 2))
-    by_numba(grid_loop)(*[np.ascontiguousarray(c, dtype=float) for c in columns], out)
-    return out
-
-
 def modified_sine_peaks(z: int, alpha0: Any) -> Any:
     """Greatest velocity and acceleration of curved slots for a modified sine, in closed form."""
     step, motion = 2.0 * np.pi / z, np.pi - 2.0 * np.pi / z - np.radians(alpha0)
@@ -81,8 +72,6 @@ class VariedMachine(NamedTuple):
     designs: int = 50_000  # of a whole run
     # a handbook's formulas for the peaks of velocity and acceleration, from the varied values
     script: Callable[[Any], Any] | None = None
-    # sign, z and A of side-cranks and plain cranks from the varied values, for Numba's loop
-    cranks: Callable[[Any], tuple[float, Any, Any]] | None = None
     # and for velocity and acceleration of one design at angles in radians
     formula: Callable[[Any, Any], Any] | None = None
 
@@ -95,7 +84,6 @@ KINDS = (
         3.0,
         24.0,
         script=plain_cranks,
-        cranks=lambda z: (1.0, z, 0.0),
         formula=lambda z, x: textbook(np.sin(np.pi / z), x, (1, 2)),
     ),
     VariedMachine(
@@ -105,7 +93,6 @@ KINDS = (
         -0.9,
         0.9,
         script=partial(side_cranks, 1.0),
-        cranks=lambda A: (1.0, 6, A),
         formula=lambda A, x: rates(np, Proportions.of(1.0, 6, A), x),
     ),
     VariedMachine(
@@ -115,7 +102,6 @@ KINDS = (
         -0.9,
         0.9,
         script=partial(side_cranks, -1.0),
-        cranks=lambda A: (-1.0, 6, A),
         formula=lambda A, x: np.negative(rates(np, Proportions.of(-1.0, 6, A), x)),
     ),
     VariedMachine(

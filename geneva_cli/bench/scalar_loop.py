@@ -35,31 +35,6 @@ def looped(compiled: Callable[[Any], Any]) -> Callable[[Array, Array, Array, Arr
     return fast
 
 
-def grid_loop(compiled: Callable[[Any], Any]) -> Callable[[Array, Array, Array, Array], None]:
-    """Return the loop from sign, l and A of designs to their peaks at 101 even crank angles.
-
-    The peaks are the greatest velocity and acceleration: (designs, 2).
-    """
-    terms = compiled(_terms)
-
-    def loop(sign: Array, l: Array, A: Array, out: Array) -> None:
-        for i in range(len(out)):
-            signed, a = sign[i] * l[i], A[i]
-            K = (1.0 - a) * (1.0 + a)
-            for k in range(101):
-                f = math.acos(signed) * k / 100
-                s, c, h = math.sin(f), math.cos(f), math.sin(0.5 * f)
-                C = math.sqrt(c * c + K * s * s)
-                v, rho = 2.0 * h * h, C + a * c
-                D = (1.0 - signed) * (1.0 - signed) + 2.0 * signed * v
-                speed = abs(signed * (1.0 - signed - v)) / D * C / rho
-                out[i, 0] = max(out[i, 0], speed)
-                out[i, 1] = max(out[i, 1], terms(signed, a, s, c, v)[0])
-
-    fast: Callable[[Array, Array, Array, Array], None] = compiled(loop)
-    return fast
-
-
 @cache
 def by_numba(loop: Callable[[Callable[[Any], Any]], Any]) -> Any:
     """Return one of the loops, compiled by Numba."""

@@ -89,8 +89,12 @@ class Gaps:
             slot = np.round(self.plane_motion.place(points) / self.pitch)
             whole, at = self.around, self.plane_motion.into(points, self.pitch * slot)
         near = whole.near(at, reach)
+        if 2 * len(near) > len(whole):  # then leaving out the others saves less than it costs
+            near = whole
         self._work(len(at) * len(near))
         out = near.signed(at)
+        if near is whole:
+            return out
         # Beyond this distance the nearest piece may have been left out, and the sign may be wrong.
         far = np.abs(out) > reach
         if far.any():

@@ -77,8 +77,8 @@ def play_of(parts: MachineParts, fits: bool) -> Play:
     play = _play_at(parts, _places(parts), fits)
     # 9 rounds: 5**-9 of some degrees is a millionth
     for _ in range(9):
-        near = (*_peaks(parts, play), *_changes(parts, play), *_closing(parts, play))
-        more = rising(np.concatenate(near))
+        near = (_peaks(parts, play), _changes(parts, play), _closing(parts, play))
+        more = _cut(play, rising(np.concatenate(near)))
         if not len(more):
             break
         play = _merged(play, _play_at(parts, more, fits))
@@ -164,8 +164,7 @@ def _merged(a: Play, b: Play) -> Play:
 
 def _cut(play: Play, intervals: Whole) -> Array:
     """Return positions that divide intervals, numbered by their first ends, into equal parts."""
-    last = len(play.input_deg) - 2
-    i = rising(intervals[(intervals >= 0) & (intervals <= last)])
+    i = intervals[(intervals >= 0) & (intervals < len(play.input_deg) - 1)]
     low, high = play.input_deg[i], play.input_deg[i + 1]
     # intervals below 1e-6 degrees are not divided
     wide = (high - low > 1e-6)[:, None]
@@ -173,23 +172,26 @@ def _cut(play: Play, intervals: Whole) -> Array:
     return (low[:, None] + (high - low)[:, None] * fraction)[wide.ravel()].ravel()
 
 
-def _peaks(parts: MachineParts, play: Play) -> Iterator[Array]:
-    """Yield positions next to the greatest plays, in slots and elsewhere."""
-    either, most = math.degrees(touching(parts)), search_deg(parts)
-    for edge, in_slot in ((play.back, either), (play.on, either), (play.both, _held_deg(parts))):
-        for where, least in ((play.guided, in_slot), (~play.guided, either)):
-            value = np.where(where & (edge < most) & (edge > least), edge, -1.0)
-            before, after = np.append(-1.0, value[:-1]), np.append(value[1:], -1.0)
-            # around a local maximum below 0.8 of the greatest no greater play is expected
-            top = np.flatnonzero(
-                (value > 0.0) & (value >= before) & (value >= after) & (value > 0.8 * value.max())
-            )
-            top = top[np.argsort(-value[top], kind="stable")][:MOST]
-            yield _cut(play, np.concatenate((top - 1, top)))
+def _peaks(parts: MachineParts, play: Play) -> Whole:
+    """Return the intervals next to the greatest plays, in slots and elsewhere."""
+    either, held, most = math.degrees(touching(parts)), _held_deg(parts), search_deg(parts)
+    edges = np.array((play.back, play.back, play.on, play.on, play.both, play.both))
+    where = np.array((play.guided, ~play.guided) * 3)
+    least = np.array(((either,), (either,), (either,), (either,), (held,), (either,)))
+    value = np.where(where & (edges < most) & (edges > least), edges, -1.0)
+    padded = np.full((len(value), value.shape[1] + 2), -1.0)
+    padded[:, 1:-1] = value
+    # around a local maximum below 0.8 of the greatest no greater play is expected
+    least = np.maximum(0.8 * value.max(axis=1, keepdims=True), 0.0)
+    row, top = np.nonzero((value > least) & (value >= padded[:, :-2]) & (value >= padded[:, 2:]))
+    order = np.lexsort((-value[row, top], row))
+    row, top = row[order], top[order]
+    top = top[np.arange(len(row)) - np.searchsorted(row, row) < MOST]
+    return np.concatenate((top - 1, top))
 
 
-def _changes(parts: MachineParts, play: Play) -> Iterator[Array]:
-    """Yield positions where the roller changes from one wall of its slot to the other.
+def _changes(parts: MachineParts, play: Play) -> Whole:
+    """Return the intervals in which the roller changes from one wall of its slot to the other.
 
     One play grows there as the other vanishes, and the smaller one may have a narrow peak between
     two positions. Where both change steadily, it is at most the smaller of their greater ends.
@@ -198,7 +200,7 @@ def _changes(parts: MachineParts, play: Play) -> Iterator[Array]:
     guided, most = play.guided[:-1] & play.guided[1:], np.minimum(*ends)
     known = max(_held_deg(parts), play.both[play.guided].max(initial=0.0))
     top = np.flatnonzero(guided & (most > known))
-    yield _cut(play, top[np.argsort(-most[top], kind="stable")][:MOST])
+    return top[np.argsort(-most[top], kind="stable")][:MOST]
 
 
 def _held_deg(parts: MachineParts) -> float:
@@ -207,9 +209,8 @@ def _held_deg(parts: MachineParts) -> float:
     return math.degrees(10.0 * parts.close / rim_lever(parts))
 
 
-def _closing(parts: MachineParts, play: Play) -> Iterator[Array]:
-    """Yield positions where the wheel's play closes fastest."""
+def _closing(parts: MachineParts, play: Play) -> Whole:
+    """Return the intervals in which the wheel's play closes fastest, and their neighbours."""
     angle = push_deg(parts, play)
-    if angle.max() > 0.0:
-        top = np.argsort(-angle, kind="stable")[:MOST]
-        yield _cut(play, np.concatenate((top - 1, top, top + 1)))
+    top = np.argsort(-angle, kind="stable")[: MOST if angle.max() > 0.0 else 0]
+    return np.concatenate((top - 1, top, top + 1))

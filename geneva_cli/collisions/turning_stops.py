@@ -64,8 +64,11 @@ class TurningStops(Stops):
             # the direction from the wheel's arc to the other, where x points to the other
             x = ((s - r) + 2.0 * r * h * h) / d
             y = -2.0 * sign * r * h * g / d
-            good = own.face(p, x, y, self.ahead[p] - angle, other.sense[q])
-            good &= other.face(q, x, y, towards[n, q] - others.turn[n], -own.sense[p])
+            # few of these are on the arc itself, rather than on the rest of its circle
+            fits = np.flatnonzero(own.face(p, x, y, self.ahead[p] - angle, other.sense[q]))
+            n, p, q, on = (which[fits] for which in (n, p, q, on))
+            s, x, y, lead = (values[fits] for values in (s, x, y, lead))
+            good = other.face(q, x, y, towards[n, q] - others.turn[n], -own.sense[p])
             lever = own.sense[p] * other.radius[q]
             touch = np.hypot(s - lever * x, lever * y)
             cosine = np.abs(y) * s / touch

@@ -191,10 +191,12 @@ def _refuse_with_best(output: str, format: str, resume: bool) -> None:
 
 def _write_best(plan: "SweepRequest", spec: str, output: str) -> None:
     from geneva_cli.output import show_text
+    from geneva_cli.study.sweep.best import best_spec
     from geneva_cli.study.sweep.outcome import Outcome
 
     outcome = Outcome(plan)
-    show_text("\n".join(plan.best(outcome.counted(_tracked(plan, 0)))) + "\n", output, plan.inputs)
+    lines = best_spec(plan, outcome.counted(_tracked(plan, 0)))
+    show_text("\n".join(lines) + "\n", output, plan.inputs)
     for note in outcome.refused():
         print(f"{spec}: {note}", file=sys.stderr)
 

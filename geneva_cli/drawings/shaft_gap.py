@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.measure import at
+from geneva_cli.curves.measure import at, bounds
 from geneva_cli.curves.moments import oriented
 from geneva_cli.curves.placed import in_place
 from geneva_cli.curves.plates import Member, plates
@@ -120,6 +120,26 @@ def rack_gear_gap(parts: RackParts) -> ShaftGap | None:
     to_shafts = _least(parts, [], rings)
     gaps = [*_guide_gaps(parts, rings), *([to_shafts] if to_shafts else [])]
     return min(gaps, default=None)
+
+
+def rack_shaft_gap(parts: RackParts) -> ShaftGap | None:
+    """Return the least gap of a shaft to the rack; None where none reaches the rack's heights.
+
+    The rack slides along y, and covers everything up to its edge.
+
+    Raises GenevaError for sizes that leave no parts.
+    """
+    near = SAME_LENGTH * parts.mechanism.center_distance_mm
+    (rack,) = plates(parts.wheel.part)
+    edge = bounds(rack.outline).x1
+    return min(
+        (
+            ShaftGap(shaft.axis[0] - shaft.outer - edge, shaft.name, rack.name)
+            for shaft in _rings_of(parts.shafts)
+            if shaft.high - rack.low > near
+        ),
+        default=None,
+    )
 
 
 def _guide_gaps(parts: RackParts, rings: list[Ring]) -> Iterator[ShaftGap]:

@@ -21,7 +21,6 @@ from geneva_cli.numerics.arrays import (
     all_true,
     array,
     blocks,
-    keep_freed_memory,
     library,
 )
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
@@ -190,6 +189,13 @@ class ClosedPeaks(Protocol):
         """Peak of a quantity, or None if it needs the general search."""
 
 
+class RoughMotion(Protocol):
+    """A wheel's motion for a first search."""
+
+    def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
+        """Approximate speed and its derivatives at arrays of angles."""
+
+
 class WheelMotion(Batchable, ABC):
     """The wheel's angle as the input turns, from rest to rest."""
 
@@ -216,6 +222,11 @@ class WheelMotion(Batchable, ABC):
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
         """Wheel speed over input speed, with derivatives, computed without the angle itself."""
         return self(input_deg, order + 1).derivative()
+
+    @property
+    def rough(self) -> RoughMotion:
+        """The part of the motion that ``rough_rates`` needs: less of it is copied for a search."""
+        return self
 
     def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
         """Approximate speed and its derivatives at arrays of angles, for a first search.
@@ -244,6 +255,12 @@ class WheelMotion(Batchable, ABC):
         """Entry, places where a derivative may jump, mid-motion, and exit, in degrees."""
         return (self.entry_deg, 0.0, self.exit_deg)
 
+    def breaks(self, m: int) -> list[Array]:
+        """The places of ``breaks_deg`` as arrays of m designs, (m, 1) each."""
+        import numpy as np
+
+        return [np.broadcast_to(np.asarray(x, dtype=float), (m, 1)) for x in self.breaks_deg]
+
     @property
     def seams_deg(self) -> tuple[float, ...]:
         """Entry, every place where another formula takes over, and exit, in degrees.
@@ -267,19 +284,18 @@ class WheelMotion(Batchable, ABC):
         """
         import numpy as np
 
-        mirrored = self.symmetric and is_mirrored(input_deg)
-        first = input_deg[: (len(input_deg) + 1) // 2] if mirrored else input_deg
-        if len(first) > BLOCK:
-            keep_freed_memory()
+        count = len(input_deg)
+        mirrored = self.symmetric and bool((input_deg == -input_deg[::-1]).all())
         out: list[Array] = []
-        for block in blocks(len(first), BLOCK):
-            values = self._requested(first[block], orders)
-            out = out or [np.empty((*value.shape[:-1], len(first))) for value in values]
-            for whole, value in zip(out, values, strict=True):
+        for block in blocks((count + 1) // 2 if mirrored else count, BLOCK):
+            values = self._requested(input_deg[block], orders)
+            out = out or [np.empty((*value.shape[:-1], count)) for value in values]
+            for whole, value, order in zip(out, values, orders, strict=True):
+                if mirrored:  # even orders change their sign
+                    image = whole[..., count - block.stop : count - block.start][..., ::-1]
+                    image[:] = value if order % 2 else -value
                 whole[..., block] = value
-        if not mirrored:
-            return out
-        return [mirror(half, len(input_deg), k) for half, k in zip(out, orders, strict=True)]
+        return out
 
     def _requested(self, input_deg: Array, orders: Sequence[int]) -> list[Array]:
         """Derivatives at angles; without the wheel's angle if that is not among them."""
@@ -288,19 +304,6 @@ class WheelMotion(Batchable, ABC):
             return [array(values[k]) for k in orders]
         rates = self.rate(input_deg, max(orders) - 1).derivatives()
         return [array(rates[k - 1]) for k in orders]
-
-
-def is_mirrored(input_deg: Array) -> bool:
-    """True if ascending angles (k,) lie symmetrically about mid-motion."""
-    return bool((input_deg == -input_deg[::-1]).all())
-
-
-def mirror(first: Array, count: int, order: int) -> Array:
-    """Complete ``count`` values of a derivative from their first half; even orders change sign."""
-    import numpy
-
-    rest = first[..., : count - first.shape[-1]][..., ::-1]
-    return numpy.concatenate((first, rest if order % 2 else -rest), axis=-1)
 
 
 class Carrier(NamedTuple):

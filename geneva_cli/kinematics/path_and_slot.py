@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
+from itertools import pairwise
 from typing import ClassVar
 
-from geneva_cli.kinematics.anchors import Anchors
 from geneva_cli.kinematics.engagement import (
     Anchor,
     Carrier,
@@ -15,12 +16,18 @@ from geneva_cli.kinematics.engagement import (
     Slot,
     SlotAxis,
     WheelMotion,
-    is_mirrored,
 )
 from geneva_cli.kinematics.wheels import classic
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Batchable, library, parameter
-from geneva_cli.numerics.jet import Array, Jet, Number, atan2, sin_cos, sqrt, turning
+from geneva_cli.numerics.arrays import (
+    Batchable,
+    Whole,
+    array,
+    library,
+    parameter,
+    picked,
+)
+from geneva_cli.numerics.jet import Array, Jet, Number, atan2, piecewise, sin_cos, sqrt, turning
 from geneva_cli.numerics.latest import Latest
 
 END_DEG = 0.05  # nearer than this to entry or exit, angle and velocity keep their relative accuracy
@@ -29,12 +36,14 @@ END_DEG = 0.05  # nearer than this to entry or exit, angle and velocity keep the
 class AnchoredPath(Batchable):
     """A pin path written about several anchors: entry, mid-motion, exit, and others between.
 
-    Each input angle uses the nearest anchor. ``ahead`` is the angle from the line of centres to the
-    middle anchor's ray, in radians.
+    Each input angle uses the nearest anchor; those of both ends serve only near the ends, where the
+    motion vanishes. ``cuts`` are the input angles at which one anchor hands over to the next.
+    ``ahead`` is the angle from the line of centres to the middle anchor's ray, in radians.
     """
 
     def __init__(self, anchors: tuple[Anchor, ...], ahead: float = 0.0) -> None:
-        self.anchors, self.ahead = Anchors(anchors), ahead
+        self.anchors, self.ahead = anchors, ahead
+        self.cuts = cuts([anchor.input_deg for anchor in anchors])
         self._latest, self._latest_nearest = Latest(), Latest()
 
     @property
@@ -62,8 +71,34 @@ class AnchoredPath(Batchable):
             along, across = anchor.place(x, order)
             return Jet((*along.c, *across.c))
 
-        both = self.anchors.solved(input_deg, solve).c
+        both = self.solved(input_deg, solve).c
         return Jet(both[: order + 1]), Jet(both[order + 1 :])
+
+    def solved(self, input_deg: Number, solve: Callable[[Anchor, Number], Jet]) -> Jet:
+        """Jet of ``solve(anchor, angles)``, with the anchor that serves each angle in degrees."""
+        if isinstance(self.cuts[0], float) and isinstance(self.cuts[-1], float):
+            return piecewise(input_deg, self.cuts, [partial(solve, one) for one in self.anchors])
+        # the anchors of a batch differ in numbers only, so that one call serves all of them
+        x = array(input_deg)
+        first, *others = [x > cut for cut in self.cuts]
+        index: Whole = first.astype(int)  # laid out as the angles
+        for past in others:
+            index = index + past
+        low, high = int(index.min(initial=len(self.anchors) - 1)), int(index.max(initial=0))
+        if low >= high:  # any anchor will do for no angles
+            return solve(self.anchors[high], input_deg)
+        return solve(picked(index - low, self.anchors[low : high + 1]), input_deg)
+
+
+def cuts(degrees: Sequence[float]) -> list[float]:
+    """Input angles at which one anchor hands over to the next: half-way, nearer to both ends."""
+    first, *inner, last = degrees
+    near_end = 0.75  # fraction of the span from the last inner anchor to an end
+    return [
+        inner[0] + near_end * (first - inner[0]),
+        *[0.5 * (a + b) for a, b in pairwise(inner)],
+        inner[-1] + near_end * (last - inner[-1]),
+    ]
 
 
 class RadialSlot(Slot):
@@ -131,8 +166,8 @@ class StraightSlotMotion(WheelMotion):
     @property
     def seams_deg(self) -> tuple[float, ...]:
         """Entry, mid-motion, where one anchor hands over to the next, the path's own, and exit."""
-        anchors = self.path.anchors
-        places = {0.0, *anchors.cuts, *[at for one in anchors for at in one.seams_deg]}
+        path = self.path
+        places = {0.0, *path.cuts, *[at for one in path.anchors for at in one.seams_deg]}
         inside = sorted(at for at in places if self.entry_deg < at < self.exit_deg)
         return (self.entry_deg, *inside, self.exit_deg)
 
@@ -143,7 +178,7 @@ class StraightSlotMotion(WheelMotion):
             along, across = anchor.place(x, order)
             return atan2(across, along) + anchor.wheel
 
-        return self.path.anchors.solved(input_deg, solve)
+        return self.path.solved(input_deg, solve)
 
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
         """Rate at which the pin's direction turns, computed without an arc tangent."""
@@ -188,17 +223,16 @@ class ClassicMotion(StraightSlotMotion):
             size, at_deg = classic.power_peak(self.l, gap)
         return Peak(size, 0.0 - at_deg)
 
-    def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
-        """Wheel angle and its derivatives in closed form, shaped as in ``WheelMotion.derivatives``.
+    def _requested(self, input_deg: Array, orders: Sequence[int]) -> list[Array]:
+        """Wheel angle and its derivatives in closed form.
 
         Near the ends, angle and velocity are computed from the end to keep their relative accuracy.
         """
-        if not (isinstance(self.l, float) and input_deg.ndim == 1):
-            return super().derivatives(input_deg, orders)
-        from geneva_cli.kinematics.wheels.classic_arrays import ClassicArrays
+        if not isinstance(self.l, float):
+            return super()._requested(input_deg, orders)
+        from geneva_cli.kinematics.wheels import classic_arrays
 
-        arrays = ClassicArrays(self.sign, self.l, self.rest)
-        out = arrays.derivatives(input_deg, orders, is_mirrored(input_deg))
+        out = classic_arrays.derivatives(self.sign, self.l, self.rest, input_deg, orders)
         first = int(input_deg.searchsorted(self.entry_deg + END_DEG))
         last = int(input_deg.searchsorted(self.exit_deg - END_DEG))
         for part, side in ((slice(0, first), -1.0), (slice(last, None), 1.0)):

@@ -150,7 +150,8 @@ class Assembly(NamedTuple):
             here = (within >= begins) & (within < ends)
             if i == 0:  # rounding may put an angle before the turn
                 here |= within < begins
-            at = np.clip(within[here] - mid, engagement.entry_deg, engagement.exit_deg)
+            at = np.maximum(within[here] - mid, engagement.entry_deg)
+            at = np.minimum(at, engagement.exit_deg)
             out[here] += turned + engagement.motion(at, 0).c[0]
             turned += engagement.half_step + (after[0].half_step if after else 0.0)
         return out

@@ -35,6 +35,8 @@ class PinSpace(NamedTuple):
 def pin_that_holds(spec: Spec, usual: float, space: PinSpace, force_N: float) -> float:
     """Return the radius of the first pin from the usual one on that holds, or the largest.
 
+    ``force_N`` is the greatest force on the pin, along the wall's normal.
+
     The largest leaves a wall of the roller about its hole, and one of the arm. With friction on the
     pin it stays the usual one, on which the loads depend.
     """
@@ -46,8 +48,9 @@ def pin_that_holds(spec: Spec, usual: float, space: PinSpace, force_N: float) ->
     # the roller keeps three tenths of its radius as a wall about the hole for its pin
     most = min(0.7 * space.roller - 0.5 * size.allowances.shaft_fit_mm, space.eye)
     allowed = roller_material(spec).allowed_MPa
+    whole_N = force_N * math.hypot(1.0, spec.load.friction)  # with friction along the wall
     for d in rounded_from(2.0 * usual, 2.0 * most):
-        stress = float(pin(spec.size, contact, d).under(force_N).equivalent)
+        stress = float(pin(spec.size, contact, d).under(whole_N).equivalent)
         if keeps(stress, "at most", allowed):
             break
     return 0.5 * d

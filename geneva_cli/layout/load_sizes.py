@@ -15,6 +15,7 @@ import math
 
 import numpy as np
 
+from geneva_cli.analysis.unbalance import centrifugal_N
 from geneva_cli.layout.arm_sizes import (
     crank_reach_and_hub,
     hole_radius,
@@ -128,7 +129,11 @@ def _bored(
     Unless ``keyed``, the crank's bore is not sized by its key.
     """
     held = _held_force_N(assembly, sizes)  # which no bore changes
-    loads = loads._replace(wheel_N=max(loads.wheel_N, held), crank_N=max(loads.crank_N, held))
+    machine = assembly.full
+    carried = float(np.max(centrifugal_N(machine))) if machine.frame else 0.0
+    loads = loads._replace(
+        wheel_shaft_N=max(loads.wheel_shaft_N, held + carried), crank_N=max(loads.crank_N, held)
+    )
     wheel = _wheel_bored(assembly, sizes, loads)
     return _crank_bored(assembly, wheel, loads, space, keyed)
 
@@ -146,7 +151,9 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
         reach, hub = wheel_reach_and_hub(size, 0.5 * d, wall, end)
         trial = sizes._replace(wheel_bore=0.5 * d, wheel_reach=reach, wheel_hub=hub)
         parts = stressed(assembly, trial)
-        shaft = shaft_holds_both(spec, "wheel", parts.wheel_shaft, loads.wheel_N, loads.wheel_Nm)
+        shaft = shaft_holds_both(
+            spec, "wheel", parts.wheel_shaft, loads.wheel_shaft_N, loads.wheel_Nm
+        )
         if shaft and key_holds(spec, parts.wheel_key, loads.wheel_Nm):
             break
     return trial

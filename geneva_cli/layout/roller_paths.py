@@ -56,6 +56,34 @@ def corner(assembly: Assembly, engagement: Engagement, end: float, r: float) -> 
     return px + ratio * (cx - px), py + ratio * (cy - py)
 
 
+def least_mouth(L: float, recess: float, rim: float) -> float:
+    """Return the radius to which lower mouths are extended, mm.
+
+    It is a fifth of the way from the recess to the rim. The disc then has an arc to lock, and the
+    relief needs to clear little more.
+    """
+    reach = L - recess
+    return reach + 0.2 * (rim - reach)
+
+
+def mouth_corners(assembly: Assembly, r: float, recess: float, rim: float) -> list[float]:
+    """Return the radii of the corners between mouths and recesses, of all kinds of slots, mm.
+
+    The mouths of offset slots and of unequal steps end at different radii. If the spec sets the
+    rim, it moves all mouths by as much as the widest one.
+    """
+    widest = [mouth(assembly, kind, r) for kind in assembly.kinds]
+    own = []
+    for kind, at in zip(assembly.kinds, widest, strict=True):
+        if kind.slot.offset:
+            own += [math.hypot(*corner(assembly, kind, end, r)) for end in (-1.0, 1.0)]
+        else:
+            own.append(at)
+    shift = rim - max(widest)
+    least = least_mouth(assembly.L, recess, rim) if assembly.sign > 0.0 else 0.0
+    return [max(at + shift, least) for at in own]
+
+
 def rest(assembly: Assembly, engagement: Engagement, end: float) -> tuple[float, float]:
     """Return the crank's axis in the wheel's frame before (-1) and after (1) a motion."""
     b = -end * engagement.half_step

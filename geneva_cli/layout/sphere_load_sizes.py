@@ -130,7 +130,7 @@ def _wheel_bored(mechanism: Mechanism, ball: Ball, loads: PartLoads) -> Ball:
         inner = inner_edge(ball.slot_end, ball.roller, hole)
         trial = ball._replace(bore_mm=0.5 * d, hub_mm=hub, inner=inner)
         parts = sphere_stressed(spec, trial)
-        moment = _moment_Nm(mechanism, wheel_forces(spec), parts.wheel_shaft.overhang)
+        moment = _moment_Nm(mechanism, wheel_forces(mechanism), parts.wheel_shaft.overhang)
         holds = shaft_holds(spec, "wheel", parts.wheel_shaft.diameter, max(moment, held))
         if holds and key_holds(spec, parts.wheel_key, loads.wheel_Nm):
             break

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.locking import Lock
+from geneva_cli.analysis.locking import Lock, loosest
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import arm_hub, arm_passing, hole_radius
 from geneva_cli.layout.assembly import Assembly
@@ -20,11 +20,12 @@ from geneva_cli.layout.keyways import key
 from geneva_cli.layout.link_positions import gear_plane, links_at
 from geneva_cli.layout.plain_sizes import Sizes, half_or, plane_span
 from geneva_cli.layout.reliefs import is_whole, sectors
-from geneva_cli.layout.roller_paths import roller_reaches
+from geneva_cli.layout.roller_paths import mouth_corners, roller_reaches
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
 from geneva_cli.machine.least_wall import eye_about
 from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.spec.default_sizes import value_or
 
 
@@ -139,10 +140,19 @@ def _arm(assembly: Assembly, sizes: Sizes, contact: float) -> ArmDimensions:
 
 
 def lock_of(where: Assembly, size: Sizes) -> Lock:
-    """Return the lock of parts of these sizes, in its narrowest sector between two reliefs."""
+    """Return the lock of parts of these sizes, in its narrowest sector between two reliefs.
+
+    Its corner is that of the mouth that leaves the most play.
+    """
     half = min((0.5 * (end - start) for start, end in sectors(where)), default=math.nan)
     edge = where.full.spec.size.lock_edge_mm or 0.0
-    return Lock(where.L, where.sign, size.lock, size.recess, size.rim, half, edge)
+    lock = Lock(where.L, where.sign, size.lock, size.recess, size.rim, half, edge)
+    corners = mouth_corners(where, size.roller, size.recess, size.rim)
+    if max(corners) - min(corners) < SAME_LENGTH * where.L:
+        return lock
+    near, far = abs(where.L - size.recess), where.L + size.recess
+    tried = [lock._replace(corner=r) for r in sorted(corners) if near < r < far]
+    return loosest(tried) if tried else lock
 
 
 def key_of(standard: str | None, bore: float, length: float) -> KeyDimensions:

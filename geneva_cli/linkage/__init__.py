@@ -26,9 +26,8 @@ def solve(
     """
     from geneva_cli.linkage.engagement import engagement_of
     from geneva_cli.linkage.wheel_for_path import fit
-    from geneva_cli.linkage.wheels_for_paths import known
 
-    best = fit(path, step, wanted, known(path, step.b))
+    best = fit(path, step, wanted)
     return engagement_of(path, best, step) if best else None
 
 

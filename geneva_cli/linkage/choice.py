@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.kinematics.paths.samples import joined, points
+from geneva_cli.kinematics.paths.samples import points
 from geneva_cli.kinematics.roller_path import RollerPath
 from geneva_cli.linkage.wheels import PathWheels
-from geneva_cli.numerics.arrays import Array, Number, Whole, blocks
+from geneva_cli.numerics.arrays import Array, Number, Whole, blocks, joined
 
 SAME_PEAK = 1e-8  # fraction by which two wheels' peak velocities may differ and count as equal
 
@@ -90,7 +90,8 @@ def _velocities(path: RollerPath, wheels: PathWheels, between: Array, count: int
         [
             _block_velocities(path.roughly(wheels.which[i]), wheels.phi[i], between[i], count)
             for i in blocks(len(between), 256)  # 256 wheels stay in the processor's cache
-        ]
+        ],
+        0,
     )
     return bounds
 

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from decimal import localcontext
-from itertools import accumulate
-from operator import mul
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
 from geneva_cli.kinematics import path_and_slot
-from geneva_cli.kinematics.engagement import Anchor, Carrier, Engagement
+from geneva_cli.kinematics.engagement import Anchor, Carrier, Engagement, RoughMotion
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.kinematics.roller_path import (
     LinkRate,
@@ -35,27 +33,36 @@ from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, Long, library, parameter
 from geneva_cli.numerics.jet import Jet, Number, sine_versine, turning
 
-ANCHORS = 4  # anchors on either side of the middle: near the wheel the path is strongly curved
+if TYPE_CHECKING:
+    from geneva_cli.linkage.wheels_for_paths import LongComplex
 
 
 class LinkageMotion(StraightSlotMotion):
-    """Motion of a wheel on a linkage; ``centre`` is the wheel's centre in the path's frame."""
+    """Motion of a wheel on a linkage."""
 
     def __init__(
-        self,
-        path: AnchoredPath,
-        half_step: float,
-        body: LinkRate,
-        centre: tuple[float, float],
+        self, path: AnchoredPath, half_step: float, body: LinkRate, centre: tuple[float, float]
     ) -> None:
         super().__init__(path, half_step, mirrored=False)
-        self.body, self.centre = body, centre
+        self.about_centre = RoughLinkageMotion(body, *centre)
+
+    @property
+    def rough(self) -> RoughMotion:
+        """The motion without anchors."""
+        return self.about_centre
+
+
+class RoughLinkageMotion(NamedTuple):
+    """Motion of a wheel whose centre is at (x, y) in the path's frame."""
+
+    body: LinkRate
+    x: float
+    y: float
 
     def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
         """Speed and its derivatives at arrays of angles, computed from the path without anchors."""
         x, y = self.body.path.at(radians(input_deg) + self.body.middle, order + 1)
-        rate = turning(x - self.centre[0], y - self.centre[1]) * self.body.sense
-        return rate.arrays()
+        return (turning(x - self.x, y - self.y) * self.body.sense).arrays()
 
 
 def engagement_of(path: RollerPath, fit: Fit, step: HalfStep) -> tuple[Engagement, float]:
@@ -67,15 +74,11 @@ def engagement_of(path: RollerPath, fit: Fit, step: HalfStep) -> tuple[Engagemen
         ox, oy = fit.centre
         L = (ox * ox + oy * oy).sqrt()
         middle = (fit.entry + fit.exit) / 2
-        places = [
-            ExactPoint.of(path, middle + (fit.exit - middle) * i / ANCHORS)
-            for i in range(-ANCHORS, ANCHORS + 1)
-        ]
+        places = [ExactPoint.of(path, phi) for phi in (fit.entry, middle, fit.exit)]
         rays = [(p.p[0] - ox, p.p[1] - oy) for p in places]
-        first, last = unit(rays[0]), unit(rays[-1])
-        half_way = (first[0] + last[0], first[1] + last[1])
-        inside = [fit.sense * angle(half_way, ray) for ray in rays[1:-1]]
-        ahead = fit.sense * angle((-ox, -oy), rays[ANCHORS])
+        first, last = unit(rays[0]), unit(rays[2])
+        turn = fit.sense * angle((first[0] + last[0], first[1] + last[1]), rays[1])
+        ahead = fit.sense * angle((-ox, -oy), rays[1])
         anchors = tuple(
             Anchor(
                 digits.to_degrees(p.phi - middle),
@@ -90,11 +93,7 @@ def engagement_of(path: RollerPath, fit: Fit, step: HalfStep) -> tuple[Engagemen
                 ),
             )
             for p, ray, wheel, end in zip(
-                places,
-                rays,
-                (-step.b, *inside, step.b),
-                (-1.0, *[0.0] * len(inside), 1.0),
-                strict=True,
+                places, rays, (-step.b, turn, step.b), (-1.0, 0.0, 1.0), strict=True
             )
         )
     anchored = AnchoredPath(anchors, ahead)
@@ -116,36 +115,41 @@ def engagement_of_batch(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[E
     b, sense = step.b, parameter(fits.sense)
     with np.errstate(all="ignore"):
         entry, exit_ = polished(path, fits, step)
-    middle, gap = (entry + exit_) / 2, (exit_ - entry) / (2 * ANCHORS)
-    cranks = _cranks(middle, gap)
-    (p, t), (q, u) = (long_point(path, *cranks[i]) for i in (0, -1))
+    middle, half = (entry + exit_) / 2, (exit_ - entry) / 2
+    cranks = _cranks(middle, half)
+    (p, t), (q, u) = (long_point(path, *cranks[i]) for i in (0, 2))
     rho = np.abs(q - p) / np.abs(t + u)
     centre = ((p + rho * t) + (q - rho * u)) / 2
-    places = [p, *(long_place(path, *crank) for crank in cranks[1:-1]), q]
-    rays = [place - centre for place in places]
     L = np.abs(centre)
-    half_way = rays[0] / np.abs(rays[0]) + rays[-1] / np.abs(rays[-1])
-    inside = [sense * rounded(np.angle(ray * half_way.conj())) for ray in rays[1:-1]]
-    ends = (-1.0, *[0.0] * len(inside), 1.0)
-    distance = rounded(L)
+    rays = [place - centre for place in (p, long_place(path, *cranks[1]), q)]
+    half_way = rays[0] / np.abs(rays[0]) + rays[2] / np.abs(rays[2])
+    # arc tangents of long doubles take ten times as long
+    turn, ahead = (
+        sense * parameter(np.angle((rays[1] * line.conj()).astype(complex)))
+        for line in (half_way, -centre)
+    )
+    half_deg, distance = rounded(half * (180 / LONG_PI)), rounded(L)
     anchors = tuple(
         Anchor(
-            rounded(gap * i * (180 / LONG_PI)),
+            end * half_deg,
             wheel,
-            rounded(np.abs(ray) / L),
+            parameter(np.abs(ray)) / distance,
             along_ray(
                 path.about(exactly(sine), exactly(cosine)),
-                (rounded(ray.real), rounded(ray.imag)),
+                (parameter(ray.real), parameter(ray.imag)),
                 sense,
                 distance,
                 end,
             ),
         )
-        for i, (sine, cosine), ray, wheel, end in zip(
-            range(-ANCHORS, ANCHORS + 1), cranks, rays, (-b, *inside, b), ends, strict=True
+        for end, (sine, cosine), ray, wheel in zip(
+            (-1.0, 0.0, 1.0),
+            cranks,
+            (ray.astype(complex) for ray in rays),
+            (-b, turn, b),
+            strict=True,
         )
     )
-    ahead = sense * rounded(np.angle(-rays[ANCHORS] * centre.conj()))
     anchored = AnchoredPath(anchors, ahead)
     mid = rounded(middle)
     line = rounded(-centre.real / L), rounded(-centre.imag / L)
@@ -170,14 +174,13 @@ def _alike(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[RollerPath, Fi
     return some_fits(path, fits, step, which)
 
 
-def _cranks(middle: Array | Long, gap: Array | Long) -> list[tuple[Long, Long]]:
-    """Sines and cosines of the crank's angles at the anchors, from their middle and their gap.
+def _cranks(middle: Array | Long, half: Array | Long) -> list[tuple[Long, Long]]:
+    """Sines and cosines of the crank's angles at entry, mid-motion and exit.
 
     Long doubles lose no digit of a double in products, which take a tenth of a sine's time.
     """
-    at, turn = (np.cos(x) + 1j * np.sin(x) for x in (middle, gap))
-    turns = list(accumulate([turn] * ANCHORS, mul))
-    cranks = [*(at * x.conj() for x in reversed(turns)), at, *(at * x for x in turns)]
+    at, turn = (np.cos(x) + 1j * np.sin(x) for x in (middle, half))
+    cranks = cast("list[LongComplex]", [at * turn.conj(), at, at * turn])
     return [(crank.imag, crank.real) for crank in cranks]
 
 

@@ -15,13 +15,13 @@ from typing import NamedTuple, TypeAlias, cast
 import numpy as np
 
 from geneva_cli.kinematics.paths.pairs import DOUBLE_ROOT_SLOPE
-from geneva_cli.kinematics.paths.samples import joined
 from geneva_cli.kinematics.roller_path import RollerPath, exactly
 from geneva_cli.kinematics.wheels.poses import HalfStep
 from geneva_cli.linkage.choice import chosen
 from geneva_cli.linkage.wheels import PathWheels, WheelSearch, followed, wheels
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import scaled_sin_cos
+from geneva_cli.numerics.arrays import joined
 from geneva_cli.numerics.jet import Jet
 
 LAST_STEP = 1e-12  # radians: Newton's method ends after a shorter step
@@ -108,7 +108,7 @@ def fit(
     for entry, exit_ in doubtful.at.phi.tolist():
         root = _double(path, step, entry, exit_)
         if root:
-            candidates = joined([candidates, root])
+            candidates = joined([candidates, root], 0)
     if not len(candidates.which):
         return None
     best = chosen(path, candidates, wanted)[0]

@@ -7,17 +7,31 @@ point, leaves at the other and stays outside the slot otherwise.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.kinematics.paths.course import PinCourse, PlacedWheel, leaves_slot, peak_bounds
-from geneva_cli.kinematics.paths.pairs import DOUBLE_ROOT_SLOPE, EndPairs, newton, pairs, residual
-from geneva_cli.kinematics.paths.samples import PathSamples, joined, points, sampled
+from geneva_cli.kinematics.paths.course import (
+    OpenIntervals,
+    PinCourse,
+    PlacedWheel,
+    leaves_slot,
+    open_intervals,
+    peak_bounds,
+)
+from geneva_cli.kinematics.paths.pairs import (
+    DOUBLE_ROOT_SLOPE,
+    SAME_ENTRY,
+    EndPairs,
+    firsts,
+    newton,
+    pairs,
+    residual,
+)
+from geneva_cli.kinematics.paths.samples import PathSamples, points, sampled
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, blocks
-
-SAME_ENTRY = 1e-6  # radians: entries nearer to each other are one
+from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, joined
 
 
 class PathWheels(NamedTuple):
@@ -59,43 +73,31 @@ def wheels(path: RollerPath, b: Array) -> WheelSearch:
 
     Those with entry or exit in a bend within 1e-5 radians of the crank may be missed.
     """
-    kept = []
     with np.errstate(all="ignore"):
         every = list(sampled(path, len(b)))
         ends, doubtful = pairs(path, every, b)
-        ends = ends.taken(_firsts(ends))
         rest = residual(ends, b)
         steep = np.abs(rest.det) >= DOUBLE_ROOT_SLOPE * np.abs(rest.by_exit)
         doubtful = doubtful.taken(~_lead_to(doubtful, ends.taken(steep), b))
-        doubtful = joined([doubtful, ends.taken(~steep)])
+        doubtful = joined([doubtful, ends.taken(~steep)], 0)
         # A path that stops has no direction there; boxes around such a point hold no pair.
         doubtful = doubtful.taken(np.flatnonzero(np.isfinite(doubtful.at.phi).all(axis=1)))
         # doubtful entries within 1e-4 radians lead to one wheel
-        doubtful = doubtful.taken(_firsts(doubtful, 1e-4))
+        doubtful = doubtful.taken(firsts(doubtful.which, doubtful.at.phi, 1e-4))
         ends, sense = ends.taken(steep), rest.sense[steep]
         block = np.zeros(len(b), dtype=int)
         for i, samples in enumerate(every):
             block[samples.which] = i
-        for i, samples in enumerate(every):
-            mine = block[ends.which] == i
-            kept.append(_followed(path, samples, ends.taken(mine), sense[mine]))
-    return WheelSearch(joined(kept), doubtful)
+        own = [block[ends.which] == i for i in range(len(every))]
+        parts = ((some, ends.taken(i), sense[i]) for some, i in zip(every, own, strict=True))
+        return WheelSearch(_followed(path, parts), doubtful)
 
 
 def followed(path: RollerPath, phi: Array, sense: Array) -> PathWheels:
     """Wheels that a path can drive, among those with entry and exit angles ``phi`` (n, 2)."""
     with np.errstate(all="ignore"):
         ends = EndPairs(np.zeros(len(phi), dtype=int), points(path, phi))
-        return _followed(path, next(sampled(path, 1)), ends, sense)
-
-
-def _firsts(ends: EndPairs, same: float = SAME_ENTRY) -> Whole:
-    """First of each group of equal pairs."""
-    place = ends.at.phi[:, 0] % math.tau
-    order = np.lexsort((place, ends.which))
-    new = np.ones(len(order), dtype=bool)
-    new[1:] = (np.diff(ends.which[order]) != 0) | (np.diff(place[order]) > same)
-    return order[new]
+        return _followed(path, [(next(sampled(path, 1)), ends, sense)])
 
 
 def _lead_to(doubtful: EndPairs, ends: EndPairs, b: Array) -> Mask:
@@ -128,16 +130,23 @@ def _apart(phi: Array, others: Array) -> Array:
     return distance
 
 
-def _followed(path: RollerPath, samples: PathSamples, ends: EndPairs, sense: Array) -> PathWheels:
-    """Wheels of the pairs between which the roller stays in its slot."""
-    parts = blocks(len(sense), 512)  # the samples of 512 wheels stay in the processor's cache
-    return joined([_block_followed(path, samples, ends.taken(i), sense[i]) for i in parts])
+def _followed(path: RollerPath, parts: Iterable[tuple[PathSamples, EndPairs, Array]]) -> PathWheels:
+    """Wheels of the pairs between which the roller stays in its slot, by blocks of designs."""
+    blocks, count = [], 0
+    for part in parts:
+        wheels, placed, intervals = _block_followed(*part)
+        intervals = intervals._replace(wheel=intervals.wheel + count)
+        blocks.append((wheels, placed, intervals))
+        count += len(wheels.which)
+    wheels, placed, intervals = joined(blocks, 0)
+    fails = leaves_slot(path, placed, wheels.which, wheels.phi[:, 0], intervals)
+    return wheels.taken(~fails)
 
 
 def _block_followed(
-    path: RollerPath, samples: PathSamples, ends: EndPairs, sense: Array
-) -> PathWheels:
-    """Wheels of a block of pairs."""
+    samples: PathSamples, ends: EndPairs, sense: Array
+) -> tuple[PathWheels, PlacedWheel, OpenIntervals]:
+    """Wheels of a block of pairs that are wrong at no sample, and where they may be wrong still."""
     (p, q), (t, u) = ends.at.p.T, ends.at.t.T
     rho = np.abs(q - p) / np.abs(t + u)
     centre = 0.5 * ((p + rho * t) + (q - rho * u))
@@ -145,36 +154,39 @@ def _block_followed(
     number = np.zeros(int(samples.which.max(initial=0)) + 1, dtype=int)
     number[samples.which] = np.arange(len(samples.which))
     row, count = number[ends.which], len(samples.angle) - 1
-    # the samples from entry onwards, over a turn: (samples, wheels)
+    # the samples from entry onwards, over a turn, and after them entry and exit: (places, wheels)
     first = samples.at.phi[0, row]
     entry = first + (ends.at.phi[:, 0] - first) % math.tau
     motion = ends.at.phi[:, 1] - ends.at.phi[:, 0]
-    before = np.count_nonzero(samples.at.phi[:-1, row] <= entry, axis=0)
+    before = (samples.at.phi[:-1].take(row, axis=1) <= entry).sum(axis=0, dtype=np.int32)
     sample = before + np.arange(count)[:, None]
     turned = sample >= count
     place = (sample - count * turned) * len(samples.which) + row
-    phi, *motions = (x.take(place) for x in samples.at[:4])
-    since = phi - entry + math.tau * turned
+    phi, *motions = (
+        np.concatenate((x.take(place), y.T))
+        for x, y in zip(samples.at[:4], ends.at[:4], strict=True)
+    )
+    since = phi - entry
+    since[:count] += math.tau * turned
+    since[count:] = 0.0 * motion, motion
     course = wheel.course(*motions)
-    inside = since < motion
-    good = np.where(inside, (course.moment > 0.0) & (course.short > 0.0), course.short < 0.0)
-    at_entry = (since < SAME_ENTRY) | (since > math.tau - SAME_ENTRY)
-    good |= (np.abs(since - motion) < SAME_ENTRY) | at_entry
+    for x in (course.moment, course.short):
+        x[count:] = 0.0
+    samples_since, moment, short = since[:count], course.moment[:count], course.short[:count]
+    inside = samples_since < motion
+    good = np.where(inside, (moment > 0.0) & (short > 0.0), short < 0.0)
+    good |= np.abs(samples_since - motion) < SAME_ENTRY
+    good |= (samples_since < SAME_ENTRY) | (samples_since > math.tau - SAME_ENTRY)
     kept = np.flatnonzero(good.all(axis=0))
-    # add the ends to the samples, and the entry again a turn later
-    wheel, ends, motion = wheel.taken(kept), ends.taken(kept), motion[kept]
-    limits = wheel.course(ends.at.p.T, ends.at.v.T, ends.at.a.T)
-    limits = limits._replace(moment=0.0 * limits.moment, short=0.0 * limits.short)
-    exit_, column = np.count_nonzero(inside[:, kept], axis=0) + 1, np.arange(len(kept))
+    # put the ends among the samples, and the entry again a turn later
+    exit_ = inside.sum(axis=0, dtype=np.int32)[kept] + 1
     node = np.arange(-1, count + 2)[:, None] - (np.arange(count + 3)[:, None] > exit_)
     node[[0, -1]] = count
-    node[exit_, column] = count + 1
-    node = node * len(kept) + column
-    nodes = np.concatenate((since[:, kept], [0.0 * motion, motion])).take(node)
+    node[exit_, np.arange(len(kept))] = count + 1
+    node = node * len(row) + kept
+    nodes, full = since.take(node), PinCourse._make(x.take(node) for x in course)
     nodes[-1] = math.tau
-    full = PinCourse._make(
-        np.concatenate((x[:, kept], y)).take(node) for x, y in zip(course, limits, strict=True)
-    )
+    wheel, ends, motion = wheel.taken(kept), ends.taken(kept), motion[kept]
     bounds = peak_bounds(nodes, motion, wheel, full)
     every = PathWheels(ends.which, ends.at.phi, wheel.sense, *bounds)
-    return every.taken(~leaves_slot(path, wheel, ends, nodes, full, motion))
+    return every, wheel, open_intervals(nodes, full, motion)

@@ -7,9 +7,7 @@ to ``wheel_for_path``, which solves it alone in 50 digits.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
 import numpy as np
@@ -32,11 +30,6 @@ if TYPE_CHECKING:
 
 LONG_PI = np.longdouble(str(PI))
 Alone: TypeAlias = Callable[[int], tuple[RollerPath, float | None]]  # a design's path and entry
-
-# Search results by the kind and numbers of a path, with its number there; None: none are kept.
-_KNOWN: ContextVar[dict[tuple[object, ...], tuple[WheelSearch, int]] | None] = ContextVar(
-    "known", default=None
-)
 
 
 class Fits(NamedTuple):
@@ -68,7 +61,6 @@ def fits_of_batch(path: RollerPath, b: float, wanted: float | None = None) -> Fi
         part = np.arange(start, min(start + size, count))
         some = path.of(part)
         search = wheels(some, half[part])
-        _keep(some, half[part], search)
         candidates = search.wheels
         best = chosen(some, candidates, goal if goal is None else goal[part])
         out[:, part[candidates.which[best]]] = *candidates.phi[best].T, candidates.sense[best]
@@ -90,31 +82,6 @@ def solve_alone(fits: Fits, step: HalfStep, alone: Alone) -> None:
         values = (float(one.entry), float(one.exit), one.sense) if one else (math.nan,) * 3
         for column, value in zip(fits[:3], values, strict=True):
             column[i, 0] = value
-
-
-@contextmanager
-def searches_kept() -> Iterator[None]:
-    """Keep batch searches within the block, so that designs built alone after it can use them."""
-    token = _KNOWN.set({})
-    try:
-        yield
-    finally:
-        _KNOWN.reset(token)
-
-
-def _keep(path: RollerPath, half: Array, search: WheelSearch) -> None:
-    kept = _KNOWN.get()
-    if kept is not None:
-        columns = [np.broadcast_to(x, half.shape) for x in path.rough]
-        for i, row in enumerate(np.hstack([*columns, half]).tolist()):
-            kept[type(path), *row] = search, i
-
-
-def known(path: RollerPath, b: float) -> WheelSearch | None:
-    """Search result of one design's path from an earlier batch, or None."""
-    kept = _KNOWN.get()
-    entry = kept.get((type(path), *path.rough, b)) if kept else None
-    return entry[0].of(entry[1]) if entry else None
 
 
 def long_place(path: RollerPath, sine: Long, cosine: Long) -> LongComplex:

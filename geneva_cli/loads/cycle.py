@@ -15,8 +15,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from geneva_cli.analysis.contact import contact, contacts
-from geneva_cli.analysis.forces import LoadCase, load_case
+from geneva_cli.analysis.contact import Contact, contact, contacts
+from geneva_cli.analysis.forces import NEGLIGIBLE, LoadCase, load_case, wheel_torque
 from geneva_cli.analysis.instant import (
     INSTANT_QUANTITIES,
     Instant,
@@ -44,7 +44,7 @@ from geneva_cli.loads.summaries import (
 )
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Whole
+from geneva_cli.numerics.arrays import Whole, array
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
 from geneva_cli.numerics.search import SearchResult
@@ -100,7 +100,8 @@ class Cycle:
         """Arrays (n,) at input angles of an engagement, degrees from its own mid-motion."""
         from geneva_cli.analysis.mid_motion import at_crossing
 
-        moving_values = bounded_loads(self.case, contacts(engagement, input_deg))
+        at = contacts(engagement, input_deg)
+        moving_values = bounded_loads(self.case, at, self._drives(engagement, input_deg, at))
         middle = input_deg == 0.0
         limits = at_crossing(engagement, self.case) if middle.any() else None
         if limits is None:
@@ -109,6 +110,17 @@ class Cycle:
         for name, limit in limits.items():
             every[name] = np.where(middle, limit, getattr(moving_values, name))
         return Instant.known(every)
+
+    def _drives(self, engagement: Engagement, input_deg: Array, at: Contact[Array]) -> Array:
+        """Signs of the wheel's torque; where it is 0, that before, or at entry that after."""
+        torque = array(wheel_torque(self.case, at))
+        drives = np.copysign(1.0, torque)
+        none = np.flatnonzero(np.abs(torque) <= NEGLIGIBLE * np.abs(torque).max(initial=0.0))
+        if len(none):
+            x, step = input_deg[none], 1e-6 * engagement.motion_deg
+            near = np.where(x - step < engagement.entry_deg, x + step, x - step)
+            drives[none] = np.copysign(1.0, wheel_torque(self.case, contacts(engagement, near)))
+        return drives
 
     def along(self, engagement: Engagement, stretch: Stretch, input_deg: Array) -> Instant[Array]:
         """Arrays (n,) at input angles of a stretch, degrees from its engagement's mid-motion.

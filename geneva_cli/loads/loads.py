@@ -14,11 +14,10 @@ import numpy as np
 
 from geneva_cli.analysis.carried import inertia_kgm2
 from geneva_cli.analysis.contact import is_straight
-from geneva_cli.analysis.forces import Forces, LoadCase, QuantityValue, load_case
+from geneva_cli.analysis.forces import LoadCase, QuantityValue, load_case
 from geneva_cli.analysis.instant import Instant
 from geneva_cli.analysis.load_functions import LoadFunctions, LoadQuantity, load_batch
-from geneva_cli.analysis.peak_search import PeakArray
-from geneva_cli.analysis.quantities import FORCE, SQUARED, STRESS, TORQUE, sources
+from geneva_cli.analysis.quantities import FORCE, SQUARED, STRESS, TORQUE
 from geneva_cli.kinematics.engagement import Engagement, Peak
 from geneva_cli.kinematics.pitch_curve import retraces
 from geneva_cli.loads.cycle import cycle_of
@@ -28,7 +27,6 @@ from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.numerics.greatest import first_greatest
 from geneva_cli.numerics.jet import Jet
-from geneva_cli.numerics.latest import Known
 from geneva_cli.spec.load_limits import load_limits
 
 
@@ -50,37 +48,13 @@ def greatest(mechanism: Mechanism, name: str) -> Peak[float]:
     return Peak(float(most[0]), float(at_deg[0]))
 
 
-class Slope(NamedTuple):
-    """The square of the pressure angle's tangent, as a quantity of ``load_peaks``."""
-
-    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
-        """The quantity, which is bounded where its denominator is not 0."""
-        slope = i.at.offset / i.at.lever
-        return QuantityValue(slope * slope)
+def slope_squared(i: Instant[Jet]) -> QuantityValue[Jet]:
+    """The square of the pressure angle's tangent, bounded where its denominator is not 0."""
+    slope = i.at.offset / i.at.lever
+    return QuantityValue(slope * slope)
 
 
-@Known
-def limited_peaks(mechanism: Mechanism) -> dict[str, Peak[float]]:
-    """The greatest sizes of the loads that the spec limits, as ``limited_load_peaks`` has them."""
-    return {name: peak_of(one, 0) for name, one in limited_load_peaks(mechanism).items()}
-
-
-def limited_load_peaks(mechanism: Mechanism) -> dict[str, PeakArray]:
-    """The greatest sizes of the loads that ``[limits]`` bounds, and their input angles: (m,).
-
-    A load without a value, such as a stress without a face width, is left out.
-    """
-    known, limited = sources(mechanism), load_limits(mechanism.spec.limits)
-    names = [name for name in limited if name in known]
-    return load_peaks(mechanism, names) if names else {}
-
-
-def peak_of(peaks: PeakArray, i: int) -> Peak[float]:
-    """The peak of one design."""
-    return Peak(float(peaks.max[i]), float(peaks.at_deg[i]))
-
-
-@Known
+@lru_cache(maxsize=16)
 def greatest_pressure(mechanism: Mechanism) -> Peak[float]:
     """The greatest pressure angle, degrees, and its input angle.
 
@@ -89,23 +63,11 @@ def greatest_pressure(mechanism: Mechanism) -> Peak[float]:
     for engagement in mechanism.engagements:
         if not is_straight(engagement) and not retraces(engagement):
             return Peak(90.0, mechanism.shown_deg(engagement.mid_deg))
-    return peak_of(greatest_pressures(mechanism), 0)
-
-
-def greatest_pressures(mechanism: Mechanism) -> PeakArray:
-    """The greatest pressure angles of m designs and their input angles, degrees: (m,).
-
-    They are NaN for a batch with pins that cross the radius of their slots at mid-motion.
-    """
-    curved = [e for e in mechanism.engagements if not is_straight(e)]
-    if not all(np.all(retraces(engagement)) for engagement in curved):
-        return Peak(*np.full((2, mechanism.designs), np.nan))
-    own: dict[str, LoadQuantity] = {"slope": Slope()}
+    own: dict[str, LoadQuantity] = {"slope": slope_squared}
     case = load_case(mechanism)._replace(inertia_Nm=0.0, hertz=None, efficiency=1.0).frictionless
     peak = load_peaks(mechanism, tuple(own), own, case)["slope"]
-    # it is 0 throughout a radial slot
-    angle, at_deg = np.degrees(np.arctan(np.sqrt(peak.max))), peak.at_deg
-    return Peak(angle, np.where(angle > 0.0, at_deg, 0.0))
+    angle = np.degrees(np.arctan(np.sqrt(peak.max))).item()
+    return Peak(angle, peak.at_deg.item() if angle else 0.0)  # 0 throughout a radial slot
 
 
 @lru_cache(maxsize=16)
@@ -141,15 +103,16 @@ class Slowness(NamedTuple):
     inertia is w² times that at 1 rad/s, q. So the limit holds up to w² = (limit - q1 M) / q.
     """
 
-    of: Callable[[Forces[Jet]], Jet]
+    of: Callable[[Instant[Jet]], Jet]
     limit: float
     case: LoadCase  # at 1 rad/s
 
     def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
         """The quantity, which is unbounded where the place allows no speed."""
         unit = self.case.at_speed(0.0)._replace(resists_Nm=1.0)
-        factor = self.of(Forces(unit, i.at, i.drives, i.slides))
-        load = self.of(Forces(self.case._replace(resists_Nm=0.0), i.at, i.drives, i.slides))
+        factor = self.of(Instant(unit, i.at, i.drives, i.slides, i.feeds))
+        free = self.case._replace(resists_Nm=0.0)
+        load = self.of(Instant(free, i.at, i.drives, i.slides, i.feeds))
         left = self.limit - factor * self.case.resists_Nm
         # Where the wheel is not driven, any speed keeps the limit. The margin is then that next to
         # it, as at rest the load's sign is rounding.
@@ -160,14 +123,14 @@ class Slowness(NamedTuple):
 def _slowness(engagement: Engagement, case: LoadCase, limits: Mapping[str, float]) -> float:
     """The greatest of 1 / (highest speed that a place allows)²; infinite if one allows no speed."""
 
-    def square(result: Forces[Jet]) -> Jet:
-        assert result.square is not None  # there is a face width
-        return result.square
+    def square(i: Instant[Jet]) -> Jet:
+        assert i.stress_squared is not None  # there is a face width
+        return i.stress_squared
 
     eta = case.efficiency
-    factors: dict[str, list[Callable[[Forces[Jet]], Jet]]] = {
-        FORCE: [lambda result: result.force],
-        TORQUE: [lambda result: result.shaft * (1.0 / eta), lambda result: -result.shaft],
+    factors: dict[str, list[Callable[[Instant[Jet]], Jet]]] = {
+        FORCE: [lambda i: i.force_N],
+        TORQUE: [lambda i: i.lossless_torque_Nm * (1.0 / eta), lambda i: -i.lossless_torque_Nm],
         STRESS: [square],
     }
     own: dict[str, LoadQuantity] = {}

@@ -2,69 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
-from typing import NamedTuple
+from collections.abc import Sequence
 
 import numpy as np
 
 from geneva_cli.analysis.contact import NEAR_CUSP
-from geneva_cli.analysis.forces import load_case
-from geneva_cli.analysis.load_functions import (
-    ContactState,
-    LoadBatch,
-    LoadFunctions,
-    SignFunctions,
-    load_batch,
-    signed_instant,
-)
+from geneva_cli.analysis.load_functions import ContactState, LoadFunctions, signed_instant
 from geneva_cli.analysis.quantities import SQUARED, multiples, plain_values
-from geneva_cli.analysis.stretches import spans_of
-from geneva_cli.loads.groups import of_groups
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Whole, array, matrix_product
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.pieces import gathered, spread
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
-from geneva_cli.numerics.search import Stretches, search
-
-
-class LoadMeans(NamedTuple):
-    """Means over a period of m designs, dwells included: (m,) each; infinite if unbounded."""
-
-    mean: Array | None  # None if not requested
-    rms: Array
-
-    def times(self, factor: Array) -> LoadMeans:
-        """The means of a multiple of the quantity."""
-        return LoadMeans(None if self.mean is None else self.mean * factor, self.rms * factor)
-
-
-def load_means(
-    mechanism: Mechanism, names: Sequence[str], requested: Collection[str] = ("mean", "rms")
-) -> dict[str, LoadMeans]:
-    """The means of quantities over a period, without a search for extremes.
-
-    >>> import numpy as np
-    >>> from geneva_cli import External, Load
-    >>> from geneva_cli.machine.many import many
-    >>> from geneva_cli.machine.spec import Spec
-    >>> spec = Spec(External(6), load=Load(inertia_kgm2=2.0, friction=0.1))
-    >>> batch = many(spec, {"drive.n_rpm": np.array([60.0, 120.0])})
-    >>> load_means(batch.machine, ["input_torque_Nm"])["input_torque_Nm"].rms.round(4)
-    array([ 26.8019, 107.2078])
-    """
-    mechanism = mechanism.under_load
-    case = load_case(mechanism)
-    multiple_of, sources = sources_of(mechanism, names)
-    every = [load_batch(engagement, case, sources) for engagement in mechanism.engagements]
-
-    def summed(some: LoadBatch, n: int) -> tuple[Array]:
-        return (_sums_of(LoadFunctions(some), n, "mean" in requested),)
-
-    sums = sum(of_groups(one, summed)[0] for one in every)
-    means = means_from(mechanism, sources, np.asarray(sums), "mean" in requested)
-    return {name: means[source].times(factor) for name, (source, factor) in multiple_of.items()}
+from geneva_cli.numerics.search import Stretches
 
 
 def sources_of(
@@ -80,10 +31,15 @@ def sources_of(
 
 
 def means_from(
-    mechanism: Mechanism, names: Sequence[str], sums: Array, plain: bool
-) -> dict[str, LoadMeans]:
-    """The means of quantities over a period, from their integrals ``sums``: (m,) each."""
-    every, out = sums / (np.ravel(mechanism.under_load.period_deg) * DEGREE), {}
+    mechanism: Mechanism, names: Sequence[str], each: Sequence[Array], plain: bool
+) -> dict[str, tuple[Array | None, Array]]:
+    """Mean and root mean square of quantities over a period.
+
+    ``each`` are the integrals over each engagement, as ``sums`` returns them. The results are (m,)
+    each, dwells included, and infinite if unbounded. Without ``plain`` the mean is None.
+    """
+    every, out = _in_period(mechanism, names, each), {}
+    every /= np.ravel(mechanism.under_load.period_deg) * DEGREE
     for i, name in enumerate(names):
         square, mean = every[i], None
         if plain:
@@ -91,17 +47,26 @@ def means_from(
             # a mean whose square is so small a fraction of the mean square is rounding
             nought = np.isfinite(square) & (mean * mean <= 1e-30 * square)
             mean = np.where(nought, 0.0, mean)
-        out[name] = LoadMeans(mean, np.sqrt(square))
+        out[name] = mean, np.sqrt(square)
     return out
 
 
-def _sums_of(load: LoadFunctions, n: int, plain: bool) -> Array:
-    """The integrals without a search for extremes: designs are only divided where signs change."""
-    spans, only = spans_of(load.engagement, n), SignFunctions(load)
-    pieces = search(only, spans, n, False, w=load.spread).stretches
-    with np.errstate(all="ignore"):
-        bounded = load.bounded(pieces, n)
-    return sums(load, pieces, bounded, n, plain)
+def _in_period(mechanism: Mechanism, names: Sequence[str], each: Sequence[Array]) -> Array:
+    """The integrals over a period; of bearings the greatest crank's, of wheels one wheel's.
+
+    The cranks work in turn. So do the wheels on a carrier, which are all alike.
+    """
+    drive = mechanism.spec.drive
+    of_wheel = ("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "wheel_bearing_N")
+    cranks, wheels = len(drive.cranks), max(1, drive.wheels_on_carrier)
+    total: Array = np.sum(each, axis=0)
+    for i in range(len(total)):
+        if names[i % len(names)] in of_wheel:
+            total[i] /= wheels
+        if names[i % len(names)] == "crank_bearing_N" and cranks > 1:
+            own = [sum(one[i] for one in each[k::cranks]) for k in range(min(cranks, len(each)))]
+            total[i] = np.max(own, axis=0) * min(1.0, len(each) / cranks)
+    return total
 
 
 def sums(load: LoadFunctions, pieces: Stretches, bounded: Mask, n: int, plain: bool) -> Array:
@@ -124,8 +89,8 @@ def sums(load: LoadFunctions, pieces: Stretches, bounded: Mask, n: int, plain: b
     rooted = plain and any(name in SQUARED for name in load.names)
     needed = np.tile(bounded, (2 if plain else 1, 1))
     with np.errstate(all="ignore"):
-        ends, poles = (spread(a, w), spread(b, w)), 0.5 * np.pi * w
-        total = span_integrals(Integrands(rows, *ends, rooted), design, needed, poles=poles)
+        spans = Integrands(rows, spread(a, w), spread(b, w), rooted)
+        total = span_integrals(spans, design, needed)
         if load.engagement.slot.curved:
             total += _to_mid_motion(load, n, plain)
     total[~needed] = np.inf

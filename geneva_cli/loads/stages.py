@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.contact import NEAR_CUSP, is_straight
-from geneva_cli.analysis.stretches import Stretch
+from geneva_cli.analysis.stretches import Stretch, smooth_ranges
 from geneva_cli.figure import Piece
 from geneva_cli.kinematics.engagement import Engagement, WheelMotion
 from geneva_cli.loads import summary
@@ -51,8 +51,9 @@ def motion_stages(mechanism: Mechanism, names: Sequence[str]) -> Iterator[Stage]
     for i, engagement in enumerate(mechanism.engagements):
         mid, motion = engagement.mid_deg, engagement.motion
         up = base + engagement.half_step
-        for a, b in pairwise(motion.breaks_deg):
-            inside = _inside(engagement, a), b
+        for (a, b), inside in zip(
+            pairwise(motion.breaks_deg), smooth_ranges(engagement), strict=True
+        ):
             yield Stage(mid + a, mid + b, partial(_moved, motion, quantities, mid, inside, up))
         base += 2.0 * engagement.half_step
         rest = [base * output.per_radian if n == output.column else 0.0 for n in names]
@@ -73,14 +74,12 @@ def load_stages(
         yield from _dwell(cycle.mechanism, i, [0.0] * len(names))
 
 
-def _inside(engagement: Engagement, start: float) -> float:
-    """The first angle in a piece: a break belongs to the piece before it, entry to the motion."""
-    return start if start == engagement.entry_deg else math.nextafter(start, math.inf)
-
-
 def _clear_of_cusp(engagement: Engagement, stretch: Stretch) -> Stretch:
-    """The stretch without its first angle; next to a cusp it ends before values are rounding."""
-    start, end = _inside(engagement, stretch.start), stretch.end
+    """The stretch clear of breaks; next to a cusp it ends before values are rounding."""
+    starts, ends = zip(*smooth_ranges(engagement), strict=True)
+    first, *others = engagement.motion.breaks_deg
+    start = dict(zip((first, *others), starts, strict=False)).get(stretch.start, stretch.start)
+    end = dict(zip(others, ends, strict=True)).get(stretch.end, stretch.end)
     if not is_straight(engagement):
         before, after = NEAR_CUSP * engagement.entry_deg, NEAR_CUSP * engagement.exit_deg
         start = after if abs(start) < after else start

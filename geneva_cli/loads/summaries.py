@@ -16,7 +16,7 @@ designs are searched together, one block of designs after the other.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import Generic, NamedTuple, cast
+from typing import Generic, NamedTuple, TypeVar, cast
 
 import numpy as np
 
@@ -32,12 +32,13 @@ from geneva_cli.analysis.peak_search import PeakArray, greater
 from geneva_cli.analysis.quantities import (
     FORCE,
     NEVER_NEGATIVE,
+    PRESSED,
     SQUARED,
     STRESS,
     outermost,
 )
 from geneva_cli.analysis.stretches import on_breaks, spans_of
-from geneva_cli.kinematics.engagement import Engagement, K
+from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.loads.groups import of_groups
 from geneva_cli.loads.means import means_from, sources_of, sums
 from geneva_cli.machine.mechanism import Mechanism
@@ -45,20 +46,22 @@ from geneva_cli.numerics.arrays import Number
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.search import SearchResult, search
 
+S = TypeVar("S", float, "float | None", Array)  # of one design, as printed, of a batch
 
-class LoadSummary(NamedTuple, Generic[K]):
+
+class LoadSummary(NamedTuple, Generic[S]):
     """Greatest and least over the motions, mean and root mean square over a period.
 
     Input angles are as shown; values are infinite if unbounded. Each is (m,) for m designs, or a
-    number of one.
+    number of one; as it is printed, None for a value that is not known.
     """
 
-    max: K
-    max_at_deg: K
-    min: K
-    min_at_deg: K
-    mean: K | None = None  # None if not requested
-    rms: K | None = None
+    max: S
+    max_at_deg: S
+    min: S
+    min_at_deg: S
+    mean: S | None = None  # None if not requested
+    rms: S | None = None
 
 
 class EngagementExtremes(NamedTuple):
@@ -129,7 +132,7 @@ def summaries_from(
     """
     multiple_of, sources = sources_of(mechanism, names)
     totals = [one.total for one in each if one.total is not None]
-    means = means_from(mechanism, sources, np.sum(totals, axis=0), plain) if totals else {}
+    means = means_from(mechanism, sources, totals, plain) if totals else {}
     best: dict[str, LoadSummary[Array]] = {}
     for i, name in enumerate(sources):
         k = i + len(sources)
@@ -156,8 +159,13 @@ def _ends_of(name: str, most: Array, least: Array) -> list[Array]:
     if it is rounding compared with the other.
     """
     ends = [np.maximum(x, 0.0) if name in NEVER_NEGATIVE else np.asarray(x) for x in (most, least)]
-    ends = [np.sqrt(x) if name in SQUARED else x for x in ends]
-    # below 1e-14 of the peak, a value is rounding
+    if name in PRESSED:  # the square goes with the force, and has its rounding
+        return [np.sqrt(x) for x in _without_rounding(ends)]
+    return _without_rounding([np.sqrt(x) if name in SQUARED else x for x in ends])
+
+
+def _without_rounding(ends: Sequence[Array]) -> list[Array]:
+    """Greatest and least, 0 for one that is below 1e-14 of the other: that is rounding."""
     level = 1e-14 * np.maximum(*[np.where(np.isfinite(x), np.abs(x), 0.0) for x in ends])
     return [np.where(np.abs(x) > level, x, 0.0) for x in ends]
 

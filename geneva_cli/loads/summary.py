@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from geneva_cli.analysis.quantities import (
 )
 from geneva_cli.errors import Notice
 from geneva_cli.loads.cycle import Cycle
+from geneva_cli.loads.summaries import LoadSummary
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.jet import Array
 from geneva_cli.table import Reading, Table, computed_table, record_table, rows_table
@@ -49,25 +50,14 @@ SHOWN_QUANTITIES = (
 )
 
 
-class QuantitySummary(NamedTuple):
-    """Greatest and least over the motions, mean and root mean square over a period.
+@lru_cache(maxsize=16)
+def summaries(cycle: Cycle) -> Mapping[str, LoadSummary[float | None]]:
+    """The summary of each quantity, by its name.
 
     None for an unbounded value, or if its inputs are not known.
     """
-
-    max: float | None = None
-    max_at_deg: float | None = None
-    min: float | None = None
-    min_at_deg: float | None = None
-    mean: float | None = None
-    rms: float | None = None
-
-
-@lru_cache(maxsize=16)
-def summaries(cycle: Cycle) -> Mapping[str, QuantitySummary]:
-    """The summary of each quantity, by its name; None for each value that is not known."""
-    known = cycle.extremes
-    return {name: QuantitySummary(*map(_finite, known.get(name, ()))) for name in SHOWN_QUANTITIES}
+    known, none = cycle.extremes, [None] * len(LoadSummary._fields)
+    return {name: LoadSummary(*map(_finite, known.get(name, none))) for name in SHOWN_QUANTITIES}
 
 
 def _finite(x: float | None) -> float | None:
@@ -108,8 +98,8 @@ def loads_table(
     values: dict[str, object] = {"spec": spec.path, "title": spec.title}
     loads = summaries(cycle)
     if for_people:
-        rows = [(name, *one) for name, one in loads.items() if one != QuantitySummary()]
-        table = rows_table(("quantity", *QuantitySummary._fields), rows, mixed=True)
+        rows = [(name, *one) for name, one in loads.items() if any(v is not None for v in one)]
+        table = rows_table(("quantity", *LoadSummary._fields), rows, mixed=True)
         # in order of importance, for a narrow window
         first = ("quantity", "max", "rms", "max_at_deg", "min", "mean")
         values["loads"] = table.replaced(reading=Reading(first))

@@ -15,7 +15,6 @@ from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING, ClassVar, NamedTuple, cast
 
-from geneva_cli.kinematics.anchors import cuts
 from geneva_cli.kinematics.drive import Drive, Plan
 from geneva_cli.kinematics.engagement import (
     Anchor,
@@ -30,6 +29,7 @@ from geneva_cli.kinematics.engagement import (
     SlotAxis,
     WheelMotion,
 )
+from geneva_cli.kinematics.path_and_slot import cuts
 from geneva_cli.machine.driven_shaft import DrivenShaft, ShaftPath
 from geneva_cli.numerics.angles import DEGREE, radians
 from geneva_cli.numerics.arrays import Array, Batchable, array, library, narrowed

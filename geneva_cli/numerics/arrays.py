@@ -1,4 +1,4 @@
-"""Numbers that are floats or arrays, helpers for formulas that serve both, and arrays' memory.
+"""Numbers that are floats or arrays, and helpers for formulas that serve both.
 
 One convention for arrays holds in the whole program. The numbers of a machine (its ratio, its
 offset) are floats, or arrays (n, 1) along a design axis. Input angles are floats, or arrays (k,) or
@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Callable, Iterable, Sequence
-from functools import cache
 from typing import TYPE_CHECKING, ClassVar, Protocol, TypeAlias, TypeVar, cast
 
 if TYPE_CHECKING:
@@ -198,17 +197,23 @@ def record_of(like: Record, parts: Sequence[object]) -> Record:
     return cast("Record", tuple(parts) if make is tuple else make(*parts))
 
 
-def joined(records: Sequence[Record]) -> Record:
-    """Several records of arrays as one, each array joined along its last axis.
+def joined(records: Sequence[Record], axis: int = -1) -> Record:
+    """Several records of arrays, or of such records, as one: each array joined along an axis.
 
     >>> import numpy as np
     >>> joined([(np.zeros(1), np.ones((2, 1))), (np.zeros(2), np.ones((2, 2)))])[1].shape
     (2, 3)
     """
+    return record_of(records[0], [_joined(row, axis) for row in zip(*records, strict=True)])
+
+
+def _joined(parts: Sequence[object], axis: int) -> object:
+    """Members of records as one: arrays, or nested records."""
+    if isinstance(parts[0], tuple):
+        return joined(cast("Sequence[tuple[object, ...]]", parts), axis)
     import numpy
 
-    columns = cast("Iterable[tuple[Array, ...]]", zip(*records, strict=True))
-    return record_of(records[0], [numpy.concatenate(arrays, axis=-1) for arrays in columns])
+    return numpy.concatenate(cast("Sequence[Array]", parts), axis)
 
 
 def numbers_of(which: Mask | Whole) -> Whole:
@@ -251,26 +256,6 @@ def blocks(count: int, size: int) -> list[slice]:
     [slice(0, 0, None)]
     """
     return [slice(i, min(i + size, count)) for i in range(0, count, size)] or [slice(0, 0)]
-
-
-def are_alike(records: Sequence[object]) -> bool:
-    """Return True if records differ in Python numbers only, as ``picked`` requires.
-
-    >>> are_alike(((1.0, len), (2.0, len))), are_alike(((1.0, len), (2.0, max)))
-    (True, False)
-    """
-    first = records[0]
-    if all(one is first for one in records):
-        return True
-    if isinstance(first, tuple):
-        return all(are_alike(each) for each in zip(*records, strict=True))
-    return all(isinstance(one, _PLAIN) for one in records)
-
-
-def are_designs(x: Number, *numbers: Number) -> bool:
-    """Return True if angles are (n, k), or if one of the numbers is an array."""
-    plain = isinstance(x, SINGLE) or x.ndim < 2
-    return not (plain and all(isinstance(one, float) for one in numbers))
 
 
 def all_true(condition: Truth) -> bool:
@@ -402,17 +387,3 @@ class Batchable:
     """
 
     __slots__ = ()
-
-
-@cache
-def keep_freed_memory() -> None:
-    """Let the allocator keep up to 32 MB of freed memory for the next arrays.
-
-    The allocator of Linux returns freed memory at the heap's end to the system, and gets it back
-    page by page: a jet then takes up to twice as long. Once a large block was freed, the allocator
-    keeps twice its size. The block is never written, so it takes no memory. Other allocators do not
-    change.
-    """
-    import numpy
-
-    numpy.empty(1 << 21)  # 16 MB

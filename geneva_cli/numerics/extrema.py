@@ -146,7 +146,9 @@ def smooth_pieces(places: Sequence[Array], unsure: float = 0.0) -> list[tuple[Ar
     """
     blur = unsure * (places[-1] - places[0])
     inner = [(x, np.where(x == 0.0, 0.0, blur)) for x in places[1:-1]]
-    begins = [np.maximum(np.nextafter(x, np.inf), x + clear) for x, clear in inner]
+    # beyond 0 the next double would become 0 again where it is scaled
+    beyond = [np.where(x == 0.0, 1e-300, np.nextafter(x, np.inf)) for x, _ in inner]
+    begins = [np.maximum(after, x + clear) for after, (x, clear) in zip(beyond, inner, strict=True)]
     ends = [x - clear for x, clear in inner]
     pairs = zip([places[0], *begins], [*ends, places[-1]], strict=True)
     return [(np.minimum(a, places[-1]), np.maximum(a, b)) for a, b in pairs]

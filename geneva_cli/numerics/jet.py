@@ -182,6 +182,11 @@ def sin_cos(x: Jet) -> tuple[Jet, Jet]:
     return _circle([k * a for k, a in enumerate(x.c)], m.sin(x.c[0]), m.cos(x.c[0]))
 
 
+def sin(x: Jet) -> Jet:
+    """Sine of a jet; a value alone needs no cosine."""
+    return sin_cos(x)[0] if x.order else Jet((library(x.c[0]).sin(x.c[0]),))
+
+
 def _circle(slope: Sequence[Number], sine: Number, cosine: Number) -> tuple[Jet, Jet]:
     """Sine and cosine of an angle with derivative series ``slope[1:]``, from their values."""
     s, c = [sine], [cosine]
@@ -206,9 +211,12 @@ def cosines_after(sine: Number, cosine: Number, order: int) -> list[Number]:
 
 def sine_versine(x: Jet) -> tuple[Jet, Jet]:
     """sin x and 1 - cos x, the latter without cancellation."""
-    s, c = sin_cos(x)
     half = library(x.c[0]).sin(0.5 * x.c[0])
-    return s, Jet((2.0 * half * half, *[-a for a in c.c[1:]]))
+    versine = 2.0 * half * half
+    if not x.order:
+        return sin(x), Jet((versine,))
+    s, c = sin_cos(x)
+    return s, Jet((versine, *[-a for a in c.c[1:]]))
 
 
 def sine_versine_of(rate: Jet, y: Number, x: Number, order: int) -> tuple[Jet, Jet]:

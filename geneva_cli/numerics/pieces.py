@@ -44,7 +44,7 @@ class Functions(Protocol):
     margins: Sequence[int]  # of the first: above 0, and 0 where wanted functions have a pole
     poled: Sequence[int]  # of the first: they behave as 1/x at the place 0
 
-    def at(self, x: Array, which: Which, order: int) -> Any:
+    def at(self, x: Array, which: Whole, order: int) -> Any:
         """All that the functions of some designs are computed from, at places (m, k) in degrees."""
 
     def column(self, at: Any, number: int) -> Any:
@@ -161,15 +161,15 @@ class Cutter:
         # no row is narrower than 1e-11 of its design's spans
         return np.asarray(rows.u[1] - rows.u[0] <= 1e-11 * self.width[rows.design])
 
-    def sampled(self, rows: Rows, which: Which) -> SampledRows:
-        """Pieces of rows of the designs ``which``, cut where a sign changes."""
+    def sampled(self, rows: Rows) -> SampledRows:
+        """Pieces of rows, cut where a sign changes."""
         f = self.f
         # designs lie side by side in memory: each operation runs along all of them
         u = np.asfortranarray(rows.at(POINTS[:, None]).T)
         x = self.places.gathered(u, rows.design)
         x = np.clip(x, rows.x[0][:, None], rows.x[1][:, None])
         x[:, 0], x[:, -1] = rows.x
-        at = f.at(x, which, 0)
+        at = f.at(x, rows.design, 0)
         sign = np.ones((f.signs, len(u)))
         if f.signs:
             middle = f.evaluate(f.column(at, MIDDLE), None, ())[0][..., 0]

@@ -12,7 +12,7 @@ hidden below larger ones, which decay sooner.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import cache
 from typing import NamedTuple
 
@@ -21,8 +21,6 @@ import numpy as np
 from geneva_cli.numerics.arrays import Array, Mask, Whole, blocks, joined, matrix_product, read_only
 
 NODES = 20  # nodes of a rule that suffice for most loads between two cuts
-NARROW_NODES = 12  # nodes for a span that is narrow compared with its design's widest
-WIDE_NODES = 28  # nodes for a span that is wider than the distance of its poles
 # Fraction of a design's integral that the last terms may have; the error is a tenth at most.
 LAST_TERMS = 2e-12
 
@@ -73,9 +71,14 @@ class Integrands(NamedTuple):
     b: Array
     ends: bool = False
 
-    def parts(self, of: Whole, low: Array, high: Array, nodes: int) -> tuple[Array, Array, Array]:
+    def parts(self, of: Whole, low: Array, high: Array) -> tuple[Array, Array, Array]:
         """Integrals over fractions of spans, their last terms, and integrals of the sizes."""
-        node, terms = _rule(nodes, self.ends)
+        # 1024 spans at a time: their nodes fit in the processor's cache
+        rows = [self._block(of[i], low[i], high[i]) for i in blocks(len(of), 1024)]
+        return joined(rows)
+
+    def _block(self, of: Whole, low: Array, high: Array) -> tuple[Array, Array, Array]:
+        node, terms = _rule(self.ends)
         half = 0.5 * (high - low)
         # designs lie side by side in memory
         t = np.asfortranarray((0.5 * (low + high))[:, None] + half[:, None] * node)
@@ -89,26 +92,9 @@ class Integrands(NamedTuple):
         last = np.abs(sums[..., 1:]).max(axis=-1)
         return sums[..., 0], last, matrix_product(np.abs(value), terms[:, 0])
 
-    def in_blocks(
-        self, of: Whole, low: Array, high: Array, counts: Sequence[tuple[int, int]]
-    ) -> tuple[Array, Array, Array]:
-        """All ``parts``; ``counts`` are numbers of nodes, each with the number of its spans."""
-        rows, start = [], 0
-        for nodes, count in counts:
-            # 1024 spans at a time: their nodes fit in the processor's cache
-            for block in blocks(count, 1024) if count else []:
-                part = slice(start + block.start, start + block.stop)
-                rows.append(self.parts(of[part], low[part], high[part], nodes))
-            start += count
-        return joined(rows)
-
 
 def span_integrals(
-    integrands: Integrands,
-    design: Whole,
-    needed: Mask,
-    apart: bool = False,
-    poles: Array | None = None,
+    integrands: Integrands, design: Whole, needed: Mask, apart: bool = False
 ) -> Array:
     """The integral of each function over all spans of each design: (functions, n).
 
@@ -118,22 +104,15 @@ def span_integrals(
     NaN, since halving their spans does not help.
 
     With ``apart`` the result is the integral of each span, (functions, spans), to the same
-    fraction of its design's. ``poles`` (spans,) is the distance of the nearest poles from the real
-    axis, if known.
+    fraction of its design's.
     """
-    n, width = needed.shape[1], integrands.b - integrands.a
-    into = np.arange(len(width)) if apart else design
-    total, size = np.zeros((len(needed), len(width) if apart else n)), np.zeros(needed.shape)
-    unbounded, widest = total != 0.0, np.zeros(n)
-    np.maximum.at(widest, design, width)
-    narrow = width <= 0.25 * widest[design]
-    wide = ~narrow & (width > (np.inf if poles is None else poles))
-    groups = [(NARROW_NODES, narrow), (NODES, ~(narrow | wide)), (WIDE_NODES, wide)]
-    of = np.concatenate([np.flatnonzero(which) for _, which in groups])
-    low, high = np.zeros(len(width)), np.ones(len(width))
-    counts = [(nodes, int(which.sum())) for nodes, which in groups]
+    n, spans = needed.shape[1], len(design)
+    into = np.arange(spans) if apart else design
+    total, size = np.zeros((len(needed), spans if apart else n)), np.zeros(needed.shape)
+    unbounded, of = total != 0.0, np.arange(spans)
+    low, high = np.zeros(spans), np.ones(spans)
     for halved in range(40):  # the narrowest spans are 1e-12 of their design's
-        whole, last, sizes = integrands.in_blocks(of, low, high, counts)
+        whole, last, sizes = integrands.parts(of, low, high)
         if not halved:
             _add(size, design[of], sizes)
         lost = ~np.isfinite(sizes)  # spans of an unbounded function are not halved further
@@ -152,7 +131,6 @@ def span_integrals(
         middle = 0.5 * (low + high)[open_]
         low, high = np.concatenate((low[open_], middle)), np.concatenate((middle, high[open_]))
         of = np.concatenate((of[open_], of[open_]))
-        counts = [(NODES, len(of))]
     total[:, into[of]] = np.inf
     return np.where(unbounded, np.inf, total)
 
@@ -163,14 +141,14 @@ def _add(total: Array, design: Whole, rows: Array) -> None:
 
 
 @cache
-def _rule(nodes: int, ends: bool) -> tuple[Array, Array]:
+def _rule(ends: bool) -> tuple[Array, Array]:
     """Nodes in [-1, 1], with both ends or without; the weights, and the weights of the last terms.
 
     A kink near an end affects no node of a Gauss rule; a Lobatto rule has a node at the end.
     """
-    node, weight = lobatto(nodes) if ends else rule(nodes)
-    before, last = legendre(node, nodes - 1)
+    node, weight = lobatto(NODES) if ends else rule(NODES)
+    before, last = legendre(node, NODES - 1)
     # The last two terms together: every other term of an even or odd function is 0.
-    terms = np.ones(nodes), (nodes - 1.5) * before, (nodes - 0.5) * last
+    terms = np.ones(NODES), (NODES - 1.5) * before, (NODES - 0.5) * last
     sums = weight[:, None] * np.column_stack(terms)
     return read_only((node, sums))

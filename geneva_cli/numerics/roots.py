@@ -130,25 +130,3 @@ def greatest_at(candidates: Sequence[tuple[float, float]]) -> tuple[float, float
     most = max(value for value, _ in candidates)
     bar = most - TIE * abs(most) if math.isfinite(most) else most
     return most, next(place for value, place in candidates if value >= bar)
-
-
-def least(f: Callable[[float], float], a: float, b: float) -> tuple[float, float]:
-    """Place and value of the one minimum of a function without slopes in [a, b]: golden section.
-
-    The place is accurate to 1e-8 of the interval; as a minimum is flat, the value is then exact to
-    the last digits.
-    """
-    width = b - a
-    golden = (math.sqrt(5.0) - 1.0) / 2.0
-    left, right = b - golden * (b - a), a + golden * (b - a)
-    at_left, at_right = f(left), f(right)
-    while b - a > 1e-8 * width:  # nearer to its minimum a function is flat to the last digits
-        if at_left < at_right:
-            b, right, at_right = right, left, at_left
-            left = b - golden * (b - a)
-            at_left = f(left)
-        else:
-            a, left, at_left = left, right, at_right
-            right = a + golden * (b - a)
-            at_right = f(right)
-    return (left, at_left) if at_left < at_right else (right, at_right)

@@ -127,9 +127,9 @@ class _ExtremeSearch:
         first = [self._rows(number, *ends) for number, ends in enumerate(spans)]
         for rows in first:
             np.add.at(self.cutter.width, rows.design, rows.u[1] - rows.u[0])
-        parts = self._first_blocks(first)
+        parts = _blocks(joined(first))
         for depth in range(60):  # halvings: all rows are too narrow for more by then
-            every = [self.cutter.sampled(*block) for block in parts]
+            every = [self.cutter.sampled(part) for part in parts]
             for sampled in every:
                 self.greatest.add_samples(sampled.pieces, sampled.x)
             # Rows that were halved four times lie near a pole: their sizes are not typical.
@@ -146,20 +146,6 @@ class _ExtremeSearch:
         x = np.stack((a[design, 0], b[design, 0]))
         u = np.stack([self.places.spread(end, design) for end in x])
         return Rows(design, np.full(len(design), number), u, x, np.full(x.shape, True))
-
-    def _first_blocks(self, every: Sequence[Rows]) -> list[tuple[Rows, Which]]:
-        """The spans in blocks of designs, so that mirrored spans can share results."""
-        if self.n * len(every) <= BLOCK:
-            return _blocks(joined(every))
-        out: list[tuple[Rows, Which]] = []
-        for i in range(0, self.n, BLOCK):
-            part = slice(i, min(i + BLOCK, self.n))
-            for rows in every:
-                some = rows.take((rows.design >= part.start) & (rows.design < part.stop))
-                if len(some.design):
-                    full = len(some.design) == part.stop - part.start
-                    out.append((some, part if full else some.design))
-        return out
 
     def _judged(self, sampled: SampledRows) -> list[Rows]:
         """Keep pieces with precise series, and return the rows to sample for the others."""
@@ -352,10 +338,8 @@ def _least_size(value: Array, weight: Array) -> Array:
     return np.where(tame, 0.5 * least / weight.max(axis=1), 0.0)
 
 
-def _blocks(rows: Rows) -> list[tuple[Rows, Which]]:
-    starts = range(0, len(rows.design), BLOCK)
-    parts = [rows.take(slice(i, i + BLOCK)) for i in starts]
-    return [(part, part.design) for part in parts]
+def _blocks(rows: Rows) -> list[Rows]:
+    return [rows.take(slice(i, i + BLOCK)) for i in range(0, len(rows.design), BLOCK)]
 
 
 def _curves_joined(parts: Sequence[CandidateCurves]) -> CandidateCurves:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from functools import partial
+from functools import lru_cache, partial
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -17,7 +17,6 @@ import numpy as np
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.numerics.latest import Known
 from geneva_cli.outlines.counter import CounterSizes, counter_sizes, half_angles
 
 # radii and directions about the driver's axis, for inputs, of points at fractions of a line
@@ -40,7 +39,7 @@ class CounterPlay(NamedTuple):
         return self.ahead_deg + self.behind_deg
 
 
-@Known
+@lru_cache(maxsize=16)
 def counter_play(mechanism: Mechanism) -> CounterPlay:
     """Return the free angles up to mid-motion, after which they are mirrored.
 

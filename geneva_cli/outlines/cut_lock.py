@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 
-from geneva_cli.analysis.locking import Lock
+from geneva_cli.analysis.locking import Lock, loosest
 from geneva_cli.curves.shapes import Arc, Contour
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly
@@ -39,7 +39,7 @@ def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
     corners = {math.hypot(*end) for one in recesses for end in (one.start, one.end)}
     others = sorted(r for r in corners if abs(r - lock.corner) > near)  # than the widest mouth's
     tried = [lock._replace(half=half, corner=r) for r in (lock.corner, *others)]
-    return max(tried, key=lambda one: float(one.contact().play))
+    return loosest(tried)
 
 
 def cut_arcs(contours: Iterable[Contour], radius: float, away: float, near: float) -> Iterator[Arc]:

@@ -19,6 +19,7 @@ from geneva_cli.layout.reliefs import has_arcs, without_lock
 from geneva_cli.layout.sizes import machine_sizes
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.latest import KEPT
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.crank import crank_contours, is_whole
 from geneva_cli.outlines.wheel import slot_walls, wheel_contour
@@ -96,7 +97,7 @@ def outlines(mechanism: Mechanism) -> Outlines:
     return drawn(*machine_sizes(mechanism))
 
 
-@lru_cache(maxsize=2)  # the lock's dimensions and the parts are of one machine
+@lru_cache(maxsize=KEPT)  # a sweep cuts the locks of its designs first, and then turns the parts
 def drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
     """Return the cached outlines of an assembly with known sizes."""
     kinds, L = assembly.kinds, assembly.L

@@ -13,13 +13,11 @@ from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.bores import bore_of, has_shape
 from geneva_cli.layout.plain_sizes import Sizes
+from geneva_cli.layout.roller_paths import least_mouth
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.walls.straight import straight_walls
 
 LAYER = "WHEEL"
-# A low mouth is extended to this fraction of the distance from the recess to the rim. The disc then
-# has an arc to lock, and the relief needs to clear little more.
-EXTENDED_MOUTH = 0.2
 
 
 @lru_cache(maxsize=16)  # drawings, sheet and solids of one machine have the same walls
@@ -119,8 +117,7 @@ def _rim(assembly: Assembly, sizes: Sizes, start: Point, end: Point, at: float) 
     if sizes.lock and min(distances) <= sizes.recess:
         _refuse(sizes, min(distances))
     own = math.hypot(*start), math.hypot(*end)
-    reach = assembly.L - sizes.recess
-    least = reach + EXTENDED_MOUTH * (sizes.rim - reach) if sizes.lock else max(own)
+    least = least_mouth(assembly.L, sizes.recess, sizes.rim) if sizes.lock else max(own)
     raised = [least > rim + SAME_LENGTH * assembly.L and assembly.sign > 0.0 for rim in own]
     rims = [least if up else rim for up, rim in zip(raised, own, strict=True)]
     before: list[Segment] = []

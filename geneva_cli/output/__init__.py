@@ -31,9 +31,10 @@ from geneva_cli.output.formats import (
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
+    from geneva_cli.answer import Answer
     from geneva_cli.curves.drawing import Drawing
     from geneva_cli.curves.sheet import Sheet
-    from geneva_cli.document import Answer, Document
+    from geneva_cli.document import Document
     from geneva_cli.figure import Figure
     from geneva_cli.scene import Scene
 

@@ -7,7 +7,7 @@ import sys
 import textwrap
 from collections.abc import Iterable, Iterator
 
-from geneva_cli.document import FAILS, PASSES, WARNS, Summary, SummaryLine
+from geneva_cli.answer import FAILS, PASSES, WARNS, Summary, SummaryLine
 from geneva_cli.errors import clean
 from geneva_cli.output.document.values import RAISED, TIMES
 from geneva_cli.output.layout import DIM, styled

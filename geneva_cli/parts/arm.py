@@ -150,9 +150,12 @@ def _widest(parts: Outlines, at: list[float]) -> tuple[float, float]:
 
 
 def walls(arm: CrankArm, parts: Outlines) -> float:
-    """Return the least wall around the arm's holes, and around the disc's bolts and keyway."""
+    """Return the least wall around the arm's holes, and around the disc's bolts and keyway.
+
+    Sectors that do not reach the crank's axis have no wall around its bore.
+    """
     in_disc: list[Shape] = [*arm.bolts]
-    if parts.sizes.crank_bore:
+    if parts.sizes.crank_bore and is_whole(parts.assembly, parts.sizes):
         in_disc += [s for s in crank_circles(parts.assembly, parts.sizes) if s.layer == HOLES]
     return min(
         least_wall([arm.bore, *arm.pins, *arm.bolts], [arm.outline]),

@@ -137,9 +137,14 @@ class CounterParts(EdgedParts):
         """All parts."""
         return (*self.moving, *self.shafts, self.frame)
 
+    @cached_property
+    def coarse(self) -> CounterParts:
+        """These parts with teeth to 1e-5 L, for checks that do not measure teeth."""
+        return self.within(1e-5 * self.sizes.distance, "arcs")
+
     def require(self) -> None:
         """Raise GenevaError for a part that cannot be built, with its teeth to 1e-5 L."""
-        for member in self.within(1e-5 * self.sizes.distance, "arcs").members:
+        for member in self.coarse.members:
             for plate in plates(member.part):
                 require_faces(plate)
 

@@ -16,8 +16,7 @@ from geneva_cli.curves.hole_walls import require_faces
 from geneva_cli.curves.plates import Group, Member, Plate, plates
 from geneva_cli.curves.shapes import Contour, Point
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.kinematics.layout import Dimension, Joint
-from geneva_cli.layout.link_positions import links_at
+from geneva_cli.kinematics.layout import Dimension
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.crank import roller_centres
@@ -26,7 +25,7 @@ from geneva_cli.outlines.wheel import slot_walls, wheel_contour
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
 from geneva_cli.parts.edged_parts import EdgedParts, FrameAndShafts
 from geneva_cli.parts.frame import framed
-from geneva_cli.parts.link_sizes import places, point_at_zero
+from geneva_cli.parts.link_sizes import roller_pins
 from geneva_cli.parts.links import Links, drawn_links
 from geneva_cli.parts.plates import arm_plate, locking_plates, roller_plates
 from geneva_cli.parts.shafts import crank_hub
@@ -142,12 +141,7 @@ class FlatParts(EdgedParts):
 
     def _on_links(self) -> tuple[Point, ...]:
         """Return the centres of rollers on links in the plane below the wheel."""
-        return tuple(
-            point_at_zero(joint)
-            for link in links_at(self.mechanism, np.zeros(1))
-            for joint, kind in zip(places(link), link.kinds, strict=True)
-            if link.plane == 1 and kind in (Joint.ROLLER, Joint.CARRIED)
-        )
+        return tuple(at for link, at in roller_pins(self.mechanism) if link.plane == 1)
 
     @cached_property
     def crank_hub(self) -> Plate | None:

@@ -83,7 +83,7 @@ def framed(
     spacers = [_spacer(hole, part, top) for hole, part in fixed if part.low - top > near]
     eye = corner_radius(size, L)
     if mechanism.frame > 0.0:
-        reach = max(c.radius for c in holes) + eye
+        reach = max((c.radius for c in holes), default=0.0) + eye
         eyes = [Circle(LAYER, at, reach) for at in places]
         plate = Plate("carrier", LAYER, convex_hull(LAYER, eyes), tuple(holes), bottom, top)
     else:

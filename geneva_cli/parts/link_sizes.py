@@ -16,6 +16,7 @@ from geneva_cli.curves.shapes import Point
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.layout.arm_sizes import HUB, pin_hole
+from geneva_cli.layout.link_positions import links_at
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, half_or, pin_radius, plane_span
 from geneva_cli.layout.sizes import sized
 from geneva_cli.machine.least_wall import eye_about, wall_min
@@ -162,6 +163,14 @@ def point_at_zero(path: Array) -> Point:
     """Return the point of a path at input angle 0, in the middle of its angles."""
     z = complex(path[len(path) // 2])
     return z.real, z.imag
+
+
+def roller_pins(mechanism: Mechanism) -> Iterator[tuple[Link, Point]]:
+    """Yield the links that carry rollers, with the centre of each roller at input angle 0."""
+    for link in links_at(mechanism, np.zeros(1)):
+        for joint, kind in zip(places(link), link.kinds, strict=True):
+            if kind in (Joint.ROLLER, Joint.CARRIED):
+                yield link, point_at_zero(joint)
 
 
 def _pin_distances(link: Link) -> Iterator[float]:

@@ -1,22 +1,40 @@
-"""The keys of ``[limits]`` that bound loads. It needs no numbers: commands ask for names alone."""
+"""The quantities that keys of ``[limits]`` bound. Commands ask for names alone, without numbers."""
 
 from __future__ import annotations
 
 from geneva_cli.spec.tables import Limits
 
-QUANTITIES = {
-    "pin_force_max_N": "pin_force_N",
-    "input_torque_max_Nm": "input_torque_Nm",
-    "contact_stress_max_MPa": "contact_stress_MPa",
+# Keys, which name their checks too, and what they bound: from below if the key has _min in it.
+LIMITED = {
+    "velocity_max": "velocity.max",
+    "acceleration_max": "acceleration.max",
+    "acceleration_entry_max": "acceleration.entry",
+    "jerk_max": "jerk.max",
+    "pin_force_max_N": "loads.pin_force_N.max",
+    "input_torque_max_Nm": "loads.input_torque_Nm.max",
+    "contact_stress_max_MPa": "loads.contact_stress_MPa.max",
+    "pv_max_W_m2": "life.pv_max_W_m2",
+    "slot_wear_max_mm_per_million": "life.slot_wear_mm_per_million",
+    "roller_life_min_h": "life.roller_life_h",
 }
 
 
 def limits_by_key(limits: Limits) -> dict[str, float]:
     """The limits that a spec sets on loads, by their keys."""
     values = limits.as_dict()
-    return {key: values[key] for key in QUANTITIES if values[key]}
+    loads = (key for key, name in LIMITED.items() if name.startswith("loads."))
+    return {key: values[key] for key in loads if values[key]}
 
 
 def load_limits(limits: Limits) -> dict[str, float]:
     """The limits that a spec sets on loads, by the quantities that they bound."""
-    return {QUANTITIES[key]: limit for key, limit in limits_by_key(limits).items()}
+    return {limited_load(key): limit for key, limit in limits_by_key(limits).items()}
+
+
+def limited_load(key: str) -> str:
+    """The load that a key bounds.
+
+    >>> limited_load("pin_force_max_N")
+    'pin_force_N'
+    """
+    return LIMITED[key].split(".")[1]

@@ -10,16 +10,14 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Mapping
+from itertools import chain
 from typing import Any
 
-from geneva_cli.kinematics import registry
-from geneva_cli.kinematics.drive import Drive
-from geneva_cli.kinematics.motion import Motion
 from geneva_cli.spec.rules import Csv, OneOf, Range, Words
-from geneva_cli.spec.schema import LIST, LIST_MAX, REQUIRED, Field, SpecTable, fields
+from geneva_cli.spec.schema import LIST, LIST_MAX, REQUIRED, Field, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
 from geneva_cli.spec.units import pattern, unit_key
-from geneva_cli.specfile.writer import BEFORE_KIND, GEARING, KIND, LAW, own_fields
+from geneva_cli.specfile.writer import KindTable, kind_tables
 
 FILE = "geneva.schema.json"  # the file that the first line of a new spec names
 Schema = dict[str, Any]
@@ -32,14 +30,13 @@ def schema() -> Schema:
     >>> schema()["properties"]["load"]["properties"]["efficiency"]["maximum"]
     1.0
     """
-    gearings = {name: registry.gearing(name) for name in registry.GEARINGS}
-    drives = {name: registry.drive(name) for name in registry.DRIVES}
-    properties = {
-        "title": {"type": "string", "description": "free text"},
-        "wheel": _of_kinds(GEARING, gearings),
-        "drive": _drive(drives),
-        "motion": _motion(),
-    }
+    properties: Schema = {"title": {"type": "string", "description": "free text"}}
+    for kinds in kind_tables():
+        whole, _, part = kinds.table.partition(".")
+        if part:
+            properties[whole]["properties"][part] = {**_cases(kinds), "required": [kinds.word.key]}
+        else:
+            properties[whole] = _cases(kinds)
     for name, table in PLAIN.items():
         whole, _, part = name.partition(".")
         one = _table(fields(table))
@@ -66,43 +63,18 @@ def _table(keys: tuple[Field, ...]) -> Schema:
     return {**_closed({key.key: {**_described(key), **_value(key)} for key in keys}), **more}
 
 
-def _of_kinds(word: Field, kinds: Mapping[str, type[SpecTable]]) -> Schema:
-    """A table whose keys depend on a word in it; without the word it has the default kind."""
-    keys = {name: fields(kind) for name, kind in kinds.items()}
-    return _cases(word, keys, (), keys[word.default], has_default=True)
-
-
-def _drive(kinds: Mapping[str, type[Drive]]) -> Schema:
-    """The schema of ``[drive]``, with that of ``[drive.before]`` in it."""
-    drive = _of_kinds(KIND, kinds)
-    keys = {name: tuple(own_fields(kind)) for name, kind in kinds.items() if kind.IN_FRONT}
-    before = _cases(BEFORE_KIND, keys, (), (), has_default=False)
-    drive["properties"]["before"] = {**before, "required": [BEFORE_KIND.key]}
-    return drive
-
-
-def _motion() -> Schema:
-    """Keys of the motion with those of its law; without a law none may be set."""
-    own = fields(Motion)
-    keys = {name: (*fields(registry.law(name)), *own) for name in registry.LAWS}
-    return _cases(LAW, keys, own, (), has_default=False)
-
-
-def _cases(
-    word: Field,
-    keys: Mapping[str, tuple[Field, ...]],
-    shared: tuple[Field, ...],
-    lone: tuple[Field, ...],
-    has_default: bool,
-) -> Schema:
+def _cases(of: KindTable) -> Schema:
     """A table with the keys of each kind under the word that names it.
 
-    ``lone`` are the keys allowed without the word. Other kinds' keys are treated as by the reader.
+    Without the word the table has the keys of the default kind, or none. Other kinds' keys are
+    treated as by the reader.
     """
+    word = of.word
+    keys = {name: (*own, *of.shared) for name, own in of.keys.items()}
+    lone = keys[word.default] if word.default else ()
     every: dict[str, Field] = {}
-    for fields_ in (shared, *keys.values()):
-        for key in fields_:
-            every.setdefault(key.key, key)
+    for key in chain(of.shared, *keys.values()):
+        every.setdefault(key.key, key)
     is_word = {**_described(word), "type": "string", "enum": list(keys)}
     named = {"properties": {word.key: {"const": None}}, "required": [word.key]}
     cases = [{"if": {"not": {"required": [word.key]}}, "then": _case(lone, every)}]
@@ -110,8 +82,6 @@ def _cases(
         condition = {**named, "properties": {word.key: {"const": name}}}
         cases.append({"if": condition, "then": _case(own, every)})
     properties = {word.key: is_word, **{name: _described(key) for name, key in every.items()}}
-    if not has_default:
-        is_word.pop("default", None)
     return {**_closed(properties), "allOf": cases}
 
 

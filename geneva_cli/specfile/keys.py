@@ -1,17 +1,15 @@
 """Every key of a spec: its unit, type, range, default, and the kinds that have it."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
+from itertools import chain
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.kinematics import registry
-from geneva_cli.kinematics.motion import Motion
-from geneva_cli.machine.spec import BEFORE
 from geneva_cli.names import unit_of
 from geneva_cli.spec.rules import Csv
-from geneva_cli.spec.schema import LIST, REQUIRED, Field, SpecTable, fields
+from geneva_cli.spec.schema import LIST, REQUIRED, Field, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
-from geneva_cli.specfile.writer import BEFORE_KIND, GEARING, KIND, LAW, own_fields, quoted
+from geneva_cli.specfile.writer import KindTable, kind_tables, quoted
 
 TYPES = {int: "whole number", float: "number", str: "word", bool: "true or false", LIST: "list"}
 
@@ -43,7 +41,7 @@ class Key(NamedTuple):
 def all_keys() -> list[Key]:
     """All keys, by table, in the order of a file."""
     title = Key("", "title", None, "word", None, None, False, None, "free text")
-    return [title, *_wheel(), *_drive(), *_motion(), *_plain()]
+    return [title, *chain(*map(_of_kinds, kind_tables())), *_plain()]
 
 
 def about(word: str) -> list[Key]:
@@ -88,24 +86,14 @@ def words_of(name: str) -> tuple[str, ...]:
     >>> words_of("load.friction_at")
     ('slot', 'pin')
     """
-    words = {
-        "wheel.gearing": registry.GEARINGS,
-        "drive.kind": registry.DRIVES,
-        f"{BEFORE}.kind": tuple(n for n in registry.DRIVES if registry.drive(n).IN_FRONT),
-        "motion.law": registry.LAWS,
-    }
-    if name in words:
-        return tuple(words[name])
     table, _, key = name.rpartition(".")
-    kinds: list[type[SpecTable]] = [
-        *map(registry.gearing, registry.GEARINGS),
-        *map(registry.drive, registry.DRIVES),
-        *map(registry.law, registry.LAWS),
-        Motion,
-        *PLAIN.values(),
-    ]
-    own = [f for kind in kinds if table == kind.TABLE for f in fields(kind) if f.key == key]
-    return tuple(dict.fromkeys(word for field in own for word in field.words))
+    own = list(fields(PLAIN[table]) if table in PLAIN else ())
+    for one in kind_tables():
+        if name == f"{one.table}.{one.word.key}":
+            return tuple(one.keys)
+        if table == one.table:
+            own += chain(one.shared, *one.keys.values())
+    return tuple(dict.fromkeys(word for field in own if field.key == key for word in field.words))
 
 
 def is_whole(name: str) -> bool:
@@ -118,44 +106,24 @@ def is_whole(name: str) -> bool:
     return types == {TYPES[int]}
 
 
-def _wheel() -> Iterator[Key]:
-    yield _key("wheel", GEARING)
-    own = {name: fields(registry.gearing(name)) for name in registry.GEARINGS}
-    yield from _of_kinds("wheel", "gearing", own)
-
-
-def _drive() -> Iterator[Key]:
-    yield _key("drive", KIND)
-    kinds = {name: registry.drive(name) for name in registry.DRIVES}
-    yield from _of_kinds("drive", "kind", {name: fields(kind) for name, kind in kinds.items()})
-    yield _key(BEFORE, BEFORE_KIND)
-    before = {name: own_fields(kind) for name, kind in kinds.items() if kind.IN_FRONT}
-    yield from _of_kinds(BEFORE, "kind", before)
-
-
-def _motion() -> Iterator[Key]:
-    yield _key("motion", LAW)
-    own = {name: fields(registry.law(name)) for name in registry.LAWS}
-    yield from _of_kinds("motion", "law", own)
-    for field in fields(Motion):
-        yield _key("motion", field, "with a law")
-
-
 def _plain() -> Iterator[Key]:
     for name, table in PLAIN.items():
         for field in fields(table):
             yield _key(name, field)
 
 
-def _of_kinds(table: str, word: str, kinds: Mapping[str, Sequence[Field]]) -> Iterator[Key]:
-    """Keys of several kinds, from the fields of each; a key that not all have names its kinds."""
+def _of_kinds(of: KindTable) -> Iterator[Key]:
+    """The word that names a kind, and the keys of all; one that not all have names its kinds."""
+    yield _key(of.table, of.word)
     having: dict[Field, list[str]] = {}
-    for name, own in kinds.items():
+    for name, own in of.keys.items():
         for field in own:
             having.setdefault(field, []).append(name)
     for field, names in having.items():
-        of = None if len(names) == len(kinds) else f"{word} = {', '.join(names)}"
-        yield _key(table, field, of)
+        some = None if len(names) == len(of.keys) else f"{of.word.key} = {', '.join(names)}"
+        yield _key(of.table, field, some)
+    for field in of.shared:
+        yield _key(of.table, field, f"with a {of.word.key}")
 
 
 def _key(table: str, field: Field, of: str | None = None) -> Key:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import Any
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
 
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.drive import Drive
@@ -21,6 +21,30 @@ GEARING = Field(
 KIND = Field("kind", "", (str,), None, "crank", "kind of drive")
 BEFORE_KIND = KIND._replace(default=None, meaning="drive that turns the input shaft of [drive]")
 LAW = Field("law", "", (str,), None, None, "motion law of curved slots (`geneva laws`)")
+
+
+class KindTable(NamedTuple):
+    """A table whose keys depend on a word in it: the word's key, and the keys of each kind."""
+
+    table: str
+    word: Field
+    keys: Mapping[str, Sequence[Field]]
+    shared: Sequence[Field] = ()  # keys of all kinds, which the word alone allows
+
+
+def kind_tables() -> list[KindTable]:
+    """Every table whose keys depend on a word, in the order of a file; it imports all kinds."""
+    gearings = {name: fields(registry.gearing(name)) for name in registry.GEARINGS}
+    drives = {name: registry.drive(name) for name in registry.DRIVES}
+    every = {name: fields(drive) for name, drive in drives.items()}
+    before = {name: own_fields(drive) for name, drive in drives.items() if drive.IN_FRONT}
+    laws = {name: fields(registry.law(name)) for name in registry.LAWS}
+    return [
+        KindTable("wheel", GEARING, gearings),
+        KindTable("drive", KIND, every),
+        KindTable(BEFORE, BEFORE_KIND, before),
+        KindTable("motion", LAW, laws, fields(Motion)),
+    ]
 
 
 def keys_of(

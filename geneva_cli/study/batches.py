@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -13,8 +14,11 @@ from geneva_cli.machine.spec import BEFORE, Spec
 from geneva_cli.machine.spec import attribute as attribute_of
 from geneva_cli.numerics.arrays import Array, Number
 from geneva_cli.spec.schema import SpecTable, fields
+from geneva_cli.study.fields import Cell
 from geneva_cli.verdict.quantities.designs import Designs
 from geneva_cli.verdict.quantities.names import group_of, in_batch
+
+Batch: TypeAlias = tuple[list[int], Mechanism]  # the numbers of some designs, and their machine
 
 
 def numbers(specs: Sequence[Spec], names: Sequence[str]) -> list[list[float] | None]:
@@ -22,17 +26,28 @@ def numbers(specs: Sequence[Spec], names: Sequence[str]) -> list[list[float] | N
 
     None for a spec that cannot be built, or whose engagements have no common number.
     """
-    out: list[list[float] | None] = [None] * len(specs)
-    for members, machine in batch_machines(specs):
+    rows = number_rows(batch_machines(specs), names)
+    return [rows.get(i) for i in range(len(specs))]
+
+
+def number_rows(batches: Iterable[Batch], names: Sequence[str]) -> dict[int, list[float]]:
+    """The quantities ``names`` of the designs of batches, by the designs' numbers."""
+    out: dict[int, list[float]] = {}
+    for members, machine in batches:
         values = columns(machine, names, len(members))
-        if values is None:
-            continue
-        for i, row in zip(members, np.column_stack(values).tolist(), strict=True):
-            out[i] = row
+        if values is not None:
+            out |= zip(members, np.column_stack(values).tolist(), strict=True)
     return out
 
 
-def batch_machines(specs: Sequence[Spec]) -> Iterator[tuple[list[int], Mechanism]]:
+def cells_of(row: Sequence[float]) -> list[Cell]:
+    """The cells of a row, None for undefined values; no cells if one must be computed alone."""
+    if any(map(math.isnan, row)):
+        return []
+    return [None if math.isinf(value) else value for value in row]
+
+
+def batch_machines(specs: Sequence[Spec]) -> Iterator[Batch]:
     """Batch machines, each with the indices of its specs.
 
     A spec that cannot be built is in none of them.
@@ -70,9 +85,10 @@ def _split(spec: Spec, keys: dict[Any, list[BatchKey]]) -> tuple[Any, dict[str, 
     kinds = (type(spec.wheel), type(spec.drive), before, spec.motion and spec.motion.law)
     if kinds not in keys:
         keys[kinds] = [*_keys(spec)]
-    shape: list[Any] = [kinds]
-    own = {}
-    tables = vars(spec)
+    own, tables = {}, vars(spec)
+    # loads, sizes and all the rest: equal in a batch, as their keys do not vary in it
+    apart = "wheel", "drive", "drive_before", "motion", "path", "title"
+    shape: list[Any] = [kinds, *(value for name, value in tables.items() if name not in apart)]
     for table, attribute, name, varies in keys[kinds]:
         value = vars(tables[attribute_of(table)])[attribute]
         if varies and isinstance(value, (int, float)) and not isinstance(value, bool):

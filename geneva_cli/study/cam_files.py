@@ -54,7 +54,8 @@ def beckhoff(cam: CamPoints, title: str) -> Iterator[str]:
 
 def _plain(title: str) -> str:
     """A title that ends no comment, in letters that every controller reads."""
-    return title.encode("ascii", "replace").decode().replace("*)", "").replace("\n", " ")
+    plain = title.encode("ascii", "replace").decode().replace("*", "")
+    return " ".join(plain.split())
 
 
 def cam(

@@ -50,7 +50,7 @@ def compare(
         if quantity.startswith(INPUTS) and not picks:  # the spec or the columns' names show these
             continue
         cells = [own.get(quantity) for own in each]
-        differs = not all(_same(c, cells[0]) for c in cells[1:])
+        differs = not all(same(c, cells[0]) for c in cells[1:])
         if quantity not in group_of() and (vary or not differs):
             continue  # a key that the designs share, or that the columns' names show
         if any(c is not None for c in cells):
@@ -77,10 +77,11 @@ def differing(table: Table) -> Table:
     return rows_table(table.names, rows, mixed=True).replaced(reading=table.reading)
 
 
-def _same(cell: Cell, first: Cell) -> bool:
+def same(cell: Cell, first: Cell) -> bool:
     """Return True if two cells are equal, numbers apart from rounding."""
     if isinstance(cell, float) and isinstance(first, float):
-        return math.isclose(cell, first, rel_tol=ROUNDED)
+        # a play of 0 degrees has a rounding of 1e-14; the least power of a watch is some 1e-12 W
+        return math.isclose(cell, first, rel_tol=ROUNDED, abs_tol=1e-13)
     return cell == first
 
 

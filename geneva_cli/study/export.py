@@ -43,8 +43,8 @@ TRADES = {
 }
 CONTENTS = {
     "sheet.pdf": "drawing sheet with dimensions",
-    "assembly.step": "all parts at their places, for CAD",
-    "assembly.3mf": "all parts at their places, as a mesh",
+    "assembly.step": "machine at input angle 0, for CAD",
+    "assembly.3mf": "machine at input angle 0, as a mesh",
     "plate.3mf": "all parts flat on one bed",
     "report.html": "checks, loads, sizes",
     "machine.html": "the machine in motion",

@@ -6,7 +6,7 @@ A group of quantities is computed only where one of them is requested.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple, TypeAlias
 
 from geneva_cli.drawings.model import PartsModel
@@ -36,12 +36,14 @@ def values(model: PartsModel, groups: Iterable[QuantityGroup] | None = None) -> 
 
 
 class Pick(NamedTuple):
-    """Quantities to show, and the groups that contain them."""
+    """Quantities to show, by their whole names."""
 
-    names: tuple[str, ...]
-    groups: tuple[QuantityGroup, ...]
-    # the whole names in the order of the request, which may repeat one
-    requested: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()
+
+    @property
+    def groups(self) -> tuple[QuantityGroup, ...]:
+        """The groups that contain them."""
+        return tuple(dict.fromkeys(group_of()[name] for name in self.names))
 
     @property
     def batched(self) -> tuple[str, ...]:
@@ -51,7 +53,7 @@ class Pick(NamedTuple):
     @property
     def rest(self) -> Pick:
         """The quantities that are computed for each design alone."""
-        return pick([name for name in self.names if not in_batch([name])])
+        return Pick(tuple(name for name in self.names if not in_batch([name])))
 
     def of(self, mechanism: Mechanism) -> list[Cell]:
         """The values of the quantities for a machine; None if one does not apply."""
@@ -68,15 +70,9 @@ class Pick(NamedTuple):
         return [cells.get(name) for name in self.names]
 
 
-def pick(
-    requested: Sequence[str], option: str = "--pick", options: Mapping[str, str] | None = None
-) -> Pick:
-    """The quantities of these names, as ``whole_name`` resolves them.
+def pick(requested: Sequence[str]) -> Pick:
+    """The quantities of these names, as ``whole_name`` resolves them; each once.
 
-    ``options`` holds the option of a name, if that is not ``option``. Raises GenevaError, naming
-    the option, for a name that is no quantity, or may be several.
+    Raises GenevaError for a name that is no quantity, or may be several.
     """
-    by = dict.fromkeys(requested, option) | dict(options or {})
-    whole = [whole_name(name, by[name]) for name in requested]
-    groups = dict.fromkeys(group_of()[name] for name in whole)
-    return Pick(tuple(dict.fromkeys(whole)), tuple(groups), tuple(whole))
+    return Pick(tuple(dict.fromkeys(map(whole_name, requested))))

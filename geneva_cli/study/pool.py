@@ -21,17 +21,12 @@ R = TypeVar("R")
 
 
 def mapped(
-    work: Callable[[T], R],
-    items: Iterable[T],
-    workers: int,
-    what: str = "designs",
-    meanwhile: Callable[[], None] | None = None,
+    work: Callable[[T], R], items: Iterable[T], workers: int, what: str = "designs"
 ) -> Iterator[R]:
     """Yield ``work`` of each item, in order, from several processes or, for 1 worker, this one.
 
-    ``what`` is the plural noun for the items in messages. ``meanwhile`` is a task for this process,
-    run while the others work if there is work for all of them. Raises GenevaError if a process is
-    ended from outside.
+    ``what`` is the plural noun for the items in messages. Raises GenevaError if a process is ended
+    from outside.
     """
     if workers < 2:
         yield from map(work, items)
@@ -48,9 +43,6 @@ def mapped(
         try:
             for item in items:
                 waiting.append(pool.submit(work, item))
-                if meanwhile and len(waiting) > workers:  # each worker has something to do
-                    meanwhile()
-                    meanwhile = None
                 if len(waiting) > 4 * workers:  # so that memory stays bounded
                     yield waiting.popleft().result()
             while waiting:

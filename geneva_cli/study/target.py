@@ -115,9 +115,15 @@ class Target(NamedTuple):
         return self._replace(acceleration_max=None, bounds=self.limits)
 
     @property
-    def quantities(self) -> list[str]:
-        """The quantities that it sorts by and bounds."""
-        return [*([self.sort.name] if self.sort else []), *(b.name for b in self.limits)]
+    def names(self) -> tuple[str, ...]:
+        """The quantities of its goal and its bounds, which are columns of its rows."""
+        goal = [self.sort.name] if self.sort else []
+        return tuple(dict.fromkeys([*goal, *(bound.name for bound in self.bounds)]))
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """The quantities that it sorts by and bounds, the acceleration among them."""
+        return self._replace(bounds=self.limits).names
 
     @property
     def only_acceleration(self) -> bool:

@@ -10,8 +10,9 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.synthesis.parts import SPARE, USUAL, exact, parts, with_roller
 from geneva_cli.synthesis.parts_data import parts_data
-from geneva_cli.synthesis.turns import HAND_OVER_PLAY, LOST, Failure, Turns
+from geneva_cli.synthesis.turns import HAND_OVER_PLAY, Turn, failing_of, is_lost
 from geneva_cli.verdict.checks import checks
+from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION, applicable
 
 # keys that conflict with a crank's bore
@@ -27,44 +28,37 @@ class Built(NamedTuple):
     trouble: str
 
 
-def built_together(specs: Sequence[Spec], fixed: frozenset[str] = frozenset()) -> list[Built]:
-    """The result of ``built`` for several specs; those with the same positions are turned once."""
-    turns = Turns()
-    return [built(spec, fixed, turns) for spec in specs]
-
-
-def passes(spec: Spec, turns: Turns) -> bool:
+def passes(spec: Spec) -> bool:
     """Return True if the parts pass every check with the sizes of the spec."""
     machine = build(spec)
-    return not (_of_motion(machine) or turns.first_failing(machine))
+    return not (_of_motion(machine) or Turn(machine).first_failing)
 
 
-def built(spec: Spec, fixed: frozenset[str] = frozenset(), turns: Turns | None = None) -> Built:
+def built(spec: Spec, fixed: frozenset[str] = frozenset()) -> Built:
     """The spec with the first of some sizes with which its parts pass every check in a full turn.
 
-    ``fixed`` are keys of its [size] that must not change, ``turns`` the machines that were turned
-    before. If no sizes pass, the spec is unchanged.
+    ``fixed`` are keys of its [size] that must not change. If no sizes pass, the spec is unchanged.
     """
-    turns, machine = turns or Turns(), build(spec)
-    motion = _of_motion(machine)
+    machine = build(spec)
+    motion, turn = _of_motion(machine), Turn(machine)
     if {one.name for one in motion} & UNSIZED:  # no need to turn them
         return Built(spec, _names(motion))
-    failing = known = [*motion, *turns.first_failing(machine)]
+    failing = known = [*motion, *turn.first_failing]
     if not failing:
         return Built(spec, "")
     if {one.name for one in failing} <= SHAFT:  # test whether other checks fail too
-        failing = known = turns.failing(machine)
+        failing = known = turn.failing
     for other in _others(spec, {one.name for one in failing}, fixed):
-        if any(one.exceeds(LOST) for one in failing):
+        if any(map(is_lost, failing)):
             break
-        failing = _other_failing(turns, other, known)
+        failing = _other_failing(other, known)
         if not failing:
             return Built(other, "")
-        known = [*dict.fromkeys((*failing, *known))]
-    return Built(spec, _names([*motion, *turns.failing(machine)]))
+        known = [*{(one.name, one.at_deg): one for one in (*failing, *known)}.values()]
+    return Built(spec, _names([*motion, *turn.failing]))
 
 
-def _names(failing: Sequence[Failure]) -> str:
+def _names(failing: Sequence[Check]) -> str:
     return ", ".join(one.name for one in failing)
 
 
@@ -94,7 +88,7 @@ def _others(spec: Spec, trouble: set[str], fixed: frozenset[str]) -> Iterator[Sp
         yield from (one for one in larger if not parts(build(one)).why)
 
 
-def _other_failing(turns: Turns, spec: Spec, known: Sequence[Failure]) -> list[Failure]:
+def _other_failing(spec: Spec, known: Sequence[Check]) -> list[Check]:
     """Some of the checks that fail with other sizes, after those ``known`` to fail before.
 
     The sizes change nothing in the motion but the undercut, which a smaller roller reduces.
@@ -103,9 +97,12 @@ def _other_failing(turns: Turns, spec: Spec, known: Sequence[Failure]) -> list[F
     named = dict(LIMITS)
     if UNDERCUT in {one.name for one in known}:
         named[UNDERCUT] = MOTION[UNDERCUT]
-    before = [Failure(c.name) for c in applicable(named, machine) if c.passes is False]
-    return before or turns.some_failing(machine, known) or _of_motion(machine)
+    return (
+        failing_of(applicable(named, machine))
+        or Turn(machine).some_failing(known)
+        or _of_motion(machine)
+    )
 
 
-def _of_motion(machine: Mechanism) -> list[Failure]:
-    return [Failure(c.name) for c in checks(machine, parts=False) if c.passes is False]
+def _of_motion(machine: Mechanism) -> list[Check]:
+    return failing_of(checks(machine, parts=False))

@@ -5,36 +5,25 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from geneva_cli.spec.load_limits import QUANTITIES
+from geneva_cli.spec.load_limits import LIMITED
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.target import Target
-from geneva_cli.synthesis.rows import PEAKS, MachineRow
-
-# Keys of [limits], which name their checks too, and the quantities that they limit from above or
-# below. The lock's load is equal in all machines of a wheel.
-UPPER_LIMITS = {
-    **PEAKS,
-    **{key: f"loads.{load}.max" for key, load in QUANTITIES.items()},
-    "pv_max_W_m2": "life.pv_max_W_m2",
-    "slot_wear_max_mm_per_million": "life.slot_wear_mm_per_million",
-}
-LOWER_LIMITS = {"roller_life_min_h": "life.roller_life_h"}
+from geneva_cli.synthesis.rows import MachineRow
 
 
 def frame_limits(target: Target) -> tuple[Constraint, ...]:
-    """The frame's limits as bounds."""
+    """The frame's limits as bounds; the lock's load is equal in all machines of a wheel."""
     values = target.frame.limits.as_dict() if target.frame else {}
     return tuple(
-        Constraint(name, sign, float(values[key]))
-        for names, sign in ((UPPER_LIMITS, "<="), (LOWER_LIMITS, ">="))
-        for key, name in names.items()
+        Constraint(name, ">=" if "_min" in key else "<=", float(values[key]))
+        for key, name in LIMITED.items()
         if values.get(key) is not None
     )
 
 
 def breaks_limit(row: MachineRow) -> bool:
     """Return True if a row breaks a limit of its frame."""
-    return not {*UPPER_LIMITS, *LOWER_LIMITS}.isdisjoint(row.trouble.split(", "))
+    return not LIMITED.keys().isdisjoint(row.trouble.split(", "))
 
 
 def _kind(row: MachineRow) -> tuple[object, ...]:

@@ -12,7 +12,6 @@ from geneva_cli.machine.drives.carousel import Carousel
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range, range_text
 from geneva_cli.spec.schema import fields
-from geneva_cli.specfile.reader import read
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.survey import parse_z
 from geneva_cli.study.sweep.constraints import (
@@ -20,9 +19,9 @@ from geneva_cli.study.sweep.constraints import (
     constraint,
     objective,
     refuse_contradictions,
+    refuse_words,
 )
 from geneva_cli.study.target import GEARINGS, PEAK, SPACE, Target
-from geneva_cli.verdict.quantities.names import whole_name
 
 # The requirements for a number or a range: allowed values, and name and unit in words.
 SPANS = {
@@ -86,6 +85,7 @@ def read_target(
     phrases = [w if w[:2] == "a " else " = ".join(w.split(" ", 1)) for w in phrases]
     bounds = tuple(constraint(text) for text in subject_to)
     refuse_contradictions(bounds)
+    refuse_words(dict.fromkeys([b.name for b in bounds], "--subject-to"), "only numbers are bound")
     phrases += [str(bound) for bound in bounds]
     chosen = dict(zip(GEARINGS, (external, internal, spherical), strict=True))
     requested = tuple(g for g, is_chosen in chosen.items() if is_chosen)
@@ -109,8 +109,19 @@ def read_target(
         number("--space", space, Range(0.1, 100.0)) if space else SPACE,
         wheels=wheels,
     )
+    _refuse_unloaded(target)
     target.refuse_contradictions()
     return target
+
+
+def _refuse_unloaded(target: Target) -> None:
+    """Raise GenevaError for a quantity of the loads without a load."""
+    loads = [name for name in target.names if name.startswith("loads.")]
+    if loads and not (target.frame and target.frame.is_loaded):
+        raise GenevaError(
+            f"{loads[0]}: nothing resists the wheel, so no machine has a value of it; give a load "
+            "with --from SPEC and its [load]"
+        )
 
 
 def read_frame(path: str, settings: Sequence[str] = ()) -> Spec:
@@ -118,6 +129,8 @@ def read_frame(path: str, settings: Sequence[str] = ()) -> Spec:
 
     Raises GenevaError where a search has nothing to choose, or does not know the drive.
     """
+    from geneva_cli.specfile.reader import read  # TOML, which a search without a spec does not need
+
     text = read(path, settings)
     spec = text.spec()
     with text.located():
@@ -227,7 +240,7 @@ def _laws(name: str) -> tuple[str, ...]:
 def _is_peak(bound: Constraint) -> bool:
     """Return True for an upper limit of peak acceleration, which families keep in closed form."""
     is_limit = bound.sign == "<=" and bound.bound > 0.0
-    return is_limit and whole_name(bound.name, "--subject-to") == PEAK
+    return is_limit and bound.name == PEAK
 
 
 def span(option: str, text: str, rule: Range) -> AllowedSpan:

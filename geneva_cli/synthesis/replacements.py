@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.linkage.wheels_for_paths import searches_kept
 from geneva_cli.machine.spec import Spec
 from geneva_cli.study.target import Target
 from geneva_cli.synthesis.best import FamilySearch, Trial
@@ -144,13 +143,12 @@ class _BuildableSearch:
                 one = places[i].pop(0)
                 self._add(built, i, one, self.straight[i].get(one))
         left = [i for i in places if i not in self.straight]
-        with searches_kept():  # every machine is tested in a batch first
-            while left:
-                candidates = self._next_drawable({i: places[i] for i in left})
-                new_rows = rows(self.target, [spec for _, spec in candidates.values()], [])
-                for (i, (trial, _)), row in zip(candidates.items(), new_rows, strict=True):
-                    self._add(built, i, trial, row)
-                left = [i for i in left if places[i] and i not in built]
+        while left:
+            candidates = self._next_drawable({i: places[i] for i in left})
+            new_rows = rows(self.target, [spec for _, spec in candidates.values()], [])
+            for (i, (trial, _)), row in zip(candidates.items(), new_rows, strict=True):
+                self._add(built, i, trial, row)
+            left = [i for i in left if places[i] and i not in built]
         return built
 
     def _add(

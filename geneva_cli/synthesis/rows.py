@@ -7,11 +7,11 @@ from typing import NamedTuple
 
 from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
-from geneva_cli.linkage.wheels_for_paths import searches_kept
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.tolerances import keeps
+from geneva_cli.spec.load_limits import LIMITED
 from geneva_cli.study.batches import numbers
 from geneva_cli.study.target import Target
 from geneva_cli.synthesis.families.family import Family, allows
@@ -21,12 +21,6 @@ from geneva_cli.verdict.checks.motion import GROOVE_MAX_DEG, groove_pressure
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION, applicable
 
 NEAR_DEG = 3.0  # below its limit, within which the pressure angle is searched between samples
-PEAKS = {  # keys of [limits], and the quantities that they limit
-    "velocity_max": "velocity.max",
-    "acceleration_max": "acceleration.max",
-    "acceleration_entry_max": "acceleration.entry",
-    "jerk_max": "jerk.max",
-}
 COSTS = ("velocity.max", "acceleration.max", "acceleration.entry", "jerk.max", "power.max")
 
 
@@ -131,9 +125,10 @@ class MachineRow(NamedTuple):
 def _failing(machine: Mechanism, costs: Sequence[float]) -> str:
     """The checks that fail among those that need no parts; the peaks are known."""
     limits, known = machine.spec.limits.as_dict(), dict(zip(COSTS, costs, strict=True))
-    peaks = {limit: known[name] for limit, name in PEAKS.items() if limits[limit] is not None}
-    over = [name for name, x in peaks.items() if not keeps(x, "at most", limits[name])]
-    others = {name: check for name, check in LIMITS.items() if name not in PEAKS}
+    peaks = {key: known[name] for key, name in LIMITED.items() if name in known}
+    limited = ((key, x) for key, x in peaks.items() if limits[key] is not None)
+    over = [key for key, x in limited if not keeps(x, "at most", limits[key])]
+    others = {name: check for name, check in LIMITS.items() if name not in peaks}
     motion, rest = (
         [check.name for check in applicable(among, machine) if check.passes is False]
         for among in (MOTION, others)
@@ -157,8 +152,7 @@ def rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[Machi
 
     The reasons are added to ``errors``.
     """
-    with searches_kept():  # every machine is tested in a batch first
-        candidates = _rows(target, [with_peak_limit(target, spec) for spec in specs], errors)
+    candidates = _rows(target, [with_peak_limit(target, spec) for spec in specs], errors)
     return [row if row and _moves_as_required(target, row) else None for row in candidates]
 
 

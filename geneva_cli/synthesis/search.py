@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.wheels.classic import rollers_max
-from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.progress import tracked
 from geneva_cli.study.batches import numbers
@@ -18,21 +17,15 @@ from geneva_cli.study.sweep.constraints import Constraint, is_number
 from geneva_cli.study.target import TURNS, Target
 from geneva_cli.synthesis.best import best
 from geneva_cli.synthesis.families import closed
-from geneva_cli.synthesis.families.every import Kind, families, kinds, longest_first
-from geneva_cli.synthesis.families.family import BARE, natural_deg, pieces
-from geneva_cli.synthesis.families.straight import plain
+from geneva_cli.synthesis.families.every import Kind, families, kinds
+from geneva_cli.synthesis.families.family import natural_deg, pieces
 from geneva_cli.synthesis.limited import (
     breaks_limit,
     first_of_each,
     frame_limits,
     with_replacements,
 )
-from geneva_cli.synthesis.quantities import (
-    QuantityRequest,
-    bounded,
-    quantity_request,
-    with_batch_values,
-)
+from geneva_cli.synthesis.quantities import bounded, with_batch_values
 from geneva_cli.synthesis.replacements import replacement_rows
 from geneva_cli.synthesis.rows import MachineRow, rows
 from geneva_cli.verdict.quantities.names import in_batch
@@ -41,11 +34,11 @@ TURNED = 20  # rows whose parts are turned by default
 
 
 class Ranking(NamedTuple):
-    """The rows that meet a requirement, in order, and the quantities that it requests."""
+    """The rows that meet a requirement, in order, and the requirement itself."""
 
     rows: list[MachineRow]
     target: Target  # with its bounds on times as ranges
-    requested: QuantityRequest
+    requested: Target
 
     def rank(self, row: MachineRow) -> tuple[object, ...]:
         """The sort key of a row."""
@@ -53,7 +46,7 @@ class Ranking(NamedTuple):
 
     def in_turn(self, row: MachineRow) -> MachineRow | None:
         """A row with the requested quantities; None if it breaks a bound on them."""
-        if not self.requested.pick:
+        if not self.requested.names:
             return row
         try:
             return bounded(self.requested, with_batch_values(self.requested.names, [row]))[0]
@@ -69,59 +62,55 @@ class _KindRows(NamedTuple):
     errors: list[str]
 
 
-def search(target: Target, meanwhile: Callable[[], None] | None = None) -> Ranking:
+def search(target: Target) -> Ranking:
     """The machines that meet the requirement, in order; no part has been turned yet.
 
-    ``meanwhile`` is a task for this process while others search. Raises GenevaError, saying what is
-    within reach, if there is none.
+    Raises GenevaError, saying what is within reach, if there is none.
     """
-    request = _requested(target)
-    target = target._replace(bounds=request.bounds, sort=request.sort)
     narrowed = target.with_times()
     narrowed.refuse_contradictions()
-    by_kind = _all_kinds(narrowed, request.names, meanwhile=meanwhile)
+    by_kind = _all_kinds(narrowed, target.names)
     # the error message says how near they come
     if target.acceleration_max is None and not any(kind.keeps for kind in by_kind):
-        by_kind = _all_kinds(target, request.names, how_near=True)
+        by_kind = _all_kinds(target, target.names, how_near=True)
     errors = [error for kind in by_kind for error in kind.errors]
     every = [row for kind in by_kind for row in kind.rows]
     if not every:
         if target.acceleration_max is not None:
             return search(target.by_bounds)  # its message says how near they come
         raise GenevaError(_out_of_reach(target, errors))
-    ranked = _ranked(target, request, every)
+    ranked = _ranked(target, every)
     if frame_limits(target) and narrowed.motion_for(1) and any(map(breaks_limit, ranked)):
         which = [any(map(breaks_limit, kind.rows)) for kind in by_kind]
-        within = _within_limits(narrowed, request, which)
+        within = _within_limits(target, narrowed, which)
         ranked = with_replacements(ranked, within)
-        ranked.sort(key=partial(_rank, request))
-    ranking = Ranking(ranked, narrowed, request)
+        ranked.sort(key=partial(_rank, target))
+    ranking = Ranking(ranked, narrowed, target)
     others = map(ranking.in_turn, replacement_rows(narrowed, ranked[:TURNED], ranked))
     ranked.extend(row for row in others if row)
     ranked.sort(key=ranking.rank)
     return ranking
 
 
-def _ranked(
-    target: Target, request: QuantityRequest, machines: list[MachineRow]
-) -> list[MachineRow]:
+def _ranked(target: Target, machines: list[MachineRow]) -> list[MachineRow]:
     """The rows that keep the bounds, in order."""
-    if request.pick:
-        machines = bounded(request, machines)
-    machines = _worthwhile(target, request, machines)
-    machines.sort(key=partial(_rank, request))
+    if target.names:
+        machines = bounded(target, machines)
+    machines = _worthwhile(target, machines)
+    machines.sort(key=partial(_rank, target))
     return first_of_each(machines, linkages=in_batch(target.quantities))
 
 
-def _within_limits(
-    target: Target, request: QuantityRequest, which: Sequence[bool]
-) -> list[MachineRow]:
-    """The rows of those kinds whose machines keep the frame's limits too."""
-    strict = target._replace(bounds=(*target.bounds, *frame_limits(target)))
-    by_kind = _all_kinds(strict, request.names, which=which)
+def _within_limits(target: Target, narrowed: Target, which: Sequence[bool]) -> list[MachineRow]:
+    """The rows of those kinds whose machines keep the frame's limits too.
+
+    ``narrowed`` is the requirement with its bounds on times as ranges.
+    """
+    strict = narrowed._replace(bounds=(*narrowed.bounds, *frame_limits(target)))
+    by_kind = _all_kinds(strict, target.names, which=which)
     kept = [row for kind in by_kind for row in kind.rows if not breaks_limit(row)]
     try:
-        return _ranked(target, request, kept)
+        return _ranked(target, kept)
     except GenevaError:  # none keeps the bounds as well
         return []
 
@@ -130,20 +119,16 @@ def _all_kinds(
     target: Target,
     names: Sequence[str],
     how_near: bool = False,
-    meanwhile: Callable[[], None] | None = None,
     which: Sequence[bool] = (),
 ) -> list[_KindRows]:
     """The results of all kinds of machines, or of ``which``, in order, from all cores."""
-    tasks = kinds(target)
-    order = [i for i in longest_first(target) if not which or which[i]]
+    tasks = [task for i, task in enumerate(kinds(target)) if not which or which[i]]
     wheels = len(target.gearings) * len(target.z) * len(target.laws)
     many = which or wheels > 6  # a smaller search ends before a second process has started
-    workers = min(len(order), cores()) if many else 1
+    workers = min(len(tasks), cores()) if many else 1
     work = partial(_kind_rows, names=names, how_near=how_near)
-    done = mapped(work, [tasks[i] for i in order], workers, "machines", meanwhile)
-    done = tracked(done, "kinds of machines", len(order))
-    results = dict(zip(order, done, strict=True))
-    return [results[i] for i in sorted(results)]
+    done = mapped(work, tasks, workers, "machines")
+    return list(tracked(done, "kinds of machines", len(tasks)))
 
 
 def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) -> _KindRows:
@@ -167,25 +152,6 @@ def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) 
     return _KindRows(with_batch_values(names, built_rows), keeps, errors)
 
 
-def _requested(target: Target) -> QuantityRequest:
-    """The quantities that a requirement names, by their whole names.
-
-    They are those of a plain crank with one roller or, if the frame's sizes allow none, of the
-    frame.
-    """
-    if not (target.sort or target.bounds):
-        return QuantityRequest(None, (), None)
-    for gearing in target.gearings:
-        for z in target.z:
-            try:
-                spec = plain(target, target.wheel(gearing, z), 1)
-                build(spec)
-            except GenevaError:
-                continue
-            return quantity_request(target, spec)
-    return quantity_request(target, target.frame or BARE)
-
-
 def _divided(
     bounds: Sequence[Constraint], specs: list[Spec]
 ) -> tuple[bool, list[Spec], list[Spec]]:
@@ -206,17 +172,17 @@ def _divided(
     return keeps, kept, [spec for spec, out in zip(specs, broken, strict=True) if out]
 
 
-def _rank(request: QuantityRequest, row: MachineRow) -> tuple[object, ...]:
+def _rank(target: Target, row: MachineRow) -> tuple[object, ...]:
     """The sort key of a row: the goal's quantity, then peaks.
 
     Numbers that differ only by rounding are equal.
     """
     candidate = row.candidate
     first: tuple[object, ...] = ()
-    if request.sort:
-        value = row.extra[request.names.index(request.sort.name)]
+    if target.sort:
+        value = row.extra[target.names.index(target.sort.name)]
         # texts, and unknown values, come behind the numbers
-        first = (0, _in_12_digits(_first(request, row))) if is_number(value) else (1, str(value))
+        first = (0, _in_12_digits(_first(target, row))) if is_number(value) else (1, str(value))
     return (
         *first,
         _in_12_digits(candidate.peak),
@@ -232,9 +198,7 @@ def _in_12_digits(x: float) -> float:
     return float(f"{x:.12g}")
 
 
-def _worthwhile(
-    target: Target, request: QuantityRequest, machines: list[MachineRow]
-) -> list[MachineRow]:
+def _worthwhile(target: Target, machines: list[MachineRow]) -> list[MachineRow]:
     """The rows without machines of two numbers that are hardly better than one of one number.
 
     If the nearest machine to the plain crank is required, all of them are left out that have one.
@@ -242,10 +206,10 @@ def _worthwhile(
     one = [row for row in machines if not row.candidate.of_two_numbers]
 
     def beaten(row: MachineRow) -> bool:
-        own, value = row.candidate, _first(request, row)
+        own, value = row.candidate, _first(target, row)
         least_gain = 0.01 * abs(value)  # over a machine of one number
         return any(
-            (nearest or not value < _first(request, other) - least_gain)
+            (nearest or not value < _first(target, other) - least_gain)
             for other in one
             if (own.z, own.rollers, own.law) == (other.candidate.z, other.candidate.rollers, None)
             and (
@@ -254,16 +218,16 @@ def _worthwhile(
             )
         )
 
-    nearest = target.with_times().any_motion and not request.sort
+    nearest = target.with_times().any_motion and not target.sort
     return [row for row in machines if not (row.candidate.of_two_numbers and beaten(row))]
 
 
-def _first(request: QuantityRequest, row: MachineRow) -> float:
+def _first(target: Target, row: MachineRow) -> float:
     """The first number of the sort key, least first; NaN if there is none."""
-    if not request.sort:
+    if not target.sort:
         return row.candidate.peak
-    value = row.extra[request.names.index(request.sort.name)]
-    return request.sort.sign * float(value) if is_number(value) else math.nan
+    value = row.extra[target.names.index(target.sort.name)]
+    return target.sort.sign * float(value) if is_number(value) else math.nan
 
 
 def _out_of_reach(target: Target, errors: list[str]) -> str:

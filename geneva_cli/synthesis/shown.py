@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from geneva_cli.output.text import cell
+from geneva_cli.study.compare import same
 from geneva_cli.synthesis.rows import OWN_KEYS
 from geneva_cli.table import Reading, Table
 
@@ -88,10 +88,10 @@ def for_people(table: Table) -> Table:
         first = column.cells[0] if column.cells else None
         if all(v is None for v in column.cells):
             continue
-        same = len(rows) > 1 and all(_same(v, first) for v in column.cells)
-        if column.source in titled and same:
+        constant = len(rows) > 1 and all(same(v, first) for v in column.cells)
+        if column.source in titled and constant:
             once.append(f"{column.source} {cell(first)}")
-        elif not (column.source == "rollers" and same and first == 1):
+        elif not (column.source == "rollers" and constant and first == 1):
             columns.append(column)
     title = table.title + (f" All: {', '.join(once)}." if once else "")
     kept = _fitting([c._replace(cells=[*map(_short, c.cells)]) for c in columns])
@@ -190,9 +190,3 @@ def _parts_entry(parts: str | None) -> str | None:
     first, *others = reasons.split(", ")
     name = first.removesuffix("_mm").removesuffix("_deg")
     return f"{no}: {name}{' +' if others else ''}"
-
-
-def _same(a: Any, b: Any) -> bool:
-    if isinstance(a, float) and isinstance(b, float):
-        return math.isclose(a, b, rel_tol=1e-12)
-    return bool(a == b)

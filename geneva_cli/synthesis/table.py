@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import NamedTuple
 
-from geneva_cli.machine.spec import Spec
 from geneva_cli.progress import tracked
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.target import Target
-from geneva_cli.synthesis.built import Built, built, built_together, passes
+from geneva_cli.synthesis.built import Built, built, passes
 from geneva_cli.synthesis.parts import MAYBE, YES
 from geneva_cli.synthesis.replacements import buildable_rows
 from geneva_cli.synthesis.rows import Candidate, MachineRow
 from geneva_cli.synthesis.search import TURNED, Ranking, search
-from geneva_cli.synthesis.turns import Turns, same_turn
 from geneva_cli.table import Table, rows_table
-from geneva_cli.verdict.checks.registry import import_checks
 
 NAMES = ("no", *Candidate._fields)
 
@@ -26,8 +23,7 @@ def synthesis_table(
     target: Target, count: int = TURNED, buildable: bool = False, ranking: Ranking | None = None
 ) -> Table:
     """One row for each machine, numbered from 1, as ``turned`` returns them."""
-    # the processes that turn need these imports, which are loaded while others search
-    ranking = ranking or search(target, import_checks if count else None)
+    ranking = ranking or search(target)
     rows = [
         (one.no, *one.row.candidate, *one.row.extra) for one in turned(ranking, count, buildable)
     ]
@@ -59,14 +55,16 @@ def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> li
     maybe = [one for one in every if one.row.candidate.parts == MAYBE]
     if not buildable:
         maybe = [one for one in maybe if one.no <= count]
-    built = _built([one.row.spec for one in maybe], fixed(ranking.target), in_order=buildable)
+    work = partial(built, fixed=fixed(ranking.target))
+    done = mapped(work, [one.row.spec for one in maybe], min(len(maybe), cores()), "machines")
+    done = tracked(done, "machines turned", len(maybe))
     results: dict[int, MachineRow] = {}
     passed, last = 0, len(every)
     for one in maybe:
         if buildable and passed >= count:
             last = one.no
             break
-        results[one.no] = with_result(one.row, next(built))
+        results[one.no] = with_result(one.row, next(done))
         passed += results[one.no].candidate.parts == YES
     again = {
         no: row
@@ -101,7 +99,7 @@ def _others(ranking: Ranking, failing: dict[int, MachineRow]) -> dict[int, Machi
 
 def other(ranking: Ranking, row: MachineRow) -> MachineRow | None:
     """The best machine of a row's family that passes a full turn, other than the row's own."""
-    turns, sizes = Turns(), fixed(ranking.target)
+    sizes = fixed(ranking.target)
 
     def turn(maybe: MachineRow, like: MachineRow | None) -> MachineRow | None:
         own = ranking.in_turn(maybe)
@@ -109,34 +107,11 @@ def other(ranking: Ranking, row: MachineRow) -> MachineRow | None:
             return None
         if like:
             spec = own.spec.replace(size=like.spec.size)
-            return with_result(own, Built(spec, "")) if passes(spec, turns) else None
-        result = built(own.spec, sizes, turns)
+            return with_result(own, Built(spec, "")) if passes(spec) else None
+        result = built(own.spec, sizes)
         return None if result.trouble else with_result(own, result)
 
     return buildable_rows(ranking.target, [row.family], turn)[0] if row.family else None
-
-
-def _built(specs: Sequence[Spec], fixed: frozenset[str], in_order: bool) -> Iterator[Built]:
-    """The specs turned on all cores; those with the same turn are turned once.
-
-    Machines of a law, which take longest, are turned first, unless ``in_order``.
-    """
-    together: dict[Spec, list[int]] = {}
-    for i, spec in enumerate(specs):
-        together.setdefault(same_turn(spec), []).append(i)
-    turned = [*together.values()]
-    if not in_order:
-        turned.sort(key=lambda members: specs[members[0]].motion is None)
-    tasks = [[specs[i] for i in members] for members in turned]
-    work = partial(built_together, fixed=fixed)
-    done = mapped(work, tasks, min(len(tasks), cores()), "machines")
-    done = tracked(done, "machines turned", len(tasks))
-    results: dict[int, Built] = {}
-    groups = iter(turned)
-    for i in range(len(specs)):
-        while i not in results:
-            results |= zip(next(groups), next(done), strict=True)
-        yield results.pop(i)
 
 
 def with_result(row: MachineRow, result: Built) -> MachineRow:

@@ -1,14 +1,9 @@
-"""Checks that fail in full turns of machines; machines with equal positions are turned once.
-
-A drive in front of a crank changes when the parts reach a position, and not the positions. So
-machines that differ in it, or in the speed, are turned once.
-"""
+"""The checks that fail in full turns of machines."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import cached_property
-from typing import NamedTuple
 
 from geneva_cli.collisions.full_turn import full_turn
 from geneva_cli.collisions.glance import gap_about, play_about
@@ -16,12 +11,9 @@ from geneva_cli.collisions.machine_parts import MachineParts, WorkLimit
 from geneva_cli.collisions.one_motion import one_motion
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import CLEARLY
-from geneva_cli.study.target import USUAL_RPM
-from geneva_cli.verdict.checks.check import Check
+from geneva_cli.verdict.checks.check import Check, refused
 from geneva_cli.verdict.checks.play import finds_slot
 from geneva_cli.verdict.checks.registry import check_named, standing, standing_checks, turn_checks
 
@@ -32,122 +24,81 @@ HAND_OVER_PLAY = "hand_over_play_deg"
 LOST = 6.0
 
 
-class Failure(NamedTuple):
-    """A failing check: its name, its input angle in the machine of ``same_turn``, its ratio.
-
-    ``ratio`` is the value over its limit, 0 if there is no such ratio.
-    """
-
-    name: str
-    at_deg: float | None = None
-    ratio: float = 0.0
-
-    def exceeds(self, ratio: float) -> bool:
-        """Return True if the play between lock and slot exceeds ``ratio`` times its limit."""
-        return self.name == HAND_OVER_PLAY and self.ratio > ratio
-
-
-def same_turn(spec: Spec) -> Spec:
-    """The machine that represents all machines whose parts go through the same positions."""
-    drive = spec.drive
-    if spec.motion is None and drive.CRANKED:
-        m, angles = drive.rollers, drive.roller_angles_deg
-        return spec.replace(drive=Crank(n_rpm=USUAL_RPM, rollers=m, roller_angles_deg=angles))
-    return spec.replace(drive=drive.replace(n_rpm=USUAL_RPM))
-
-
-class Turns:
-    """Machines as they are turned, each once."""
-
-    def __init__(self) -> None:
-        self._turns: dict[Spec, _Turn] = {}
-
-    def failing(self, machine: Mechanism) -> list[Failure]:
-        """The checks of a machine's parts that fail, or the key that prevents the parts."""
-        turn = self._turn(machine)
-        return [*turn.standing(machine), *turn.turning]
-
-    def first_failing(self, machine: Mechanism) -> list[Failure]:
-        """The checks that fail at rest, or else those that fail in the turn."""
-        turn = self._turn(machine)
-        return turn.standing(machine) or turn.turning
-
-    def some_failing(self, machine: Mechanism, known: Iterable[Failure]) -> list[Failure]:
-        """Some checks that fail, tried first where checks were ``known`` to fail."""
-        turn = self._turn(machine)
-        early = turn.still_failing(machine, known)
-        return early or turn.standing(machine) or turn.turning
-
-    def _turn(self, machine: Mechanism) -> _Turn:
-        own = same_turn(machine.spec)
-        if own not in self._turns:
-            self._turns[own] = _Turn(machine if own == machine.spec else build(own))
-        return self._turns[own]
-
-
-class _Turn:
+class Turn:
     """The parts of a machine and their full turn, as far as it is checked."""
 
     def __init__(self, machine: Mechanism) -> None:
-        self._model = PartsModel(machine, advice=False)
+        self._machine, self._model = machine, PartsModel(machine, advice=False)
+
+    @property
+    def failing(self) -> list[Check]:
+        """The checks of the parts that fail, or the key that prevents the parts."""
+        return [*self._standing, *self._turning]
+
+    @property
+    def first_failing(self) -> list[Check]:
+        """The checks that fail at rest, or else those that fail in the turn."""
+        return self._standing or self._turning
+
+    def some_failing(self, known: Iterable[Check]) -> list[Check]:
+        """Some checks that fail, tried first where checks were ``known`` to fail."""
+        return self._still_failing(known) or self.first_failing
 
     @cached_property
-    def _parts(self) -> MachineParts | Failure:
-        """The parts, or the key that prevents them."""
+    def _parts(self) -> MachineParts | Check:
+        """The parts, or a failing check that names the key that prevents them."""
         try:
             return self._model.parts
         except GenevaError as error:
-            return _prevented_by(error)
+            return refused(str(error.key[-1]) if error.key else "outline", error)
 
     @cached_property
-    def turning(self) -> list[Failure]:
+    def _turning(self) -> list[Check]:
         """The checks of the turn that fail."""
         parts = self._parts
-        if isinstance(parts, Failure):
+        if isinstance(parts, Check):
             return []
         try:
-            return _failures(turn_checks(parts, full_turn(one_motion(parts))))
-        except WorkLimit:
-            return [Failure("full_turn")]
+            return failing_of(turn_checks(parts, full_turn(one_motion(parts))))
+        except WorkLimit as error:
+            return [refused("full_turn", error)]
 
-    def standing(self, machine: Mechanism) -> list[Failure]:
-        """The checks at rest that fail, for a machine with the same positions."""
-        if isinstance(self._parts, Failure):
+    @cached_property
+    def _standing(self) -> list[Check]:
+        """The checks at rest that fail."""
+        if isinstance(self._parts, Check):
             return [self._parts]
-        if not machine.spec.has_parts:
+        if not self._machine.spec.has_parts:
             return []
-        return _failures(standing_checks(self._model.over(machine).built))
+        return failing_of(standing_checks(self._model.built))
 
-    def still_failing(self, machine: Mechanism, known: Iterable[Failure]) -> list[Failure]:
+    def _still_failing(self, known: Iterable[Check]) -> list[Check]:
         """The first check of ``known`` at rest that fails, or else those of the turn.
 
-        The latter are tried at the places where they failed, if the turn is not computed yet.
+        The latter are tried at the places where they failed.
         """
         parts = self._parts
-        if "turning" in vars(self) or isinstance(parts, Failure) or not machine.spec.has_parts:
+        if isinstance(parts, Check) or not self._machine.spec.has_parts:
             return []
-        built, among = self._model.over(machine).built, standing(machine)
+        built, among = self._model.built, standing(self._machine)
         at_rest = (check_named(among, one.name, built) for one in known)
         first = next((check for check in at_rest if check and check.passes is False), None)
         if first:
-            return [Failure(first.name)]
+            return [first]
         return [one for one in known if _fails_at_the_same_place(parts, one)]
 
 
-def _prevented_by(error: GenevaError) -> Failure:
-    """The key that an error about parts names."""
-    return Failure(str(error.key[-1]) if error.key else "outline")
+def is_lost(check: Check) -> bool:
+    """Return True for so much play between lock and slot that no smaller roller helps."""
+    return check.name == HAND_OVER_PLAY and (check.value or 0.0) > LOST * (check.limit or 0.0)
 
 
-def _failures(checks: Iterable[Check]) -> list[Failure]:
-    return [
-        Failure(c.name, c.at_deg, c.value / c.limit if c.value and c.limit else 0.0)
-        for c in checks
-        if c.passes is False
-    ]
+def failing_of(checks: Iterable[Check]) -> list[Check]:
+    """The checks that fail."""
+    return [check for check in checks if check.passes is False]
 
 
-def _fails_at_the_same_place(parts: MachineParts, one: Failure) -> bool:
+def _fails_at_the_same_place(parts: MachineParts, one: Check) -> bool:
     """Return True if a check that failed with other sizes fails with these at the same place."""
     if one.at_deg is None:
         return False

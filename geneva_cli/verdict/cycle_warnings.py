@@ -11,13 +11,15 @@ from geneva_cli.analysis.quantities import FORCE, STRESS
 from geneva_cli.errors import Notice
 from geneva_cli.loads import loads
 from geneva_cli.loads.cycle import Cycle, cycle_of
-from geneva_cli.loads.summary import QuantitySummary
+from geneva_cli.loads.summaries import LoadSummary
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.load_limits import limits_by_key, load_limits
 
 
-def cycle_warnings(cycle: Cycle, summaries: Mapping[str, QuantitySummary]) -> list[Notice]:
+def cycle_warnings(
+    cycle: Cycle, summaries: Mapping[str, LoadSummary[float | None]]
+) -> list[Notice]:
     """Warnings about a wheel that drives the motor or lags, for the summaries of its loads."""
     return [*_back_driven(cycle, summaries), *_lags(cycle.mechanism)]
 
@@ -38,7 +40,9 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
     return out
 
 
-def _back_driven(cycle: Cycle, summaries: Mapping[str, QuantitySummary]) -> Iterator[Notice]:
+def _back_driven(
+    cycle: Cycle, summaries: Mapping[str, LoadSummary[float | None]]
+) -> Iterator[Notice]:
     torque, noun = summaries["input_torque_Nm"], cycle.mechanism.output.noun
     least, most = torque.min, torque.max
     if least is None or not least < -ROUNDED * abs(most or least):
@@ -58,7 +62,7 @@ def _back_driven(cycle: Cycle, summaries: Mapping[str, QuantitySummary]) -> Iter
         helps = "as no drag on the wheel stops it from pushing the carrier"
     yield Notice(
         "drives-the-motor",
-        f"the {noun} drives the motor from {where} deg{rest}, with up to {-least:.4g} N m on "
+        f"the {noun} drives the motor from {where}°{rest}, with up to {-least:.4g} N m on "
         "the input. There the play of slot and reducer changes sides, and a self-locking worm "
         f"jams: use a brake or a motor that brakes, {helps}",
     )
@@ -82,8 +86,8 @@ def _lags(mechanism: Mechanism) -> Iterator[Notice]:
     yield Notice(
         "lags-behind",
         f"a torque of {stop.torque_Nm:.4g} N m takes the wheel off the roller that stops it. "
-        f"Once the gears let go the wheel lags, by up to {lag:.4g} deg at {at_deg:.4g} deg, "
-        f"and the roller strikes it at {struck:.4g} deg. Less torque, more inertia or more "
+        f"Once the gears let go the wheel lags, by up to {lag:.4g}° at {at_deg:.4g}°, "
+        f"and the roller strikes it at {struck:.4g}°. Less torque, more inertia or more "
         "speed reduces the lag",
     )
 
@@ -116,7 +120,7 @@ def _jammed(cycle: Cycle) -> Iterator[Notice]:
     ]
     if not case.all_friction or not endless:
         return
-    when = f"at {min(endless):.4g} deg, however hard the roller presses"
+    when = f"at {min(endless):.4g}°, however hard the roller presses"
     text = (
         f"friction of {case.friction:g} holds the wheel {when}: it takes as much torque as the "
         "wall gives. Use a smaller roller or less friction"
@@ -137,7 +141,7 @@ def _on_an_edge(cycle: Cycle) -> Iterator[Notice]:
         return
     yield Notice(
         "sharp-wall",
-        f"contact stress without bound at {stress.max_at_deg:.4g} deg: the roller bears on an "
+        f"contact stress without bound at {stress.max_at_deg:.4g}°: the roller bears on an "
         "edge there, where the undercut of the wall begins. A smaller roller bears on less of "
         'it; straight slots have none (kind = "cam" drives any law)',
     )

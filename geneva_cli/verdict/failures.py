@@ -75,8 +75,8 @@ def meaning(c: Check, parts: str = "") -> str:
         )
     if c.name == "hand_over_pressure_deg":
         return (
-            f"the roller meets the wheel{where} at a pressure angle of {value:.4g} deg, above "
-            f"{limit:g} deg"
+            f"the roller meets the wheel{where} at a pressure angle of {value:.4g}°, above "
+            f"{limit:g}°"
         )
     if c.name in ("motion_play_deg", "motion_play_mm"):
         return (

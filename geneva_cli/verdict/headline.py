@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from geneva_cli.document import FAILS, PASSES, WARNS, SummaryLine
+from geneva_cli.answer import FAILS, PASSES, WARNS, SummaryLine
 from geneva_cli.errors import Notice, is_warning
 from geneva_cli.names import spoken
 from geneva_cli.output import shown

@@ -53,7 +53,7 @@ def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
     if back:
         yield Notice(
             "turns-back",
-            f"the wheel turns back: velocity {back[0]:.4g} at {back[1]:.4g} deg; {law.TURNS_BACK}",
+            f"the wheel turns back: velocity {back[0]:.4g} at {back[1]:.4g}°; {law.TURNS_BACK}",
         )
     from geneva_cli.kinematics.pitch_curve import retraces
 
@@ -111,7 +111,7 @@ def _overtaken(mechanism: Mechanism) -> Iterator[Notice]:
     if lead > 1e-6:  # degrees: less is rounding
         yield Notice(
             "roller-overtakes",
-            f"the roller overtakes the wheel by {lead:.4g} deg while the gears drive. Near the "
+            f"the roller overtakes the wheel by {lead:.4g}° while the gears drive. Near the "
             "line of centres its slot would turn the wheel faster than the gears do. It presses "
             'into the wall that it drove: gear_ratio = "shockless" keeps it behind',
         )
@@ -205,7 +205,7 @@ def _off_the_mid_condition(mechanism: Mechanism) -> Notice:
     )
     return Notice(
         "off-mid-condition",
-        f"pressure angle 90 deg at mid-motion (0 deg), because R/L = {mechanism.ratio:.6g} does "
+        f"pressure angle 90° at mid-motion (0°), because R/L = {mechanism.ratio:.6g} does "
         "not meet the mid condition. Without friction the pin force there has no bound unless the "
         f"torque is zero: {helps}",
     )
@@ -221,7 +221,7 @@ def _not_driven(mechanism: Mechanism) -> Iterator[Notice]:
     percent, gap_mm = 100.0 * drive.fraction.item(), drive.loose_gap_mm.item()
     yield Notice(
         "not-positively-driven",
-        f"not positively driven from {where} deg ({percent:.3g} % of the motion). The slot's other "
+        f"not positively driven from {where}° ({percent:.3g} % of the motion). The slot's other "
         f"branch, up to {gap_mm:.3g} mm off, cuts away the wall that the torque needs "
         "there. Less torque_Nm against the inertia shortens the interval; "
         'kind = "cam" drives any law through straight slots',
@@ -243,7 +243,7 @@ def _undercut(mechanism: Mechanism) -> Iterator[Notice]:
     )
     yield Notice(
         "undercut",
-        f"undercut of the {place.wall} flank from {place.from_deg:.4g} to {place.to_deg:.4g} deg, "
+        f"undercut of the {place.wall} flank from {place.from_deg:.4g} to {place.to_deg:.4g}°, "
         f"by up to {place.depth_mm:.3g} mm. The roller's radius, {r:.4g} mm, exceeds the radius "
-        f"of curvature, {place.radius_mm:.4g} mm at {place.at_deg:.4g} deg: {helps}",
+        f"of curvature, {place.radius_mm:.4g} mm at {place.at_deg:.4g}°: {helps}",
     )

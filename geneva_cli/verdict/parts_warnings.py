@@ -119,16 +119,16 @@ def turn_warnings(model: PartsModel) -> Iterator[Notice]:
     if len(model.parts.assembly.rollers) > len(model.parts.assembly.motions):
         yield Notice(
             "driven-by-one-wall",
-            f"in its slots the wheel is free ahead by {ahead.deg:.4g} deg at "
-            f"{ahead.at_deg:.4g} deg and behind by {behind.deg:.4g} deg at "
-            f"{behind.at_deg:.4g} deg. One wall starts it and one stops it: it leaves them if "
+            f"in its slots the wheel is free ahead by {ahead.deg:.4g}° at "
+            f"{ahead.at_deg:.4g}° and behind by {behind.deg:.4g}° at "
+            f"{behind.at_deg:.4g}°. One wall starts it and one stops it: it leaves them if "
             "its load overruns the first roller, or stays behind the second",
         )
         return
     helps = "a load that overruns the roller" if first else "a load that holds back"
     yield Notice(
         "driven-by-one-wall",
-        f"in its slot the wheel is free {side} by {free:.4g} deg at {at_deg:.4g} deg, where "
+        f"in its slot the wheel is free {side} by {free:.4g}° at {at_deg:.4g}°, where "
         f"one wall alone drives it: {helps} meets a corner. Friction or a brake keeps it on "
         "that wall",
     )

@@ -231,6 +231,24 @@ def run(*arguments, text):
 WHEEL = "[wheel]\nz = 6\n"
 
 
+@pytest.mark.parametrize("law", ["cycloidal", "3-4-5", "modified-sine"])
+def test_a_row_at_either_end_has_the_sliding_beside_it(law):
+    """Without a torque there no wall bears, and the sign of a rounding chose one.
+
+    The roller, r = 5 mm, slides by its path along the slot, less that of its surface. 1e-5: what
+    these change over 1e-4 degrees.
+    """
+    cycle = Cycle(build(Spec(Wheel(6), motion=Motion(law), load=Load(0.1))))
+    (engagement,) = cycle.mechanism.engagements
+    ends = np.array([engagement.entry_deg, engagement.exit_deg])
+    beside = ends + np.array([1e-4, -1e-4])
+    rows, near = (cycle.states(x).sliding_m_s for x in (ends, beside))
+    assert rows == pytest.approx(near, abs=1e-5 * abs(near).max())
+    slides = cycle.extremes["sliding_m_s"]
+    assert (rows <= slides.max).all()
+    assert (rows >= slides.min).all()
+
+
 def test_without_a_load_no_force_is_0():
     found = run("--format", "json", text=WHEEL)
     tree = json.loads(found.stdout)

@@ -10,16 +10,21 @@ import repo
 from geneva_cli import (
     Cycloidal,
     Design,
+    EllipticalGears,
     External,
     Harmonic,
     Internal,
     Load,
     Motion,
+    SCurve,
     load,
 )
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.figures import AXIS_BY_NAME, MACHINES_MAX, USUAL_QUANTITIES, figure
+from geneva_cli.loads.stages import motion_stages
 from geneva_cli.loads.summary import SHOWN_QUANTITIES
+from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.sampling import ASPECT, CHORD_ERROR, refined, thinned
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
@@ -106,6 +111,25 @@ def test_a_break_within_a_motion_is_a_jump():
     curve = curve_of(Design(External(6), load=loaded), "pin_force_N")
     middle = [(a, b) for x, a, b in curve.jumps() if abs(x) < 30.0 and abs(a - b) > 1.0]
     assert len(middle) >= 1
+
+
+@pytest.mark.parametrize("ramp", [0.0, 0.1])
+@pytest.mark.parametrize("cruise", [0.0, 0.2])
+@pytest.mark.parametrize("gears", [None, EllipticalGears(eccentricity=0.3)])
+def test_each_piece_has_its_own_values_at_its_ends(gears, cruise, ramp):
+    """Breaks of a law are angles with roundings: the ends are those of places 1e-7 degrees inside.
+
+    1e-6 of the greatest value: what acceleration and jerk change over 1e-7 degrees.
+    """
+    law = Motion(SCurve(cruise=cruise, ramp=ramp), alpha0_deg=-4.6)
+    spec = Spec(External(6), motion=law, load=Load(inertia_kgm2=0.1), drive_before=gears)
+    machine = build(spec)
+    for stage in motion_stages(machine, ["acceleration", "jerk"]):
+        near = np.array([stage.start, stage.start + 1e-7, stage.end - 1e-7, stage.end])
+        rows = stage.of(near)
+        scale = 1e-6 * (1.0 + np.abs(rows).max(axis=1))
+        assert (np.abs(rows[:, 0] - rows[:, 1]) <= scale).all()
+        assert (np.abs(rows[:, 3] - rows[:, 2]) <= scale).all()
 
 
 def test_the_end_of_a_dwell_meets_the_next_motion():

@@ -318,3 +318,19 @@ def test_a_torque_that_changes_its_sign_beside_mid_motion_leaves_no_stress_there
         assert one.min == 0.0
         # of a torque that all but is 0
         assert one.min_at_deg == pytest.approx(math.degrees(x), rel=1e-9)
+
+
+@pytest.mark.parametrize(("law", "alpha0"), [("cycloidal", 10.0), ("harmonic", 5.0)])
+def test_an_inertia_alone_slides_as_far_on_either_side_of_mid_motion(law, alpha0):
+    """The pin crosses the radius where the torque is a rounding, whose sign chose a wall.
+
+    Dense states beside mid-motion have the extremes; 1e-3: what the grid leaves of them.
+    """
+    cycle = Cycle(build(curved(law, load=Load(0.05), alpha0=alpha0)))
+    (engagement,) = cycle.mechanism.engagements
+    x = np.linspace(engagement.entry_deg, engagement.exit_deg, 40_001)
+    states = cycle.states(x[np.abs(x) > 1e-9])
+    slides, stress = cycle.extremes["sliding_m_s"], cycle.extremes["contact_stress_MPa"]
+    assert slides.max == pytest.approx(-slides.min, rel=1e-12)
+    assert slides.max == pytest.approx(states.sliding_m_s.max(), rel=1e-3)
+    assert stress.min == pytest.approx(math.sqrt(states.stress_squared.min()), rel=1e-3, abs=1e-6)

@@ -11,7 +11,6 @@ from loaded_arrays import CARRIED, LOAD, MISSED, NAMES, beyond, dense_means, loa
 from geneva_cli import design
 from geneva_cli.loads import loads
 from geneva_cli.loads.cycle import Cycle
-from geneva_cli.loads.means import load_means
 from geneva_cli.loads.summaries import load_peaks, load_summaries
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
@@ -44,14 +43,9 @@ def test_means_against_sums_of_many_places(name):
         size = 2e-12 * max(abs(here.max[row]), abs(here.min[row]))
         assert here.mean[row] == pytest.approx(mean, abs=size), load
         assert here.rms[row] == pytest.approx(rms, abs=size), load
-    for told in (("mean", "rms"), ("rms",)):  # without a search for extremes
-        for load, alone_ in load_means(found.machine, names, told).items():
-            assert alone_.rms == pytest.approx(together[load].rms, rel=1e-12)
-            if "mean" in told:
-                # without a search the cuts are had from other rows, and by another rounding
-                assert alone_.mean == pytest.approx(together[load].mean, rel=1e-14)
-            else:
-                assert alone_.mean is None
+    for load, alone_ in load_summaries(found.machine, names, ("rms",)).items():
+        assert alone_.rms == pytest.approx(together[load].rms, rel=1e-12)
+        assert alone_.mean is None
 
 
 @pytest.mark.long
@@ -101,25 +95,7 @@ def test_means_beside_narrow_features(case, told):
     columns = {key: np.array([value]) for key, value in varied.items()}
     _, dense = dense_means(Cycle(alone(spec, columns, 0)), name)
     found = many(spec, columns).machine
-    for rms in (
-        load_summaries(found, [name], told)[name].rms,
-        load_means(found, [name], told)[name].rms,
-    ):
-        assert rms == pytest.approx(dense, rel=2e-12)
-
-
-@pytest.mark.parametrize("name", ["side-crank", "spherical", "gear sector, any ratio"])
-@pytest.mark.parametrize("friction", [{}, {"friction": 0.0}])
-def test_an_inertia_alone_is_summed_in_pairs(name, friction):
-    """As where the sliding's changes are cut, to rounding; some wheels are held by friction."""
-    _, _, found = loaded(name, 60, 78, torque_Nm=0.0, efficiency=1.0, **friction)
-    together = load_summaries(found.machine, NAMES, requested=("rms",))
-    for load, one in load_means(found.machine, NAMES, requested=("rms",)).items():
-        cut = together[load]
-        size = np.maximum(np.abs(cut.max), np.abs(cut.min))
-        assert np.array_equal(np.isinf(one.rms), np.isinf(cut.rms)), load
-        bounded = np.isfinite(cut.rms)
-        assert (np.abs(one.rms - cut.rms)[bounded] <= 1e-14 * size[bounded]).all(), load
+    assert load_summaries(found, [name], told)[name].rms == pytest.approx(dense, rel=2e-12)
 
 
 @pytest.mark.sampled(16)
@@ -194,7 +170,7 @@ def test_no_friction_among_designs_with():
     for one in (
         load_peaks(found.machine, ["input_torque_Nm"])["input_torque_Nm"].max,
         load_summaries(found.machine, ["input_torque_Nm"])["input_torque_Nm"].rms,
-        load_means(found.machine, ["power_W"])["power_W"].rms,
+        load_summaries(found.machine, ["power_W"])["power_W"].rms,
     ):
         assert np.isinf(one).tolist() == [True, False, True]
     here = load_summaries(found.machine, ["input_torque_Nm"])["input_torque_Nm"]

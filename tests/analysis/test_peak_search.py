@@ -25,7 +25,9 @@ def test_rough_rates_are_as_near_as_is_promised(name):
         ends = (motion.entry_deg, motion.exit_deg)
         a, b = (np.broadcast_to(np.reshape(x, (-1, 1)), (count, 1)) for x in ends)
         x = a + (b - a) * np.linspace(0.0, 1.0, 20)
-        for exact, rough in zip(motion(x, 3).arrays()[1:], motion.rough_rates(x, 2), strict=True):
+        for exact, rough in zip(
+            motion(x, 3).arrays()[1:], motion.rough.rough_rates(x, 2), strict=True
+        ):
             allowed = motion.ROUGH_TO * abs(exact + 0.0 * x).max(axis=1, keepdims=True)
             assert (abs(rough - exact) <= allowed).all()
 

@@ -19,8 +19,9 @@ from geneva_cli.loads.strength.roller import (
     lives,
     passage,
     passages,
-    wears_mm,
 )
+from geneva_cli.loads.strength.wear import wears_mm
+from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.arrays import only_of
 from geneva_cli.spec.tables import Load, RollerMaterial, Size, WheelMaterial
@@ -188,14 +189,73 @@ def test_of_unequal_steps_the_worst_roller_counts():
     assert life(mechanism).hours == pytest.approx(min(hours), rel=1e-12)
 
 
-def test_wear():
-    """k 1e-6 mm³/(N m): a million passages wear off k W 1e6 of 20 mm by the travel."""
-    each = (way,) = passages(build(CASE))
-    assert wears_mm(build(CASE), each) is None
-    spec = CASE.replace(material_wheel=WheelMaterial(wear_mm3_Nm=1e-6))
-    volume_mm3 = 1e-6 * way.work * 1e6
-    expected = volume_mm3 / (20.0 * 1000.0 * way.travel_m)
-    assert wears_mm(build(spec), each) == pytest.approx([expected], rel=1e-14)
+WORN = WheelMaterial(wear_mm3_Nm=1e-6)
+
+
+def worn_mm(spec):
+    machine = build(spec)
+    return wears_mm(machine, [one.rubbing_N for one in passages(machine)])
+
+
+def test_wear_of_both_walls():
+    """Per wall: k 1e6 ∫ N |v_s| dt over 20 mm times the length from its deepest to its outermost.
+
+    CASE's torque reverses at 10.34 and 43.03 degrees. So the driving wall is swept by the whole
+    entry, and the other one between the two places only. The quadrature uses no code of the
+    package.
+    """
+    l, L, r, w = 0.5, 0.2, 0.008, 2.0 * math.pi
+    first, second = np.radians((10.3447585591609, 43.0339138141048))
+    D = lambda x: 1.0 + l * l - 2.0 * l * np.cos(x)  # noqa: E731
+    rho = lambda x: L * np.sqrt(D(x))  # noqa: E731
+
+    def force(x):
+        inertia = 0.4 * w * w * l * (1.0 - l * l) * np.sin(x) / D(x) ** 2
+        return abs(15.0 - inertia) / rho(x)
+
+    def work(a, b, d):  # the rubbing speed changes its sign: a dense midpoint rule
+        x = a + (b - a) * (np.arange(400_000) + 0.5) / 400_000
+        v = L * l * np.sin(x) / np.sqrt(D(x)) + d * (1.0 + l * (np.cos(x) - l) / D(x)) * r
+        return (force(x) * abs(v)).mean() * (b - a)
+
+    end = math.pi / 3.0
+    driving = work(-end, first, 1.0) + work(second, end, 1.0)
+    walls = driving / (rho(end) - rho(0.0)), work(first, second, -1.0) / (rho(second) - rho(first))
+    expected = max(walls) * 1e-6 * 1e6 / (20.0 * 1000.0)
+    assert walls[0] > walls[1]
+    assert worn_mm(CASE) is None
+    assert worn_mm(CASE.replace(material_wheel=WORN)) == pytest.approx([expected], rel=1e-9)
+
+
+def test_one_wall_takes_all_the_wear_of_a_torque_that_never_reverses():
+    """It is swept in and out, so the length is half the travel, and no wall shares the work."""
+    spec = CASE.replace(material_wheel=WORN, load=Load(0.0, 15.0))
+    (way,) = passages(build(spec))
+    expected = way.work / (0.5 * way.travel_m) / (20.0 * 1000.0)
+    assert worn_mm(spec) == pytest.approx([expected], rel=1e-12)
+    # an inertia alone presses on one wall on the way in, and on the other on the way out
+    (way,) = passages(build(spec.replace(load=Load(0.4, 0.0))))
+    walls = expected_walls(build(spec.replace(load=Load(0.4, 0.0))))
+    assert worn_mm(spec.replace(load=Load(0.4, 0.0))) == pytest.approx([max(walls)], rel=1e-12)
+
+
+def expected_walls(machine):
+    """Depths of the walls that each half of a motion rubs, from the passages of the halves."""
+    (engagement,), case = machine.engagements, load_case(machine)
+    halves = [passage(engagement, case, half) for half in (-1.0, 1.0)]
+    return [one.work / one.travel_m / (20.0 * 1000.0) for one in halves]
+
+
+def test_a_batch_wears_as_its_designs():
+    loads = [(0.4, 15.0), (0.0, 15.0), (0.4, 0.0), (0.1, 1.0)]
+    columns = {
+        "load.inertia_kgm2": np.array([i for i, _ in loads]),
+        "load.torque_Nm": np.array([t for _, t in loads]),
+    }
+    batch = many(CASE.replace(material_wheel=WORN), columns).machine
+    together = wears_mm(batch, [one.rubbing_N for one in passages(batch)])
+    one_by_one = [worn_mm(CASE.replace(material_wheel=WORN, load=Load(*of)))[0] for of in loads]
+    assert together == pytest.approx(one_by_one, rel=1e-12)
 
 
 def test_what_is_not_known_is_none():

@@ -52,8 +52,9 @@ def test_on_a_large_sphere_it_is_the_flat_horn(z, r, h):
         assert own.thickness_mm == pytest.approx(bent.thickness_mm, rel=1e-3)
 
 
-def test_a_section_by_vectors_in_space():
-    """Six slots at right angles, the roller at the mouth: 30 digits.
+@pytest.mark.parametrize("rub", [0.0, 0.2, -0.2])
+def test_a_section_by_vectors_in_space(rub):
+    """Six slots at right angles, the roller at the mouth, with friction along the wall: 30 digits.
 
     The foot of the section is where the recess's circle meets the great circle across the wall.
     The moment about the section's middle is a cross product, and its axes an orthogonal frame.
@@ -62,7 +63,8 @@ def test_a_section_by_vectors_in_space():
     w, k, S = angles(z, 90.0, L, 5.0, 5.0)
     side = sphere_horns(machine(z, 90.0, L, 5.0), w, k, S)[0]
     sections = side.mouth_deg * np.array([[0.95, 0.9, 0.85]])
-    stresses = side.unit_stress(np.array([[side.mouth_deg]]), sections, b)
+    mouth_deg = np.array([[side.mouth_deg]])
+    stresses = side.unit_stress(mouth_deg, np.array([[rub]]), sections, b)
     polar = side.polar(sections)[0]
     with mp.workdps(30):
         w, half = mp.mpf(w), mp.pi / z
@@ -83,8 +85,10 @@ def test_a_section_by_vectors_in_space():
             foot = mp.findroot(lambda x, t=t: dot(at(t, x), crank) - mp.cos(k), 0.1)
             h, middle = L * (foot - w), (foot + w) / 2
             assert stresses.thickness[0, i] == pytest.approx(float(h), rel=1e-12)
-            force = mp.diff(lambda x: at(mouth, x)[0], w), mp.cos(w), 0
-            moment = cross(L * (at(mouth, w) - at(t, middle)), mp.matrix(force))
+            push = mp.matrix([mp.diff(lambda x: at(mouth, x)[0], w), mp.cos(w), 0])
+            tangent = mp.matrix([0, 0, -1])  # towards the mouth, at 90 degrees
+            force = push + rub * tangent
+            moment = cross(L * (at(mouth, w) - at(t, middle)), force)
             up, across = at(t, middle), mp.matrix([0, 0, 0])
             for j in range(3):
                 across[j] = mp.diff(lambda x, t=t, j=j: at(t, x)[j], middle)
@@ -127,7 +131,7 @@ def test_finite_elements_of_the_shell_agree_with_the_beam(z, axes_deg, L, h, b):
     w, k, S = own
     at, mises = in_the_shell(L, b, S, math.pi / z, w, k, (mouth, deep), 0.15 * h / L)
     places = side.mouth_deg * np.linspace(1.0, 0.01, 400)
-    beam = side.unit_stress(np.array([[side.mouth_deg]]), places[None], b)
+    beam = side.unit_stress(np.array([[side.mouth_deg]]), np.zeros((1, 1)), places[None], b)
     inwards = (mouth - at) * L * math.cos(w)
     own_stress = np.interp(inwards, beam.inwards[0], beam.stress[0, 0])
     inside = (inwards > 0.8 * h) & (inwards < 0.75 * (mouth - deep) * L)

@@ -18,13 +18,13 @@ from typer.testing import CliRunner
 from geneva_cli.analysis.peaks import peak
 from geneva_cli.app import app
 from geneva_cli.bench import run as bench_run
-from geneva_cli.bench.formulas import Proportions, rates
-from geneva_cli.bench.kinds import KINDS, peaks_on_grid, values_of
+from geneva_cli.bench.formulas import Proportions
+from geneva_cli.bench.kinds import KINDS, values_of
 from geneva_cli.bench.method import BenchRow, beats, missing, with_frontier
 from geneva_cli.bench.numeric import by_chebpy
 from geneva_cli.bench.plot import svg
 from geneva_cli.bench.run import SUBJECTS, measure
-from geneva_cli.bench.scalar_loop import grid_loop, looped, motion_loop
+from geneva_cli.bench.scalar_loop import looped, motion_loop
 from geneva_cli.bench.subjects import export as bench_export
 from geneva_cli.bench.subjects import start as bench_start
 from geneva_cli.bench.subjects import tolerance as bench_tolerance
@@ -100,7 +100,6 @@ def test_nothing_is_more_accurate_than_ours(one):
 
 
 def test_no_even_or_halved_pieces_are_as_few():
-    """Chords beside chords, arcs beside arcs, cubics beside cubics."""
     _, rows = measured("slot")
     for row in rows:
         if row.ours:
@@ -215,13 +214,7 @@ def test_exports_of_more_rows_than_are_held_are_compared_too(monkeypatch):
         ("peaks", "chebfun", "chebpy, roots of the slope"),
         ("motion", "numexpr", "stable formula, numexpr"),
         ("motion", "numba", "stable formula, numba"),
-        *some(
-            [
-                ("cranks", "numba", "numba, loop over designs"),
-                ("many", "numba", "a handbook's formulas by Numba"),
-            ],
-            [],
-        ),
+        *some([("cranks", "numba", "numba, loop over designs")], []),
     ],
 )
 def test_a_library_takes_part_or_is_said_to_be_missing(name, library, method):
@@ -229,16 +222,6 @@ def test_a_library_takes_part_or_is_said_to_be_missing(name, library, method):
     is_here = not missing(library)
     assert (library in subject.absent) != is_here
     assert (method in {row.method for row in rows}) == is_here
-
-
-def test_the_loop_on_a_grid_finds_the_peaks_of_handbooks():
-    """At 101 angles a peak is right to about 1e-4; the NumPy script has other places."""
-    z, A = np.array([4, 6, 12]), np.array([0.0, 0.5, -0.4])
-    of = Proportions.of(np.array([1.0, 1.0, -1.0]), z, A, np)
-    peaks = np.zeros((3, 2))
-    grid_loop(lambda function: function)(*of[:3], peaks)
-    exact = peaks_on_grid(of, functools.partial(rates, np))
-    assert peaks == pytest.approx(exact, rel=1e-3)
 
 
 def test_the_loop_for_numba_finds_the_peaks():

@@ -112,9 +112,7 @@ def quantities() -> set[str]:
     out |= {*chain.from_iterable(parts), "tolerance.warnings"}
     out |= {f"parts_list.{kind}" for kind in parts_list.KINDS} | {"checks.passes", "checks.failed"}
     out |= {"passes", "checks_failed", "not_proved", "warnings", "spec", "title"}  # the report's
-    of_loads = {
-        f"{q}.{s}" for q in summary.SHOWN_QUANTITIES for s in summary.QuantitySummary._fields
-    }
+    of_loads = {f"{q}.{s}" for q in summary.SHOWN_QUANTITIES for s in summary.LoadSummary._fields}
     out |= {f"loads.{name}" for name in of_loads} | {"loads.reversals_deg"}
     out |= {f"sizing.{name}" for name in SHOWN_SIZING}
     out |= {f"vibration.avoid.{name}" for name in SpeedToAvoid._fields}

@@ -283,11 +283,11 @@ def test_a_terminal_costs_no_more_than_a_pipe():
     assert not modules & HEAVY
 
 
-@pytest.mark.parametrize("sort", ["", "--sort min:loads.pin_force_N.rms"])
+@pytest.mark.parametrize("sort", ["", "--from turret.toml --sort min:loads.pin_force_N.rms"])
 def test_loads_are_imported_where_they_are_asked_for(forks, sort):
     """No report is; nor is numpy.ma, of which some functions of NumPy take a moment."""
     target = "synth --motion-deg 120 --z 6 --external --rollers 2 --check 0 " + sort
-    found = loaded_in(forks[1], target.split())
+    found = loaded_in(forks[1], Row(target).words)
     assert any(name.startswith("loads") for name in own(found)) == bool(sort)
     assert not any(name.startswith("verdict.report") for name in own(found))
     assert bool(sort) or "numpy.ma" not in found

@@ -37,6 +37,7 @@ from geneva_cli.scene import place_at, value_at
 from geneva_cli.study.against import against
 from geneva_cli.study.animation.scene import scene
 from geneva_cli.verdict.quantities.groups import GROUPS
+from geneva_cli.verdict.strength import strength
 
 WHEELS = [External(3), External(4), External(6), External(12), Internal(3), Internal(6)]
 every = pytest.mark.parametrize("wheel", WHEELS, ids=lambda w: f"{w.NAME}-{w.z}")
@@ -256,6 +257,11 @@ def test_loads_of_several_wheels_are_the_sum_over_a_turn(z, wheels):
         torque = np.empty(len(x))
         torque[order] = one.cycle.states(own[order]).input_torque_Nm
         total += torque
+    # a wheel's own bearings see one motion in a turn, the finger's see those of all wheels
+    for key, times in (("wheel_bearing_N", 1), ("crank_bearing_N", wheels)):
+        assert several.loads[key].mean == pytest.approx(times * one.loads[key].mean, rel=1e-12)
+        rms = math.sqrt(times) * one.loads[key].rms
+        assert several.loads[key].rms == pytest.approx(rms, rel=1e-12)
     summary = several.loads["input_torque_Nm"]
     peak = abs(total).max()
     assert summary.max == pytest.approx(total.max(), rel=1e-6)
@@ -511,6 +517,16 @@ def test_the_carrier_has_an_eye_for_each_wheel():
     assert frame.name == "frame"
 
 
+def test_a_carrier_below_shafts_that_all_end_above_it():
+    """Their bearings are elsewhere: it has no holes, and eyes of L/20 about both axes."""
+    short = Size(crank_shaft_low_mm=-5.0, wheel_shaft_low_mm=-5.0)
+    design = Design(External(4), Carousel(), size=short)
+    (carrier,) = plates(design.drawing("frame").solid)
+    assert carrier.holes == ()
+    eyes = polygon(carrier.outline, 1e-3)
+    assert eyes.bounds == pytest.approx((-5.0, -5.0, 105.0, 5.0), abs=2e-3)
+
+
 def test_the_vibration_says_how_far_the_unbalance_winds_up():
     """2 kg at 50 mm on a carrier of 100 mm: m e L w² at 2 pi rad/s, turned by it over 1e4 N m."""
     bodies = (Mass("point", mass_kg=2.0, radius_mm=50.0, angle_deg=30.0),)
@@ -519,7 +535,7 @@ def test_the_vibration_says_how_far_the_unbalance_winds_up():
     (text,) = (t for t in design.vibration().to_dict()["warnings"] if "off the wheel's axis" in t)
     moment = 2.0 * 0.05 * 0.1 * (2.0 * math.pi) ** 2
     assert f"up to {moment:.4g} N m on the shaft" in text
-    assert f"by {math.degrees(moment / 1e4):.4g} deg" in text
+    assert f"by {math.degrees(moment / 1e4):.4g}°" in text
     balanced = Mass("point", mass_kg=2.0, radius_mm=50.0, count=2)
     for other in (
         Design(External(6), Carousel(), mass=(balanced,), shaft=shaft),
@@ -540,3 +556,58 @@ def test_a_batch_of_carriers_with_several_fingers():
         for one, other in pairs:
             x = 0.3 * one.entry_deg
             assert np.array_equal(one.motion(x).c[1], other.motion(x).c[1])
+
+
+@pytest.mark.parametrize("count", [POINTS, 1])
+def test_the_wheel_s_shaft_bears_its_bodies(count):
+    """Newton's law for the points: the force of pin and bodies on the pivot is within the bound.
+
+    The bound adds sizes, so that it is above the vector sum, by half of it at most.
+    """
+    wheel, mass, n, L, a = External(5), 0.7, 120.0, 0.25, 0.04
+    bodies = Mass("point", mass_kg=mass, count=count, radius_mm=1000.0 * HELD)
+    design = Design(
+        wheel,
+        Carousel(n_rpm=n),
+        mass=(bodies,),
+        size=Size(center_distance_mm=1000.0 * L),
+        shaft=Shaft(wheel_overhang_mm=1000.0 * a, bending_factor=1.0),
+    )
+    witness, w = witness_of(wheel), mp.mpf(n) * mp.pi / 30
+    places = design.cycle.mechanism.engagements
+    greatest = 0.0
+    for one in places:
+        turned = one.mid_angle or 0.0
+        for fraction in np.linspace(-0.98, 0.98, 25):
+            c = mp.radians(mp.mpf(float(fraction * one.exit_deg)))
+            total = mp.mpc(0)
+            for k in range(count):
+                angle = mp.mpf(2 * k) * mp.pi / POINTS + turned
+                total += mass * mpmath.diff(
+                    lambda x, angle=angle: L * mp.expj(x) - HELD * mp.expj(witness.slot(x) + angle),
+                    c,
+                    2,
+                )
+            pin = design.cycle.states(np.array([one.mid_deg + float(mp.degrees(c))])).pin_force_N[0]
+            slot = 1j * mp.expj(witness.slot(c))
+            # on the pivot: the pin's force, on either wall, less what speeds the bodies up
+            inert = w**2 * total
+            sums = (abs(pin * slot - inert), abs(pin * slot + inert))
+            greatest = max(greatest, *map(float, sums))
+    moment = strength(design.mechanism)["strength.wheel_shaft.moment_Nm"]
+    torque = design.loads["wheel_torque_Nm"]
+    assert greatest * a * 0.9999 <= moment
+    assert moment <= 1.5 * math.hypot(greatest * a, max(torque.max, -torque.min))
+
+
+@pytest.mark.parametrize("wheels", [1, 2, 3])
+def test_means_of_a_wheel_count_its_own_motions_alone(wheels):
+    """Of any number of wheels each makes a quarter turn in the carrier's 2 s, and then rests.
+
+    Its inertia takes as much as it gives back, so that the mean torque is the drag's in a quarter
+    of the time.
+    """
+    load = Load(inertia_kgm2=0.02, torque_Nm=0.5)
+    loads = Design(External(4), Carousel(wheels=wheels, n_rpm=30.0), load=load).loads
+    assert loads["omega_rad_s"].mean == pytest.approx(0.25 * math.pi, rel=1e-12)
+    assert loads["wheel_torque_Nm"].mean == pytest.approx(0.125, rel=1e-12)

@@ -127,7 +127,7 @@ def test_a_guide_that_locks_leaves_no_bound():
     rows = [{row.name: row for row in one.checks} for one in loads.values()]
     assert [row["guide_locks"].passes for row in rows] == [True, False]
     (text,) = [one for one in loads[1.001 * locks].warnings if one.name in LOCKED]
-    assert "in the guide holds the rack at -90 deg" in text
+    assert "in the guide holds the rack at -90°" in text
     assert "wheel_shaft_stress_MPa" not in rows[1]  # a rack has no shaft, with or without a bound
 
 

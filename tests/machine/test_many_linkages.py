@@ -9,7 +9,7 @@ from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.linkage.wheels import wheels
-from geneva_cli.linkage.wheels_for_paths import fits_of_batch, searches_kept
+from geneva_cli.linkage.wheels_for_paths import fits_of_batch
 from geneva_cli.machine.many import changed, many, taken
 from geneva_cli.machine.mechanism import build
 
@@ -205,29 +205,3 @@ def test_a_linkage_and_its_mirror_image_drive_the_same_wheels():
     assert len(own) == len(other) > 2.2 * count
     # radians: the greatest difference of entries is 5e-10, of two roots that are nearly one
     assert np.abs(own - other).max() < 1e-7
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("case", [(four_bar(), FOUR_BAR), (slider_crank(), SLIDER_CRANK)])
-def test_a_search_that_is_kept_finds_the_same(case, monkeypatch):
-    """To the last bit, of machines built alone with it and without; and none is searched again."""
-    spec, ranges = case
-    count = some(60, 24)
-    varied = drawn(ranges, count, 11)
-    apart = [alone(spec, varied, i) for i in range(count)]
-    with searches_kept():
-        together = many(spec, varied)
-        monkeypatch.setattr("geneva_cli.linkage.wheel_for_path.wheels", searched_again)
-        found = [alone(spec, varied, int(i)) for i in together.which]
-    assert len(found) > 3
-    for i, one in zip(together.which, found, strict=True):
-        assert one.center_distance_mm == apart[i].center_distance_mm
-        (own,), (other,) = one.engagements, apart[i].engagements
-        assert (own.entry_deg, own.exit_deg) == (other.entry_deg, other.exit_deg)
-        assert own.motion(1.0, 3).c == other.motion(1.0, 3).c
-    with pytest.raises(AssertionError):
-        alone(spec, varied, int(together.which[0]))  # nothing is kept outside
-
-
-def searched_again(path, b):
-    raise AssertionError("searched again")

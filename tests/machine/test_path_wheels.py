@@ -8,7 +8,7 @@ import pytest
 from scipy.optimize import root
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.paths.boxes import _overlaps
+from geneva_cli.kinematics.paths.boxes import _overlaps, _two_turns
 from geneva_cli.kinematics.paths.pairs import pairs
 from geneva_cli.kinematics.paths.samples import PathSamples, points
 from geneva_cli.linkage.choice import chosen
@@ -211,6 +211,8 @@ def test_exits_are_those_of_a_comparison_of_all_pairs(turns):
             for n, later in enumerate((whole[k] * (j // count), 0.0))
         )
     }
-    found = list(zip(*(x.tolist() for x in _overlaps(use, entries, exits, whole)), strict=True))
+    sides = [[_two_turns(values, whole) for values in spans] for spans in (entries, exits)]
+    _, *numbers = _overlaps(use, *sides)
+    found = list(zip(*(x.tolist() for x in numbers), strict=True))
     assert len(found) == len(set(found)) > 20
     assert set(found) == expected

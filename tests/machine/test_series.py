@@ -23,6 +23,7 @@ from geneva_cli import (
     GearSector,
     GenevaPair,
     Internal,
+    Load,
     Motion,
     NoncircularGears,
     SCurve,
@@ -416,3 +417,30 @@ def test_peaks_are_seen_on_both_sides_of_a_jump_of_the_law(A, cruise, ramp):
         begin, speed, gain = begin + length, v[-1], a[-1]
     for name, greatest in sizes.items():
         assert getattr(peaks, name).max == pytest.approx(greatest, rel=1e-6), name
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.1])
+@pytest.mark.parametrize("eccentricity", [0.0, 0.3])
+def test_loads_on_both_sides_of_a_jump_at_mid_motion(eccentricity, friction):
+    """The law of constant acceleration reverses it at its middle: loads have a limit on each side.
+
+    On a plain crank the torque is (I w² psi'' + M) psi', psi' = 1 and psi'' = +-3/pi for 60 in 120
+    degrees: 2 +- 12 pi. Otherwise lines through the values beside mid-motion have the limits.
+    """
+    law = Motion(SCurve(cruise=0.0, ramp=0.0), ratio="matched")
+    before = EllipticalGears(eccentricity=eccentricity) if eccentricity else None
+    loaded = Load(inertia_kgm2=1.0, torque_Nm=2.0, friction=friction)
+    design = Design.of(Spec(External(6), motion=law, load=loaded, drive_before=before))
+    torque, force = (design.loads[name] for name in ("input_torque_Nm", "pin_force_N"))
+    if not (eccentricity or friction):
+        # 1e-9: the digits of a matched R/L
+        assert torque.max == pytest.approx(2.0 + 12.0 * math.pi, rel=1e-9)
+        assert torque.min == pytest.approx(2.0 - 12.0 * math.pi, rel=1e-9)
+    mid = design.mechanism.engagements[0].mid_deg
+    states = design.cycle.states(mid + np.array([-2e-3, -1e-3, 1e-3, 2e-3]))
+    for row, one in ((states.input_torque_Nm, torque), (states.pin_force_N, force)):
+        # 1e-7: what a line over 1e-3 degrees leaves of a curve
+        assert one.max >= (2.0 * row[1] - row[0]) * (1.0 - 1e-7)
+        assert one.min <= (2.0 * row[2] - row[3]) * (1.0 - 1e-7)
+        if not (eccentricity or friction):  # else another place has the greatest one
+            assert one.min == pytest.approx(2.0 * row[2] - row[3], rel=1e-7)

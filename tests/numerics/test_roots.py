@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from witness import near
 
-from geneva_cli.numerics.roots import Falsi, boundary, boundary_by_sections, least, root
+from geneva_cli.numerics.roots import Falsi, boundary, boundary_by_sections, root
 
 
 def calls(f):
@@ -103,12 +103,6 @@ def test_boundary_by_sections(margin, good, bad, most):
 def test_boundary_by_sections_without_a_good_end():
     """Where no number is good, the first end is returned."""
     assert boundary_by_sections(lambda x: -1.0 - x, 1.0, 2.0) == 1.0
-
-
-def test_least():
-    at, low = least(lambda x: (x - 0.3) ** 2 + 1.0, -2.0, 5.0)
-    assert at == pytest.approx(0.3, abs=7e-8)  # a hundred-millionth of the interval
-    assert low == 1.0
 
 
 @pytest.mark.parametrize("short", [-1.0, -math.inf])

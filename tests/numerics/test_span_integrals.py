@@ -6,14 +6,7 @@ import numpy as np
 import pytest
 
 from geneva_cli.numerics import quadrature
-from geneva_cli.numerics.quadrature import (
-    LAST_TERMS,
-    NARROW_NODES,
-    NODES,
-    WIDE_NODES,
-    Integrands,
-    span_integrals,
-)
+from geneva_cli.numerics.quadrature import LAST_TERMS, NODES, Integrands, span_integrals
 
 
 def summed(f, n=1, ends=False):
@@ -61,36 +54,6 @@ def test_designs_that_need_more_are_halved(ends):
     s = np.array([1.0, 1e-4])
     found, _ = summed(lambda x, which: 1.0 / (x * x + s[which, None] ** 2), 2, ends)
     assert found == pytest.approx(np.arctan(1.0 / s) / s, rel=4e-15)
-
-
-def test_spans_with_poles_beside_them_begin_with_more_places():
-    """∫ dx/(x² + s²) over [0, 1], with poles at i s and -i s."""
-    s = np.array([0.9, 1.1])
-    assert (s < 1.0).tolist() == [True, False]
-    places = []
-
-    def functions(x, which):
-        places.append(x.shape[1])
-        return 1.0 / (x * x + s[which, None] ** 2)[None]
-
-    ends, asked = (np.zeros(2), np.ones(2)), np.full((1, 2), True)
-    found = span_integrals(Integrands(functions, *ends), np.arange(2), asked, poles=s)[0]
-    assert found == pytest.approx(np.arctan(1.0 / s) / s, rel=LAST_TERMS)
-    assert places == [NODES, WIDE_NODES]
-
-
-def test_narrow_spans_begin_with_fewer_places():
-    """Two spans of one design; each rule's own series tells what is left."""
-    places = []
-
-    def functions(x, which):
-        places.append(x.shape)
-        return np.exp(x)[None]
-
-    a, b, design = np.array([0.0, 0.9]), np.array([0.9, 1.0]), np.zeros(2, dtype=int)
-    found = span_integrals(Integrands(functions, a, b), design, np.full((1, 1), True))
-    assert found[0] == pytest.approx(math.e - 1.0, rel=4e-16)
-    assert places == [(1, NARROW_NODES), (1, NODES)]
 
 
 def test_spans_apart():

@@ -122,6 +122,18 @@ def test_the_disc_is_fixed_to_the_arm():
     assert check.passes and check.value <= inside + 1e-3
 
 
+def test_sectors_away_from_the_axis_have_no_wall_about_the_bore():
+    """By shapely: the bore is in the arm alone, whose wall to the outline is the least."""
+    design = of(Wheel(6, "internal"), crank_bore_mm=60.0, lock_bolts=0, arm_eye_mm=30.0)
+    arm = design.drawing("arm")
+    outline, *holes = (polygon(s) for s in arm.shapes)
+    expected = min(h.distance(outline.exterior) for h in holes)
+    apart = min(a.distance(b) for a in holes for b in holes if a is not b)
+    assert walls(crank_arm(design.parts), design.parts) == pytest.approx(
+        min(expected, apart), abs=1e-3
+    )
+
+
 @pytest.mark.sampled(12)
 @pytest.mark.parametrize(("z", "gearing", "rollers"), [*crews()])
 def test_bolts_join_disc_and_arm_by_default(z, gearing, rollers):

@@ -158,6 +158,18 @@ def test_checks():
     assert not refused.passes and "leaves the driver no teeth" in refused.why
 
 
+def test_the_least_free_angle_is_between_the_teeth():
+    """Half the backlash at the pinion's pitch radius, 4 L/14: the rim leaves more."""
+    least, lock = (
+        single_check(machine(4, 20, 0.3, gear_backlash_mm=0.3), name)
+        for name in ("counter_free_deg", "counter_lock_deg")
+    )
+    pitch = 4.0 * L / 14.0
+    # flanks are involutes, so that this angle is the same wherever two are near: rounding
+    assert least.value == pytest.approx(math.degrees(0.5 * 0.3 / pitch), rel=1e-9)
+    assert -18.0 <= least.at_deg < 0.0 and lock.value > 4.0 * least.value
+
+
 @pytest.mark.parametrize(("z", "teeth"), [(4, 20), (5, 20), (8, 30), (12, 12)])
 def test_the_number_wheel_meshes_with_the_pinion(z, teeth):
     """It has all the driver's teeth, in contact at every angle: at 20 places of a pitch none

@@ -196,7 +196,7 @@ def test_a_roller_that_overtakes_the_wheel_jams(z, sector, ratio):
     L = design.mechanism.center_distance_mm
     assert found.mm == pytest.approx(-L * max(depths), rel=1e-5)  # 0.002 off a flat top
     (said,) = [c for c in design.warnings if c.name == "roller-overtakes"]
-    assert f"{float(to_degrees(at_handover)):.4g} deg" in str(said)
+    assert f"{float(to_degrees(at_handover)):.4g}°" in str(said)
     (gap,) = [c for c in design.checks if c.passes is False]
     assert (gap.name, gap.nearest) == ("gap_mm", 'gear_ratio = "shockless"')
 

@@ -31,7 +31,7 @@ from geneva_cli.machine.mechanism import build
 from geneva_cli.outlines.outlines import CURVED, Outlines, outlines
 from geneva_cli.outlines.walls.path_walls import _free
 from geneva_cli.outlines.walls.straight import straight_walls
-from geneva_cli.outlines.wheel import EXTENDED_MOUTH, wheel_contour
+from geneva_cli.outlines.wheel import wheel_contour
 from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.checks.registry import turn_checks
 
@@ -127,14 +127,14 @@ def cut(found: Outlines, slots: list[Slot], rests: list[float]) -> Polygon:
     w, z = size.half_width, len(slots)
     behind = rests  # the rest that comes after slot k lies behind it
     ahead = [rests[k - 1] for k in range(z)]
-    reach = (1.0 - EXTENDED_MOUTH) * (L - size.recess)
+    reach = (1.0 - 0.2) * (L - size.recess)
     halves = []
     for slot, low, high in zip(slots, behind, ahead, strict=True):
         whole = low, low + (high - low) % math.tau  # the slot's axis parts it in two
         for side, rim, at in ((-1.0, slot.low, low), (1.0, slot.high, high)):
             half = sector(rim, *whole)
             y = slot.level + side * w
-            if size.lock and sign > 0.0 and rim < (held := EXTENDED_MOUTH * size.rim + reach):
+            if size.lock and sign > 0.0 and rim < (held := 0.2 * size.rim + reach):
                 # What the recess does not reach is carried out to it, inside the roller's circle.
                 corner = turned(Point(math.sqrt(rim * rim - y * y), y), slot.direction)
                 axis = Point(L * math.cos(at), L * math.sin(at))

@@ -632,7 +632,7 @@ def test_a_machine_that_jams():
 
     assert "roller and slot overlap" in said
     # Half a motion is 45 degrees: it collides just before it enters, or just after it has left.
-    (at,) = re.findall(r"input angle (-?[\d.]+) deg", said)
+    (at,) = re.findall(r"input angle (-?[\d.]+)°", said)
     assert 45.0 < abs(math.remainder(float(at), 360.0)) < 50.0
     key, value = advice(said)
     assert key == "wheel_radius_mm"

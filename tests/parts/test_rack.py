@@ -313,6 +313,18 @@ def test_the_shaft_goes_from_the_frame_into_the_arm():
     assert turned["frame"].high == turned["arm"].low - R / 25.0
 
 
+def test_a_shaft_that_ends_in_the_racks_plane_fails():
+    """The rack's edge passes through the crank's axis, so the shaft enters it by its radius."""
+    assert "beside_shafts_mm" not in {check.name for check in design().checks}
+    long = design(crank_shaft_high_mm=2.0)
+    (check,) = (check for check in long.checks if check.name == "beside_shafts_mm")
+    radius = long.parts_model.built.shafts[0].part.outline.radius
+    assert check.value == pytest.approx(-radius, rel=1e-12) and not check.passes
+    assert check.nearest == "leaving out crank_shaft_high_mm"
+    # up to the rack's lower face it is free
+    assert design(crank_shaft_high_mm=0.0).passes
+
+
 def test_a_crank_without_a_pin_is_one_piece_with_its_shaft():
     s = solids_of(pin_mm=0.0)
     assert "arm" not in s

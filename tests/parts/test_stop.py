@@ -154,7 +154,7 @@ def test_check_shows_both_ends_and_the_page_goes_back_and_forth(tmp_path):
     spec = str(repo.DESIGNS / "geneva-stop.toml")
     shown = CliRunner().invoke(app, ["check", spec])
     assert shown.exit_code == 0
-    assert "blocks the crank at -0.8219 and 1440.82 deg" in " ".join(shown.stdout.split())
+    assert "blocks the crank at -0.8219 and 1440.82°" in " ".join(shown.stdout.split())
     file = tmp_path / "page.html"
     assert CliRunner().invoke(app, ["animate", spec, "-o", str(file)]).exit_code == 0
     data = re.search(r'type="application/json">(.*?)</script>', file.read_text(), re.DOTALL)

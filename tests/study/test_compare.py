@@ -131,6 +131,24 @@ def test_rounding_is_no_difference(tmp_path):
     assert not pv["differs"] and L["differs"]
 
 
+def test_a_play_of_rounding_is_that_of_none():
+    """Two lock plays of 0 degrees, one of them 6e-15; the power of a watch is far below 1 nW."""
+    rows = by_quantity(
+        compare(
+            [path("internal-z6.toml")],
+            vary=["size.center_distance_mm=100,170"],
+            picks=["strength.lock.play_deg"],
+        )
+    )
+    assert not rows["strength.lock.play_deg"]["differs"]
+    watch = compare(
+        [path("wandering-hours.toml")],
+        vary=["load.inertia_kgm2=0.01,0.02"],
+        picks=["loads.kinetic_power_W", "cycle.power_W.min"],
+    )
+    assert all(row["differs"] for row in by_quantity(watch).values())
+
+
 def test_picked_quantities_by_whole_and_short_names():
     """And a check that other machines have, whose row here would be empty."""
     some = ["dwell_s", "acceleration.max", "passes", "branches_apart_mm"]

@@ -9,7 +9,7 @@ from geneva_cli.study.sweep.constraints import Constraint, constraint, refuse_co
 @pytest.mark.parametrize(
     ("text", "found"),
     [
-        ("dwell_s >= 0.8", Constraint("dwell_s", ">=", 0.8)),
+        ("dwell_s >= 0.8", Constraint("timing.dwell_s", ">=", 0.8)),
         ("acceleration.max<=5", Constraint("acceleration.max", "<=", 5.0)),
         (" loads.pin_force_N.max <= 1e3 ", Constraint("loads.pin_force_N.max", "<=", 1000.0)),
     ],
@@ -24,7 +24,7 @@ def test_kept_but_for_rounding():
     kept = (0.8, 0.9, 0.8 * (1 - 1e-15), True)  # yes is 1
     assert [bound.kept(v) for v in (*kept, 0.79, False, None, "x")] == [True] * 4 + [False] * 4
     assert bound.binds(0.8) and not bound.binds(0.81)
-    assert constraint("x <= 2").margin(1.0) == 0.5
+    assert constraint("tau <= 2").margin(1.0) == 0.5
 
 
 @pytest.mark.parametrize(
@@ -37,6 +37,6 @@ def test_no_bound(text):
 
 
 def test_contradictions():
-    with pytest.raises(GenevaError, match="nothing is both a >= 2 and a <= 1"):
-        refuse_contradictions([constraint("a >= 2"), constraint("b <= 1"), constraint("a <= 1")])
-    refuse_contradictions([constraint("a >= 2"), constraint("b <= 1"), constraint("a <= 2")])
+    with pytest.raises(GenevaError, match=r"nothing is both timing\.k >= 2 and timing\.k <= 1"):
+        refuse_contradictions([constraint("k >= 2"), constraint("tau <= 1"), constraint("k <= 1")])
+    refuse_contradictions([constraint("k >= 2"), constraint("tau <= 1"), constraint("k <= 2")])

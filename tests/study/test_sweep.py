@@ -282,12 +282,8 @@ def test_a_run_that_ignores_ctrl_c_goes_on():
 
 
 @pytest.mark.parametrize("count", [2, 5, 40])
-def test_what_is_done_meanwhile_is_done_once(count):
-    """By the process that waits, where there is something to do for all others."""
-    done = []
-    found = mapped(abs, range(-count, 0), 2, meanwhile=lambda: done.append(os.getpid()))
-    assert [*found] == [*range(count, 0, -1)]
-    assert done == ([os.getpid()] if count > 2 else [])
+def test_results_of_processes_stay_in_order(count):
+    assert [*mapped(abs, range(-count, 0), 2)] == [*range(count, 0, -1)]
 
 
 def test_other_formats_hold_the_same():

@@ -167,12 +167,21 @@ def test_cams_inside_move_as_the_plain_crank_or_as_long_as_their_rollers_let_the
 
 @pytest.mark.parametrize("options", [{}, {"internal": True, "law": "all"}, {"law": "all"}])
 def test_a_search_gives_its_parts_in_their_order(options, monkeypatch):
-    """They are begun in another, the longest first."""
     target = read_target(motion_deg="100..200", **options)
-    begun = []
+    every = kinds(target)
     monkeypatch.setattr(searching, "cores", lambda: 1)
-    monkeypatch.setattr(
-        searching, "_kind_rows", lambda task, names, how_near: begun.append(task) or task
-    )
-    assert searching._all_kinds(target, ()) == kinds(target)
-    assert begun != kinds(target)
+    monkeypatch.setattr(searching, "_kind_rows", lambda task, names, how_near: task)
+    assert searching._all_kinds(target, ()) == every
+    which = [i % 2 == 1 for i in range(len(every))]
+    assert searching._all_kinds(target, (), which=which) == every[1::2]
+
+
+def test_specs_of_one_kind_keep_their_own_loads_and_sizes():
+    """A force goes with the inertia, and with 1/L: three times the one, a third of the other."""
+    specs = [
+        Spec(External(6), load=Load(inertia_kgm2=inertia), size=Size(center_distance_mm=L))
+        for inertia, L in ((1.0, 100.0), (3.0, 100.0), (1.0, 300.0))
+    ]
+    (one,), (heavy,), (wide,) = numbers(specs, ["loads.pin_force_N.max"])
+    assert heavy == pytest.approx(3.0 * one, rel=1e-12)
+    assert wide == pytest.approx(one / 3.0, rel=1e-12)

@@ -1,4 +1,4 @@
-"""Rows of synth turned: those with the same turn at once, and what fails seen early."""
+"""Rows of synth turned, and what fails seen early."""
 
 import numpy as np
 import pytest
@@ -19,8 +19,8 @@ from geneva_cli.synthesis.parts import USUAL, exact, parts, with_roller
 from geneva_cli.synthesis.parts_data import distances_at_rest, parts_data
 from geneva_cli.synthesis.reading import read_target
 from geneva_cli.synthesis.search import search
-from geneva_cli.synthesis.turns import Failure, Turns, same_turn
-from geneva_cli.verdict.checks import checks
+from geneva_cli.synthesis.turns import Turn
+from geneva_cli.verdict.checks import Check, checks
 from geneva_cli.verdict.checks.play import finds_slot
 
 
@@ -32,30 +32,18 @@ def four_bar():
     return spec
 
 
-def test_other_rollers_and_laws_turn_otherwise():
-    motion = Motion(ModifiedSine(), ratio="matched")
-    specs = [
-        Spec(External(6)),
-        Spec(External(6), Crank(rollers=2)),
-        Spec(External(6), motion=motion),
-        with_roller(Spec(External(6)), 4.0),
-    ]
-    assert len({same_turn(spec) for spec in specs}) == len(specs)
-
-
 def test_a_gap_that_fails_is_found_where_it_failed_before(four_bar):
     """With the next roller, at the place where a larger one touched: the whole turn agrees."""
     L = build(four_bar).center_distance_mm
-    known = Turns()
     large, next_, fits = (with_roller(four_bar, exact(x * L)) for x in (0.05, 0.04, 0.025))
-    seen = known.failing(build(large))
+    seen = Turn(build(large)).failing
     assert [one.name for one in seen] == ["gap_mm"]
-    assert [one.name for one in Turns().first_failing(build(large))] == ["gap_mm"]
-    parts = PartsModel(build(same_turn(next_))).parts
+    assert [one.name for one in Turn(build(large)).first_failing] == ["gap_mm"]
+    parts = PartsModel(build(next_)).parts
     assert gap_about(parts, seen[0].at_deg) < -parts.contact
-    assert known.some_failing(build(next_), seen) == seen
+    assert Turn(build(next_)).some_failing(seen) == seen
     assert [c.name for c in checks(build(next_)) if c.passes is False] == ["gap_mm"]
-    assert known.some_failing(build(fits), seen) == []
+    assert Turn(build(fits)).some_failing(seen) == []
 
 
 def test_a_play_that_fails_is_found_where_it_failed_before():
@@ -65,12 +53,12 @@ def test_a_play_that_fails_is_found_where_it_failed_before():
     """
     rows = search(read_target(motion_deg="180", z="6", external=True, rollers=1)).rows
     (spec,) = [row.spec for row in rows if row.candidate.drive == "cam"]
-    whole = PartsModel(build(same_turn(spec)))
+    whole = PartsModel(build(spec))
     largest = whole.turn.hand_over
     assert largest.deg > finds_slot(whole.parts)
     assert 0.9 < play_about(whole.parts, largest.at_deg) / largest.deg <= 1.0 + 1e-6
-    seen = [Failure("hand_over_play_deg", largest.at_deg)]
-    assert Turns().some_failing(build(with_roller(spec, 4.0)), seen) == seen
+    seen = [Check("hand_over_play_deg", None, "at most", None, False, at_deg=largest.at_deg)]
+    assert Turn(build(with_roller(spec, 4.0))).some_failing(seen) == seen
 
 
 @pytest.mark.parametrize("share", [0.05, 0.03, 0.02])

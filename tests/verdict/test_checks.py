@@ -223,5 +223,5 @@ def test_a_lock_that_lets_the_wheel_turn_holds_nothing() -> None:
 def test_a_slot_that_drives_from_one_wall_leaves_the_wheel_free() -> None:
     """Just inside an offset slot's mouth there is no wall yet on the roller's other side."""
     (said,) = turn_warnings(PartsModel(load(str(DESIGNS / "offset-slots.toml"))))
-    assert re.match(r"in its slot the wheel is free ahead by 6\.49\d* deg at -61\.\d+ deg", said)
+    assert re.match(r"in its slot the wheel is free ahead by 6\.49\d*° at -61\.\d+°", said)
     assert not list(turn_warnings(PartsModel(load(str(DESIGNS / "limits.toml")))))

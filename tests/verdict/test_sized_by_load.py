@@ -17,7 +17,7 @@ from geneva_cli import Crank, Design, External, Internal, NoncircularGears, Side
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.keyways import DIN_6885_1
 from geneva_cli.layout.sizes import sized
-from geneva_cli.layout.stressed import stressed
+from geneva_cli.layout.stressed import lock_of, stressed
 from geneva_cli.loads.strength.arm import (
     ArmDimensions,
     arm_stress_MPa,
@@ -30,6 +30,7 @@ from geneva_cli.machine.many import many
 from geneva_cli.machine.materials import wheel_material
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.outlines.cut_lock import cut_lock
 from geneva_cli.spec.tables import Load, Shaft, Size, WheelMaterial
 from geneva_cli.verdict.quantities.designs import Designs
 from geneva_cli.verdict.quantities.strength import arm, crank_key, crank_shaft, pin, wheel_shaft
@@ -256,7 +257,7 @@ def test_no_default_passes_beyond_its_steel(seed):
         if flat is None or "parts" in after:
             continue
         parts, loads = stressed(*flat), part_loads(machine).of(0)
-        pin_N, _, _, _, crank_Nm = loads
+        pin_N, crank_Nm = loads.pin_N, loads.crank_Nm
         checked = {name: after[name] for name in STRENGTH if name in after}
         assert "pin_stress_MPa" in checked
         pin_MPa = 16.0 * pin_N * parts.contact / (math.pi * parts.pin**3)
@@ -328,3 +329,21 @@ def test_the_spec_s_sizes_stay():
     found = rows(spec)
     assert not any(found[name].passes for name in ("pin_stress_MPa", "arm_stress_MPa"))
     assert Design.of(spec).checks
+
+
+@pytest.mark.parametrize(
+    "wheel",
+    [External(6, offset_mm=5.0), External(5, offset_mm=-6.0), External(6, steps_deg=(66.0, 54.0))],
+)
+@pytest.mark.parametrize("clearance", [0.0, 0.1])
+def test_sizes_are_for_the_lock_as_it_is_cut(wheel, clearance):
+    """The corners that leave the most play, from the mouths' formulas, are those of the drawing.
+
+    They are the lower ones: the recess, of one radius about the crank's axis, ends sooner there.
+    """
+    size = Size(lock_clearance_mm=clearance, slot_clearance_mm=0.02)
+    load = Load(inertia_kgm2=1e-3, dwell_torque_Nm=10.0)
+    flat = sized(build(Spec(wheel, size=size, load=load)))
+    # 1e-9 mm: a tenth of a digit of a drawing
+    assert lock_of(*flat) == pytest.approx(cut_lock(*flat), abs=1e-9)
+    assert lock_of(*flat).corner < flat[1].rim - 1.0

@@ -107,7 +107,7 @@ def _warnings(mechanism: Mechanism, load: Oscillator, least: float) -> list[Noti
     if moment:
         stiffness = mechanism.spec.shaft.stiffness_Nm_rad
         windup = (
-            f", and winds it up by {math.degrees(moment / stiffness):.4g} deg" if stiffness else ""
+            f", and winds it up by {math.degrees(moment / stiffness):.4g}°" if stiffness else ""
         )
         out.append(
             Notice(

@@ -30,7 +30,8 @@ class Lobes(NamedTuple):
 def lobes(share_at: Callable[[Whole, Array], Array], low: Array, high: Array) -> Lobes:
     """Return the local maxima of n residuals, each between its own two period ratios.
 
-    ``share_at(which, ratio)`` gives the residuals of the oscillators ``which``, (k,) each.
+    ``share_at(which, ratio)`` gives the residuals of the oscillators ``which``, (k,) each. A
+    maximum nearer than a sample to a minimum is left out: damping makes such flat ones.
     """
     # 16 samples for each 1 of the period ratio
     count = np.maximum(64, np.ceil(16 * (high - low)).astype(np.intp))

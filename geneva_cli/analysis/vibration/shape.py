@@ -50,8 +50,7 @@ def motion_shapes(motion: WheelMotion, m: int, function: AngleFunction | None = 
         c = (function(angle, which) if function else angle).c
         return _by_order([v / step for v in c], whole * DEGREE, u)
 
-    ends = [np.broadcast_to(np.asarray(x, dtype=float), (m, 1)) for x in motion.breaks_deg]
-    every = np.hstack(ends)
+    every = np.hstack(motion.breaks(m))
     return panels_of(derivatives, (every - every[:, :1]) / (every[:, -1:] - every[:, :1]))
 
 

@@ -20,13 +20,12 @@ from geneva_cli.bench.kinds import (
     QUICK,
     QUICK_CHECKED,
     VariedMachine,
-    cranks_by_numba,
     drawn,
     one_by_one,
     task_of_many,
     values_of,
 )
-from geneva_cli.bench.method import Method, Subject, Task, missing
+from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
@@ -43,7 +42,6 @@ def subject(quick: bool) -> Subject:
         "the search of one design",
         [_task(kind, QUICK if quick else kind.designs) for kind in KINDS],
         floor=1e-14,
-        absent=missing("numba"),
     )
 
 
@@ -51,13 +49,9 @@ def _task(kind: VariedMachine, count: int) -> Task:
     machine, built, alone = drawn(kind, kind.spec, count)
     values = values_of(kind, count)
     varied, script = {kind.key: values}, kind.script and partial(kind.script, values)
-    compiled = None
-    if kind.cranks and not missing("numba"):
-        compiled = partial(cranks_by_numba, *kind.cranks(values))
     methods = [
         one_by_one(alone, built, _one, 5 if built > QUICK else 2),
         *([Method("a handbook's formulas in NumPy", None, script)] if script else []),
-        *([Method("a handbook's formulas by Numba", None, compiled)] if compiled else []),
         Method("together", None, partial(_together, machine), True),
         Method("built and together", None, partial(_built_together, kind.spec, varied), True),
     ]

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.bench import flank
 from geneva_cli.bench.method import Method, Subject, Task
-from geneva_cli.curves import fit
 from geneva_cli.kinematics.laws.standard import Cycloidal
 from geneva_cli.kinematics.motion import Motion
 from geneva_cli.kinematics.wheels.external import External
@@ -67,21 +65,13 @@ def greedy(mechanism: Mechanism, tolerance: float) -> Array:
     return np.array(angles)
 
 
-class PieceMethod(NamedTuple):
-    """A method that writes a slot in pieces: functions for the answer, its count and its error."""
+class ChainMethod(NamedTuple):
+    """A method that writes a slot as a chain of chords, by the input angles at their ends."""
 
-    shape: str
     name: str
-    run: Callable[[Mechanism, float], Any]
-    pieces: Callable[[Any], int]
-    error: Callable[[Mechanism, Any], float]
+    run: Callable[[Mechanism, float], Array]
     ours: bool = False
     finest: float = 0.0  # mm; at finer tolerances the method would take minutes
-
-
-def chords(angles: Array) -> int:
-    """Number of a polyline's pieces."""
-    return len(angles) - 1
 
 
 def chord_error(mechanism: Mechanism, angles: Array) -> float:
@@ -103,30 +93,13 @@ def chord_error(mechanism: Mechanism, angles: Array) -> float:
     return worst
 
 
-def on_flank(fitted: Callable[..., list[Any]]) -> Callable[[Mechanism, float], list[Any]]:
-    """Return a function that fits the left flank in pieces."""
-    return lambda mechanism, tolerance: fitted(*flank.left_flank(mechanism), tolerance)
-
-
-def flank_error(mechanism: Mechanism, pieces: list[Any]) -> float:
-    """Greatest distance of the left flank from its pieces, mm."""
-    return flank.stray(*flank.left_flank(mechanism), pieces)
-
-
-def piece_methods() -> list[PieceMethod]:
-    """All methods, one line each; those of one shape compete."""
-    chain, arcs, cubics = "", ": left flank in arcs", ": left flank in cubics"
+def chain_methods() -> list[ChainMethod]:
+    """All methods, one line each."""
     return [
-        PieceMethod(chain, "even input angles", even, chords, chord_error),
-        PieceMethod(chain, "recursive bisection", bisection, chords, chord_error),
-        PieceMethod(chain, "greedy longest chords", greedy, chords, chord_error, finest=1e-4),
-        PieceMethod(chain, "ours: polyline", nodes, chords, chord_error, True),
-        PieceMethod(arcs, "biarcs by bisection", on_flank(flank.biarcs), len, flank_error),
-        PieceMethod(arcs, "ours: arcs", on_flank(fit.arcs), len, flank_error, True),
-        PieceMethod(
-            cubics, "Hermite cubics by bisection", on_flank(flank.hermite_cubics), len, flank_error
-        ),
-        PieceMethod(cubics, "ours: cubics", on_flank(fit.cubics), len, flank_error, True),
+        ChainMethod("even input angles", even),
+        ChainMethod("recursive bisection", bisection),
+        ChainMethod("greedy longest chords", greedy, finest=1e-4),
+        ChainMethod("ours: polyline", nodes, True),
     ]
 
 
@@ -136,37 +109,29 @@ def subject(quick: bool) -> Subject:
     mechanism = build(Spec(External(8), motion=Motion(Cycloidal(), ratio="matched"), size=size))
     engagement = mechanism.engagements[0]
     angles = np.linspace(engagement.entry_deg, engagement.exit_deg, 1000)
-    tasks = [
-        Task(
-            f"slot of z = 8, cycloidal, matched R/L, L = 200 mm{shape}",
-            "pitch curve and flanks at 1000 angles",
-            lambda: slot(mechanism, angles),
-            lambda answer: answer[0].error(mechanism, answer[1]),
-            _methods(mechanism, shape, quick),
-        )
-        for shape in dict.fromkeys(method.shape for method in piece_methods())
-    ]
+    task = Task(
+        "slot of z = 8, cycloidal, matched R/L, L = 200 mm",
+        "pitch curve and flanks at 1000 angles",
+        lambda: slot(mechanism, angles),
+        partial(chord_error, mechanism),
+        _methods(mechanism, quick),
+    )
     return Subject(
-        "A curved slot in pieces", "greatest distance from the curve, mm", tasks, floor=0.0
+        "A curved slot in pieces", "greatest distance from the curve, mm", [task], floor=0.0
     )
 
 
-def _methods(mechanism: Mechanism, shape: str, quick: bool) -> list[Method]:
+def _methods(mechanism: Mechanism, quick: bool) -> list[Method]:
     tolerances = (1e-2, 1e-3) if quick else (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)  # mm
     return [
         Method(
             method.name,
             tolerance,
-            partial(_run, method, mechanism, tolerance),
+            partial(method.run, mechanism, tolerance),
             method.ours,
-            pieces=lambda answer: answer[0].pieces(answer[1]),
+            pieces=lambda angles: len(angles) - 1,
         )
-        for method in piece_methods()
+        for method in chain_methods()
         for tolerance in tolerances
-        if method.shape == shape and tolerance >= method.finest
-        if not (quick and method.run is greedy)
+        if tolerance >= method.finest and not (quick and method.run is greedy)
     ]
-
-
-def _run(method: PieceMethod, mechanism: Mechanism, tolerance: float) -> tuple[PieceMethod, Any]:
-    return method, method.run(mechanism, tolerance)

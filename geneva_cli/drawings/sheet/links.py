@@ -5,21 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-import numpy as np
-
 from geneva_cli.curves.measure import at
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.view import Block, View, grouped
-from geneva_cli.kinematics.layout import Joint
 from geneva_cli.layout.fits import Fits
-from geneva_cli.layout.link_positions import links_at, same
+from geneva_cli.layout.link_positions import same
 from geneva_cli.layout.written import degrees, length
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
-from geneva_cli.parts.link_sizes import places, point_at_zero
+from geneva_cli.parts.link_sizes import roller_pins
 from geneva_cli.parts.links import Links, placed_holes
 
 UP = 0.5 * math.pi
@@ -38,7 +35,7 @@ def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> 
     for slot in slots:
         _slot(view, slot, base)
     _places(view, holes, base)
-    pressed = _pressed(mechanism)
+    pressed = [centre for _, centre in roller_pins(mechanism)]  # in a link or in its block
 
     def written(hole: Circle, there: Circle) -> str:
         if any(same(there.centre, p, mechanism.center_distance_mm) for p in pressed):
@@ -62,16 +59,6 @@ def _base(view: View, plate: Plate, holes: list[Circle]) -> Point:
     view.cross((0.0, 0.0), own.radius if own else 0.0)
     view.remark("one piece with its shaft")
     return 0.0, 0.0
-
-
-def _pressed(mechanism: Mechanism) -> list[Point]:
-    """Return the centres of rollers' pins at input angle 0, in a link or in its block."""
-    return [
-        point_at_zero(joint)
-        for link in links_at(mechanism, np.zeros(1))
-        for joint, kind in zip(places(link), link.kinds, strict=True)
-        if kind in (Joint.ROLLER, Joint.CARRIED)
-    ]
 
 
 def _places(view: View, holes: list[Circle], base: Point) -> None:

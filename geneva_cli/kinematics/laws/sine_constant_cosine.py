@@ -12,7 +12,7 @@ import math
 
 from geneva_cli.kinematics.laws.law import from_velocity
 from geneva_cli.numerics.arrays import library
-from geneva_cli.numerics.jet import Jet, Number, piecewise, sin_cos
+from geneva_cli.numerics.jet import Jet, Number, piecewise, sin
 
 
 def peak(b: float, d: float, pi: float = math.pi) -> float:
@@ -64,7 +64,7 @@ def first_half(u: Number, order: int, b: float, d: float, v: float = 0.0) -> Jet
         rate = 0.5 * pi / sine
 
         def velocity(x: Jet) -> Jet:
-            half = sin_cos(x * (0.5 * rate))[0]
+            half = sin(x * (0.5 * rate))
             return half * half * (2.0 * a / rate)
 
         return from_velocity(x, order, lambda x: a / rate * (x - m.sin(rate * x) / rate), velocity)
@@ -89,7 +89,7 @@ def first_half(u: Number, order: int, b: float, d: float, v: float = 0.0) -> Jet
             x,
             order,
             position,
-            lambda x: sin_cos((x - ends[1]) * rate)[0] * (a / rate) + v_2,
+            lambda x: sin((x - ends[1]) * rate) * (a / rate) + v_2,
         )
 
     def middle(x: Number) -> Jet:

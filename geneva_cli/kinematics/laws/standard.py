@@ -5,12 +5,8 @@ from typing import Annotated, ClassVar
 from geneva_cli.kinematics.laws.law import Law, from_velocity
 from geneva_cli.kinematics.laws.sine_constant_cosine import breaks, first_half
 from geneva_cli.numerics.arrays import Truth, library
-from geneva_cli.numerics.jet import Jet, Number, sin_cos
+from geneva_cli.numerics.jet import Jet, Number, sin, sin_cos
 from geneva_cli.spec.rules import Range
-
-
-def _sine(x: Jet) -> Jet:
-    return sin_cos(x)[0]
 
 
 class Harmonic(Law):
@@ -32,7 +28,7 @@ class Harmonic(Law):
             u,
             order,
             lambda u: m.sin(m.pi / 2.0 * u) ** 2,
-            lambda u: _sine(u * m.pi) * (m.pi / 2.0),
+            lambda u: sin(u * m.pi) * (m.pi / 2.0),
         )
 
 
@@ -53,7 +49,7 @@ class Cycloidal(Law):
         m = library(u)
 
         def velocity(u: Jet) -> Jet:
-            s = _sine(u * m.pi)
+            s = sin(u * m.pi)
             return s * s * 2.0
 
         return from_velocity(u, order, lambda u: u - m.sin(2.0 * m.pi * u) / (2.0 * m.pi), velocity)

@@ -8,14 +8,15 @@ cubics of the crank angle. They show if an entry and an exit can have a line in 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.lib.stride_tricks import as_strided
 
-from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, joined, points
+from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, points
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Whole
+from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Whole, joined
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -81,8 +82,11 @@ class Boxes(NamedTuple):
         return Boxes(which[where], sense[where], *sides, turn[where], origin[where])
 
 
-def boxes_of(samples: PathSamples, b: Array) -> Boxes:
-    """Boxes between adjacent samples that may contain a pair; b are half index angles (m, 1)."""
+def boxes_of(samples: PathSamples, b: Array) -> Iterator[Boxes]:
+    """Boxes between adjacent samples that may contain a pair, for each sense of the wheel.
+
+    b are half index angles (m, 1).
+    """
     at, lean = samples.at, 0.5 * math.pi - b[samples.which, 0]
     # Near a sharp bend all lines pass one point. Measured from there their offsets are small.
     design = np.arange(len(lean))
@@ -96,22 +100,16 @@ def boxes_of(samples: PathSamples, b: Array) -> Boxes:
         lines = _lines(at, angle, origin, side * lean)
         arcs = _arcs(phi, width, lines[:, :-1], lines[:, 1:])
         flat = Arcs._make(x.reshape(*x.shape[:-2], -1) for x in arcs)
-        sides.append((flat, arcs.spans()))
-    parts = []
+        sides.append((flat, [_two_turns(span, whole) for span in arcs.spans()]))
     for sense, ((one, entries), (two, exits)) in ((1.0, sides), (-1.0, sides[::-1])):
         use = possible & arcs.turns(sense)  # the tangent turns alike for both sides
-        first, last, turns = _overlaps(use, entries, exits, whole)
-        row = first % len(design)
+        row, first, last, turns = _overlaps(use, entries, exits)
         turn = turns * whole.take(row)
-        strip, cubics = one.strip.take(first, axis=-1), two.cubics.take(last, axis=-1)
-        near = np.flatnonzero(_may_cross(strip, cubics, turn))
-        row, first, last = row[near], first[near], last[near]
-        one, two = one.taken(first), two.taken(last)
-        two.phi[:] += math.tau * turns[near]
-        box = (samples.which[row], np.full(len(row), sense), one, two, turn[near], origin[row])
-        parts.append(_crossing(Boxes(*box)))
-    boxes: Boxes = joined(parts, -1)
-    return boxes
+        near = _crossing(one, first, two, last, turn)
+        row, entry, exit_ = row[near], one.taken(first[near]), two.taken(last[near])
+        exit_.phi[:] += math.tau * turns[near]
+        senses = np.full(len(row), sense)
+        yield Boxes(samples.which[row], senses, entry, exit_, turn[near], origin[row])
 
 
 def _lines(at: PathPoints, angle: Array, origin: Complex, lean: Array) -> Array:
@@ -148,77 +146,77 @@ def _may_cross(strip: Array, cubics: Array, turn: Array) -> Mask:
     return may
 
 
-def _crossing(boxes: Boxes) -> Boxes:
-    """Boxes whose exit may cross the entry's strip, and the other way round."""
-    entry, exit_, turn = boxes.entry, boxes.exit, boxes.turn
-    by_exit = _may_cross(entry.strip, exit_.cubics, turn)
-    return boxes.taken(np.flatnonzero(by_exit & _may_cross(exit_.strip, entry.cubics, -turn)))
+def _crossing(one: Arcs, first: Whole, two: Arcs, last: Whole, turn: Array) -> Whole:
+    """Pairs of arcs for entry and exit of which each may cross the strip of the other."""
+    strip, cubics = one.strip.take(first, axis=-1), two.cubics.take(last, axis=-1)
+    near = np.flatnonzero(_may_cross(strip, cubics, turn))
+    strip, cubics = two.strip.take(last[near], axis=-1), one.cubics.take(first[near], axis=-1)
+    return near[_may_cross(strip, cubics, -turn[near])]
+
+
+def _two_turns(values: Array, whole: Array) -> NDArray[np.float32]:
+    """Angles and offsets (2, n, m) in a turn and the next, (2, 2 n, m); angles rise by ``whole``.
+
+    Single numbers are in the same order, so that no overlap is lost.
+    """
+    next_turn = values + np.stack((whole, 0.0 * whole))[:, None]
+    return np.concatenate((values, next_turn), axis=1, dtype=np.float32, casting="same_kind")
 
 
 def _overlaps(
-    use: Mask, entries: tuple[Array, Array], exits: tuple[Array, Array], whole: Array
-) -> tuple[Whole, Whole, Whole]:
-    """Entries and exits in a turn after each whose spans overlap: their numbers, and turns.
+    use: Mask, entries: Sequence[NDArray[np.float32]], exits: Sequence[NDArray[np.float32]]
+) -> tuple[Whole, Whole, Whole, Mask]:
+    """Entries and exits in a turn after each whose spans overlap: design, numbers, and turns.
 
-    Angles rise by ``whole`` in a turn. ``turns`` is 1 for an exit in the turn after the entry's.
+    Spans are the least and greatest angles and offsets in two turns. ``turns`` is 1 for an exit in
+    the turn after the entry's.
     """
     count, designs = use.shape
-    may = use[:, None] & _later(use, use)
-
-    def single(x: Array) -> NDArray[np.float32]:
-        return x.astype(np.float32)  # in order still, so that no overlap is lost
-
-    for least, most, low, high, rise in zip(*entries, *exits, (whole, 0.0), strict=True):
-        may &= _later(single(low), single(low + rise)) <= single(most)[:, None]
-        may &= _later(single(high), single(high + rise)) >= single(least)[:, None]
+    may = use[:, None] & _later(np.concatenate((use, use)))
+    for least, most, low, high in zip(*entries, *exits, strict=True):
+        may &= _later(low) <= most[:count, None]
+        may &= _later(high) >= least[:count, None]
     place = np.flatnonzero(may)
-    pair, design = np.divmod(place, designs)
-    entry, after = np.divmod(pair, count - 1)
-    exit_ = entry + after + 1
+    pair = place // designs
+    entry = pair // (count - 1)
+    exit_ = pair - (count - 2) * entry + 1
+    design = place - designs * pair
     turns = exit_ >= count
-    return entry * designs + design, (exit_ - count * turns) * designs + design, turns
+    return design, entry * designs + design, (exit_ - count * turns) * designs + design, turns
 
 
-def _later(this: NDArray[T], following: NDArray[T]) -> NDArray[T]:
-    """Values of the other arcs after each arc, (n, n - 1, m), from those of two turns, (n, m)."""
-    both = np.concatenate((this, following))
-    step, size = both.strides
-    return as_strided(both[1:], (len(this), len(this) - 1, both.shape[1]), (step, step, size))
+def _later(both: NDArray[T]) -> NDArray[T]:
+    """Values of the other arcs after each arc, (n, n - 1, m), from those of two turns, (2 n, m)."""
+    count, (step, size) = len(both) // 2, both.strides
+    return as_strided(both[1:], (count, count - 1, both.shape[1]), (step, step, size))
 
 
-class Crossings(NamedTuple):
-    """Crossings of the lines' cubics, and what the cubics show of a box."""
+def cross_once(boxes: Boxes) -> Mask:
+    """True for boxes whose lines agree once at most.
 
-    one: Mask  # True if the box has one pair, near ``phi``
-    none: Mask  # True if the box has no pair
-    phi: Array
-
-
-def crossings(boxes: Boxes) -> Crossings:
-    """Crossings of the cubics of entry and exit.
-
-    If the directions of the two in the plane of lines are apart, they cross once or not at all.
+    The directions of entry and exit in the plane of lines are apart. Curves that are nearly
+    parallel somewhere may cross twice, within the error of the cubics.
     """
-    entry, exit_ = boxes.entry, boxes.exit
-    x, y = np.diff(entry.cubics, axis=1)[:, :, None]
-    u, v = np.diff(exit_.cubics, axis=1)[:, None]
+    x, y = np.diff(boxes.entry.cubics, axis=1)[:, :, None]
+    u, v = np.diff(boxes.exit.cubics, axis=1)[:, None]
     cross = x * v - y * u
     cross *= np.sign(cross[1, 1])
-    # Curves that are nearly parallel somewhere may cross twice, within the error of the cubics.
-    once = cross.min(axis=(0, 1)) > 0.1 * cross.max(axis=(0, 1))
-    place, move = np.full((2, 2, len(once)), 0.5)  # fractions of the widths
-    for _ in range(3):  # Newton steps
+    apart: Mask = cross.min(axis=(0, 1)) > 0.1 * cross.max(axis=(0, 1))
+    return apart
+
+
+def crossings(boxes: Boxes) -> Array:
+    """Crank angles at which the cubics of entry and exit cross, in two rows."""
+    entry, exit_ = boxes.entry, boxes.exit
+    place = np.full((2, len(boxes.which)), 0.5)  # fractions of the widths
+    for _ in range(3):  # Newton steps: the pair itself may be off the crossing by 0.05
         (p, (x, y)), (q, (u, v)) = entry.at(place[0]), exit_.at(place[1])
         off, up = q - p
         off += boxes.turn
-        move = np.stack((off * v - up * u, off * y - up * x)) / (x * v - y * u)
-        place = np.clip(place + move, -OVERLAP, 1.0 + OVERLAP)
-    # Fractions of the widths: after a move by less than a twentieth the next would be below a
-    # hundredth. The pair itself may be off the crossing by 0.05, and a quarter is safe.
-    once &= np.abs(move).max(axis=0) < 0.05
-    inside = np.abs(place - 0.5).max(axis=0) <= 0.5 + 0.25
-    phi = [arcs.phi + of * arcs.width for arcs, of in zip((entry, exit_), place, strict=True)]
-    return Crossings(once & inside, once & ~inside, np.stack(phi, axis=1))
+        place += np.stack((off * v - up * u, off * y - up * x)) / (x * v - y * u)
+        np.clip(place, -OVERLAP, 1.0 + OVERLAP, out=place)
+    sides = zip((entry, exit_), place, strict=True)
+    return np.stack([arcs.phi + of * arcs.width for arcs, of in sides])
 
 
 def halved(path: RollerPath, boxes: Boxes, b: Array) -> Boxes:
@@ -226,18 +224,21 @@ def halved(path: RollerPath, boxes: Boxes, b: Array) -> Boxes:
     count = len(boxes.which)
     lean = boxes.sense * (b[boxes.which, 0] - 0.5 * math.pi)
     which, origin, lean = np.tile(boxes.which, 2), np.tile(boxes.origin, 2), np.append(lean, -lean)
-    halves = _halves(path.roughly(which), joined([boxes.entry, boxes.exit], -1), origin, lean)
-    low, high = halves.spans()
+    halves = _halves(path.roughly(which), joined([boxes.entry, boxes.exit]), origin, lean)
     turns = halves.turns(np.tile(boxes.sense, 4))
     box = np.tile(np.arange(count), 4)
     entry, exit_ = (box + 2 * count * np.repeat(of, count) for of in ((0, 0, 1, 1), (0, 1, 0, 1)))
     exit_ += count
     turn = boxes.turn[box]
-    ahead = np.stack((turn, 0.0 * turn))
-    overlap = (low[:, exit_] + ahead <= high[:, entry]) & (high[:, exit_] + ahead >= low[:, entry])
-    may = np.flatnonzero(overlap.all(axis=0) & turns[entry] & turns[exit_])
-    one, two, box, turn = halves.taken(entry[may]), halves.taken(exit_[may]), box[may], turn[may]
-    return _crossing(Boxes(boxes.which[box], boxes.sense[box], one, two, turn, boxes.origin[box]))
+    may = turns[entry] & turns[exit_]
+    for low, high, ahead in zip(*halves.spans(), (turn, 0.0), strict=True):
+        may &= low.take(exit_) + ahead <= high.take(entry)
+        may &= high.take(exit_) + ahead >= low.take(entry)
+    may = np.flatnonzero(may)
+    entry, exit_, box, turn = entry[may], exit_[may], box[may], turn[may]
+    near = _crossing(halves, entry, halves, exit_, turn)
+    box, one, two = box[near], halves.taken(entry[near]), halves.taken(exit_[near])
+    return Boxes(boxes.which[box], boxes.sense[box], one, two, turn[near], boxes.origin[box])
 
 
 def _halves(path: RollerPath, arcs: Arcs, origin: Complex, lean: Array) -> Arcs:

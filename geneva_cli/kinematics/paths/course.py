@@ -12,10 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.kinematics.paths.pairs import EndPairs
 from geneva_cli.kinematics.paths.samples import points
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.numerics.arrays import Array, Complex, Mask, Which
+from geneva_cli.numerics.arrays import Array, Complex, Mask, Which, Whole
 from geneva_cli.numerics.tolerances import ROUNDED
 
 
@@ -52,35 +51,47 @@ class PlacedWheel(NamedTuple):
         return PlacedWheel._make(part[where] for part in self)
 
 
-def leaves_slot(
-    path: RollerPath,
-    wheel: PlacedWheel,
-    ends: EndPairs,
-    nodes: Array,
-    course: PinCourse,
-    motion: Array,
-) -> Mask:
-    """True for each wheel whose roller leaves its slot between samples.
+class OpenIntervals(NamedTuple):
+    """Intervals in which cubics do not prove the conditions, which hold at both ends: (n,).
+
+    ``left`` and ``right`` are crank angles since entry. ``low`` and ``far`` are the rounding of the
+    wheel's moments and squared distances.
+    """
+
+    wheel: Whole  # numbers of the wheels
+    left: Array
+    right: Array
+    inside: Mask  # True between entry and exit
+    low: Array
+    far: Array
+
+
+def open_intervals(nodes: Array, course: PinCourse, motion: Array) -> OpenIntervals:
+    """Open intervals between samples of all wheels.
 
     ``nodes`` are the crank angles of the samples since entry. At them ``course`` has no wrong sign.
     """
-    bar = [ROUNDED * np.abs(x).max(axis=0) for x in (course.moment, course.short)]
-    fails = np.zeros(len(motion), dtype=bool)
-    inside = nodes[:-1] < motion
-    i, which = np.nonzero(_open(nodes, course, inside, *bar))
-    left, right, inside = nodes[i, which], nodes[i + 1, which], inside[i, which]
+    bars = [ROUNDED * np.abs(x).max(axis=0) for x in (course.moment, course.short)]
+    return _open(np.arange(len(motion)), nodes, course, nodes[:-1] < motion, *bars)
+
+
+def leaves_slot(
+    path: RollerPath, wheel: PlacedWheel, design: Whole, entry: Array, intervals: OpenIntervals
+) -> Mask:
+    """True for each wheel whose roller leaves its slot in an open interval."""
+    fails = np.zeros(len(entry), dtype=bool)
     for _ in range(4):  # each round cuts an open interval into eight
+        which, left, right, inside, low, far = intervals
         if not len(which):
             break
         places = left + (right - left) * (np.arange(9) / 8)[:, None]
-        phi = places + ends.at.phi[which, 0]
-        at = points(path.roughly(ends.which[which]), phi.T)
+        at = points(path.roughly(design[which]), (places + entry[which]).T)
         some = wheel.taken(which).course(at.p.T, at.v.T, at.a.T)
-        low, far = (x[which] for x in bar)
         wrong = np.where(inside, (some.moment < -low) | (some.short < -far), some.short > far)
         fails[which[wrong.any(axis=0)]] = True
-        i, j = np.nonzero(_open(places, some, inside, low, far) & ~fails[which])
-        which, left, right, inside = which[j], places[i, j], places[i + 1, j], inside[j]
+        intervals = _open(which, places, some, inside, low, far)
+        going_on = ~fails[intervals.wheel]
+        intervals = OpenIntervals._make(x[going_on] for x in intervals)
     return fails
 
 
@@ -92,20 +103,24 @@ def peak_bounds(
     moments = _coefficients(width, course.moment, course.moment_slope)
     squares = _coefficients(width, square, -course.short_slope)
     inside = nodes[1:] <= motion
-    least = most = np.where(inside, moments[0] / squares[0], 0.0)
+    least = most = moments[0] / squares[0]
     # A quotient of cubics is between the quotients of their Bernstein coefficients.
     for moment, square in zip(moments[1:3], squares[1:3], strict=True):
         most = np.maximum(most, np.where(square > 0.0, moment / square, np.inf))
-    return least.max(axis=0), most.max(axis=0, where=inside, initial=0.0)
+    return tuple(np.where(inside, x, 0.0).max(axis=0) for x in (least, most))
 
 
-def _open(places: Array, course: PinCourse, inside: Mask, low: Array, far: Array) -> Mask:
-    """Intervals in which the cubics do not prove the conditions, which hold at their ends."""
+def _open(
+    wheel: Whole, places: Array, course: PinCourse, inside: Mask, low: Array, far: Array
+) -> OpenIntervals:
+    """Open intervals between adjacent places, which are of one wheel in each column."""
     width = np.diff(places, axis=0)
     _, *moments, _ = _coefficients(width, course.moment, course.moment_slope)
     _, *shorts, _ = _coefficients(width, course.short, course.short_slope)
     short = np.where(inside, np.minimum(*shorts), -np.maximum(*shorts)) < -far
-    return short | (inside & (np.minimum(*moments) < -low))
+    inside = np.broadcast_to(inside, short.shape)
+    i, j = np.divmod(np.flatnonzero(short | (inside & (np.minimum(*moments) < -low))), len(wheel))
+    return OpenIntervals(wheel[j], places[i, j], places[i + 1, j], inside[i, j], low[j], far[j])
 
 
 def _coefficients(width: Array, value: Array, slope: Array) -> tuple[Array, Array, Array, Array]:

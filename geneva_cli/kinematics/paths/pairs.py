@@ -26,19 +26,28 @@ radians of the crank counts as a cusp, and pairs in it may be missed.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.kinematics.paths.boxes import OVERLAP, Boxes, boxes_of, crossings, halved
-from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, joined, points
+from geneva_cli.kinematics.paths.boxes import (
+    OVERLAP,
+    Boxes,
+    boxes_of,
+    cross_once,
+    crossings,
+    halved,
+)
+from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, points
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, joined
 from geneva_cli.numerics.tolerances import ROUNDED
 
 # Slope of the index angle along the family of pairs: a root with less is double, or nearly so.
 DOUBLE_ROOT_SLOPE = 1e-5
+SAME_ENTRY = 1e-6  # radians: entries nearer to each other are one
 
 
 class EndPairs(NamedTuple):
@@ -76,23 +85,38 @@ class Residual(NamedTuple):
 
 
 def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> PairSearch:
-    """All pairs for designs with half index angles b, (n, 1), from samples of their paths."""
-    boxes = joined([boxes_of(some, b) for some in samples], -1)
-    solved, halvings = [], 9  # of a box
+    """All pairs for designs with half index angles b, (n, 1), from samples of their paths.
+
+    They are in the order of designs and entries.
+    """
+    boxes = joined([part for some in samples for part in boxes_of(some, b)])
+    roots, halvings = [], 9  # of a box
     for depth in range(halvings + 1):
-        crossing = crossings(boxes)
-        last = depth == halvings
-        tried = np.flatnonzero(crossing.one | last)
-        ends, close = _solved(path, boxes.taken(tried), crossing.phi[tried], b)
-        solved.append(ends.taken(close))
-        rest = np.concatenate((np.flatnonzero(~(crossing.one | crossing.none)), tried[~close]))
-        if last or not len(rest):
+        once = cross_once(boxes) | (depth == halvings)
+        some = boxes.taken(np.flatnonzero(once))
+        phi, close = _solved(path, some, crossings(some), b)
+        roots.append((some.which[close], phi[close]))
+        once[once] = close
+        if once.all() or depth == halvings:
             break
-        boxes = halved(path, boxes.taken(rest), b)
-    ends = ends.taken(np.flatnonzero(~close))
+        boxes = halved(path, boxes.taken(np.flatnonzero(~once)), b)
+    which_of_root, at_root = joined(roots, 0)
+    first = firsts(which_of_root, at_root)
+    ends = ends_at(path, which_of_root[first], at_root[first])
+    doubtful = ends_at(path, some.which[~close], phi[~close])
     # a pair without a root whose index angle is this near, in radians, may be a double root
-    near = np.flatnonzero(np.abs(residual(ends, b).excess) < 1e-5)
-    return PairSearch(joined(solved), ends.taken(near))
+    near = np.flatnonzero(np.abs(residual(doubtful, b).excess) < 1e-5)
+    return PairSearch(ends, doubtful.taken(near))
+
+
+def firsts(which: Whole, phi: Array, same: float = SAME_ENTRY) -> Whole:
+    """First of each group of pairs of a design with equal entries."""
+    # by designs and entries: a turn is less than 8 radians
+    key = 8.0 * which + phi[:, 0] % math.tau
+    order = np.argsort(key, kind="stable")
+    new = np.ones(len(order), dtype=bool)
+    new[1:] = np.diff(key[order]) > same
+    return order[new]
 
 
 def ends_at(path: RollerPath, which: Whole, phi: Array) -> EndPairs:
@@ -122,29 +146,31 @@ def newton(ends: EndPairs, rest: Residual) -> Array:
     excess = rest.sense * rest.excess
     by_entry = excess * rest.by_exit - rest.away * turn_out
     by_exit = -excess * rest.by_entry - rest.away * turn
-    step: Array = np.stack((by_entry, by_exit), axis=1) / rest.det[:, None]
-    return step
+    step: Array = np.stack((by_entry, by_exit)) / rest.det
+    return step.T
 
 
-def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[EndPairs, Mask]:
-    """Newton's method from places in boxes: its end points, and a mask of those in their box."""
-    low = np.stack((boxes.entry.phi, boxes.exit.phi), axis=1)
-    width = np.stack((boxes.entry.width, boxes.exit.width), axis=1)
-    high = low + width
-    close = np.zeros(len(phi), dtype=bool)
-    live = np.arange(len(phi))
+def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[Array, Mask]:
+    """Newton's method from places in boxes, (2, n): where it ends, and a mask of ends in their box.
+
+    The ends are in two columns.
+    """
+    low = np.stack((boxes.entry.phi, boxes.exit.phi))
+    width = np.stack((boxes.entry.width, boxes.exit.width))
+    close = np.zeros(len(boxes.which), dtype=bool)
+    live: Whole = np.arange(len(close))
     for _ in range(12):  # Newton steps
         if not len(live):
             break
-        ends = ends_at(path, boxes.which[live], phi[live])
-        rest = residual(ends, b)
-        move = newton(ends, rest)
-        move *= np.minimum(1.0, (width[live] / np.abs(move)).min(axis=1))[:, None]
-        phi[live] += move
-        off = np.maximum(low[live] - phi[live], phi[live] - high[live]) / width[live]
-        inside = (off <= OVERLAP + ROUNDED).all(axis=1)
+        before, start, wide = (x.take(live, axis=1) for x in (phi, low, width))
+        ends = ends_at(path, boxes.which.take(live), before.T)
+        move = newton(ends, residual(ends, b)).T
+        move *= np.minimum(1.0, (wide / np.abs(move)).min(axis=0))
+        phi[:, live] = after = before + move
+        off = np.maximum(start - after, after - (start + wide)) / wide
+        inside = off.max(axis=0) <= OVERLAP + ROUNDED
         # radians: half of the digits; the next step gives all of them
-        done = np.abs(move).max(axis=1) < 1e-6
+        done = np.abs(move).max(axis=0) < 1e-6
         close[live] = done & inside
         live = live[~done & inside]
-    return ends_at(path, boxes.which, phi), close
+    return phi.T, close

@@ -9,8 +9,9 @@ All this happens near a cusp.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from typing import NamedTuple, TypeAlias, cast
+from collections.abc import Iterator
+from itertools import accumulate
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -19,10 +20,10 @@ from geneva_cli.numerics.arrays import (
     Array,
     Complex,
     Mask,
-    Record,
     Which,
     Whole,
     blocks,
+    joined,
     numbers_of,
 )
 
@@ -51,10 +52,22 @@ class PathPoints(NamedTuple):
         numbers = numbers_of(where)
         return PathPoints._make(part.take(numbers, axis=0) for part in self)
 
-    def at_samples(self, row: Whole, column: Whole) -> PathPoints:
-        """Select single points of rows of points: (m,)."""
-        numbers = row * self.phi.shape[1] + column
-        return PathPoints._make(part.take(numbers) for part in self)
+    @property
+    def heading(self) -> Heading:
+        """Direction of the path."""
+        return Heading(self.phi, self.t, self.turn)
+
+
+class Heading(NamedTuple):
+    """Unit tangent of a path at crank angles, and the rate at which it turns."""
+
+    phi: Array
+    t: Complex
+    turn: Array
+
+    def taken(self, where: Where) -> Heading:
+        """Select some of the places."""
+        return Heading._make(part[where] for part in self)
 
 
 class PathSamples(NamedTuple):
@@ -73,14 +86,18 @@ def points(path: RollerPath, phi: Array) -> PathPoints:
     """Points of the path; a row holds the angles of one design."""
     x, y = path.at(phi, 2)
     shape = np.broadcast_shapes(*(np.shape(c) for c in (*x.c, *y.c)))
-    (px, vx, ax), (py, vy, ay) = x.arrays(), y.arrays()
-    square = vx * vx + vy * vy
-    turn = (vx * ay - vy * ax) / square
-    speed = np.broadcast_to(np.sqrt(square), shape)
+    motion = (_complex(*place, shape) for place in zip(x.arrays(), y.arrays(), strict=True))
+    return _points(np.broadcast_to(phi, shape), *motion)
+
+
+def _points(phi: Array, p: Complex, v: Complex, a: Complex) -> PathPoints:
+    """Points with a known position, velocity and acceleration."""
+    x, y = v.real, v.imag
+    square = x * x + y * y
+    speed = np.sqrt(square)
     over = np.where(speed == 0.0, 0.0, 1.0 / speed)  # no direction where the point is at rest
-    places = ((px, py), (vx, vy), (ax, ay), (vx * over, vy * over))
-    p, v, a, t = (_complex(*place, shape) for place in places)
-    return PathPoints(np.broadcast_to(phi, shape), p, v, a, t, speed, turn)
+    turn = (x * a.imag - y * a.real) / square
+    return PathPoints(phi, p, v, a, _complex(x * over, y * over, v.shape), speed, turn)
 
 
 def _complex(x: Array, y: Array, shape: tuple[int, ...]) -> Complex:
@@ -96,15 +113,15 @@ def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
     phi = np.array([(i + 0.3) * (math.tau / steps) for i in range(steps + 1)])
     every = np.arange(count)
     # samples of 256 designs stay in the processor's cache
-    base = joined([_rows(path.roughly(every[i]), phi, len(every[i])) for i in blocks(count, 256)])
-    left, right = (base.taken((slice(None), x)) for x in (slice(None, -1), slice(1, None)))
-    row, column = np.nonzero(_missed(left, right, _turned(left, right)))
-    extra = _between(path, row, left.at_samples(row, column), right.at_samples(row, column))
-    whose, flat = np.repeat(every, steps + 1), PathPoints._make(x.ravel() for x in base)
-    if extra:
-        whose, flat = joined([(whose, flat), extra])
+    parts = (every[i] for i in blocks(count, 256))
+    base = joined([_rows(path.roughly(i), phi, len(i)) for i in parts], 0)
+    ends = [base.heading.taken((slice(None), i)) for i in (slice(None, -1), slice(1, None))]
+    row, column = np.nonzero(_missed(*ends))
+    extra = _between(path, row, *(end.taken((row, column)) for end in ends))
+    # The rest of the samples' numbers follow from these, faster than they are put in order.
+    whose, *motion = joined([(np.repeat(every, steps + 1), *(x.ravel() for x in base[:4])), *extra])
     # by designs and crank angles: a turn and the first step are less than 8 radians
-    place = np.argsort(8.0 * whose + flat.phi)
+    place = np.argsort(8.0 * whose + motion[0])
     counts = np.bincount(whose, minlength=count)
     starts = np.cumsum(counts) - counts
     order = np.argsort(counts, kind="stable")
@@ -112,10 +129,11 @@ def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
         which = order[part]
         rows = np.arange(counts[which].max(initial=1))[:, None]
         # After its own last sample a column repeats it.
-        at = flat.taken(place[starts[which] + np.minimum(rows, counts[which] - 1)])
-        angle = np.zeros(at.phi.shape)
-        turned = _turned(at.taken(slice(None, -1)), at.taken(slice(1, None)))
-        np.cumsum(turned, axis=0, out=angle[1:])
+        number = place[starts[which] + np.minimum(rows, counts[which] - 1)]
+        at = _points(*(x.take(number) for x in motion))
+        turned = _turned(at.t[:-1], at.t[1:])
+        # by rows: NumPy's own sum along columns takes five times as long
+        angle = np.stack(list(accumulate(turned, initial=np.zeros(len(which)))))
         yield PathSamples(which, at, angle)
 
 
@@ -125,16 +143,16 @@ def _rows(path: RollerPath, phi: Array, count: int) -> PathPoints:
     return PathPoints._make(np.broadcast_to(part, (count, len(phi))) for part in at)
 
 
-def _turned(left: PathPoints, right: PathPoints) -> Array:
-    """Turn of the tangent from one sample to the next, less than half a turn."""
-    (a, b), (c, d) = ((one.t.real, one.t.imag) for one in (left, right))
+def _turned(t: Complex, u: Complex) -> Array:
+    """Turn from one tangent to the next, less than half a turn."""
+    (a, b), (c, d) = (t.real, t.imag), (u.real, u.imag)
     turn: Array = np.arctan2(a * d - b * c, a * c + b * d)
     return turn
 
 
-def _missed(left: PathPoints, right: PathPoints, turned: Array) -> Mask:
+def _missed(left: Heading, right: Heading) -> Mask:
     """True where the rates at two samples do not predict the turn between them."""
-    half = 0.5 * (right.phi - left.phi)
+    half, turned = 0.5 * (right.phi - left.phi), _turned(left.t, right.t)
     # radians; an arc turns by less than a pair for three slots does, which is pi/3
     wrong = (np.abs(turned - half * (left.turn + right.turn)) > 0.05) | (np.abs(turned) > 1.0)
     # Rates that differ this much belong to a sharp bend, whose turn they predict by chance only.
@@ -142,35 +160,18 @@ def _missed(left: PathPoints, right: PathPoints, turned: Array) -> Mask:
 
 
 def _between(
-    path: RollerPath, which: Whole, left: PathPoints, right: PathPoints
-) -> tuple[Whole, PathPoints] | None:
+    path: RollerPath, which: Whole, left: Heading, right: Heading
+) -> list[tuple[Whole, Array, Complex, Complex, Complex]]:
     """Extra samples between samples of designs, until every turn is predicted."""
     added = []
     for _ in range(14):  # halvings: a bend within a crank angle of 1e-5 radians is a cusp
         if not len(which):
             break
         phi = 0.5 * (left.phi + right.phi)
-        middle = points(path.roughly(which), phi[:, None]).taken((slice(None), 0))
-        added.append((which, middle))
-        halves = ((left, middle), (middle, right))
-        missed = [_missed(*half, _turned(*half)) for half in halves]
-        left, right = (
-            joined([half[side].taken(m) for half, m in zip(halves, missed, strict=True)])
-            for side in (0, 1)
-        )
-        which = np.concatenate([which[m] for m in missed])
-    return joined(added) if added else None
-
-
-def joined(parts: Sequence[Record], axis: int = 0) -> Record:
-    """Concatenate records of arrays."""
-    fields = [_joined(field, axis) for field in zip(*parts, strict=True)]
-    make: Callable[..., object] = type(parts[0])
-    return cast("Record", tuple(fields) if make is tuple else make(*fields))
-
-
-def _joined(parts: Sequence[object], axis: int) -> object:
-    """Concatenate members of records: arrays, or nested records."""
-    if isinstance(parts[0], tuple):
-        return joined(cast("Sequence[tuple[object, ...]]", parts), axis)
-    return np.concatenate(cast("Sequence[Array]", parts), axis)
+        at = points(path.roughly(which), phi[:, None]).taken((slice(None), 0))
+        added.append((which, *at[:4]))
+        starts, ends = joined([left, at.heading]), joined([at.heading, right])
+        missed = np.flatnonzero(_missed(starts, ends))
+        left, right = starts.taken(missed), ends.taken(missed)
+        which = np.concatenate((which, which))[missed]
+    return added

@@ -159,7 +159,7 @@ class ParallelSlotMotion(StraightSlotMotion):
         def solve(anchor: Anchor, x: Number) -> Jet:
             return anchor.place(x, order)[1] + anchor.wheel
 
-        return self.path.anchors.solved(input_deg, solve)
+        return self.path.solved(input_deg, solve)
 
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
         """Speed of the pin across the slots."""

@@ -58,7 +58,7 @@ class OffsetSlotMotion(StraightSlotMotion):
             partial(self._from_end, end, order=order, angle=angle) for end in (entry, exit_)
         )
         inside = partial(self._inside, order=order, angle=angle)
-        return piecewise(input_deg, self.path.anchors.cuts, [first, inside, last])
+        return piecewise(input_deg, self.path.cuts, [first, inside, last])
 
     def _from_end(self, anchor: Anchor, x: Number, order: int, angle: bool) -> Jet:
         """Wheel angle or rate near entry or exit.

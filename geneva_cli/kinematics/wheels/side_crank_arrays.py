@@ -28,7 +28,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Mask, Number, Which, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Number, Whole
 
 SCAN = 10  # intervals over half the motion; 8 miss none of a million designs, 6 miss twelve
 
@@ -52,9 +52,9 @@ class SideCrankWheels(NamedTuple):
     rest2: Array  # (1-l)²
     big: Array  # 1 + 4 l + l²
 
-    def taken(self, which: Which) -> SideCrankWheels:
+    def taken(self, which: Whole) -> SideCrankWheels:
         """Return some of the wheels."""
-        return SideCrankWheels._make(v[which] for v in self)
+        return SideCrankWheels._make(v.take(which) for v in self)
 
 
 def wheels(sign: Number, l: Number, rest: Number, A: Number) -> SideCrankWheels:
@@ -155,7 +155,7 @@ def _compete(
 ) -> None:
     """Put greater sizes of some designs, and their places, into ``best``; NaN where unknown."""
     which = np.flatnonzero(some)
-    count = 8192  # designs in a block: the scan's arrays stay in the processor's cache
+    count = 16384  # designs in a block: more leave the processor's cache, fewer need more calls
     for block in (which[i : i + count] for i in range(0, len(which), count)):
         part = w.taken(block)
         with np.errstate(all="ignore"):
@@ -163,13 +163,20 @@ def _compete(
             design, low, high, x, slope = map(np.concatenate, columns)
             near, of = part.taken(design), block[design]
             before = here = np.zeros(len(x))
+            close = np.zeros(len(x), bool)
             for step in range(4):  # secant steps, from a parabola's root
                 last, here = here, zero(near, np.cos(x))
-                slope = (here - last) / (x - before) if step else slope
-                before, x = x, x - here / slope
+                if step:  # rounding may leave a step of 0, or one against the rise
+                    rise = (here - last) / (x - before)
+                    slope = np.where(rise > 0.0, rise, slope)
+                # a design that is close stays, so that it has the same peak in every batch
+                before, x = x, np.where(close, x, x - here / slope)
+                # radians: the error after so short a step moves a peak by less than rounding
+                close = abs(x - before) < 1e-7
+                if close.all():
+                    break
             size, at = value(near, x)
-            # radians: the error after so short a step moves a peak by less than rounding
-            known = (abs(x - before) < 1e-7) & (low <= x) & (x <= high)
+            known = close & (low <= x) & (x <= high)
         # a design may have several: the greatest, or what is not known, is written last
         order = np.argsort(np.where(known, size, np.inf))
         order = order[(size > best[0][of])[order] | ~known[order]]

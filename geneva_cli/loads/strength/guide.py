@@ -43,7 +43,7 @@ class EndForce(NamedTuple):
         """The square, and the grip that bounds it."""
         rub = i.slides * i.case.friction
         lever = guide_lever(i.case, i.at, i.drives, i.slides) * i.drives
-        force = i.forces.force * (lever * (0.5 * self.side / i.case.guide_half) + 0.5 * rub)
+        force = i.force_N * (lever * (0.5 * self.side / i.case.guide_half) + 0.5 * rub)
         return QuantityValue(force * force, i.grip)
 
 

@@ -5,7 +5,8 @@ the mouth, and R the recess's radius. A rack's horns are those of a wheel of ver
 distance s inwards from the mouth, a straight slot's section is t(s) = h + R - sqrt(R² - s²) thick.
 The roller presses on the wall with N at s0. The section at s then carries, over the face width b,
 the bending stress 6 N (s - s0)/(b t²), a tension at the slot's wall. On a curved wall N also has a
-part along the section's beam, which pushes or pulls evenly.
+part along the section's beam, which pushes or pulls evenly. So does the friction f N along the
+wall, which also bends the section with the lever t/2: towards the mouth it adds 4 f N/(b t).
 
 The result is the greatest stress at the wall, over all places of the roller and all sections.
 Sections end half-way along the recess, where another horn begins. In the middle of a section shear
@@ -114,7 +115,9 @@ class Horn(NamedTuple):
             return [self.mouth_deg]
         return [self.engagement.entry_deg, self.engagement.exit_deg]
 
-    def unit_stress(self, roller: Array, sections: Array, width_mm: float) -> UnitStress:
+    def unit_stress(
+        self, roller: Array, rub: Array, sections: Array, width_mm: float
+    ) -> UnitStress:
         """Bending and tension at sections under 1 N, as ``HornSide`` describes."""
         places, normals = self.wall(np.hstack((roller, sections)))
         count = roller.shape[1]
@@ -123,10 +126,12 @@ class Horn(NamedTuple):
         )
         thick = self.thickness(wall, normal)
         contact, push = contact[..., None], push[..., None]
+        # friction along the wall towards the mouth, where the first axis is negative
+        push = push + rub[..., None] * np.stack((push[1], -push[0]))
         with np.errstate(all="ignore"):
             # from the contact to the middle of the section, (2, m, places, sections)
             arm = (wall + 0.5 * thick * normal)[:, :, None] - contact
-            moment = abs(arm[0] * push[1] - arm[1] * push[0])
+            moment = arm[1] * push[0] - arm[0] * push[1]
             along, deep = normal[:, :, None], thick[:, None]
             pull = push[1] * along[0] - push[0] * along[1]  # along the beam
             bent = (moment * (6.0 / deep**2) - pull / deep) / np.asarray(width_mm)[..., None]

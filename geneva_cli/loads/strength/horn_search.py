@@ -72,8 +72,13 @@ class HornSide(Protocol):
     def runs_from_deg(self) -> Sequence[float]:
         """Input angles from which the roller runs along this horn's wall up to mid-motion."""
 
-    def unit_stress(self, roller: Array, sections: Array, width_mm: float) -> UnitStress:
-        """Stresses at sections with the roller at some places, both as its input angles (m, k)."""
+    def unit_stress(
+        self, roller: Array, rub: Array, sections: Array, width_mm: float
+    ) -> UnitStress:
+        """Stresses at sections with the roller at some places, both as its input angles (m, k).
+
+        ``rub`` is the friction on the wall under 1 N across it, positive towards the mouth.
+        """
 
 
 Sides: TypeAlias = Callable[["Mechanism", float, float], Sequence[HornSide]]
@@ -167,11 +172,15 @@ def _stress(
 ) -> UnitStress:
     """Stresses under the machine's load: 0 where the other horn bears."""
     at = contact_values(contact(side.whole, squeezed(x - side.ahead_deg), reactions=False))
-    loads = bounded_loads(load_case(mechanism), at)
+    case = load_case(mechanism)
+    loads = bounded_loads(case, at)
     bears = np.asarray(loads.wheel_torque_Nm) * side.end < 0.0
     force = np.atleast_2d(np.where(bears, np.abs(loads.pin_force_N), 0.0))
     own = np.flatnonzero(bears.any(axis=0) if bears.ndim > 1 else bears)  # elsewhere it is 0
-    unit = side.unit_stress(x[:, own], sections, width)
+    # a mouth is away from the axis, but for internal wheels
+    rub = case.friction * mechanism.spec.wheel.SIGN * loads.slides * at.touches
+    rubs = np.broadcast_to(np.atleast_2d(rub), force.shape)
+    unit = side.unit_stress(x[:, own], rubs[:, own], sections, width)
     m = max(len(force), len(unit.stress))
     stress = np.zeros((m, x.shape[1], sections.shape[1]))
     with np.errstate(invalid="ignore"):  # of a force without a bound

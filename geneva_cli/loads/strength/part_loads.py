@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from functools import reduce
+from functools import lru_cache, reduce
 from typing import NamedTuple
 
 import numpy as np
 
+from geneva_cli.analysis.load_functions import LoadQuantity
 from geneva_cli.analysis.quantities import FORCE
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
-from geneva_cli.loads.strength.shafts import Torque, crank_forces, wheel_forces
+from geneva_cli.loads.strength.shafts import OnShaft, Torque, crank_forces, on_carrier, wheel_forces
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.mechanism import Mechanism
@@ -21,7 +22,8 @@ class PartLoads(NamedTuple):
     """The greatest sizes of loads, (m,) each, or numbers of one design; infinite if unbounded."""
 
     pin_N: float  # of a roller, along the wall's normal
-    wheel_N: float  # of the wheel's bearings in motion, which is that on the roller and its arm
+    wheel_N: float  # on the wheel in motion, which is that on the roller and its arm
+    wheel_shaft_N: float  # on the wheel's shaft in motion: on a carrier that of its bodies, too
     wheel_Nm: float  # torque in the wheel's shaft, also in the dwell
     crank_N: float  # of the crank's bearings together, with the push of gears or of a link
     crank_Nm: float  # torque in the crank's shaft
@@ -31,7 +33,7 @@ class PartLoads(NamedTuple):
         return PartLoads(*(float(np.ravel(row)[i]) for row in self))
 
 
-@Known
+@lru_cache(maxsize=16)
 def own_loads(mechanism: Mechanism) -> PartLoads:
     """The greatest loads of a machine in its own direction as numbers, cached for its checks."""
     return part_loads(mechanism).of(0)
@@ -56,9 +58,13 @@ def sizing_loads(mechanism: Mechanism, forwards: PartLoads | None = None) -> Par
 def part_loads(mechanism: Mechanism) -> PartLoads:
     """The greatest loads of m designs."""
     spec = mechanism.spec
-    own = {"wheel_Nm": Torque(wheel_forces(spec)), "crank_Nm": Torque(crank_forces(spec))}
-    names = FORCE, "wheel_bearing_N", "wheel_Nm", "crank_bearing_N", "crank_Nm"
-    peaks = load_peaks(mechanism, names, own)
-    most = {name: np.sqrt(peaks[name].max) if name in own else peaks[name].max for name in names}
-    most["wheel_Nm"] = np.maximum(most["wheel_Nm"], dwell_torque_Nm(mechanism))
-    return PartLoads(*map(parameter, most.values()))
+    turned = {"wheel_Nm": Torque(wheel_forces(mechanism)), "crank_Nm": Torque(crank_forces(spec))}
+    shaft, own = "wheel_bearing_N", dict[str, LoadQuantity](turned)
+    if spec.drive.wheels_on_carrier:
+        shaft, own["wheel_shaft_N"] = "wheel_shaft_N", OnShaft(on_carrier(mechanism))
+    names = FORCE, "wheel_bearing_N", shaft, "wheel_Nm", "crank_bearing_N", "crank_Nm"
+    peaks = load_peaks(mechanism, tuple(dict.fromkeys(names)), own)
+    most = [np.sqrt(peaks[name].max) if name in turned else peaks[name].max for name in names]
+    torque = names.index("wheel_Nm")
+    most[torque] = np.maximum(most[torque], dwell_torque_Nm(mechanism))
+    return PartLoads(*map(parameter, most))

@@ -1,4 +1,4 @@
-"""The roller as a bearing, and its slot: work, turns, life and wear.
+"""The roller as a bearing in its slot: work, turns and life.
 
 Over a motion the roller rolls along its wall under a force N. If it did not turn in the body that
 carries it, it would slide at the speed v_s. A bearing that carries N and turns by |v_s|/r per
@@ -20,7 +20,8 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.contact import Contact, contact, is_straight
-from geneva_cli.analysis.forces import Forces, LoadCase, load_case, sliding
+from geneva_cli.analysis.forces import LoadCase, load_case
+from geneva_cli.analysis.instant import Instant
 from geneva_cli.analysis.load_functions import (
     LoadBatch,
     LoadFunctions,
@@ -31,13 +32,14 @@ from geneva_cli.analysis.quantities import FORCE
 from geneva_cli.analysis.stretches import refuse_noise, spans_of, to_mid_motion
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.loads.groups import of_groups
+from geneva_cli.loads.strength.wear import Rubbing, greatest_rubbing_N
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Whole, array, parameter
 from geneva_cli.numerics.jet import Array, Jet, Number
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
-from geneva_cli.numerics.search import search
+from geneva_cli.numerics.search import Stretches, search
 
 LIFE_EXPONENT = 10.0 / 3.0  # p, of line contact
 
@@ -52,6 +54,7 @@ class SlotPassage(NamedTuple):
     rolled_m: float  # ∫ |v_s| dt
     work: float  # ∫ N |v_s| dt, joules: friction work for a coefficient of 1
     load: float  # ∫ N^p |v_s| dt
+    rubbing_N: float  # work over the swept length of the wall that has the most of it
 
 
 class Life(NamedTuple):
@@ -76,7 +79,7 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
     0.146410161514
     """
     every = [array(x) for x in passage_integrals(engagement, case, half)]
-    refuse_noise(every)
+    refuse_noise(every[:-1])  # where nothing is rubbed, the last one is NaN
     return SlotPassage(*(x.item() for x in every))
 
 
@@ -93,7 +96,7 @@ def _integrals(every: LoadBatch, n: int, half: float) -> Array:
     # the integrals are bounded where the force is
     load = LoadFunctions(every, ("slides", "along") if turns_back(engagement) else ("slides",))
     pieces = search(SignFunctions(load), spans_of(engagement, n), n, False, w=load.spread).stretches
-    design, _, (a, b), positive = to_mid_motion(engagement, pieces, n)
+    design, _, (a, b), positive = _turning(engagement, to_mid_motion(engagement, pieces, n))
     own = np.flatnonzero(half * (a + b) >= 0.0)
     design, a, b, positive = design[own], a[own], b[own], positive[:, own]
     signs = dict(zip(load.kinds, np.where(positive, 1.0, -1.0)[..., None], strict=True))
@@ -111,8 +114,30 @@ def _integrals(every: LoadBatch, n: int, half: float) -> Array:
     every_one = np.full(n, True)
     requested = np.stack((every_one, every_one, bounded, bounded))
     with np.errstate(all="ignore"):
-        total = span_integrals(Integrands(rows, a, b, ends=True), design, requested) * DEGREE
-    return np.where(requested, total, np.inf)
+        each = Integrands(rows, a, b, ends=True)
+        moved, *others = span_integrals(each, design, requested, apart=True) * DEGREE
+    wall = signs["drives"][:, 0] if "drives" in signs else 1.0 + 0.0 * a
+    branch = np.sign(a + b) * engagement.slot.curved
+    pressed = greatest_rubbing_N(Rubbing(design, moved, others[1], wall, branch), n)
+    total = [np.bincount(design, row, n) for row in (abs(moved), *others)]
+    return np.where((*requested, bounded), (*total, pressed), np.inf)
+
+
+def _turning(engagement: Engagement, pieces: Stretches) -> Stretches:
+    """The pieces, divided at mid-motion, where a roller on an arm turns back in a straight slot."""
+    if engagement.slot.curved:
+        return pieces
+    design, span, (a, b), positive = pieces
+    cut = np.flatnonzero((a < 0.0) & (b > 0.0))
+    after = a[cut] * 0.0, b[cut]
+    b = b.copy()
+    b[cut] = 0.0
+    every = np.arange(len(design)), cut
+    which = np.concatenate(every)
+    x = np.concatenate(((a, b), after), axis=1)
+    order = np.lexsort((x[0], design[which]))
+    which = which[order]
+    return Stretches(design[which], span[which], x[:, order], positive[:, which])
 
 
 def turns_back(engagement: Engagement) -> bool:
@@ -125,16 +150,19 @@ def turns_back(engagement: Engagement) -> bool:
 
 
 def passing(case: LoadCase, at: Contact[Jet], drives: Number, slides: Number) -> list[Array]:
-    """Integrands of a passage, at places where torque and sliding have these signs."""
-    forces = Forces(case, at, drives, slides)
-    rubs = abs(sliding(at, drives, case.radius).arrays()[0]) * case.L
+    """Integrands of a passage, at places where torque and sliding have these signs.
+
+    The first is the signed speed along the slot.
+    """
+    here = Instant(case, at, drives, slides, 1.0)
+    rubs = abs(here.slip.arrays()[0]) * case.L
     with np.errstate(all="ignore"):
         # near the torque's change of sign the force may be slightly negative by rounding
-        force = np.maximum(forces.force.c[0], 0.0)
-        force = np.where(forces.grip.c[0] > 0.0, force, np.inf) * at.touches.c[0]
+        force = np.maximum(here.force_N.c[0], 0.0)
+        force = np.where(here.grip.c[0] > 0.0, force, np.inf) * at.touches.c[0]
         # nothing presses on a wall if nothing must be turned
-        force = np.where(forces.torque.c[0] == 0.0, 0.0, force)
-        along = abs(at.along.arrays()[0]) * case.L * at.touches.c[0]
+        force = np.where(here.wheel_torque_Nm.c[0] == 0.0, 0.0, force)
+        along = at.along.arrays()[0] * case.L * at.touches.c[0]
         return [along, rubs, force * rubs, force**LIFE_EXPONENT * rubs]
 
 
@@ -194,21 +222,3 @@ def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:
 
 def _periods_per_h(mechanism: Mechanism) -> float:
     return 60.0 * mechanism.spec.drive.n_rpm * 360.0 / mechanism.under_load.period_deg
-
-
-def wears_mm(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Array | None:
-    """Mean wear depths of slots' walls in a million passages of a pin that does not turn: mm, (m,).
-
-    Archard: a volume of k ∫ N |v_s| dt per passage, over the face that the contact sweeps, for the
-    slot with the most wear. ``each`` are the passages of the engagements. None without
-    ``wear_mm3_Nm`` or ``face_width_mm``.
-    """
-    spec = mechanism.spec
-    k, width = spec.material_wheel.wear_mm3_Nm, spec.size.face_width_mm
-    if k is None or width is None:
-        return None
-    rate = np.ravel(1e6 * k / (width * 1000.0))
-    with np.errstate(invalid="ignore"):  # nothing slides on a counter's teeth
-        worn: Array = np.asarray([rate * one.work / one.travel_m for one in each])
-    most: Array = worn.max(axis=0)
-    return most

@@ -29,11 +29,12 @@ The roller is taken to be thin: its cone presses on the wall beside u.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Hashable
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
+from geneva_cli.analysis.carried import MM, carried_kg
 from geneva_cli.analysis.forces import QuantityValue
 from geneva_cli.analysis.instant import Instant
 from geneva_cli.analysis.load_functions import LoadQuantity
@@ -41,13 +42,17 @@ from geneva_cli.analysis.peak_search import PeakArray, greater
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
-from geneva_cli.numerics.arrays import N, parameter
+from geneva_cli.numerics.angles import omega
+from geneva_cli.numerics.arrays import N, library, parameter
 from geneva_cli.numerics.jet import Array, Jet, Number, sqrt
 from geneva_cli.spec.tables import Shaft
 
-if TYPE_CHECKING:
-    # The squared bending moment of a shaft, (N m)², with an overhang in metres, and its torque.
-    ShaftForces = Callable[[Instant[Jet], Number], tuple[Jet, Jet]]
+
+class ShaftForces(Hashable, Protocol):
+    """The loads of a shaft at an instant: a function, or a tuple that is called as one."""
+
+    def __call__(self, i: Instant[Jet], overhang: Number, /) -> tuple[Jet, Jet]:
+        """Squared bending moment, (N m)², for an overhang in metres; and torque."""
 
 
 class ShaftStress(NamedTuple):
@@ -101,6 +106,40 @@ def on_wheel(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
     return i.wheel_bearing_N * i.wheel_bearing_N * (overhang * overhang), i.wheel_torque_Nm
 
 
+class OnCarrier(NamedTuple):
+    """The loads of the shaft of a wheel on a carrier, which also bears its bodies' inertia.
+
+    The bodies press away from the carrier's axis with m L w². One that stands e from the wheel's
+    axis adds m e times the square and the rate of its own rotation. Their forces are added to the
+    roller's as if all had one direction and one plane: an upper bound.
+    """
+
+    orbiting_N: float  # m L w²
+
+    def force_N(self, i: Instant[Jet]) -> Jet:
+        """The force on the shaft."""
+        case = i.case
+        off_axis_N = library(case.along_Nm).hypot(case.along_Nm, case.across_Nm) / case.L  # m e w²
+        turning, faster = i.at.velocity * case.frame + 1.0, i.at.acceleration
+        spun = sqrt(turning * turning * turning * turning + faster * faster)
+        return i.wheel_bearing_N + spun * off_axis_N + self.orbiting_N
+
+    def __call__(self, i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
+        """Squared bending moment of the wheel's shaft, and torque."""
+        force = self.force_N(i)
+        return force * force * (overhang * overhang), i.wheel_torque_Nm
+
+
+class OnShaft(NamedTuple):
+    """The force on the shaft of a wheel on a carrier, as a row for ``load_peaks``."""
+
+    loaded: OnCarrier
+
+    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
+        """The force, and the grip that bounds it."""
+        return QuantityValue(self.loaded.force_N(i), i.grip)
+
+
 def on_crank(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
     """Squared bending moment of the crank's shaft, and its torque."""
     return i.crank_bearing_squared * (overhang * overhang), i.crank_torque_Nm
@@ -138,12 +177,20 @@ def _bending_squared(i: Instant[Jet], axis: _Axis, overhang: Number) -> Jet:
     lever = axis.up * -b + L
     turn = axis.away - axis.across * (i.drives * rub)
     bent = lever * lever * (1.0 + rub * rub) + turn * turn * ((b - L) * (b + L))
-    return i.forces.force * i.forces.force * bent
+    return i.force_N * i.force_N * bent
 
 
-def wheel_forces(spec: Spec) -> ShaftForces:
+def wheel_forces(mechanism: Mechanism) -> ShaftForces:
     """The loads of the wheel's shaft."""
-    return on_sphere_wheel if spec.wheel.SHELLS else on_wheel
+    if mechanism.spec.drive.wheels_on_carrier:
+        return on_carrier(mechanism)
+    return on_sphere_wheel if mechanism.spec.wheel.SHELLS else on_wheel
+
+
+def on_carrier(mechanism: Mechanism) -> OnCarrier:
+    """The loads of the shaft of a wheel on a carrier."""
+    spec, L = mechanism.spec, mechanism.center_distance_mm * MM
+    return OnCarrier(carried_kg(spec) * omega(spec.drive.n_rpm) ** 2 * L)
 
 
 def crank_forces(spec: Spec) -> ShaftForces:

@@ -19,6 +19,8 @@ t)). About the section's direction it bends the shell. F along the beam presses 
 pressure are greatest at the section's corners, twist in the middle of its sides: von Mises of both
 is an upper bound.
 
+Friction f F along the wall adds its own moment and tension.
+
 The body that carries the horn is rigid, and notches are neglected, as on a plane. A section is
 taken as even through the shell, at L. On a large sphere the stress is that of the flat horn.
 """
@@ -63,22 +65,27 @@ class SphereHorn(NamedTuple):
         """Input angles of the slot's ends: its walls are flat along the slot."""
         return [self.engagement.entry_deg, self.engagement.exit_deg]
 
-    def unit_stress(self, roller: Array, sections: Array, width_mm: float) -> UnitStress:
+    def unit_stress(
+        self, roller: Array, rub: Array, sections: Array, width_mm: float
+    ) -> UnitStress:
         """Von Mises stress at sections under 1 N, as ``HornSide`` describes."""
         L, w = self.radius_mm, self.half_width
         t0, t = self.polar(roller)[..., None], self.polar(sections)
         thick = self.thickness(t)
         b, h = width_mm, thick[:, None]
         with np.errstate(all="ignore"):
-            at, force = _at(t0, w), _across(t0, w)
+            at, push = _at(t0, w), _across(t0, w)
+            force = push + rub[..., None] * _along(t0)
             middle = w + 0.5 * thick / L
             q, across, along = (
                 v[:, :, None] for v in (_at(t, middle), _across(t, middle), _along(t))
             )
-            moment = np.cross(L * (at - q), np.broadcast_to(force, (at - q).shape), axis=0)
-            in_shell, off_shell, twist = (
-                abs((moment * axis).sum(axis=0)) for axis in (q, across, along)
+            arm = L * (at - q)
+            bent, moment = (
+                np.cross(arm, np.broadcast_to(of, arm.shape), axis=0) for of in (push, force)
             )
+            in_shell = (moment * q).sum(axis=0) * np.sign((bent * q).sum(axis=0))
+            off_shell, twist = (abs((moment * axis).sum(axis=0)) for axis in (across, along))
             pull = (force * along).sum(axis=0)
             normal = 6.0 * in_shell / (b * h * h) + 6.0 * off_shell / (h * b * b) + pull / (b * h)
             shear = torsion_MPa(twist, b + 0.0 * h, h)

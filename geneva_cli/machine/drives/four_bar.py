@@ -13,7 +13,7 @@ from geneva_cli.kinematics.drive import Plan
 from geneva_cli.kinematics.layout import Dimension, Joint, Layout, Link
 from geneva_cli.kinematics.roller_path import PointDisplacement, rounded
 from geneva_cli.machine.drives.linkage import Linkage, Moving, RodPath, refuse_proportions
-from geneva_cli.numerics.arrays import larger, smaller
+from geneva_cli.numerics.arrays import larger, library, parameter, smaller
 from geneva_cli.numerics.jet import Jet, sqrt, turned_at
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import Example
@@ -164,16 +164,17 @@ class CouplerPath(RodPath):
 
         Each of A, D, 1/D, N, k and e changes by the change of the one before it.
         """
-        a, g, b, c, p, q = self.exact
-        D0 = g * g + a * a - 2 * g * a * cosine
-        above, below = (b + c) ** 2 - D0, D0 - (b - c) ** 2
-        N0, m = sqrt(Jet((above * below,))).c[0], (b - c) * (b + c)
-        k0 = ((1 + m / D0) / (2 * b), self.side * N0 / (D0 * 2 * b))
-        numbers = (
-            *(a * sine, a * cosine, above, below, above - below, N0, 1 / D0, 2 * g, *k0),
-            *(m / (2 * b), self.side / (2 * b), g - cosine * a, -sine * a, p, q),
-        )
-        return CouplerDisplacement._make(rounded(x) for x in numbers)
+        a, g, b, c, *_ = self.exact
+        x, y = g - cosine * a, sine * -a
+        D = x * x + y * y
+        # only these differences may lose digits, and are taken of exact numbers
+        numbers = sine, cosine, x, D, (b + c) ** 2 - D, D - (b - c) ** 2
+        sine, cosine, x, D, above, below = (rounded(x) for x in numbers)
+        a, g, b, c, p, q = self.rough
+        root = parameter(library(D).sqrt(above * below))
+        sizes = a * sine, a * cosine, x, D, 2.0 * g, above, below, root
+        half = 0.5 / b
+        return CouplerDisplacement(*sizes, half, (b - c) * (b + c) * half, self.side * half, p, q)
 
 
 class CouplerDisplacement(NamedTuple):
@@ -181,18 +182,15 @@ class CouplerDisplacement(NamedTuple):
 
     s: float
     t: float
+    x0: float
+    D0: float
+    span: float
     high: float
     low: float
-    steep: float
     root: float
-    inverse: float
-    span: float
-    real: float
-    imag: float
+    half: float
     by_u: float
     by_N: float
-    x0: float
-    y0: float
     P: float
     Q: float
 
@@ -200,11 +198,12 @@ class CouplerDisplacement(NamedTuple):
         """Displacement from sin d and 1 - cos d of the crank's rotation d since then."""
         x, y = sine * -self.s - versine * self.t, sine * self.t - versine * self.s
         D = x * -self.span
-        u = 1.0 / (D + 1.0 / self.inverse)
-        du = D * u * -self.inverse
-        N = D * (self.steep - D) / (sqrt((self.high - D) * (D + self.low)) + self.root)
+        u = 1.0 / (D + self.D0)
+        du = D * u / -self.D0
+        now = sqrt((self.high - D) * (D + self.low))
+        N = D * (self.high - self.low - D) / (now + self.root)
         k, n = du * self.by_u, (N * u + du * self.root) * self.by_N
-        kk, nn = k + self.real, n + self.imag
-        ex = y * nn - x * kk + k * self.x0 - n * self.y0
-        ey = n * self.x0 - x * nn - y * kk + k * self.y0
+        kk, nn = k + (self.by_u / self.D0 + self.half), n + self.root * self.by_N / self.D0
+        ex = y * nn - x * kk + k * self.x0 + n * self.s
+        ey = n * self.x0 - x * nn - y * kk - k * self.s
         return x + ex * self.P - ey * self.Q, y + ey * self.P + ex * self.Q

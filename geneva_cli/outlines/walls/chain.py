@@ -81,16 +81,14 @@ class _Rim:
         """Yield where a wall enters the wheel: its first sample inside, and the parameter."""
         depth = self.depth(wall.points)
         inside = (depth > -self.close) & wall.free
-        for sense in (1, -1):
-            order = range(len(depth))[::sense]
-            for before, i in zip((-1, *order), order, strict=False):
-                if not inside[i]:
-                    continue
-                at_end = before == -1
-                if at_end and depth[i] < self.close < depth[i + sense]:
-                    yield WallPlace(wall, i, sense), float(wall.t[i])
-                elif not at_end and depth[before] <= -self.close:
-                    yield WallPlace(wall, i, sense), self.crossing(wall, wall.t[before], wall.t[i])
+        outside, last = depth <= -self.close, len(depth) - 1
+        rises = np.flatnonzero(outside[:-1] & inside[1:]) + 1
+        falls = np.flatnonzero(inside[:-1] & outside[1:])[::-1]
+        for sense, first, entries in ((1, 0, rises), (-1, last, falls)):
+            if inside[first] and depth[first] < self.close < depth[first + sense]:
+                yield WallPlace(wall, first, sense), float(wall.t[first])
+            for i in entries.tolist():
+                yield WallPlace(wall, i, sense), self.crossing(wall, wall.t[i - sense], wall.t[i])
 
     def crossing(self, wall: Wall, outside: float, inside: float) -> float:
         """Return the parameter at which a wall crosses the rim."""
@@ -103,7 +101,7 @@ class _Rim:
 def _run(rim: _Rim, place: WallPlace) -> tuple[WallPlace, float | None]:
     """Return the last free sample from a place on, and the parameter of leaving the rim, if so."""
     wall, i, sense = place
-    depth = rim.depth(wall.points)
+    depth, free = rim.depth(wall.points).tolist(), wall.free.tolist()
     while True:
         after = i + sense
         if not 0 <= after < len(wall.t):
@@ -111,7 +109,7 @@ def _run(rim: _Rim, place: WallPlace) -> tuple[WallPlace, float | None]:
             return WallPlace(wall, i, sense), leaves
         if depth[after] <= -rim.close:
             return WallPlace(wall, i, sense), rim.crossing(wall, wall.t[after], wall.t[i])
-        if not wall.free[after]:
+        if not free[after]:
             return WallPlace(wall, i, sense), None
         i = after
 

@@ -140,15 +140,15 @@ def _arc(
 
 def parallel(assembly: Assembly, engagement: Engagement, side: float, outward: bool) -> Curve:
     """Return the curve ``side`` mm to the left of the roller's path in, or out."""
-    back = retraces(engagement)
+    back, L = retraces(engagement), assembly.L
 
     def curve(t: Array) -> tuple[Array, Array]:
         at = heading_at(engagement, t)
-        # At mid-motion the tangent is the limit from the entry.
-        turned = np.where(back & outward & (t == 0.0), -1.0, 1.0)
-        tangent = np.column_stack((at.tangent_x * turned, at.tangent_y * turned))
-        normal = np.column_stack((-tangent[:, 1], tangent[:, 0]))
-        return assembly.L * np.column_stack((at.x, at.y)) + side * normal, tangent
+        tangent = np.column_stack((at.tangent_x, at.tangent_y))
+        if back and outward:  # at mid-motion the tangent is the limit from the entry
+            tangent[t == 0.0] *= -1.0
+        x, y = L * at.x - side * tangent[:, 1], L * at.y + side * tangent[:, 0]
+        return np.column_stack((x, y)), tangent
 
     return curve
 

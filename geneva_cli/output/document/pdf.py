@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from geneva_cli.answer import FAILS, PASSES, WARNS
 from geneva_cli.document import (
-    FAILS,
-    PASSES,
-    WARNS,
     Block,
     Curves,
     Document,

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
-from geneva_cli.document import Row, Value
 from geneva_cli.errors import GenevaError, clean
 from geneva_cli.table import NO_BOUND, in_digits
+
+if TYPE_CHECKING:
+    from geneva_cli.document import Row, Value
 
 TIMES = "\u00a0×\u00a0"  # spaces at which no line is broken
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

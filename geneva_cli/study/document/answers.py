@@ -9,7 +9,8 @@ from geneva_cli.design import Design
 from geneva_cli.document import Block, Grid, Heading, Row, TextList
 from geneva_cli.kinematics.wheels.gearing import Output
 from geneva_cli.loads.figures import AXIS_BY_NAME
-from geneva_cli.loads.summary import QuantitySummary
+from geneva_cli.loads.summaries import LoadSummary
+from geneva_cli.output.chosen import only
 from geneva_cli.study.document.facts import (
     RemainingValues,
     capital,
@@ -79,7 +80,7 @@ def loads(design: Design, left: RemainingValues) -> Iterator[Block]:
     own = {name: left.take(name) for name in ("loads", "cycle")}
     page = design.loads_page.to_dict()
     yield Heading("Loads")
-    heads = ("Quantity", "Unit", *map(_column, QuantitySummary._fields))
+    heads = ("Quantity", "Unit", *map(_column, LoadSummary._fields))
     rows: list[Row] = []
     for row in page["loads"]:
         axis = AXIS_BY_NAME[row.pop("quantity")]
@@ -163,10 +164,10 @@ def parts(left: RemainingValues) -> Iterator[Block]:
     list_of_parts: Table | None = tables.get("part")
     if list_of_parts is not None:  # two tables, each as wide as a page
         sizes = ("count", "material", "thickness_mm", "size_x_mm", "size_y_mm", "mass_kg")
-        yield grid("Parts", _columns(list_of_parts, ("name", *sizes)))
+        yield grid("Parts", only(list_of_parts, ("name", *sizes)))
         places = ("z_low_mm", "z_high_mm", "centroid_x_mm", "centroid_y_mm", "inertia_kgm2")
         caption = "Places, densities and inertias"
-        yield grid(caption, _columns(list_of_parts, ("name", "density_kgm3", *places)))
+        yield grid(caption, only(list_of_parts, ("name", "density_kgm3", *places)))
     captions = {"pivot": "Pivots", "dimension": "Dimensions", "missing": "Not built"}
     for name, caption in captions.items():
         table: Table | None = tables.get(name)
@@ -174,9 +175,3 @@ def parts(left: RemainingValues) -> Iterator[Block]:
             block = grid(caption, table)
             rows = (tuple("°" if cell == "deg" else cell for cell in row) for row in block.rows)
             yield block._replace(rows=tuple(rows))
-
-
-def _columns(table: Table, names: tuple[str, ...]) -> Table:
-    """Some columns of a table."""
-    columns = dict(zip(table.names, table.columns, strict=True))
-    return Table(names, [columns[name] for name in names])

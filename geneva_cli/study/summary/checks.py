@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from geneva_cli.document import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine
+from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine
 from geneva_cli.study.verdicts import Verdict, checks_record, checks_table
 from geneva_cli.verdict.headline import (
     both_ways_lines,

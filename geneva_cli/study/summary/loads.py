@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from geneva_cli.answer import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.design import Design
-from geneva_cli.document import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.loads.makers_form import RecommendedMotor, recommended_motor
-from geneva_cli.loads.summary import QuantitySummary, no_load
+from geneva_cli.loads.summaries import LoadSummary
+from geneva_cli.loads.summary import no_load
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.study.fields import pick
@@ -83,7 +84,7 @@ def cycle_lines(design: Design) -> Iterator[SummaryLine]:
         yield SummaryLine("rack", f"{moved}; force {pushed}")
 
 
-def _greatest(ends: QuantitySummary, unit: str) -> str:
+def _greatest(ends: LoadSummary[float | None], unit: str) -> str:
     """Greatest size of a load, and its input angle; the earlier one of two equal sizes."""
     if ends.max is None or ends.min is None:
         return NO_BOUND

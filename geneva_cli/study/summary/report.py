@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from geneva_cli.answer import Answer, Summary, SummaryLine
 from geneva_cli.design import Design
-from geneva_cli.document import Answer, Summary, SummaryLine
 from geneva_cli.study.summary.loads import cycle_lines, motor_line
 from geneva_cli.study.summary.titles import title_of
 from geneva_cli.verdict.headline import (

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from geneva_cli.answer import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.design import Design
-from geneva_cli.document import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.table import Table
 from geneva_cli.verdict.headline import below_summary, warning
 

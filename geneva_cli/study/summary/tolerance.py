@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from geneva_cli.answer import Answer, SummaryLine
 from geneva_cli.design import Design
-from geneva_cli.document import Answer, SummaryLine
 from geneva_cli.errors import is_warning
 from geneva_cli.names import spoken
 from geneva_cli.study.summary.titles import record_answer

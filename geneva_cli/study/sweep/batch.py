@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.many import many, may_vary
-from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
-from geneva_cli.study.batches import columns
+from geneva_cli.study.batches import Batch, cells_of, number_rows
 from geneva_cli.study.fields import Cell
 from geneva_cli.study.sweep.values import Value
 
@@ -26,22 +24,15 @@ def table(
 
     ``read`` makes the spec of a row. A missing design must be computed alone, or cannot be built.
     """
-    out: dict[int, list[Cell]] = {}
-    for members, machine in machines(rows, keys, read):
-        values = columns(machine, names, len(members))
-        if values is None:
-            continue
-        for i, row in zip(members, np.column_stack(values).tolist(), strict=True):
-            if not any(map(math.isnan, row)):
-                out[i] = [None if math.isinf(value) else value for value in row]
-    return out
+    known = number_rows(machines(rows, keys, read), names)
+    return {i: cells for i, row in known.items() if (cells := cells_of(row))}
 
 
 def machines(
     rows: Sequence[Sequence[Value]],
     keys: Sequence[str],
     read: Callable[[Sequence[Value]], Spec],
-) -> Iterator[tuple[list[int], Mechanism]]:
+) -> Iterator[Batch]:
     """Yield batch machines of the rows' designs, each with the numbers of its designs.
 
     ``read`` makes the spec of a row. Rows that share their words are machines of one kind, which

@@ -2,68 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import NamedTuple
+from collections.abc import Iterable, Mapping, Sequence
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.specfile.writer import quoted, spec_lines
-from geneva_cli.study.fields import Cell, Pick
+from geneva_cli.study.fields import Cell
 from geneva_cli.study.sweep.best_search import Row, SweepSearch
-from geneva_cli.study.sweep.constraints import Constraint, Nearness, Objective, is_number
+from geneva_cli.study.sweep.constraints import Nearness, is_number
 from geneva_cli.study.sweep.places import BestPlaces, closer
-from geneva_cli.study.sweep.run import Sweep
+from geneva_cli.study.sweep.request import SweepRequest
 
 
-class SearchGoal(NamedTuple):
-    """The objective of a search, and the bounds that a design must keep.
-
-    ``also`` are quantities that are computed for the best design only.
-    """
-
-    objective: Objective
-    constraints: tuple[Constraint, ...]
-    also: Pick
-
-
-class Winner(NamedTuple):
-    """The best design: its numbers by name, its machine, and counts of the search."""
-
-    values: dict[str, float]
-    mechanism: Mechanism
-    tried: int
-    feasible: int
-    binding: tuple[Constraint, ...]
-    extra: dict[str, Cell]  # the quantities of --pick and --check, which do not steer the search
-
-    def lines(self, goal: SearchGoal) -> list[str]:
-        """The design as the lines of a spec file, with the result in comments above it."""
-        name = goal.objective.name
-        word = "least" if goal.objective.sign > 0.0 else "greatest"
-        notes = [
-            f"# The {word} {name} of {self.tried:,} designs, {self.feasible:,} of them within the "
-            f"bounds: {self.values[name]:.9g}.",
-            *[
-                f"# {c}: {self.values[c.name]:.9g}{c.standing(self.values[c.name])}"
-                for c in goal.constraints
-            ],
-            *[f"# {name}: {_text(value)}" for name, value in self.extra.items()],
-        ]
-        spec = self.mechanism.spec
-        # the spec's own title may describe what was varied
-        title = f"{word.capitalize()} {name}, varied from: {spec.title}" if spec.title else ""
-        return [*notes, *([f"title = {quoted(title)}"] if title else []), *spec_lines(spec)]
-
-
-def winner(sweep: Sweep, row_blocks: Iterable[Sequence[Row]], goal: SearchGoal) -> Winner:
-    """Return the best design of a sweep, whose rows come in blocks and are not kept.
+def best_spec(request: SweepRequest, row_blocks: Iterable[Sequence[Row]]) -> list[str]:
+    """Return the lines of a spec of the best design of a sweep; its rows are not kept.
 
     The spec's own design is tried too, if its values are among those varied. The keys that vary in
     a span are refined: first by clouds of designs that shrink about the best places, then by an
     optimiser from the best of these. Raises GenevaError if no design keeps the bounds; the message
     says how near the designs come.
     """
-    search = SweepSearch(sweep, goal.objective, goal.constraints)
+    sweep = request.sweep
+    search = SweepSearch(sweep, request.objectives[0], request.constraints)
     tally = Tally(search)
     for rows in row_blocks:
         tally.add(rows)
@@ -78,12 +38,26 @@ def winner(sweep: Sweep, row_blocks: Iterable[Sequence[Row]], goal: SearchGoal) 
     best = search.refined(best, reach=2e-3)  # onto the bounds that bind
     best = sweep.row(search.keys(best))  # computed again as a single design: this row is the result
     assert search.keeps(best), best
-    values = dict(zip(sweep.names, best, strict=True))
-    numbers = {name: float(v) for name, v in values.items() if is_number(v)}
-    binding = tuple(c for c in goal.constraints if c.binds(numbers[c.name]))
-    machine = sweep.machine(search.keys(best))
-    extra = dict(zip(goal.also.names, goal.also.of(machine), strict=True))
-    return Winner(numbers, machine, tally.tried, tally.feasible, binding, extra)
+    values = {n: float(v) for n, v in zip(sweep.names, best, strict=True) if is_number(v)}
+    return _lines(request, tally, values, sweep.machine(search.keys(best)))
+
+
+def _lines(
+    request: SweepRequest, tally: Tally, values: Mapping[str, float], machine: Mechanism
+) -> list[str]:
+    """A design as the lines of a spec file, with the result in comments above it."""
+    sign, name = request.objectives[0]
+    word = "least" if sign > 0.0 else "greatest"
+    extra = zip(request.of_best.names, request.of_best.of(machine), strict=True)
+    notes = [
+        f"# The {word} {name} of {tally.tried:,} designs, {tally.feasible:,} of them within the "
+        f"bounds: {values[name]:.9g}.",
+        *[f"# {c}: {values[c.name]:.9g}{c.standing(values[c.name])}" for c in request.constraints],
+        *[f"# {other}: {_text(value)}" for other, value in extra],
+    ]
+    # the spec's own title may describe what was varied
+    title = machine.spec.title and f"{word.capitalize()} {name}, varied from: {machine.spec.title}"
+    return [*notes, *([f"title = {quoted(title)}"] if title else []), *spec_lines(machine.spec)]
 
 
 def _text(value: Cell) -> str:

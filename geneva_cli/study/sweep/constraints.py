@@ -10,7 +10,7 @@ from typing import NamedTuple, TypeGuard
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.numerics.arrays import N
 from geneva_cli.numerics.tolerances import keeps
-from geneva_cli.verdict.quantities.names import WORDS
+from geneva_cli.verdict.quantities.names import WORDS, whole_name
 
 
 class Constraint(NamedTuple):
@@ -55,10 +55,12 @@ def is_number(value: object) -> TypeGuard[float]:
 
 
 def constraint(text: str) -> Constraint:
-    """Return the bound in a text such as ``"dwell_s >= 0.8"``. Raises GenevaError for another text.
+    """Return the bound in a text such as ``"dwell_s >= 0.8"``, with the whole name of its quantity.
+
+    Raises GenevaError for another text, and for a name that is no quantity, or may be several.
 
     >>> constraint("dwell_s >= 0.8")
-    Constraint(name='dwell_s', sign='>=', bound=0.8)
+    Constraint(name='timing.dwell_s', sign='>=', bound=0.8)
     """
     match = re.fullmatch(r"\s*([A-Za-z][\w.\-]*)\s*(<=|>=)\s*(\S+)\s*", text)
     option = f"--subject-to {cut(text.strip())!r}"
@@ -72,7 +74,7 @@ def constraint(text: str) -> Constraint:
         raise GenevaError(f'{option}: "{cut(match[3])}" is no number') from None
     if not math.isfinite(bound):
         raise GenevaError(f"{option}: the bound must be a finite number")
-    return Constraint(match[1], match[2], bound)
+    return Constraint(whole_name(match[1], "--subject-to"), match[2], bound)
 
 
 class Nearness:
@@ -138,7 +140,10 @@ class Objective(NamedTuple):
 
 
 def objective(text: str, option: str) -> Objective:
-    """Return the objective of ``min:acceleration.max``. Raises GenevaError for another text."""
+    """Return the objective of ``min:acceleration.max``, with the whole name of its quantity.
+
+    Raises GenevaError for another text, and for a name that is no quantity, or may be several.
+    """
     sense, _, name = text.strip().partition(":")
     sign = {"min": 1.0, "max": -1.0}.get(sense)
     if sign is None or not name:
@@ -146,7 +151,7 @@ def objective(text: str, option: str) -> Objective:
             f"{option} {cut(text.strip())}: it must be min:FIELD or max:FIELD, as "
             "min:acceleration.max"
         )
-    return Objective(sign, name)
+    return Objective(sign, whole_name(name, option))
 
 
 def refuse_opposites(objectives: Sequence[Objective]) -> None:

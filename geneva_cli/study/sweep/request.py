@@ -82,13 +82,6 @@ class SweepRequest(NamedTuple):
         if rows:
             yield rows
 
-    def best(self, row_blocks: Iterable[list[list[Cell]]]) -> list[str]:
-        """The best design, refined, as the lines of a spec."""
-        from geneva_cli.study.sweep.best import SearchGoal, winner
-
-        goal = SearchGoal(self.objectives[0], self.constraints, self.of_best)
-        return winner(self.sweep, row_blocks, goal).lines(goal)
-
 
 def request(
     path: str,
@@ -131,21 +124,15 @@ def request(
     names = [name.strip() for name in pick.split(",")] if pick else []
     if not names and not goals:
         names = list(DEFAULT)
-    needed = [o.name for o in goals] + [c.name for c in bounds]
-    by = dict.fromkeys([c.name for c in bounds], "--subject-to")
-    by |= dict.fromkeys([o.name for o in goals], "--best" if best else "--pareto")
+    by = dict.fromkeys([o.name for o in goals], "--best" if best else "--pareto")
+    needed = [*by, *(c.name for c in bounds)]
     names += ["checks.passes", "checks.failed"] if check else []
-    of_best, picks = (pick_of(names), needed) if best else (pick_of([]), [*needed, *names])
-    swept = sweep(text, plan(axes, random, seed or 0), picks, by)
-    swept = swept._replace(shard=part)
-    whole = dict(zip(picks, swept.pick.requested, strict=True))
-    constraints = tuple(c._replace(name=whole[c.name]) for c in bounds)
-    refuse_contradictions(constraints)
-    objectives = tuple(o._replace(name=whole[o.name]) for o in goals)
-    refuse_opposites(objectives)
-    options = {whole[a]: option for a, option in by.items()}
-    refuse_words(options, "--vary or --set picks it")
-    return SweepRequest(swept, constraints, objectives, jobs, files, of_best)
+    of_best, picks = (pick_of(names), needed) if best else (Pick(), [*needed, *names])
+    swept = sweep(text, plan(axes, random, seed or 0), picks)._replace(shard=part)
+    refuse_contradictions(bounds)
+    refuse_opposites(goals)
+    refuse_words(dict.fromkeys(needed, "--subject-to") | by, "--vary or --set picks it")
+    return SweepRequest(swept, tuple(bounds), tuple(goals), jobs, files, of_best)
 
 
 def _files(text: Text, axes: Sequence[VariedKey], error: GenevaError) -> tuple[str, ...]:

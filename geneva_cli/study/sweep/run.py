@@ -158,22 +158,15 @@ class Sweep(NamedTuple):
         return _machine(self.text, self.plan, values)
 
 
-def sweep(
-    text: Text,
-    plan: SweepPlan,
-    picks: Sequence[str] = DEFAULT,
-    options: Mapping[str, str] | None = None,
-) -> Sweep:
+def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
     """Return the sweep of a spec.
 
-    ``options`` names the option that requested a quantity, if it was not --pick. Raises GenevaError
-    for an unknown quantity, and if no design of a sample can be built.
+    Raises GenevaError for an unknown quantity, and if no design of a sample can be built.
     """
-    picked = pick(picks, options=options)
+    picked = pick(picks)
     _refuse_hopeless(text, plan)
     varied = [a.key for a in plan.axes]  # these have their columns already: no name may occur twice
-    names = tuple(name for name in picked.names if name not in varied)
-    return Sweep(text, plan, picked._replace(names=names))
+    return Sweep(text, plan, Pick(tuple(name for name in picked.names if name not in varied)))
 
 
 def _refuse_hopeless(text: Text, plan: SweepPlan) -> None:

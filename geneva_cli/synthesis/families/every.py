@@ -79,20 +79,6 @@ def kinds(target: Target) -> list[tuple[Kind, Target]]:
     ]
 
 
-def longest_first(target: Target) -> list[int]:
-    """The numbers of the kinds in the order in which two processes finish them soonest.
-
-    Four-bars come first, then the laws of the first gearing; the fastest come last.
-    """
-    if target.wheels:
-        return [*range(len(target.gearings))]
-    wheels, laws = len(target.gearings), len(target.laws)
-    straight = [1, *range(wheels, 1, -1)]
-    curved = range(1 + wheels, 1 + wheels * (1 + laws))
-    others = [i for i in curved if (i - 1) % wheels]
-    return [0, *curved[::wheels], *straight[:2], *others, *straight[2:]]
-
-
 def families(kind: Kind, target: Target) -> Iterator[Family]:
     """The families of one kind that may meet the requirement."""
     wheels = [target.wheel(gearing, z) for gearing in target.gearings for z in target.z]

@@ -40,7 +40,7 @@ class Check(NamedTuple):
     @property
     def where(self) -> str:
         """Input angle and direction of the value in words, each with a space before it."""
-        at = "" if self.at_deg is None else f" at input angle {self.at_deg:.6g} deg"
+        at = "" if self.at_deg is None else f" at input angle {self.at_deg:.6g}°"
         return at + (f" {self.direction}" if self.direction else "")
 
     @property

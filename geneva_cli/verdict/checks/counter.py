@@ -27,7 +27,7 @@ def free(name: str, mechanism: Mechanism) -> Check | None:
     least = np.minimum(play.ahead_deg, play.behind_deg)
     # radians: rounding, and ends of lines that the search misses; a smaller overlap is touching
     touch = 1e-8 * (1.0 + mechanism.engagements[0].motion.jump) / DEGREE
-    place = int((least > touch).argmin()) if (least >= -touch).all() else int(least.argmin())
+    place = int((least <= least.min() + touch).argmax())  # the first of several equal ones
     value = 0.0 if abs(least[place]) <= touch else float(least[place])
     at_deg = mechanism.shown_deg(float(play.input_deg[place]))
     return compared(name, value, "at least", 0.0, at_deg, touch)

@@ -16,7 +16,7 @@ from geneva_cli.analysis.carried import farthest_mm
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.plates import Member
 from geneva_cli.layout.roller_paths import roller_centres
-from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.verdict.checks.check import Check, compared
@@ -54,10 +54,12 @@ def _least(edge: tuple[Array, Array], one: Member, other: Member) -> tuple[float
     opposite: Array = around - (other.turn - one.turn) + math.pi
     taken = _support(edge, around) + _support(edge, opposite)
     # in each interval of the direction of the other's axis, from its middle to both ends
-    gap = np.full(count, -math.inf)
-    for off in range(-count // 4, count // 4 + 1):
+    gap, quarter = np.full(count, -math.inf), count // 4
+    wrapped = np.concatenate((taken[-quarter:], taken, taken[:quarter]))
+    for off in range(-quarter, quarter + 1):
         least = abs(between) * math.cos((abs(off) + 0.5) * step)
-        gap = np.maximum(gap, least - np.roll(taken, -off))
+        start = quarter + off
+        np.maximum(gap, least - wrapped[start : start + count], out=gap)
     i = int(np.argmin(gap))
     seen = math.atan2(between.imag, between.real) - one.turn  # at input angle 0
     # rounded far below the step of the directions
@@ -67,9 +69,11 @@ def _least(edge: tuple[Array, Array], one: Member, other: Member) -> tuple[float
 def _support(edge: tuple[Array, Array], around: Array) -> Array:
     """Return how far a crank reaches from its axis in directions of its own frame, mm."""
     points, reach = edge
-    along = np.outer(np.cos(around), points.real) + np.outer(np.sin(around), points.imag)
-    out: Array = (along + reach).max(axis=1)
-    return out
+    out = []
+    for some in np.split(around, len(around) // 100):  # so many stay in the cache
+        along = np.outer(np.cos(some), points.real) + np.outer(np.sin(some), points.imag)
+        out.append((along + reach).max(axis=1))
+    return np.concatenate(out)
 
 
 def wheels_apart(name: str, parts: FlatParts) -> Check | None:

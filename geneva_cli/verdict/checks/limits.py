@@ -9,9 +9,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from geneva_cli.analysis.peaks import worst, worst_of
-from geneva_cli.kinematics.engagement import Peak
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.spec.load_limits import QUANTITIES
+from geneva_cli.spec import load_limits
 from geneva_cli.verdict.checks.check import Check, compared
 
 if TYPE_CHECKING:
@@ -37,10 +36,14 @@ def limited_load(name: str, mechanism: Mechanism) -> Check | None:
     limit = mechanism.spec.limits.as_dict()[name]
     if limit is None:
         return None
-    from geneva_cli.loads import loads  # who asks for the names alone needs none
+    from geneva_cli.verdict.quantities.designs import number_of, single  # for names alone, none
+    from geneva_cli.verdict.quantities.loads import greatest
 
-    peak = loads.limited_peaks(mechanism).get(QUANTITIES[name], Peak(0.0, 0.0))
-    return compared(name, peak.max, "at most", limit, peak.at_deg)
+    peaks, load = single(mechanism).columns(greatest), load_limits.limited_load(name)
+    most, at_deg = peaks[f"{load}.max"], peaks[f"{load}.at_deg"]
+    assert most is not None  # the spec refuses a limit without a load
+    assert at_deg is not None
+    return compared(name, number_of(most, 0), "at most", limit, number_of(at_deg, 0))
 
 
 def product_acceleration(name: str, mechanism: Mechanism) -> Check | None:

@@ -47,7 +47,7 @@ def thickest_of_counter(name: str, parts: CounterParts) -> Check | None:
     """The thickest plate of a counter, where the process has a limit."""
     from geneva_cli.drawings.single_parts import is_cut
 
-    every = [one for member in parts.members for one in plates(member.part)]
+    every = [one for member in parts.coarse.members for one in plates(member.part)]
     return _thickness(name, parts.mechanism, max(one.thickness for one in every if is_cut(one)))
 
 

@@ -38,7 +38,7 @@ def _open(found: Certificate) -> str:
     start, end, gap, least = found.open
     bound = "no bound is known" if least <= -0.5 * UNKNOWN else f"at least {least:.4g} mm"
     return (
-        f"sampled collision check; the proof is open from {start:.9g} to {end:.9g} deg between "
+        f"sampled collision check; the proof is open from {start:.9g} to {end:.9g}° between "
         f"{found.between}, after {found.intervals:,} intervals. There the gap is {gap:.4g} mm in "
         f"the middle and {bound} throughout"
     )

@@ -116,6 +116,7 @@ SPHERE: Checks = {
 }
 # Checks of a rack's machine at rest.
 RACK: Checks = {
+    "beside_shafts_mm": "shafts:passing_rack",
     "gear_gap_mm": "shafts:passing_rack_gears",
     "cut_plate_mm": "process:thickest_of_rack",
     "cut_slot_mm": "process:width_in_rack",
@@ -169,13 +170,6 @@ def standing_checks(parts: PartsOfMachine) -> Iterator[Check]:
 def turn_checks(parts: MachineParts, turn: FullTurn) -> Iterator[Check]:
     """The checks of a whole turn: no parts overlap, and lock and slots leave little play."""
     yield from applicable(TURNING, parts, turn)
-
-
-def import_checks() -> None:
-    """Import all checks at once: processes that are forked then have them."""
-    for among in (MOTION, LIMITS, *STANDING.values(), TURNING, PROOFS):
-        for by in among.values():
-            load_named(f"verdict.checks.{by}")
 
 
 def check_named(among: Checks, name: str, *of: object) -> Check | None:

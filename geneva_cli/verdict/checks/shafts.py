@@ -78,6 +78,15 @@ def passing_gears(name: str, parts: FlatParts) -> Check | None:
     return gap(name, lambda: gear_gap(parts), parts.outlines.assembly.L)
 
 
+def passing_rack(name: str, parts: RackParts) -> Check | None:
+    """The least gap between shafts and a rack, of a crank's shaft that ends above the arm."""
+    if not parts.mechanism.spec.has_parts:
+        return None  # without a frame there are no shafts
+    from geneva_cli.drawings.shaft_gap import rack_shaft_gap
+
+    return gap(name, lambda: rack_shaft_gap(parts), parts.mechanism.center_distance_mm)
+
+
 def passing_rack_gears(name: str, parts: RackParts) -> Check | None:
     """The least gap of gears before a rack's crank to its guide and to shafts."""
     from geneva_cli.drawings.shaft_gap import rack_gear_gap

@@ -23,7 +23,7 @@ def turns(name: str, parts: FlatParts) -> Check | None:
         text = "the disc slips past the face: a degree beyond the stop they do not overlap"
     else:
         text = (
-            f"the face blocks the crank at {stop.first_deg:.4g} and {stop.last_deg:.6g} deg from "
+            f"the face blocks the crank at {stop.first_deg:.4g} and {stop.last_deg:.6g}° from "
             f"the middle of its first engagement: {stop.turns:.4f} turns"
         )
         return Check(name, stop.turns, "at most", float(z), True, text)

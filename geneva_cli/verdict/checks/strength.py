@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.spec.load_limits import LIMITED
 from geneva_cli.verdict.checks.check import Check, compared
 from geneva_cli.verdict.checks.registry import LIMITS, check_named
 
@@ -46,14 +47,14 @@ def _part(
 
 
 BOUNDS = {
-    "pv_max_W_m2": Bound("limits.pv_max_W_m2", "life.pv_max_W_m2"),
+    "pv_max_W_m2": Bound("limits.pv_max_W_m2", LIMITED["pv_max_W_m2"]),
     # L10
     "roller_life_min_h": Bound(
-        "limits.roller_life_min_h", "life.roller_life_h", must_be="at least"
+        "limits.roller_life_min_h", LIMITED["roller_life_min_h"], must_be="at least"
     ),
     # Archard's depth
     "slot_wear_max_mm_per_million": Bound(
-        "limits.slot_wear_max_mm_per_million", "life.slot_wear_mm_per_million"
+        "limits.slot_wear_max_mm_per_million", LIMITED["slot_wear_max_mm_per_million"]
     ),
     "pin_stress_MPa": _part("material.roller.stress_max_MPa", "pin", "pin_mm", "diameter_mm"),
     # under the roller

@@ -11,7 +11,9 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.many import alone
 from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.latest import Known
+from geneva_cli.spec.load_limits import LIMITED, limits_by_key
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.forces import LoadCase
@@ -88,7 +90,7 @@ class BatchMember(Designs):
     """One design of a batch, which takes its values from the batch if they are known there."""
 
     def __init__(self, batch: Designs, number: int) -> None:
-        super().__init__(batch.each[number])
+        super().__init__(batch.each[number], batch.names)
         self.batch, self.number = batch, number
 
     def columns(self, compute: Callable[[Designs], Columns]) -> Columns:
@@ -97,15 +99,16 @@ class BatchMember(Designs):
             every = self.batch.once(compute)
         except GenevaError:  # of another design, or of this one, which then raises it again
             return self.once(compute)
-        own = {name: _of_design(column, self.number) for name, column in every.items()}
+        own = {
+            name: None if column is None else number_of(column, self.number)
+            for name, column in every.items()
+        }
         is_unknown = any(value is not None and np.isnan(value) for value in own.values())
         return self.once(compute) if is_unknown else own
 
 
-def _of_design(column: Number | None, i: int) -> float | None:
+def number_of(column: Number, i: int) -> float:
     """The value of one design in a column, which may be one number for all."""
-    if column is None:
-        return None
     values = np.ravel(column)
     return float(values[i] if len(values) > 1 else values[0])
 
@@ -113,4 +116,9 @@ def _of_design(column: Number | None, i: int) -> float | None:
 @Known
 def single(mechanism: Mechanism) -> Designs:
     """A machine as a batch of one, cached for its checks, advice and report."""
-    return Designs(mechanism)
+    return Designs(mechanism, limited_loads(mechanism.spec))
+
+
+def limited_loads(spec: Spec) -> list[str]:
+    """The whole names of the loads that the spec limits, which its checks request."""
+    return [LIMITED[key] for key in limits_by_key(spec.limits)]

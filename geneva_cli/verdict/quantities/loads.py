@@ -8,7 +8,6 @@ from geneva_cli.analysis.peak_search import worst_peaks
 from geneva_cli.analysis.positive_drive import positive_drives
 from geneva_cli.analysis.quantities import REPORTED_PEAKS, sources
 from geneva_cli.loads.loads import kinetic_power_W
-from geneva_cli.loads.means import load_means
 from geneva_cli.loads.summaries import load_peaks, load_summaries
 from geneva_cli.numerics.arrays import Number, parameter
 from geneva_cli.verdict.quantities.designs import Columns, Designs
@@ -45,10 +44,8 @@ def summaries(of: Designs) -> Columns:
     if not ends:
         return {}
     out: dict[str, Number | None] = {}
-    requested = {end for some in ends.values() for end in some}
-    means = {"mean", "rms"}  # these need integrals, the others extremes
-    sums = load_summaries if requested - means else load_means
-    for load, one in sums(of.machine, list(ends), requested & means).items():
+    sums = {end for some in ends.values() for end in some} & {"mean", "rms"}
+    for load, one in load_summaries(of.machine, list(ends), sums).items():
         values = one._asdict()
         out |= {f"{load}.{end}": values[end] for end in ends[load]}
     loaded = np.isfinite(of.loaded)

@@ -8,10 +8,12 @@ from collections.abc import Callable
 import numpy as np
 
 from geneva_cli.analysis import pin as pins
+from geneva_cli.analysis.unbalance import centrifugal_N
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.strength import arm as arms
 from geneva_cli.loads.strength import roller, shafts
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress, shear_allowed_MPa
+from geneva_cli.loads.strength.wear import wears_mm
 from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
@@ -44,7 +46,7 @@ def pin(of: Designs) -> Columns:
     width, out = load.contact_mm, {"allowed_MPa": allowed}
     if width is None:
         return out
-    force = load.force_N[:, None]
+    force = load.roller_N
     section = pins.pin(of.spec.size, width, load.pin_mm)
     under = section.under(force)
     stress = np.ravel(under.equivalent)
@@ -111,7 +113,10 @@ def _known(row: Number | None) -> Array:
 def wheel_shaft(of: Designs) -> Columns:
     """The wheel's shaft."""
     ends = _drawn(of, shafts.wheel_shaft(of.spec.shaft), "wheel")
-    return _shaft(of, ends, shafts.wheel_forces(of.spec), under_load(of).held)
+    held = under_load(of).held
+    if held and of.machine.frame:
+        held = held._replace(force_N=held.force_N + np.ravel(centrifugal_N(of.machine)))
+    return _shaft(of, ends, shafts.wheel_forces(of.machine), held)
 
 
 def crank_shaft(of: Designs) -> Columns:
@@ -140,9 +145,10 @@ def _drawn(of: Designs, ends: shafts.ShaftDimensions, part: str) -> shafts.Shaft
     return ends
 
 
-def _number(of: Designs, values: Array) -> float:
+def _number(of: Designs, values: Number) -> float:
     """Values (m,) as a machine has its numbers: a float, or (m, 1) in a batch."""
-    return values.item() if of.single else parameter(values[:, None])
+    every = np.asarray(values)
+    return every.item() if of.single else parameter(every[:, None])
 
 
 def _shaft(
@@ -254,7 +260,9 @@ def wear(of: Designs) -> Columns:
         "roller_life_h": lasts.hours,
         # a roller that turns on its pin does not rub in the slot
         "slot_wear_mm_per_million": (
-            roller.wears_mm(of.machine, passages) if of.spec.load.rubs_in_slot else None
+            wears_mm(of.machine, [passage.rubbing_N for passage in passages])
+            if of.spec.load.rubs_in_slot
+            else None
         ),
     }
     bound = np.where(np.isfinite(force), of.loaded, np.inf * of.loaded)

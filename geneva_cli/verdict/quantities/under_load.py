@@ -16,19 +16,19 @@ from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.strength import lock, roller, shafts
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.machine.materials import roller_material
-from geneva_cli.numerics.arrays import Array, Number, parameter
+from geneva_cli.numerics.arrays import Array, Number, library, parameter
 from geneva_cli.verdict.part_sizes import (
     LockSizes,
-    PartSizes,
+    batched,
     design_lock_sizes,
     layouts_lock_sizes,
-    part_sizes,
     rack_horns,
     stressed_parts,
 )
 
 if TYPE_CHECKING:
     from geneva_cli.layout.ball import Ball
+    from geneva_cli.layout.stressed import Stressed
     from geneva_cli.loads.strength.horn_search import HornStress
     from geneva_cli.loads.strength.lock import LockUnderTorque
     from geneva_cli.loads.strength.part_loads import PartLoads
@@ -45,10 +45,16 @@ class UnderLoad:
 
     @cached_property
     def force_N(self) -> Array:
-        """The greatest force on a roller."""
+        """The greatest force on a roller, along the wall's normal."""
         if self.designs.single and not np.isnan(self.loaded[0]):
             return np.array([self.part_loads.pin_N])  # its cached loads have it
         return self._peak(FORCE)
+
+    @cached_property
+    def roller_N(self) -> Array:
+        """The greatest force on a roller, with its friction along the wall; (m, 1)."""
+        friction = self.designs.load_case.friction
+        return self.force_N[:, None] * library(friction).hypot(1.0, friction)
 
     @cached_property
     def pv_W_m2(self) -> Array:
@@ -139,12 +145,12 @@ class UnderLoad:
         return lock.loaded_locks(self.machine, sizes.half_width, sizes.lock, width)
 
     @cached_property
-    def parts(self) -> PartSizes | None:
-        """The dimensions of stressed parts; None if no design has parts, or a load."""
+    def parts(self) -> Stressed | None:
+        """The dimensions of stressed parts, (m,); None if no design has parts, or a load."""
         if not self.machine.spec.is_loaded:
             return None
         each = zip(self.designs.each, self.layouts, strict=True)
-        return part_sizes([stressed_parts(*one) for one in each])
+        return batched([stressed_parts(*one) for one in each])
 
     @property
     def contact_mm(self) -> float | None:
@@ -152,7 +158,7 @@ class UnderLoad:
         width = self.machine.spec.size.face_width_mm
         if width is not None or self.parts is None:
             return width
-        return parameter(self.parts.contact[:, None])
+        return parameter(np.reshape(self.parts.contact, (-1, 1)))
 
     @cached_property
     def pin_mm(self) -> Number:
@@ -161,7 +167,7 @@ class UnderLoad:
         usual = pins.pin_diameter_mm(self.machine)
         if size.pin_mm is not None or width is None:
             return usual
-        stress = pins.pin(size, width, usual).under(self.force_N[:, None]).equivalent
+        stress = pins.pin(size, width, usual).under(self.roller_N).equivalent
         # where the usual pin holds, it is drawn
         holds = ~(stress > roller_material(self.machine.spec).allowed_MPa)
         parts = None if np.all(holds) else self.parts

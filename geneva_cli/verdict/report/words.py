@@ -27,7 +27,7 @@ def words(mechanism: Mechanism) -> str:
     if spec.motion:
         text += f' The wheel follows the law "{spec.motion.law.NAME}"'
         if spec.motion.alpha0_deg:
-            text += f", with {spec.motion.alpha0_deg:g} deg of extra dwell"
+            text += f", with {spec.motion.alpha0_deg:g}° of extra dwell"
         text += "; its slots are cut to suit." if slot.curved else "; the groove is cut to suit."
     if wheel.stopped:
         text += f" A convex face in place of a recess blocks the crank after {wheel.z - 1} turns."

@@ -1,6 +1,7 @@
 """Straight radial slots behind a drive, and the closed form as l nears 1."""
 
 import math
+from functools import partial
 
 import numpy as np
 from witness import SIGN, chain, mp, to_radians
@@ -11,7 +12,7 @@ from exact.rates import BESIDE, angle_rates, exactly, variations
 from exact.table import strictly, ulps, unit
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.wheels.classic_arrays import ClassicArrays
+from geneva_cli.kinematics.wheels import classic_arrays
 from geneva_cli.machine.mechanism import build
 
 
@@ -183,7 +184,7 @@ def arrays(table, sample):
             C = [g * mp.mpf(l) * mp.expj(-g * to_radians(v)) for v in x]
             turn = -1j * g
             exact = [angle_rates((1 - c, *[-c * turn**n for n in range(1, 6)])) for c in C]
-            got = strictly(ClassicArrays(float(g), l, rest).derivatives, x, (0, 1, 2, 3))
+            got = strictly(partial(classic_arrays.derivatives, float(g), l, rest), x, (0, 1, 2, 3))
             place = [f"l=1-1e-{k} at {v:.17g}" for v in x]
             for n, name in enumerate(NAMES):
                 values = [e[n] for e in exact]
