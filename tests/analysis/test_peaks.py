@@ -7,6 +7,7 @@ solves on its own formulas. Tables: the reference values of the theory notes (se
 import math
 
 import pytest
+from sampling import some
 from witness import Geneva, near
 from words import Drive, Keys, Spec, Wheel
 
@@ -90,7 +91,7 @@ def rows(text):
 @pytest.mark.parametrize("gearing", ["external", "internal"])
 @pytest.mark.parametrize("A", OFFSETS)
 def test_against_roots_at_50_digits(machine, gearing, A):
-    for z in every_other(A):
+    for z in some(every_other(A), every_other(A)[::3]):
         m = machine(z, gearing, A)
         found, w = peaks(m.engagements[0]), Geneva(z, gearing, A)
         for name in NAMES:

@@ -14,6 +14,7 @@ from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.drives.gear_sector import GearSector
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.spec.tables import Size
 from geneva_cli.synthesis.built import built
 from geneva_cli.synthesis.parts import USUAL, exact, parts, with_roller
 from geneva_cli.synthesis.parts_data import distances_at_rest, parts_data
@@ -59,6 +60,12 @@ def test_a_play_that_fails_is_found_where_it_failed_before():
     assert 0.9 < play_about(whole.parts, largest.at_deg) / largest.deg <= 1.0 + 1e-6
     seen = [Check("hand_over_play_deg", None, "at most", None, False, at_deg=largest.at_deg)]
     assert Turn(build(with_roller(spec, 4.0))).some_failing(seen) == seen
+
+
+def test_play_in_a_slot_is_none_between_lock_and_slot():
+    """Amid a motion the roller is in its slot, however loose that is."""
+    loose = Spec(External(6), size=Size(slot_clearance_mm=0.5))
+    assert play_about(PartsModel(build(loose)).parts, 0.0) == 0.0
 
 
 @pytest.mark.parametrize("share", [0.05, 0.03, 0.02])
