@@ -354,9 +354,6 @@ def test_no_motion_to_change():
         Design(External(6)).with_("motion.ratio", 0.5)
 
 
-# Each answer once
-
-
 # From several threads
 
 THREADS = """
