@@ -111,17 +111,17 @@ def test_of_designs_without_a_load_each_is_asked():
 
 
 def test_where_a_torque_alone_resists():
-    """No sign ever changes; a flywheel, which needs a speed variation, has none."""
+    """No sign ever changes; a flywheel needs a speed variation, and a drag what coasts."""
     picks = ["loads.pin_force_N.max", "sizing.motor_torque_rms_Nm", "sizing.energy_fluctuation_J"]
-    picks.append("sizing.flywheel_kgm2")
+    picks += ["sizing.flywheel_kgm2", "shock.reversal.drag_Nm"]
     together, alone, found = rows(
         "side-crank-z6.toml", ["drive.A=0,0.3", "load.torque_Nm=10"], picks
     )
     every = found.plan.rows(0, 2)
     assert len(batch.table(every, ["drive.A", "load.torque_Nm"], picks, found._spec)) == 2
     for one, other in zip(together, alone, strict=True):
-        assert one[-2:] == other[-2:] == [None, None]
-        assert one[:-2] == pytest.approx(other[:-2], rel=1e-12)
+        assert one[-3:] == other[-3:] == [None, None, None]
+        assert one[:-3] == pytest.approx(other[:-3], rel=1e-12)
 
 
 def test_beside_a_pole_what_wears_has_no_value():
