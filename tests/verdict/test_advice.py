@@ -10,7 +10,9 @@ from sampling import some
 from words import load
 
 from geneva_cli import Design
+from geneva_cli.loads import loads
 from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.numerics.latest import counted
 from geneva_cli.spec.schema import fields
 from geneva_cli.specfile.writer import keys_of
 from geneva_cli.study.verdicts import verdicts
@@ -256,6 +258,23 @@ def test_several_files_get_the_advice_of_each(tmp_path: Path) -> None:
     alone = [[c for c in judged(load(path)) if c.passes is False] for path in paths]
     assert together == alone
     assert all(rows[0].nearest for rows in alone)
+
+
+def test_searches_of_loads_count(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A trial costs more than its machine: the evaluations of its search for the greatest stress.
+
+    Before they were counted, some loaded machines behind other drives took 20 s.
+    """
+    mechanism = read(tmp_path, LOADED + "contact_stress_max_MPa = 250\n")
+    failing = [c for c in checks(mechanism, parts=False) if c.passes is False]
+    built: list[object] = []
+    monkeypatch.setattr(advice, "build", lambda spec: built.append(spec) or build(spec))
+    adviser = advice.Adviser(mechanism, failing, parts=False)
+    assert adviser.advice(failing)[0]
+    with counted() as one:
+        loads.greatest_pressure(build(mechanism.spec))
+    assert one.evaluations > 1
+    assert advice.WORK - adviser.work > (advice.TRIAL + 1) * len(built) > 0
 
 
 @pytest.mark.long
