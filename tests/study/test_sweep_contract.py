@@ -31,7 +31,7 @@ def swept(tmp_path, text, *vary, pick):
     return [row[:-1] for row in rows]
 
 
-@pytest.mark.sampled(32)
+@pytest.mark.sampled(64)
 @pytest.mark.parametrize("name", SOME)
 def test_a_key_of_its_own_kind_alone(name):
     """Its last ones; together with another, and equal in all, keys of all tables have their turn.
@@ -51,7 +51,7 @@ def test_a_key_of_its_own_kind_alone(name):
         assert off(spec, {other: [pair[0]] * 3}) == []
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("name", SOME)
 def test_every_key_at_once(name):
     """Each quantity of every group, of two designs that differ in all keys that a batch varies."""
