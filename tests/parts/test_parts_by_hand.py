@@ -30,7 +30,8 @@ from geneva_cli.layout.bores import RoundBore, bore_of
 from geneva_cli.layout.reliefs import arc_floor, reliefs, widened
 from geneva_cli.layout.roller_paths import mouth_corners
 from geneva_cli.layout.sizes import machine_sizes
-from geneva_cli.layout.stressed import stressed
+from geneva_cli.layout.stressed import lock_of, stressed
+from geneva_cli.outlines.cut_lock import cut_arcs
 from geneva_cli.outlines.outlines import outlines
 from geneva_cli.parts.all_shafts import passing_arm
 from geneva_cli.parts.arm import crank_arm
@@ -546,6 +547,7 @@ def test_a_low_mouth_is_raised_by_a_fifth():
         (External(4, steps_deg=(48.3, 131.7)), {1}),
         (External(8, steps_deg=(63.4, 26.6)), set()),
         (External(6, offset_mm=12.0), set()),
+        (External(24), {0}),  # many horns, which come deep into the disc
     ],
 )
 def test_a_relief_is_as_wide_as_the_wheel_reaches(wheel, passed):
@@ -565,6 +567,8 @@ def test_a_relief_is_as_wide_as_the_wheel_reaches(wheel, passed):
         assert (off > one.half + 1e-6) == (one.motion in passed)
         reach = off + sizes.relief / sizes.lock if one.motion in passed else one.half
         assert wide[one.motion].half == pytest.approx(reach, abs=math.radians(0.02))
+    cut = [arc.sweep for arc in cut_arcs(parts.crank, sizes.lock, 0.0, 1e-6)]
+    assert lock_of(assembly, sizes).half == pytest.approx(0.5 * min(map(abs, cut)), rel=1e-12)
 
 
 @pytest.mark.parametrize("direction", [0.0, 2.0])
