@@ -29,7 +29,8 @@ from geneva_cli.loads.strength.part_loads import part_loads
 from geneva_cli.machine.materials import wheel_material
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.outlines.cut_lock import cut_lock
+from geneva_cli.outlines.cut_lock import cut_arcs, cut_lock
+from geneva_cli.outlines.outlines import drawn
 from geneva_cli.spec.tables import Load, Shaft, Size, WheelMaterial
 from geneva_cli.verdict.quantities.designs import Designs
 from geneva_cli.verdict.quantities.strength import arm, crank_key, crank_shaft, pin, wheel_shaft
@@ -322,7 +323,12 @@ def test_the_spec_s_sizes_stay():
 
 @pytest.mark.parametrize(
     "wheel",
-    [External(6, offset_mm=5.0), External(5, offset_mm=-6.0), External(6, steps_deg=(66.0, 54.0))],
+    [
+        External(6, offset_mm=5.0),
+        External(5, offset_mm=-6.0),
+        External(6, steps_deg=(66.0, 54.0)),
+        External(4, steps_deg=(48.3, 131.7)),  # whose relief is cut 8 degrees wider
+    ],
 )
 @pytest.mark.parametrize("clearance", [0.0, 0.1])
 def test_sizes_are_for_the_lock_as_it_is_cut(wheel, clearance):
@@ -333,6 +339,12 @@ def test_sizes_are_for_the_lock_as_it_is_cut(wheel, clearance):
     size = Size(lock_clearance_mm=clearance, slot_clearance_mm=0.02)
     load = Load(inertia_kgm2=1e-3, dwell_torque_Nm=10.0)
     flat = sized(build(Spec(wheel, size=size, load=load)))
+    parts, lock = drawn(*flat), lock_of(*flat)
+    recesses = cut_arcs([parts.wheel], lock.recess, lock.L, 1e-6)
+    corners = [math.hypot(*end) for one in recesses for end in (one.start, one.end)]
     # 1e-9 mm: a tenth of a digit of a drawing
-    assert lock_of(*flat) == pytest.approx(cut_lock(*flat), abs=1e-9)
-    assert lock_of(*flat).corner < flat[1].rim - 1.0
+    assert lock.corner == pytest.approx(min(corners), abs=1e-9)
+    assert lock.corner < flat[1].rim - 1.0
+    cut = [abs(arc.sweep) for arc in cut_arcs(parts.crank, lock.lock, 0.0, 1e-6)]
+    assert lock.half == pytest.approx(0.5 * min(cut), abs=1e-12)
+    assert cut_lock(*flat) == lock
