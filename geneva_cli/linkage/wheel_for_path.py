@@ -14,11 +14,12 @@ from typing import NamedTuple, TypeAlias, cast
 
 import numpy as np
 
+from geneva_cli.kinematics.paths.course import PathWheels
 from geneva_cli.kinematics.paths.pairs import DOUBLE_ROOT_SLOPE
 from geneva_cli.kinematics.roller_path import RollerPath, exactly
 from geneva_cli.kinematics.wheels.poses import HalfStep
 from geneva_cli.linkage.choice import chosen
-from geneva_cli.linkage.wheels import PathWheels, WheelSearch, followed, wheels
+from geneva_cli.linkage.wheels import WheelSearch, followed, wheels
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import scaled_sin_cos
 from geneva_cli.numerics.arrays import joined
