@@ -66,11 +66,8 @@ def wheels(path: RollerPath, b: Array) -> WheelSearch:
         # doubtful entries within 1e-4 radians lead to one wheel
         doubtful = doubtful.taken(firsts(doubtful.which, doubtful.at.phi, 1e-4))
         ends, sense = ends.taken(steep), rest.sense[steep]
-        block = np.zeros(len(b), dtype=int)
-        for i, samples in enumerate(every):
-            block[samples.which] = i
-        own = [block[ends.which] == i for i in range(len(every))]
-        parts = ((some, ends.taken(i), sense[i]) for some, i in zip(every, own, strict=True))
+        own = ((some, np.isin(ends.which, some.which)) for some in every)
+        parts = ((some, ends.taken(i), sense[i]) for some, i in own)
         return WheelSearch(_followed(path, parts), doubtful)
 
 
@@ -131,9 +128,8 @@ def _block_followed(
     centre = 0.5 * ((p + rho * t) + (q - rho * u))
     unknown = np.zeros(len(sense)), np.full(len(sense), np.inf)
     wheel = PathWheels(ends.which, ends.at.phi, centre, rho * rho, sense, *unknown)
-    number = np.zeros(int(samples.which.max(initial=0)) + 1, dtype=int)
-    number[samples.which] = np.arange(len(samples.which))
-    row, count = number[ends.which], len(samples.angle) - 1
+    order, count = np.argsort(samples.which), len(samples.angle) - 1
+    row = order[np.searchsorted(samples.which, ends.which, sorter=order)]
     # the samples from entry onwards, over a turn, and after them entry and exit: (places, wheels)
     first = samples.at.phi[0, row]
     entry = first + (ends.at.phi[:, 0] - first) % math.tau
