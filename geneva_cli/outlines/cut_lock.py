@@ -37,9 +37,8 @@ def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
     half = min([lock.half, *(0.5 * abs(arc.sweep) for arc in locking)])
     recesses = cut_arcs([parts.wheel], lock.recess, assembly.L, near)
     corners = {math.hypot(*end) for one in recesses for end in (one.start, one.end)}
-    others = sorted(r for r in corners if abs(r - lock.corner) > near)  # than the widest mouth's
-    tried = [lock._replace(half=half, corner=r) for r in (lock.corner, *others)]
-    return loosest(tried)
+    others = sorted(r for r in corners if abs(r - lock.corner) > near)
+    return loosest([lock._replace(half=half, corner=r) for r in (lock.corner, *others)])
 
 
 def cut_arcs(contours: Iterable[Contour], radius: float, away: float, near: float) -> Iterator[Arc]:
