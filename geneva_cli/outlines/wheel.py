@@ -18,6 +18,7 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.walls.straight import straight_walls
 
 LAYER = "WHEEL"
+CURVED = 2e-6  # of the centre distance: accuracy of curved walls for the full turn
 
 
 @lru_cache(maxsize=16)  # drawings, sheet and solids of one machine have the same walls
@@ -30,6 +31,12 @@ def slot_walls(
 
         return curved_walls(assembly, sizes, engagement, tolerance, curves)
     return straight_walls(assembly, sizes, engagement)
+
+
+def turned_walls(assembly: Assembly, sizes: Sizes) -> dict[Engagement, Contour]:
+    """Return the walls of each kind of slot, as accurate as the full turn needs them."""
+    fine = 0.5 * CURVED * assembly.L
+    return {one: slot_walls(assembly, sizes, one, fine) for one in assembly.kinds}
 
 
 def wheel_contour(
