@@ -40,7 +40,9 @@ def draw_disc(view: View, parts: FlatParts) -> None:
     bored(view, bores, mechanism.spec.size, "crank")
     arcs = [s for contour in contours for s in contour.segments if isinstance(s, Arc)]
     locking = [
-        a for a in arcs if math.hypot(*a.centre) < SAME_ON_SHEET and _is(a.radius, sizes.lock)
+        arc
+        for arc in arcs
+        if max(math.hypot(*arc.centre), abs(arc.radius - sizes.lock)) < SAME_ON_SHEET
     ]
     _gaps(view, sizes.lock, locking)  # first, as their legs have no other place
     view.of_arcs(locking, sized.lock(view.fits, mechanism, sizes.lock), whole=True)
@@ -140,7 +142,3 @@ def draw_assembly(view: View, parts: Outlines, shapes: tuple[Shape, ...]) -> Non
     for place in parts.assembly.full.crank_places:
         view.cross(place.at, max(parts.sizes.lock, 0.1 * L))
     view.linear((0.0, 0.0), (L, 0.0), 0.0, sized.plain(L, "L = ", deviation))
-
-
-def _is(a: float, b: float) -> bool:
-    return abs(a - b) < SAME_ON_SHEET

@@ -208,7 +208,7 @@ class RodPath(RollerPath):
 def _exactly(*lengths: float, reach_mm: float, angle_deg: float) -> tuple[Decimal, ...]:
     """Lengths, and a point's coordinates from its distance and angle, in 50 digits."""
     with localcontext(digits.FIFTY):
-        sine, cosine = digits.sin_cos(digits.of_degrees(angle_deg))
+        sine, cosine = digits.sin_cos(Decimal(angle_deg) * digits.PI / 180)
         point = Decimal(reach_mm) * cosine, Decimal(reach_mm) * sine
         return (*(Decimal(x) for x in lengths), *point)
 

@@ -16,7 +16,7 @@ from geneva_cli.output.svg_paths import element
 from geneva_cli.output.ticks import labels, ticks
 
 if TYPE_CHECKING:
-    from geneva_cli.scene import Bar, Body, Push, Scene, Track
+    from geneva_cli.scene import Bar, Body, Scene, Track
 
 
 def chunks(scene: Scene) -> Iterator[str]:
@@ -94,7 +94,7 @@ def _data(scene: Scene) -> dict[str, Any]:
         "bars": [_bar(bar) for bar in scene.bars],
         "rollers": [[_track(t) for t in place] for place in scene.rollers],
         "radius": scene.roller_radius,
-        "pushes": [_push(push) for push in scene.pushes],
+        "pushes": [[[_short(v) for v in column] for column in push] for push in scene.pushes],
         "states": [[_short(s.start), _short(s.end), s.moves, s.words] for s in scene.states],
         "panels": [_panel(panel) for panel in scene.figure.panels],
         "window": scene.figure.window,
@@ -113,10 +113,6 @@ def _bar(bar: Bar) -> dict[str, Any]:
     joints = [[_track(t) for t in place] for place in bar.joints]
     plates = [plate.joint for plate in bar.plates]
     return {"name": bar.name, "joints": joints, "radius": bar.radius, "plates": plates}
-
-
-def _push(push: Push) -> list[list[float]]:
-    return [[_short(v) for v in column] for column in push]
 
 
 def _panel(panel: Panel) -> dict[str, Any]:
