@@ -61,8 +61,11 @@ class SphereParts(PartsOfMachine):
 
     @cached_property
     def wheel(self) -> Member:
-        """The wheel's shell with its hub."""
-        return Member(wheel_group(self.mechanism.spec.size, self.ball))
+        """The wheel's shell with its hub. Raises GenevaError for one that cannot be made."""
+        size, ball = self.mechanism.spec.size, self.ball
+        hub = wheel_hub(size, ball)
+        shell = wheel_shell(size, ball)
+        return Member(Group("wheel", (Member(shell), *([Member(hub)] if hub else []))))
 
     @cached_property
     def arm(self) -> CapArm | None:
@@ -106,15 +109,6 @@ class SphereParts(PartsOfMachine):
         yield "wheel", lambda: [self.wheel.part]
         yield "crank", lambda: [self.crank.part]
         yield "shafts", lambda: [one.part for one in self.shafts]
-
-
-def wheel_group(size: Size, ball: Ball) -> Group:
-    """Return the wheel's shell with its hub.
-
-    Raises GenevaError for a keyway or hub that cannot be made.
-    """
-    hub = wheel_hub(size, ball)
-    return Group("wheel", (Member(wheel_shell(size, ball)), *([Member(hub)] if hub else [])))
 
 
 def wheel_shell(size: Size, ball: Ball) -> Shell:
