@@ -26,7 +26,7 @@ from geneva_cli.layout.reliefs import Relief, followed, keyway_direction, merged
 from geneva_cli.layout.reliefs import is_whole as is_whole
 from geneva_cli.layout.roller_paths import roller_centres as roller_centres
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.outlines.locking_rings import LAYER, Swept, polar_points, rings, towards
+from geneva_cli.outlines.locking_rings import Swept, polar_points, rings, towards
 
 
 def crank_contours(
@@ -55,7 +55,7 @@ def crank_contours(
         segments += [_arc(sizes, one)] if relief == "arc" else _sector(assembly, sizes, one)
         if after - one.end > SAME_ANGLE:
             segments.append(about((0.0, 0.0), sizes.lock, one.end, after - one.end))
-    return [closed(LAYER, segments)]
+    return [closed("CRANK", segments)]
 
 
 def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:

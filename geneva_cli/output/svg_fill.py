@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from geneva_cli.curves.measure import mapped
 from geneva_cli.curves.placed import in_place
 from geneva_cli.curves.plates import Member, Part
-from geneva_cli.curves.shapes import Contour, Shape, as_contour
+from geneva_cli.curves.shapes import Contour, Layer, Shape, as_contour
 from geneva_cli.output.inks import INKS, inks
 from geneva_cli.output.svg_paths import number, path
 
@@ -42,12 +42,12 @@ def filled(solid: Part, fill: str, unit: float, mm: float) -> Iterator[str]:
     yield "</g>\n"
 
 
-def opacity(layer: str) -> float:
+def opacity(layer: Layer) -> float:
     """Opacity of a layer's tint, from 0 to 1."""
     return 0.55 if layer == "ROLLER" else 0.16
 
 
-def rings(solid: Part, unit: float = 1.0) -> list[tuple[str, tuple[Contour, ...]]]:
+def rings(solid: Part, unit: float = 1.0) -> list[tuple[Layer, tuple[Contour, ...]]]:
     """The outline and holes of each plate, with its layer; the lowest plate first.
 
     Of plates of one shape above each other, such as a counter's wheels, only the highest is there:

@@ -12,7 +12,7 @@ from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import K
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Array, Complex, library
+from geneva_cli.numerics.arrays import Complex, library
 from geneva_cli.spec.rules import Range
 
 PERIOD_RATIO = Range(1e-6, 1e5)  # the range that is computed
@@ -42,22 +42,6 @@ class Oscillator(NamedTuple, Generic[K]):
         """Complex rate p of each, by the motion's time."""
         zeta = np.asarray(self.damping)
         return 2.0 * np.pi * self.ratio * (-zeta + 1j * np.sqrt(1.0 - zeta * zeta))
-
-    def after(self, v: float | Array) -> Complex:
-        """e^(p v), with the angle reduced before it is rounded; elementwise for arrays."""
-        ratio, zeta = np.asarray(self.ratio), np.asarray(self.damping)
-        whole = np.floor(ratio)
-        split = 2.0**26  # half of a double's bits
-        head = np.floor(v * split) / split
-        turns = (whole * head) % 1.0 + whole * (v - head) + (ratio - whole) * v
-        angle = 2.0 * np.pi * (turns - np.round(turns))
-        if not zeta.any():
-            return np.cos(angle) + 1j * np.sin(angle)
-        # difference of sqrt(1 - zeta²) from 1
-        slower = zeta * zeta / (1.0 + np.sqrt(1.0 - zeta * zeta))
-        omega = 2.0 * np.pi * ratio
-        angle -= omega * slower * v
-        return np.exp(-omega * zeta * v) * (np.cos(angle) + 1j * np.sin(angle))
 
 
 def oscillator(

@@ -78,7 +78,7 @@ def _integral(panels: Panels, order: int, motion: Whole, swing: Oscillator[Array
     size = np.abs(p) * reach
     reduced: Array | Complex = -p * reach if unit == 1.0 else size
     out: Complex = np.empty(len(of), dtype=complex)
-    after = each.after(1.0 - panels.right[panel])
+    after = _after(each, 1.0 - panels.right[panel])
     large = size >= TERMS  # there the upward recurrence is stable
     # apart, since 56 terms of a |q| below 1e-8 overflow, and 32 of 1e-15 do not
     for here in (size < 0.5, (size >= 0.5) & ~large):
@@ -87,9 +87,26 @@ def _integral(panels: Panels, order: int, motion: Whole, swing: Oscillator[Array
     if large.any():
         some = Oscillator(each.ratio[large], each.damping[large])
         one, other = _by_ends(reduced[large], unit, series[large])
-        both = some.after(1.0 - panels.left[panel[large]]) * one + after[large] * other
+        both = _after(some, 1.0 - panels.left[panel[large]]) * one + after[large] * other
         out[large] = both / p[large]
     return np.add.reduceat(out, first)
+
+
+def _after(one: Oscillator[Array], v: float | Array) -> Complex:
+    """e^(p v), with the angle reduced before it is rounded; elementwise for arrays."""
+    whole = np.floor(one.ratio)
+    split = 2.0**26  # half of a double's bits
+    head = np.floor(v * split) / split
+    turns = (whole * head) % 1.0 + whole * (v - head) + (one.ratio - whole) * v
+    angle = 2.0 * np.pi * (turns - np.round(turns))
+    zeta = one.damping
+    if not zeta.any():
+        return np.cos(angle) + 1j * np.sin(angle)
+    # difference of sqrt(1 - zeta²) from 1
+    slower = zeta * zeta / (1.0 + np.sqrt(1.0 - zeta * zeta))
+    omega = 2.0 * np.pi * one.ratio
+    angle -= omega * slower * v
+    return np.exp(-omega * zeta * v) * (np.cos(angle) + 1j * np.sin(angle))
 
 
 def _sums(terms: NDArray[np.inexact], series: Array) -> Complex:

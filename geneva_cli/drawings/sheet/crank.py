@@ -19,7 +19,6 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.outlines.crank import is_whole
 from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.flat_parts import FlatParts
 
@@ -29,7 +28,7 @@ def draw_disc(view: View, parts: FlatParts) -> None:
     outlines, mechanism = parts.outlines, parts.mechanism
     assembly, sizes = outlines.assembly, outlines.sizes
     own = plates(parts.crank.part)
-    discs, hubs = ([plate for plate in own if plate.layer == layer] for layer in ("CRANK", HUB))
+    discs, hubs = ([plate for plate in own if plate.layer == layer] for layer in ("CRANK", "HUB"))
     bores, screwed = holes_of(discs)
     contours = [disc.outline for disc in discs if isinstance(disc.outline, Contour)]
     view.draw_all((*contours, *screwed, *bores, *(hub.outline for hub in hubs)))

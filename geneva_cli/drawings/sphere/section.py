@@ -21,7 +21,7 @@ from geneva_cli.layout.written import degrees
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.outlines.sphere_wheel import QUARTER
 from geneva_cli.parts.sphere.arm import CapArm
-from geneva_cli.parts.sphere.sphere_parts import ROLLER, SphereParts
+from geneva_cli.parts.sphere.sphere_parts import SphereParts
 
 Side: TypeAlias = Callable[[float], float]  # an angle from the wheel's axis, on each sphere
 
@@ -128,7 +128,7 @@ def _plates(parts: SphereParts) -> Iterator[tuple[Plate, float]]:
     axes = parts.ball.axes
     yield from ((plate, 0.0) for plate in plates(parts.wheel.part))
     for plate in dict.fromkeys(plates(parts.crank.part)):
-        angles = _rollers(parts.ball) if plate.layer == ROLLER else [axes]
+        angles = _rollers(parts.ball) if plate.layer == "ROLLER" else [axes]
         yield from ((plate, angle) for angle in angles)
     for member in parts.shafts:
         for step in steps_of(member.part):
