@@ -53,7 +53,7 @@ class MotionError(NamedTuple):
 
     def play_mm(self, by: Deviations) -> Jet:
         """Clearance per side, mm; negative if the roller does not fit into the slot."""
-        return by.slot_clearance + self.clearance
+        return (by.slot_width_mm - by.roller_diameter_mm) * 0.5 + self.clearance
 
     def margin_mm(self, spec: Spec, use: Mapping[str, float]) -> float:
         """Greatest sum of errors of L and R that every random machine allows, mm.
