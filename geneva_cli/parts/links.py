@@ -18,7 +18,7 @@ from geneva_cli.curves.hole_walls import apart, plate_wall
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.placed import placed
 from geneva_cli.curves.plates import Member, Plate
-from geneva_cli.curves.shapes import Circle, Contour, Layer, Point, Shape
+from geneva_cli.curves.shapes import Circle, Layer, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.layout.link_positions import links_at, same, turn_deg
@@ -248,7 +248,7 @@ def _bar(link: Link, sizes: LinkSizes, L: float) -> _UnboredLink:
             half, long = sizes.block(hole)
             spare = long + SLOT_MARGIN * hole
             ends = float(distances.min()) - spare, float(distances.max()) + spare
-            holes.append(_slot(along, ends, half))
+            holes.append(convex_hull("LINK", [_circle("LINK", r * along, half) for r in ends]))
             eyes += [_circle("LINK", r * along, half + hole) for r in ends]
             if link.kinds[0] is Joint.NONE:  # it is fixed to the frame beyond both ends
                 beyond = half + 2.0 * sizes.pin
@@ -299,11 +299,6 @@ def placed_holes(member: Member) -> Iterator[Circle]:
 
 def _circle(layer: Layer, at: complex, radius: float) -> Circle:
     return Circle(layer, (at.real, at.imag), radius)
-
-
-def _slot(along: complex, ends: tuple[float, float], half: float) -> Contour:
-    """Return a slot with round ends about two points in a direction from the origin."""
-    return convex_hull("LINK", [_circle("LINK", r * along, half) for r in ends])
 
 
 def _refuse(plate: Plate) -> None:

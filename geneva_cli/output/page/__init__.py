@@ -105,7 +105,9 @@ def _data(scene: Scene) -> dict[str, Any]:
 
 def _track(track: Track) -> dict[str, Any]:
     columns = (track.at, track.value, track.slope)
-    named = dict(zip("avs", ([_exact(x) for x in column] for column in columns), strict=True))
+    # angles and places to 1e-9 of a turn
+    exact = ([float(f"{x:.10g}") for x in column] for column in columns)
+    named = dict(zip("avs", exact, strict=True))
     return {**named, "g": track.gain} if track.gain else named
 
 
@@ -140,11 +142,6 @@ def _pieces(curve: Curve) -> Iterator[list[list[float]]]:
         every = max(1, len(x) // 120)  # leaves 120 to 240 points
         chosen = sorted({*range(0, len(x), every), len(x) - 1})
         yield [[_short(x[i]) for i in chosen], [_short(y[i]) for i in chosen]]
-
-
-def _exact(value: float) -> float:
-    """An angle or a place, to 1e-9 of a turn."""
-    return float(f"{value:.10g}")
 
 
 def _short(value: float) -> float:
