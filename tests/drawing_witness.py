@@ -15,6 +15,7 @@ import numpy as np
 from hypothesis import assume
 from hypothesis import strategies as st
 from scipy.integrate import quad
+from shapely.geometry import Polygon
 
 from geneva_cli.curves.measure import STRAIGHT, at, mapped, segment_length
 from geneva_cli.curves.shapes import Arc, Circle, Cubic, Line, closed
@@ -306,6 +307,11 @@ def vertices(shape, tolerance):
         count = pieces(segment, tolerance)
         points += [at(segment, i / count) for i in range(1, count + 1)]
     return points
+
+
+def polygon(shape, tolerance=1e-4):
+    """A closed contour or a circle as a polygon of chords, within ``tolerance`` of it, mm."""
+    return Polygon(vertices(shape, tolerance))
 
 
 def pieces(segment, tolerance):

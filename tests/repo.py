@@ -14,6 +14,18 @@ WHEELS = sorted(p for p in DESIGNS.glob("*.toml") if p.stem not in ("linear", "o
 GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")  # the installed command
 
 
+def put(name: str, text: str = "") -> None:
+    """Write a file as it stands, in the current folder."""
+    with open(name, "w", encoding="utf-8", newline="") as file:
+        file.write(text)
+
+
+def get(name: str) -> str:
+    """The text of a file as it stands."""
+    with open(name, encoding="utf-8", newline="") as file:
+        return file.read()
+
+
 def heed_signals() -> None:
     """Restore the default signals in a child: nohup and jobs behind & ignore them."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):

@@ -6,8 +6,6 @@ values at the points and of derivatives at the ends, with as many digits as the 
 
 import math
 
-import numpy as np
-from scipy.interpolate import make_interp_spline
 from witness import mp
 
 
@@ -64,12 +62,6 @@ class Spline:
     def pieces(self, y=None):
         """Coefficients of each piece about its left knot, for these values at the points."""
         return self._sum(list(zip(y or self.y, self.unit, strict=True)))
-
-    def by_scipy(self):
-        """What SciPy makes of the same points, in doubles."""
-        y = [float(v) for v in (*self.y, self.y[0])[: len(self.x)]]
-        ends = "periodic" if self.period else 2 * ([(1, 0.0), (2, 0.0)],)
-        return make_interp_spline(np.array([float(v) for v in self.x]), y, k=5, bc_type=ends)
 
 
 def derivatives(c, t, whole=None):

@@ -17,7 +17,9 @@ from geneva_cli.machine.spec import attribute
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import (
     Load,
+    Mass,
     Motor,
+    Product,
     RollerMaterial,
     Shaft,
     Size,
@@ -49,6 +51,7 @@ GIVEN = {
     "material_wheel": WheelMaterial(stress_max_MPa=300.0, wear_mm3_Nm=1e-8),
     "material_roller": RollerMaterial(stress_max_MPa=300.0, dynamic_capacity_N=9000.0),
     "tolerance": Tolerance(center_distance_mm=0.02, slot_angle_deg=0.05),
+    "product": Product(radius_mm=300.0, swing_Hz=3.0),
 }
 MORE = {
     "scca": machine(6, motion=Motion(law("scca", b=0.25, c=0.5, d=0.25))),
@@ -56,6 +59,9 @@ MORE = {
     "two cranks, slowed": behind(
         machine(8, rollers=2, crank_steps=(0, 3)), "side-crank", A=0.2
     ),  # whose parts are not built
+    "unbalanced": machine(5, "carousel").replace(
+        mass=(Mass("point", mass_kg=0.7, radius_mm=120.0, angle_deg=40.0),)
+    ),
     "rack": machine(8, gearing="linear"),
     "counter": machine(4, gearing="counter", own={"driver_teeth": 20}),
 }
@@ -66,12 +72,14 @@ OTHERS = {
     "two cranks, slowed": SEVERAL,
     "rack": {
         **SEVERAL,
+        "product": Product(),
         "load": Load(mass_kg=3.0, force_N=15.0, friction=0.1, guide_friction=0.1),
         "support": Support(),
         "shaft": Shaft(crank_diameter_mm=18.0, crank_overhang_mm=25.0, crank_span_mm=45.0),
     },
     "counter": {
         **SEVERAL,
+        "product": Product(),
         "load": Load(inertia_kgm2=1e-5),
         "size": Size(face_width_mm=10.0),
         "support": Support(),
@@ -140,6 +148,16 @@ def apart(spec, key):
                 if all(built(spec, {key: value}) for value in pair):
                     return pair
     return None
+
+
+def every_key(spec):
+    """Two values of each key that a batch may vary, which together make two machines."""
+    varied = {}
+    for key in keys(spec):
+        pair = apart(spec, key)
+        if pair and built(spec, {k: b for k, (_, b) in varied.items()} | {key: pair[1]}):
+            varied[key] = pair
+    return varied
 
 
 def quantities(mechanism):

@@ -1,4 +1,4 @@
-"""Design, the Python API: the answers and the refusals of a file, each worked out once."""
+"""Design, the Python API: the answers and the refusals of a file."""
 
 import inspect
 import math
@@ -7,7 +7,6 @@ import subprocess
 import sys
 import types
 from concurrent.futures import ThreadPoolExecutor
-from functools import cached_property
 
 import numpy as np
 import pytest
@@ -37,7 +36,6 @@ from geneva_cli import (
     SliderCrank,
     Spherical,
     TableLaw,
-    design,
     load,
 )
 from geneva_cli.app import app
@@ -354,37 +352,6 @@ def test_a_key_or_value_that_cannot_be_changed_to(key, value, said):
 def test_no_motion_to_change():
     with pytest.raises(GenevaError, match=r"motion\.ratio: this spec has no \[motion\]"):
         Design(External(6)).with_("motion.ratio", 0.5)
-
-
-# Each answer once
-
-KEPT = sorted(name for name, v in vars(Design).items() if isinstance(v, cached_property))
-
-
-def test_there_are_answers_to_keep():
-    assert {"mechanism", "timings", "peaks", "loads", "parts_model", "checks", "report"} <= set(
-        KEPT
-    )
-
-
-@pytest.mark.parametrize("name", KEPT)
-def test_an_answer_is_worked_out_once(name):
-    made = DESIGNS["side-crank-z6"]
-    assert getattr(made, name) is getattr(made, name)
-
-
-def test_the_machine_is_built_once(monkeypatch):
-    calls = []
-
-    def build(spec):
-        calls.append(spec)
-        return real(spec)
-
-    real = design.build
-    monkeypatch.setattr(design, "build", build)
-    one = Design(External(6), load=Load(torque_Nm=5))
-    _ = one.timings, one.peaks, one.loads, one.motion(), one.warnings, one.slot(), one.parts
-    assert calls == [one.spec]
 
 
 # From several threads

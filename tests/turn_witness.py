@@ -5,7 +5,7 @@ import math
 import numpy as np
 from sampling import some
 
-from geneva_cli.collisions.certificate import intervals, spans
+from geneva_cli.collisions.certificate import certificate, intervals, spans
 from geneva_cli.collisions.play import windows
 
 TO_MM = 1e-3
@@ -18,6 +18,18 @@ def least_gap(parts, at):
     pose = parts.gaps.pose(at)
     locking = parts.gaps.locking(pose).min() if parts.crank else math.inf
     return float(min(parts.gaps.rollers(pose).min(), locking))
+
+
+def check_proof(parts, gap_mm, to_mm=TO_MM):
+    """Return the certificate of parts whose smallest gap is known, compared with dense positions.
+
+    Parts that are proved have no smaller gap than is proved, and that is near to the smallest.
+    """
+    proof = certificate(parts, gap_mm, to_mm)
+    if proof.proved:
+        assert max(gap_mm, 0.0) - 1.01 * to_mm <= proof.least_mm <= max(gap_mm, 0.0)
+        assert least_gap(parts, turn_of(parts)) >= proof.least_mm
+    return proof
 
 
 def turn_of(parts, count=DENSE):

@@ -6,8 +6,8 @@ solves on its own formulas. Tables: the reference values of the theory notes (se
 
 import math
 
-import numpy as np
 import pytest
+from sampling import some
 from witness import Geneva, near
 from words import Drive, Keys, Spec, Wheel
 
@@ -91,7 +91,7 @@ def rows(text):
 @pytest.mark.parametrize("gearing", ["external", "internal"])
 @pytest.mark.parametrize("A", OFFSETS)
 def test_against_roots_at_50_digits(machine, gearing, A):
-    for z in every_other(A):
+    for z in some(every_other(A), every_other(A)[::3]):
         m = machine(z, gearing, A)
         found, w = peaks(m.engagements[0]), Geneva(z, gearing, A)
         for name in NAMES:
@@ -122,23 +122,6 @@ def test_none_is_missed_as_A_nears_1(machine, gearing, gap, sign):
             size, _ = w.peak(name)
             # A peak near 180 degrees is down to a million doubles wide, and lies between two.
             assert getattr(found, name).max == near(float(size), SIZE), (z, name)
-
-
-@pytest.mark.sampled(12)
-@pytest.mark.parametrize("gearing", ["external", "internal"])
-@pytest.mark.parametrize("A", OFFSETS)
-def test_no_point_of_2000_is_above_the_peak(machine, gearing, A):
-    for z in every_other(A):
-        m = machine(z, gearing, A)
-        s, w = m.engagements[0], Geneva(z, gearing, A)
-        found = peaks(s)
-        x = np.clip(w.angles(1000), s.entry_deg, 0.0)
-        assert len(x) == 2000
-        for side in (x, -x):
-            p = s.motion(side, 3).derivatives()
-            for name in NAMES:
-                values = p[1] * p[2] if name == "power" else p[1 + NAMES.index(name)]
-                assert np.max(np.abs(values)) <= getattr(found, name).max * (1.0 + SIZE), (z, name)
 
 
 @pytest.mark.parametrize("z", rows(EXTERNAL))
@@ -200,15 +183,6 @@ def check_closed_forms(motion, close):
     for name, known in zip(NAMES, peaks_of(motion, NAMES), strict=True):
         assert known.max == near(found[name].max.item(), close), name
         assert known.at_deg == pytest.approx(found[name].at_deg.item(), abs=1e-5), name
-
-
-def test_of_two_equal_peaks_the_earlier(machine):
-    for gearing in ("external", "internal"):
-        for A in OFFSETS:
-            m = machine(5, gearing, A)
-            found = peaks(m.engagements[0])
-            for name in NAMES:
-                assert getattr(found, name).at_deg <= 0.0
 
 
 def test_a_peak_beside_mid_motion(machine):

@@ -11,11 +11,8 @@ from geneva_cli import (
     Design,
     External,
     GenevaError,
-    Internal,
     Limits,
     Product,
-    SideCrank,
-    Spherical,
     Support,
     load,
 )
@@ -143,26 +140,6 @@ def test_swing_by_quadrature():
     assert product_motion(design.mechanism).swing_mm.item() == pytest.approx(
         float(whole), rel=1e-10
     )
-
-
-@pytest.mark.parametrize("wheel", [External(6), Internal(6), Spherical(6)])
-def test_a_batch_gives_the_same(wheel):
-    """A batch of three and three single designs have the same numbers."""
-    from geneva_cli.machine.many import many
-    from geneva_cli.machine.spec import Spec
-
-    product = Product(radius_mm=300.0, swing_Hz=3.0)
-    spec = Spec(wheel, SideCrank(A=0.2), product=product)
-    values = np.array([0.0, 0.3, 0.5])
-    batch = many(spec, {"drive.A": values})
-    together = product_motion(batch.machine)
-    for i, value in enumerate(values):
-        own = product_motion(Design(wheel, SideCrank(A=float(value)), product=product).mechanism)
-        for name in own._fields:
-            one, every = getattr(own, name), getattr(together, name)
-            pairs = zip(one, every, strict=True) if isinstance(one, tuple) else [(one, every)]
-            for a, b in pairs:
-                assert b[i] == pytest.approx(a.item(), rel=1e-12, abs=1e-9), name
 
 
 @pytest.mark.parametrize(

@@ -272,3 +272,14 @@ def test_a_force_without_a_bound_ends_the_integrals():
     found = passage(machine.engagements[0], load_case(machine))
     assert math.isinf(found.load)
     assert math.isfinite(found.travel_m) and math.isfinite(found.rolled_m)
+
+
+def test_a_roller_that_turns_back_thrice_in_its_slot():
+    """An epicyclic drive's: its way is what its distance from the wheel's axis goes up and down."""
+    one = build(Spec(Wheel(4), Drive("epicyclic"), {"planet_ratio": -0.05}, load=Load(1.0)))
+    engagement = one.engagements[0]
+    x, y = engagement.path(np.linspace(engagement.entry_deg, engagement.exit_deg, 200_001), 0)
+    far = np.diff(np.hypot(x.c[0], y.c[0])) * one.center_distance_mm / 1000.0
+    assert (np.sign(far[1:]) != np.sign(far[:-1])).sum() == 3
+    # a top between two of the angles is less than 1e-10 of the way above both
+    assert passages(one)[0].travel_m == pytest.approx(abs(far).sum(), rel=1e-9)

@@ -9,8 +9,8 @@ from shell_stress import horn as in_the_shell
 
 from geneva_cli import External, Spherical
 from geneva_cli.layout.sphere_sizes import ball
-from geneva_cli.loads.strength.horn import horn_stresses
-from geneva_cli.loads.strength.sphere_horn import sphere_horn, sphere_horns
+from geneva_cli.loads.strength.horn import horn_stresses, stoutness
+from geneva_cli.loads.strength.sphere_horn import sphere_horn, sphere_horns, sphere_stoutness
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.tables import Load, Size
@@ -38,10 +38,14 @@ def test_on_a_large_sphere_it_is_the_flat_horn(z, r, h):
     twist and the shell's bending add to it in proportion to the angle.
     """
     flat = build(Spec(External(z), size=Size(100.0, r), load=LOAD))
-    bent = horn_stresses(flat, r, 100.0 * math.sin(math.pi / z) - r - h, 10.0).single
+    recess = 100.0 * math.sin(math.pi / z) - r - h
+    bent = horn_stresses(flat, r, recess, 10.0).single
     for axes_deg, near in ((0.1, 3e-5), (1.0, 3e-4)):
         L = 100.0 / math.radians(axes_deg)
-        own = sphere_horn(machine(z, axes_deg, L, r), *angles(z, axes_deg, L, r, h), width_mm=10.0)
+        shape = angles(z, axes_deg, L, r, h)
+        own = sphere_horn(machine(z, axes_deg, L, r), *shape, width_mm=10.0)
+        stout = sphere_stoutness(machine(z, axes_deg, L, r), *shape)
+        assert stout == pytest.approx(stoutness(flat, r, recess)[0], rel=near)
         assert own.stress_MPa == pytest.approx(bent.stress_MPa, rel=near)
         # where the stress is flat the search stops within a thousandth of a section's place
         assert own.inwards_mm == pytest.approx(bent.inwards_mm, rel=2e-3)

@@ -8,8 +8,7 @@ from scipy.integrate import solve_ivp
 
 from geneva_cli import Carousel, Crank, Design, External, Load, Mass, Shaft
 from geneva_cli.analysis.vibration.oscillator import Oscillator, oscillator
-from geneva_cli.analysis.vibration.vibration import Oscillators, design_vibrations
-from geneva_cli.machine.many import many
+from geneva_cli.analysis.vibration.vibration import Oscillators
 
 ANGLE = math.radians(30.0)
 W = 2.0 * math.pi  # 60 rpm
@@ -132,22 +131,6 @@ def test_the_steady_state_is_the_sum_of_all_earlier_residuals():
             z = z * np.exp(own.swing.p * passed)[0] + kicks[number]
             most.append(abs(z))
     assert own.steady_share[:, 0] == pytest.approx(most, rel=1e-9)
-
-
-def test_a_batch_gives_the_numbers_of_single_designs():
-    spec = carousel(200.0, 0.05).spec
-    stiffnesses = np.array([1.5, 200.0, 1e3])
-    batch = many(spec, {"shaft.stiffness_Nm_rad": stiffnesses})
-    rows = design_vibrations(batch.machine)
-    for i, stiffness in enumerate(stiffnesses.tolist()):
-        own = carousel(stiffness, 0.05).vibration().to_dict()
-        for name in ("residual_share", "residual_deg", "residual_share_worst", "steady_share"):
-            value = getattr(rows, name)[i]
-            if own[name] is None:
-                assert np.isnan(value)
-            else:
-                assert value == pytest.approx(own[name], rel=1e-12)
-    assert np.isfinite(rows.residual_share[1:]).all()
 
 
 def test_a_shaft_too_soft_for_the_force_has_no_values():

@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 import pytest
-from repo import GENEVA
+from repo import GENEVA, put
 from sampling import some
 
 WHEEL = "[wheel]\nz = 6\n"
@@ -34,11 +34,6 @@ def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     put("spec.toml", WHEEL)
     put("curved.toml", CURVED)
-
-
-def put(name, text):
-    with open(name, "w") as file:
-        file.write(text)
 
 
 def limited():

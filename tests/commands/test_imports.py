@@ -12,7 +12,6 @@ import pytest
 import repo
 
 from geneva_cli.app import COMMANDS
-from geneva_cli.kinematics import registry
 
 DESIGNS = str(repo.DESIGNS)
 # What costs: a run may import only what its row allows of these.
@@ -292,17 +291,3 @@ def test_loads_are_imported_where_they_are_asked_for(forks, sort):
     assert any(name.startswith("loads") for name in own(found)) == bool(sort)
     assert not any(name.startswith("verdict.report") for name in own(found))
     assert bool(sort) or "numpy.ma" not in found
-
-
-def test_a_table_of_side_cranks_loads_no_motions():
-    modules = own(loaded(["table", "--z", "6", "--A", "0.5"]))
-    assert "machine.drives.side_crank" in modules
-    assert not modules & {"kinematics.wheels.classic_arrays", "analysis.motion"}
-
-
-def test_a_plain_spec_loads_no_other_kind():
-    modules = own(loaded(["peaks", "-"], input=STRAIGHT))
-    kinds = registry.GEARINGS | registry.DRIVES | registry.LAWS
-    others = {path.partition(":")[0] for path in kinds.values()}
-    assert modules & others == {"kinematics.wheels.external", "machine.drives.crank"}
-    assert not modules & {"layout.slot_profile", "loads.loads", "verdict.checks"}

@@ -17,7 +17,7 @@ import warnings
 import numpy as np
 import pytest
 import repo
-from repo import GENEVA
+from repo import GENEVA, put
 from words import load
 
 from geneva_cli import Cycloidal, Design, External, Motion, progress
@@ -35,11 +35,6 @@ from geneva_cli.table import WHOLE_ROWS, Table, record_table, rows_table
 def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     put("spec.toml", "[wheel]\nz = 6\n")
-
-
-def put(name, text):
-    with open(name, "w", encoding="utf-8") as file:
-        file.write(text)
 
 
 CURVED = '[wheel]\nz = 6\n[motion]\nlaw = "cycloidal"\n'

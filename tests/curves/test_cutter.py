@@ -4,8 +4,7 @@ import math
 
 import pytest
 import repo
-from drawing_witness import vertices
-from shapely.geometry import Polygon
+from drawing_witness import polygon
 from shapely.ops import unary_union
 from typer.testing import CliRunner
 
@@ -16,12 +15,7 @@ from geneva_cli.curves.shapes import Arc, Circle, Line, about, closed
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 
-SAGITTA = 1e-4  # mm, of the chords that shapely is given
 OFF = 5e-3  # mm², on outlines some mm long: chords, and shapely's own arcs of 64 to a quarter
-
-
-def polygon(shape):
-    return Polygon(vertices(shape, SAGITTA))
 
 
 def free_space(plate):

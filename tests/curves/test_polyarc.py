@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 import shapely
-from drawing_witness import contours, vertices
+from drawing_witness import contours, polygon, vertices
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from sampling import some
@@ -35,13 +35,9 @@ def polygon_distances(polygons: list[Polygon], points: np.ndarray) -> np.ndarray
     return np.where(shapely.contains(whole, where), -away, away)
 
 
-def polygon(contour: Contour, tolerance: float = FINE) -> Polygon:
-    return Polygon(vertices(contour, tolerance))
-
-
 def counterclockwise(contour: Contour) -> Contour:
     """The contour so directed. That arcs cross at a narrow tip only a fine polygon sees."""
-    fine = polygon(contour)
+    fine = polygon(contour, FINE)
     assume(fine.is_valid)
     return contour if fine.exterior.is_ccw else backwards(contour)
 
@@ -52,7 +48,7 @@ def test_random_contours_against_polygons(contour: Contour) -> None:
     assume(polygon(contour, 1e-3).is_valid)
     contour = counterclockwise(contour)
     found = Polyarc([contour]).signed(GRID)
-    wanted = polygon_distances([polygon(contour)], GRID)
+    wanted = polygon_distances([polygon(contour, FINE)], GRID)
     # A point nearer to the outline than the polygon strays may be on either side of it.
     assert np.abs(np.abs(found) - np.abs(wanted)).max() < FINE
     assert np.array_equal(found < 0.0, wanted < 0.0) or np.abs(found - wanted).max() < 2.0 * FINE

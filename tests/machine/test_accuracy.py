@@ -58,15 +58,6 @@ def angles(engagement, witness):
     return np.concatenate([first, -first[::-1]])
 
 
-def test_the_grid_has_200_angles_with_both_ends_and_the_middle(engagement):
-    x = angles(engagement(6), Geneva(6))
-    assert len(x) == 200
-    assert sorted(x) == list(x)
-    assert (x[0], x[-1]) == (-60.0, 60.0)
-    assert 0.0 in x
-    assert sum(abs(x + 60.0) <= math.degrees(1e-15)) >= 4
-
-
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize(("gearing", "A"), CONDITION)
 def test_error_within_8_ulp_of_the_peak(engagement, gearing, A):

@@ -6,9 +6,9 @@ from typing import NamedTuple
 import mpmath
 import numpy as np
 import pytest
-from drawing_witness import vertices
+from drawing_witness import polygon
 from mpmath import mp
-from shapely import Point, Polygon, affinity
+from shapely import Point, affinity
 
 from geneva_cli import (
     Carousel,
@@ -28,10 +28,8 @@ from geneva_cli import (
 )
 from geneva_cli.analysis.product import product_motion
 from geneva_cli.curves.plates import plates
-from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.loads import kinetic_power_W
 from geneva_cli.loads.sizing import sizing
-from geneva_cli.loads.summaries import load_summaries
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
@@ -277,18 +275,6 @@ def test_loads_of_several_wheels_are_the_sum_over_a_turn(z, wheels):
     assert values["motor_torque_rms_Nm"] == pytest.approx(math.sqrt((shaft**2).mean()), rel=1e-6)
 
 
-def test_a_batch_of_loads_is_each_design_alone():
-    """Sweeps and single designs give the same numbers, with several wheels too."""
-    spec = Spec(External(4), Carousel(wheels=3), load=Load(inertia_kgm2=0.1, torque_Nm=1.0))
-    inertias = np.array([0.01, 0.3])
-    batch = load_summaries(many(spec, {"load.inertia_kgm2": inertias}).machine, ["input_torque_Nm"])
-    for i, inertia in enumerate(inertias):
-        alone = cycle_of(build(spec.with_("load.inertia_kgm2", float(inertia)))).known
-        for name in ("max", "min", "mean", "rms"):
-            together = getattr(batch["input_torque_Nm"], name)[i]
-            assert together == pytest.approx(getattr(alone["input_torque_Nm"], name)[0], rel=1e-12)
-
-
 def values_of(design):
     return {
         f"{group.table}.{name}": value
@@ -485,7 +471,7 @@ def test_wheels_pass_each_other_and_the_disc():
     design = Design(External(4), Carousel(wheels=3))
     (wheel,) = plates(design.drawing("wheel").solid)
     (disc,) = (one for one in plates(design.drawing("crank").solid) if one.layer == "CRANK")
-    own, lock = Polygon(vertices(wheel.outline, 1e-3)), Polygon(vertices(disc.outline, 1e-3))
+    own, lock = polygon(wheel.outline, 1e-3), polygon(disc.outline, 1e-3)
     L, witness = design.mechanism.center_distance_mm, witness_of(design.spec.wheel)
     half = witness.half_deg()
     nearest = math.inf
@@ -519,7 +505,7 @@ def test_the_carrier_has_an_eye_for_each_wheel():
         }
         assert all(min(abs(a - b) for b in axes) < 1e-9 for a in expected)
         assert len(axes) == wheels + 1
-        eyes = Polygon(vertices(carrier.outline, 1e-3))
+        eyes = polygon(carrier.outline, 1e-3)
         walls = [eyes.exterior.distance(Point(*h.centre)) - h.radius for h in carrier.holes]
         assert min(walls) >= 5.0 - 2e-3  # L/20, less a chord
         rows = design.part_table("parts").to_rows()
@@ -537,7 +523,7 @@ def test_a_carrier_below_shafts_that_all_end_above_it():
     design = Design(External(4), Carousel(), size=short)
     (carrier,) = plates(design.drawing("frame").solid)
     assert carrier.holes == ()
-    eyes = Polygon(vertices(carrier.outline, 1e-3))
+    eyes = polygon(carrier.outline, 1e-3)
     assert eyes.bounds == pytest.approx((-5.0, -5.0, 105.0, 5.0), abs=2e-3)
 
 

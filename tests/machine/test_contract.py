@@ -15,7 +15,6 @@ from hypothesis import strategies as st
 from machine_witness import motions
 from sampling import some
 
-from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.machine.many import many, may_vary, taken
@@ -146,22 +145,6 @@ def test_parts_of_the_designs_asked_at_the_same_angles_answer_for_themselves(cas
     for part in (slice(0, n // 2), slice(n // 2, n)):
         some = np.broadcast_to(taken(motion, part)(x, 1).c[1], whole[part].shape)
         assert np.array_equal(some, whole[part])
-
-
-def test_the_same_numbers(case):
-    _, _, found, singles = case
-    m, singles = found.machine, [one for one in singles if one is not None]
-    for name in ("period_deg", "ratio", "rollers_max", "center_distance_mm"):
-        expected = np.array([getattr(one, name) for one in singles])[:, None]
-        close(np.broadcast_to(getattr(m, name), expected.shape), expected)
-    for i, times in enumerate(timings(m)):
-        for name, values in times._asdict().items():
-            if values is None:  # the travel of a rack
-                continue
-            expected = np.array([timings(one)[i]._asdict()[name] for one in singles])[:, None]
-            # a dwell is what motions leave of a turn
-            rest = 360.0 / abs(times.dwell_deg) * expected if name == "k" else 360.0
-            close(np.broadcast_to(values, expected.shape), expected, rest)
 
 
 def test_it_pickles_and_can_be_taken_apart(case):

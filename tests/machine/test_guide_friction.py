@@ -22,7 +22,6 @@ from geneva_cli import (
     Size,
 )
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.many import many
 from geneva_cli.machine.spec import Spec
 
 R, r, CLEARANCE = 50.0, 6.0, 0.1
@@ -130,23 +129,6 @@ def test_a_guide_that_locks_leaves_no_bound():
     (text,) = [one for one in loads[1.001 * locks].warnings if one.name in LOCKED]
     assert "in the guide holds the rack at -90°" in text
     assert "wheel_shaft_stress_MPa" not in rows[1]  # a rack has no shaft, with or without a bound
-
-
-def test_a_batch_gives_the_numbers_of_single_designs():
-    from geneva_cli.loads.summaries import load_summaries
-
-    guides, radii = np.array([0.0, 0.1, 0.3, 0.1]), np.array([6.0, 4.0, 8.0, 49.99])
-    spec = design(4.0, 30.0, 0.2, 0.1, efficiency=0.9).spec
-    batch = many(spec, {"load.guide_friction": guides, "size.roller_radius_mm": radii})
-    names = ("pin_force_N", "input_torque_Nm", "crank_bearing_N")
-    rows = load_summaries(batch.machine, names)
-    for i, (nu, radius) in enumerate(zip(guides.tolist(), radii.tolist(), strict=True)):
-        one = spec.with_("load.guide_friction", nu).with_("size.roller_radius_mm", radius)
-        own = Design.of(one).cycle.known
-        for name in names:
-            for field in ("max", "min", "mean", "rms"):
-                value = np.ravel(getattr(own[name], field))[0]
-                assert getattr(rows[name], field)[i] == pytest.approx(value, rel=1e-13)
 
 
 def test_slots_too_wide_for_a_guide_have_none():

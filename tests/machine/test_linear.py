@@ -25,11 +25,8 @@ from geneva_cli import (
 )
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.verdict.quantities.designs import Designs
-from geneva_cli.verdict.quantities.motion import peaks, timing
 
 ULP = np.finfo(float).eps
 RACK = Design(Linear(6))
@@ -187,19 +184,6 @@ def test_loads_of_wheels_tend_to_those_of_a_rack():
     true = rack.states(np.array([-60.0, 0.0, 30.0])).pin_force_N
     l = math.sin(math.pi / z)
     assert (forces[0] + forces[1]) / 2.0 == pytest.approx(true, rel=10.0 * l * l)
-
-
-def test_a_batch_gives_the_numbers_of_single_designs():
-    lengths = np.array([20.0, 50.0, 80.0])
-    spec = LOADED.spec
-    batch = many(spec, {"size.center_distance_mm": lengths, "load.mass_kg": lengths / 10.0})
-    of = Designs(batch.machine, ("velocity.max_m_s", "acceleration.max", "timing.index_mm"))
-    speeds, steps = peaks(of)["velocity.max_m_s"], timing(of)["index_mm"]
-    for i, length in enumerate(lengths.tolist()):
-        one = LOADED.with_("size.center_distance_mm", length)
-        own = one.report.table.to_dict()
-        assert np.ravel(speeds)[i] == pytest.approx(own["velocity.max_m_s"], rel=4 * ULP)
-        assert np.ravel(steps)[i] == pytest.approx(own["timing.index_mm"], rel=4 * ULP)
 
 
 def test_a_side_crank_moves_a_rack_too():

@@ -297,7 +297,7 @@ def test_error_within_16_ulp_of_the_peak(machine, exact, case):
     assert not over, "\n".join(over[:40])
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(24)
 @every
 def test_hand_derived_forms_agree_with_the_witness(machine, witness, exact, case):
     for i in range(len(machine(case).engagements)):

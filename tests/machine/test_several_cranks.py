@@ -11,9 +11,9 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from drawing_witness import vertices
+from drawing_witness import polygon
 from sampling import some
-from shapely import Polygon, affinity
+from shapely import affinity
 from shapely.ops import unary_union
 
 from geneva_cli import Crank, Cycloidal, Design, EllipticalGears, External, Load, Motion
@@ -132,7 +132,7 @@ def polygons(group):
     out = []
     for member in group.members:
         plate = member.part
-        shape = Polygon(vertices(plate.outline, 1e-3))
+        shape = polygon(plate.outline, 1e-3)
         shape = affinity.rotate(shape, member.turn, (0.0, 0.0), use_radians=True)
         out.append((affinity.translate(shape, *member.at), plate.low, plate.high))
     return out
@@ -185,7 +185,7 @@ def test_no_crank_meets_the_wheel_or_another_one(design):
     z, places = design.spec.wheel.z, design.spec.drive.crank_steps
     parts, mechanism = design.parts_model.flat, design.mechanism
     (engagement,) = mechanism.engagements
-    plates, wheel = polygons(parts.crank.part), Polygon(vertices(parts.wheel.part.outline, 1e-3))
+    plates, wheel = polygons(parts.crank.part), polygon(parts.wheel.part.outline, 1e-3)
     hull = unary_union([shape for shape, _, _ in plates]).convex_hull
     spacing, gap = 360.0 / len(places), math.inf
     for x in np.arange(0.0, 360.0, some(1.5, 4.5)):

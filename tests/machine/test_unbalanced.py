@@ -25,8 +25,6 @@ from geneva_cli.kinematics.laws.standard import Cycloidal
 from geneva_cli.loads.loads import fastest_rpm
 from geneva_cli.loads.sizing import sizing
 from geneva_cli.loads.strength.lock import held_torque_Nm
-from geneva_cli.loads.summaries import load_summaries
-from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.tables import Size
@@ -270,19 +268,6 @@ def test_two_fingers_meet_the_body_in_all_its_directions(z, apart):
     assert loads.rms == pytest.approx(math.sqrt(2.0) * one.rms, rel=1e-10)
     # finger and direction come together again after lcm(z, 2) motions, two in a turn
     assert both.mechanism.under_load.period_deg == pytest.approx(180.0 * math.lcm(z, 2))
-
-
-def test_a_batch_is_each_design_alone():
-    load = Load(torque_Nm=0.1, friction=0.1)
-    spec = design_of(External(5), load).spec
-    rpm = np.array([30.0, 90.0, 200.0])
-    batch = load_summaries(many(spec, {"drive.n_rpm": rpm}).machine, ["input_torque_Nm"])
-    for i, n in enumerate(rpm):
-        alone = Design.of(spec.with_("drive.n_rpm", float(n))).loads["input_torque_Nm"]
-        assert batch["input_torque_Nm"].max[i] == pytest.approx(alone.max, rel=1e-12)
-        assert batch["input_torque_Nm"].rms[i] == pytest.approx(alone.rms, rel=1e-10)
-    once = build(spec).under_load
-    assert once.under_load is once
 
 
 def test_backwards_the_torque_is_that_of_a_film_that_runs_backwards():

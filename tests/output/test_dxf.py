@@ -20,8 +20,8 @@ from drawing_witness import (
     drawn_shapes,
     dxf_document,
     dxf_shapes,
+    polygon,
     scaled,
-    vertices,
 )
 from ezdxf import recover
 from hypothesis import given, settings
@@ -200,7 +200,7 @@ def test_ezdxf_makes_the_same_of_it(shape):
             part.reverse()
         points += part
     assert Polygon(points).area == pytest.approx(abs(area(shape)), rel=1e-3)
-    wanted = Polygon(vertices(shape, 1e-4))
+    wanted = polygon(shape, 1e-4)
     # buffer(0) takes out the overlaps of 1e-16 where one entity's end meets the next one's start
     other = Polygon(points).buffer(0.0).symmetric_difference(wanted)
     assert other.area < 1e-3 * wanted.area

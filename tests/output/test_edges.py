@@ -8,9 +8,8 @@ import math
 import numpy as np
 import pytest
 import trimesh
-from drawing_witness import vertices
+from drawing_witness import polygon
 from sampling import some
-from shapely import Polygon
 from step_witness import File
 
 from geneva_cli import Design, External, Internal, Size
@@ -78,8 +77,8 @@ def test_insets_are_those_of_shapely(gearing):
                     continue
                 own = with_material_left(shape, k == 0)
                 inner = inset(lines_and_arcs(own), "", CUT)
-                whole = Polygon(vertices(own, 1e-5))
-                found = Polygon(vertices(inner, 1e-5))
+                whole = polygon(own, 1e-5)
+                found = polygon(inner, 1e-5)
                 wanted = whole.buffer(-CUT if k == 0 else CUT, quad_segs=2000, join_style="mitre")
                 assert found.is_valid
                 assert found.symmetric_difference(wanted).area < 3e-5 * whole.length

@@ -6,7 +6,7 @@ import stat
 import subprocess
 
 import pytest
-from repo import GENEVA
+from repo import GENEVA, get, put
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.files import write
@@ -17,16 +17,6 @@ GONE = 2**22 + 1  # above the greatest number that Linux gives to a process
 @pytest.fixture(autouse=True)
 def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-
-
-def put(name, text=""):
-    with open(name, "w", encoding="utf-8") as file:
-        file.write(text)
-
-
-def get(name):
-    with open(name, encoding="utf-8") as file:
-        return file.read()
 
 
 def geneva(*arguments, **settings):

@@ -16,7 +16,7 @@ import time
 
 import pytest
 import repo
-from repo import GENEVA
+from repo import GENEVA, get, put
 from sampling import some
 from typer.testing import CliRunner
 from words import load
@@ -38,16 +38,6 @@ def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     put("spec.toml", "[wheel]\nz = 6\n")
     return tmp_path
-
-
-def put(name, text):
-    with open(name, "w", encoding="utf-8", newline="") as file:
-        file.write(text)
-
-
-def get(name):
-    with open(name, encoding="utf-8", newline="") as file:
-        return file.read()
 
 
 def geneva(*arguments, **settings):
@@ -245,28 +235,6 @@ def test_ctrl_c_while_printing():
 
 @pytest.mark.sampled(2)
 @full
-@pytest.mark.parametrize(
-    "arguments",
-    [["table"], SHORT, [*SHORT, "--format", "json"], ["motion", "spec.toml", "--samples", "20000"]],
-    ids=" ".join,
-)
-def test_full_disk_on_stdout(arguments):
-    with open("/dev/full", "w") as out:
-        clean_failure(geneva(*arguments, stdout=out), "<stdout>", "No space left")
-
-
-@pytest.mark.sampled(2)
-@full
-@pytest.mark.parametrize(
-    "arguments", [["--help"], ["table", "--help"], ["--version"]], ids=" ".join
-)
-def test_full_disk_on_help(arguments):
-    with open("/dev/full", "w") as out:
-        clean_failure(geneva(*arguments, stdout=out), "No space left")
-
-
-@pytest.mark.sampled(2)
-@full
 @pytest.mark.parametrize("arguments", [["table"], SHORT, LONG], ids=" ".join)
 def test_full_disk_on_a_file(arguments):
     found = geneva(*arguments, "-o", "/dev/full", "--format", "csv")
@@ -296,28 +264,6 @@ def test_closed_pipe(arguments):
     err = process.stderr.read()
     process.stderr.close()
     assert (err, process.wait(timeout=30) in (0, 141)) == ("", True)
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("arguments", [["table"], SHORT, ["--help"], ["--version"]], ids=" ".join)
-def test_pipe_closed_before_the_start(arguments):
-    read, write = os.pipe()
-    os.close(read)
-    with open(write, "w") as out:
-        found = geneva(*arguments, stdout=out)
-    assert (found.returncode, found.stderr) == (141, "")
-
-
-@pytest.mark.sampled(4)
-@pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
-@pytest.mark.parametrize("arguments", ["table", "peaks spec.toml", "peaks -", "peaks gone.toml"])
-def test_closed_streams(closed, arguments):
-    """Started by a daemon, a program may have no streams at all."""
-    script = f'"$0" {arguments} {closed}'
-    found = subprocess.run(["sh", "-c", script, GENEVA], capture_output=True, text=True)
-    assert "Traceback" not in found.stderr
-    assert found.returncode in (0, 2)
-    assert found.returncode == 0 or found.stdout == "", "a message among the data"
 
 
 def test_a_pipe_of_ascii():

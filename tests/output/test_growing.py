@@ -7,6 +7,8 @@ import sys
 from contextlib import closing
 
 import pytest
+from repo import get as read
+from repo import put
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.growing import GrowingFile
@@ -17,11 +19,6 @@ HEADER, KEY = "a,b\n", "request"
 @pytest.fixture
 def path(tmp_path):
     return str(tmp_path / "rows.csv")
-
-
-def read(path):
-    with open(path, encoding="utf-8") as file:
-        return file.read()
 
 
 def begun(path, *blocks, header=HEADER):
@@ -139,11 +136,6 @@ FOREIGN = {
     "a link": lambda name: (put("secret", "kept"), os.symlink("secret", name)),
     "a link to nowhere": lambda name: os.symlink("secret", name),
 }
-
-
-def put(name, text):
-    with open(name, "w", encoding="utf-8") as file:
-        file.write(text)
 
 
 @pytest.mark.parametrize("resume", [False, True])

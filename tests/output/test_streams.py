@@ -6,9 +6,10 @@ import subprocess
 import sys
 
 import pytest
-from repo import GENEVA
+from repo import GENEVA, put
 
 SOME = [["--help"], ["--version"], ["table", "--help"], ["table"], ["peaks", "spec.toml"]]
+SOME += [["peaks", "spec.toml", "--format", "json"], ["motion", "spec.toml", "--samples", "20000"]]
 
 some = pytest.mark.parametrize("arguments", SOME, ids=" ".join)
 full = pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full here")
@@ -29,11 +30,6 @@ def folder(tmp_path, monkeypatch):
 @pytest.fixture(params=["", "1"], ids=["buffered", "unbuffered"])
 def environment(request):
     return os.environ | {"PYTHONUNBUFFERED": request.param}  # an empty text counts as unset
-
-
-def put(name, text):
-    with open(name, "w", encoding="utf-8") as file:
-        file.write(text)
 
 
 def run(arguments, environment=None, **settings):

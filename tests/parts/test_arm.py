@@ -5,9 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from drawing_witness import polygon
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from shapely.geometry import Point, Polygon
+from shapely.geometry import Point
 from typer.testing import CliRunner
 from words import Drive, Motion, Spec, Wheel
 
@@ -24,23 +25,6 @@ from geneva_cli.spec.tables import Size
 
 ROOT = Path(__file__).parents[2] / "designs"
 LAW = Motion("modified-sine", ratio="matched")
-
-
-def polygon(shape, each=256):
-    """A contour or circle as a polygon, inside the true one by a sagitta."""
-    if isinstance(shape, Circle):
-        return Point(shape.centre).buffer(shape.radius, each)
-    points = []
-    for piece in shape.segments:
-        if isinstance(piece, Line):
-            points.append(piece.start)
-            continue
-        (x, y), r = piece.centre, piece.radius
-        start = math.atan2(piece.start[1] - y, piece.start[0] - x)
-        for t in np.arange(each) / each:
-            at = start + t * piece.sweep
-            points.append((x + r * math.cos(at), y + r * math.sin(at)))
-    return Polygon(points)
 
 
 def of(wheel, motion=None, drive=None, **size):
@@ -199,7 +183,7 @@ def test_sectors_stand_on_the_hub():
     """Inside the locking sectors hang together by the arm alone, which is below them all."""
     found = of(Wheel(6, "internal"), lock_bolts=2).parts
     made = crank_arm(found)
-    plate = polygon(made.outline, 4096).buffer(1e-5)
+    plate = polygon(made.outline, 1e-6).buffer(1e-5)
     assert not found.sizes.crank_bore  # overhung: no shaft goes through the wheel's plane
     assert all(plate.contains(polygon(sector)) for sector in found.crank)
     assert all(any(polygon(s).contains(polygon(b)) for s in found.crank) for b in made.bolts)
@@ -218,7 +202,7 @@ def test_keyways_of_the_standard():
     design = of(Wheel(4), center_distance_mm=200.0, crank_bore_mm=20.0, crank_keyway="DIN 6885-1")
     for part in ("crank", "arm"):
         (bore,) = [s for s in design.drawing(part).shapes if isinstance(s, Contour)][1:]
-        shape = polygon(bore, 2000)
+        shape = polygon(bore, 1e-7)
         # the keyway points away from the roller: from its top to the far side is d + t2
         low, bottom, high, top = shape.bounds
         assert (high - low, top - bottom) == (pytest.approx(22.8), pytest.approx(20.0, abs=1e-5))

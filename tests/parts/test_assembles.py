@@ -11,14 +11,13 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from drawing_witness import polygon
 from sampling import some
 from shapely import affinity
-from shapely.geometry import Point, Polygon
 
 from geneva_cli import load
-from geneva_cli.curves.measure import at as along
 from geneva_cli.curves.plates import Group, Stack
-from geneva_cli.curves.shapes import Arc, Circle, Line
+from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.layout import Joint
@@ -80,25 +79,6 @@ def samples(tmp_path, kind):
             continue
 
 
-def polygon(shape):
-    """A contour of lines, arcs or cubics, or a circle, as a polygon within a sagitta of it."""
-    if isinstance(shape, Circle):
-        return Point(shape.centre).buffer(shape.radius, chords(shape.radius, 0.5 * math.pi))
-    points = []
-    for piece in shape.segments:
-        many = 1
-        if isinstance(piece, Arc):
-            many = chords(piece.radius, abs(piece.sweep))
-        elif not isinstance(piece, Line):
-            many = 8  # of hundreds in a pitch curve
-        points += [along(piece, k / many) for k in range(many)]
-    return Polygon(points)
-
-
-def chords(radius, sweep):
-    return math.ceil(sweep / (2.0 * math.acos(1.0 - min(SAGITTA / radius, 1.0))))
-
-
 class Solid:
     """A plate where it is at input angle 0: its name, its polygon, its span."""
 
@@ -112,7 +92,10 @@ class Solid:
         ]
         self.radius = plate.outline.radius if isinstance(plate.outline, Circle) else None
         self.shape = plate.outline
-        outside, holes = polygon(plate.outline), [polygon(hole) for hole in plate.holes]
+        outside, holes = (
+            polygon(plate.outline, SAGITTA),
+            [polygon(hole, SAGITTA) for hole in plate.holes],
+        )
         self.torn = any(not outside.contains(hole) for hole in holes) or any(
             one.intersects(other) for one, other in combinations(holes, 2)
         )

@@ -3,9 +3,9 @@
 import math
 
 import pytest
+from drawing_witness import polygon
 from shapely.geometry import Point
 from step_witness import File, Solid
-from test_arm import polygon
 
 from geneva_cli import Design, External, Size, Spherical
 from geneva_cli.curves.moments import area
@@ -58,7 +58,7 @@ def test_walls_are_those_of_the_shape(shape):
         crank_bore=shape, wheel_bore=shape, crank_bore_mm=10.0, wheel_bore_mm=70.0, arm_hub_mm=14.0
     )
     arm, disc, wheel = (
-        [polygon(s, 2000) for s in design.drawing(name).shapes if isinstance(s, Contour)]
+        [polygon(s, 1e-6) for s in design.drawing(name).shapes if isinstance(s, Contour)]
         for name in ("arm", "crank", "wheel")
     )
     # 2000 chords an arc are within 1e-5 mm of it

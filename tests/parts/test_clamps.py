@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapely
 import trimesh
-from drawing_witness import vertices
+from drawing_witness import polygon
 
 from geneva_cli import Design, External, Load, Size, Spherical
 from geneva_cli.curves.drawing import Drawing
@@ -36,7 +36,7 @@ def test_the_hub_stays_within_its_circle():
     ring = shapely.Point(0.0, 0.0).buffer(22.0, 4000) - shapely.Point(0.0, 0.0).buffer(8.0, 4000)
     slit = shapely.box(0.0, -0.625, 30.0, 0.625)
     notch = shapely.box(clamp.shoulder, 5.625, 30.0, 30.0)
-    form = shapely.Polygon(vertices(clamp.outline, 1e-5))
+    form = polygon(clamp.outline, 1e-5)
     assert form.is_valid
     assert form.symmetric_difference(ring - slit - notch).area < 2e-3
     head = shapely.box(clamp.axis - 4.25, 5.625, clamp.axis + 4.25, 10.625)

@@ -113,6 +113,17 @@ def test_the_shaft_goes_through_the_disc_where_it_leaves_a_hub():
         assert sizes_of(Spec(Wheel(6), size=size)).crank_bore == pytest.approx(bore)
 
 
+def test_the_default_bore_of_the_crank():
+    """Its radius is at most 0.45 of that space, and a bearing's: 9 mm; none is below L/40.
+
+    Of a disc of 20.73 mm, 0.45 of the space is L/40.
+    """
+    assert sizes_of(Spec(Wheel(6), size=Size(L))).crank_bore == 4.5
+    for lock, bore in ((20.74, 2.5), (20.72, 0.0)):
+        size = Size(L, lock_radius_mm=lock)
+        assert sizes_of(Spec(Wheel(6), size=size)).crank_bore == bore
+
+
 def test_hubs_of_the_crank():
     """A hub is 1.5 bores wide, to a rounded number: 12 or 11 mm; the disc has it above the arm."""
     for bore, hub in ((8.0, 6.0), (7.99, 5.5)):

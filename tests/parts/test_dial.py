@@ -3,8 +3,8 @@
 import math
 
 import pytest
+from drawing_witness import polygon
 from shapely.geometry import Polygon
-from test_arm import polygon
 from words import Spec, Wheel
 
 from geneva_cli.curves.mass import mass_properties
@@ -49,9 +49,9 @@ def test_bolts_for_the_dial(z, gearing):
     assert all(
         b - a == pytest.approx(math.tau / 5) for a, b in zip(angles, angles[1:], strict=False)
     )
-    plate = polygon(outline, 400)
+    plate = polygon(outline, 1e-5)
     if gearing == "internal":
-        plate = Polygon(polygon(holes[0], 4000).exterior.coords, [plate.exterior.coords])
+        plate = Polygon(polygon(holes[0], 1e-7).exterior.coords, [plate.exterior.coords])
     least = []
     for bolt in bolts:
         hole = polygon(bolt)

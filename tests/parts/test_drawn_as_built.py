@@ -8,8 +8,9 @@ import math
 
 import pytest
 import repo
+from drawing_witness import polygon
 from shapely import affinity
-from test_assembles import polygon, samples
+from test_assembles import SAGITTA, samples
 
 from geneva_cli import Design, Internal, Size, load
 from geneva_cli.curves.plates import Group
@@ -44,7 +45,7 @@ def plates(part, at=0j, turn=0.0):
 
 def loops_of(plate, at, turn):
     for shape in (plate.outline, *plate.holes):
-        face = affinity.rotate(polygon(shape), turn, (0.0, 0.0), use_radians=True)
+        face = affinity.rotate(polygon(shape, SAGITTA), turn, (0.0, 0.0), use_radians=True)
         yield affinity.translate(face, at.real, at.imag)
 
 
@@ -52,7 +53,7 @@ def drawn_loops(drawing):
     """What is closed and no mark: a pitch circle is one only where a gear has it."""
     for shape in drawing.shapes:
         if isinstance(shape, Circle) or shape.closed:
-            yield shape.layer, polygon(shape)
+            yield shape.layer, polygon(shape, SAGITTA)
 
 
 def missing(loops, among, L):
@@ -118,7 +119,7 @@ def assert_machine(design):
 
 def assert_weighed(solid, rows):
     for plate, *_ in plates(solid):
-        outline, *holes = (polygon(s) for s in (plate.outline, *plate.holes))
+        outline, *holes = (polygon(s, SAGITTA) for s in (plate.outline, *plate.holes))
         volume = plate.thickness * (outline.area - sum(hole.area for hole in holes))
         row = rows[plate.name]
         mass = 1e-9 * row["density_kgm3"] * volume

@@ -12,11 +12,12 @@ import numpy as np
 import pytest
 import repo
 import shapely
+from drawing_witness import polygon
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import affinity
 from shapely.geometry import Point
-from test_outline import CURVED_SLOTS, STRAIGHT, L, disc, made, name, polygon, turned
+from test_outline import CURVED_SLOTS, STRAIGHT, L, disc, made, name, turned
 from words import LAWS, Motion, load
 
 from geneva_cli.collisions import gaps
@@ -250,7 +251,7 @@ def turns_as_polygons_do(case: dict) -> bool | None:
         found = made(**case)
     except GenevaError:
         return None
-    assert polygon(found.wheel).is_valid
+    assert polygon(found.wheel, 1e-3).is_valid
     turn = full_turn(found)
     assert turn.smallest.mm < -found.close or not list(overlaps(found, 40))
     if "motion" not in case and "offset" not in case:

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import repo
 import shapely
+from drawing_witness import polygon
 from witness import mp, to_degrees, to_radians
 
 from geneva_cli import Design, External, GearSector, Load, RollerMaterial, Size, load
@@ -84,25 +85,13 @@ def away(piece, z):
     return np.where((t >= 0.0) & (t <= 1.0), np.abs(((z - a) / (b - a)).imag) * abs(b - a), ends)
 
 
-def polygon(contour, flat=1e-3):
-    points = []
-    for piece in contour.segments:
-        points.append(complex(*piece.start))
-        if isinstance(piece, Arc):
-            c = complex(*piece.centre)
-            many = 2 + int(abs(piece.sweep) * math.sqrt(piece.radius / (8.0 * flat)))
-            turns = np.linspace(0.0, piece.sweep, many)[1:-1]
-            points += list(c + (points[-1] - c) * np.exp(1j * turns))
-    return shapely.Polygon([(p.real, p.imag) for p in points])
-
-
 @pytest.mark.parametrize("name", MACHINES)
 def test_no_roller_touches_what_is_not_its_wall(name):
     """At 4000 places: on its wall while it drives, to rounding of some 100 mm, else off it."""
     z, sector, size = MACHINES[name]
     design = made(z, sector, **size)
     contour, L = design.parts.wheel, design.mechanism.center_distance_mm
-    r, inside = design.mechanism.roller_radius_mm, polygon(contour)
+    r, inside = design.mechanism.roller_radius_mm, polygon(contour, 1e-3)
     shapely.prepare(inside)
     close = design.spec.size.allowances.slot_clearance_mm
     for way in turned(design, 4000)[1]:

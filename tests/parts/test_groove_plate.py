@@ -2,8 +2,8 @@
 
 import pytest
 import repo
-from drawing_witness import vertices
-from shapely.geometry import LineString, Polygon
+from drawing_witness import polygon, vertices
+from shapely.geometry import LineString
 
 from geneva_cli import Design, External, load
 from geneva_cli.curves.mass import mass_properties
@@ -29,9 +29,7 @@ def test_the_roller_fills_the_groove_all_round(cam):
     pitch = next(shape for shape in drawing.shapes if shape.layer == "PITCH")
     base, ring, island = plates(drawing.solid)
     (outer,) = (hole for hole in ring.holes if not isinstance(hole, Circle))
-    groove = Polygon(vertices(outer, SAGITTA)).difference(
-        Polygon(vertices(island.outline, SAGITTA))
-    )
+    groove = polygon(outer, SAGITTA).difference(polygon(island.outline, SAGITTA))
     swept = LineString(vertices(pitch, SAGITTA)).buffer(proof.outlines.sizes.half_width, 64)
     assert groove.buffer(OFF).contains(swept)
     assert swept.buffer(OFF).contains(groove)

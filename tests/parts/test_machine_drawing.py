@@ -1,17 +1,16 @@
 """The machine put together: each part where it works, and no two in one place, by shapely."""
 
-import math
 from itertools import combinations
 
 import pytest
 import repo
-from drawing_witness import vertices
+from drawing_witness import polygon
 from shapely.affinity import rotate, translate
 from shapely.geometry import Polygon
 
 from geneva_cli import load
 from geneva_cli.curves.plates import Group
-from geneva_cli.curves.shapes import Circle, about, closed
+from geneva_cli.curves.shapes import Circle
 from geneva_cli.drawings.parts_list import parts_list
 
 CHORDS = 1e-4  # mm, by which what shapely sees lies off arcs
@@ -20,20 +19,15 @@ CHORDS = 1e-4  # mm, by which what shapely sees lies off arcs
 OVERLAP = 1e-4
 
 
-def polygon(plate):
-    def ring(shape):
-        if isinstance(shape, Circle):
-            halves = [about(shape.centre, shape.radius, a, math.pi) for a in (0.0, math.pi)]
-            shape = closed(shape.layer, halves)
-        return vertices(shape, CHORDS)
-
-    return Polygon(ring(plate.outline), [ring(hole) for hole in plate.holes]).buffer(0.0)
+def face_of(plate):
+    holes = [polygon(hole, CHORDS).exterior for hole in plate.holes]
+    return Polygon(polygon(plate.outline, CHORDS).exterior, holes).buffer(0.0)
 
 
 def faces(part, at=(0.0, 0.0), turn=0.0):
     """Each plate of a part with its face where it is."""
     if not isinstance(part, Group):
-        yield part, translate(rotate(polygon(part), turn, (0.0, 0.0), use_radians=True), *at)
+        yield part, translate(rotate(face_of(part), turn, (0.0, 0.0), use_radians=True), *at)
         return
     for member in part.members:
         for plate, face in faces(member.part, member.at, member.turn):

@@ -14,7 +14,7 @@ import mpmath
 import numpy as np
 import pytest
 import shapely
-from drawing_witness import length, vertices
+from drawing_witness import length, polygon, vertices
 from shapely import affinity
 from shapely.geometry import LineString, Point, Polygon
 from words import LAWS, Drive, Motion, Spec, Wheel
@@ -61,10 +61,6 @@ def made(
     return outlines(build(spec))
 
 
-def polygon(contour: Contour, tolerance: float = FLAT) -> Polygon:
-    return Polygon(vertices(contour, tolerance))
-
-
 def disc(radius: float, x: float = 0.0, y: float = 0.0) -> Polygon:
     return Point(x, y).buffer(radius, quad_segs=4 * QUARTER)
 
@@ -80,7 +76,7 @@ def ends_meet(contour: Contour) -> bool:
 
 def apart(found: Outlines, wanted: Polygon) -> float:
     """The area by which wheel and witness differ over the outline's length: a mean distance."""
-    contour = polygon(found.wheel)
+    contour = polygon(found.wheel, FLAT)
     return contour.symmetric_difference(wanted).area / contour.length
 
 
@@ -244,7 +240,7 @@ def test_mouths_of_any_height(lock: float | None) -> None:
             assert re.search("does not fit|meet in the wheel|beyond the locking disc", str(error))
             continue
         assert ends_meet(contour)
-        assert polygon(contour).is_valid
+        assert polygon(contour, FLAT).is_valid
         drawn += 1
     assert drawn > 0.8 * len(LOW_MOUTHS)
 
@@ -265,7 +261,7 @@ def test_straight_slots_against_cutting(case: dict) -> None:
     so a mean distance of their larger error is allowed. A wall 1e-4 mm off would show."""
     found = made(**case)
     assert ends_meet(found.wheel)
-    shape = polygon(found.wheel)
+    shape = polygon(found.wheel, FLAT)
     assert shape.is_valid
     assert shape.exterior.is_ccw
     assert apart(found, cut(found, *theory(found))) < FLAT
@@ -360,8 +356,8 @@ def lock_sweep(found: Outlines) -> float:
 @pytest.mark.parametrize("case", [c for c in STRAIGHT if c.get("gearing") != "internal"], ids=name)
 def test_the_disc_locks_all_but_the_motion(case: dict) -> None:
     found = made(**case)
-    assert all(ends_meet(c) and polygon(c).is_valid for c in found.crank)
-    assert all(polygon(c).exterior.is_ccw for c in found.crank)
+    assert all(ends_meet(c) and polygon(c, FLAT).is_valid for c in found.crank)
+    assert all(polygon(c, FLAT).exterior.is_ccw for c in found.crank)
     steps = case.get("steps") or (360.0 / case["z"],) * case.get("rollers", 1)
     motions = sum(180.0 - step for step in steps)
     # Offset slots and low mouths may need a wider relief than the motion, never less.
@@ -463,7 +459,7 @@ def test_the_locking_sector_of_an_internal_wheel(z: int) -> None:
     found = made(z, "internal", roller_radius_mm=1.0)
     (contour,) = found.crank
     assert ends_meet(contour)
-    assert polygon(contour).is_valid
+    assert polygon(contour, FLAT).is_valid
     (lock,) = [
         s
         for s in contour.segments
@@ -565,7 +561,7 @@ CURVED_SLOTS = [
 
 def worst(found: Outlines, wanted: Polygon) -> float:
     """The greatest distance between both outlines, over one slot and its neighbours' halves."""
-    shape, far = polygon(found.wheel), 0.0
+    shape, far = polygon(found.wheel, FLAT), 0.0
     for one, other in ((shape, wanted), (wanted, shape)):
         corners = shapely.get_coordinates(one.exterior)
         half = math.pi / len(found.assembly.slots)
@@ -582,7 +578,7 @@ def test_curved_slots_against_every_place_of_the_roller(case: dict) -> None:
     twice what each strays, and where two walls meet at a small angle by some times more."""
     found = made(**case)
     assert ends_meet(found.wheel)
-    shape, wanted = polygon(found.wheel), milled(found)
+    shape, wanted = polygon(found.wheel, FLAT), milled(found)
     assert shape.is_valid
     assert apart(found, wanted) < FLAT + CURVED * L
     assert worst(found, wanted) < 2.0 * (FLAT + CURVED * L)

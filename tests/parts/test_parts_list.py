@@ -8,10 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from drawing_witness import vertices
+from drawing_witness import polygon
 from scipy.integrate import quad
 from scipy.interpolate import make_interp_spline
-from shapely.geometry import Polygon
 from typer.testing import CliRunner
 
 from geneva_cli import Design
@@ -348,7 +347,7 @@ def test_centroids_are_those_of_fine_polygons():
     design, (parts, _, _) = load(str(path)), printed(path)
     for name, part in (("locking disc", "crank"), ("arm", "arm")):
         shapes = [s for s in design.drawing(part).shapes if s.layer != "ROLLER"]
-        whole, *holes = (Polygon(vertices(s, 1e-4)) for s in shapes)
+        whole, *holes = (polygon(s, 1e-4) for s in shapes)
         for hole in holes:
             whole = whole.difference(hole)
         shown = [float(parts[name][f"centroid_{axis}_mm"]) for axis in "xy"]

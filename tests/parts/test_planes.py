@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 import repo
+from drawing_witness import polygon
 from shapely import affinity
 from shapely.geometry import Point
-from test_arm import polygon
 from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli import load

@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 import repo
 import shapely
+from drawing_witness import polygon
 from fuzz_play import require_no_less_play
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 from shapely import affinity
 from shapely.geometry import Point
-from test_outline import disc, made, polygon, turned
+from test_outline import disc, made, turned
 from words import Motion, load
 
 from geneva_cli.collisions.free_angles import free_angles

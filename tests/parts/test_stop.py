@@ -7,8 +7,7 @@ import re
 import numpy as np
 import pytest
 import repo
-from drawing_witness import vertices
-from shapely import Polygon
+from drawing_witness import polygon, vertices
 from shapely.affinity import rotate, translate
 from typer.testing import CliRunner
 
@@ -50,8 +49,8 @@ def test_the_collision_engine_touches_first_at_the_closed_form(z):
 def test_polygons_are_apart_until_the_stop_and_overlap_beyond(z):
     """Dense polygons, placed by the wheel's and the crank's own formulas (psi = atan2)."""
     outlines, stop = STOPPED[z].parts, stops_of(STOPPED[z])
-    wheel = Polygon(vertices(outlines.wheel, 1e-4))
-    (crank,) = (Polygon(vertices(one, 1e-4)) for one in outlines.crank)
+    wheel = polygon(outlines.wheel, 1e-4)
+    (crank,) = (polygon(one, 1e-4) for one in outlines.crank)
     l, steps = math.sin(math.pi / z), z - 1 - z // 2  # the last engagement of the drawings
 
     def overlap_mm2(a):

@@ -5,8 +5,8 @@ import math
 import pytest
 import shapely
 import trimesh
+from drawing_witness import polygon
 from step_witness import File, Solid
-from test_arm import polygon
 
 from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, load
 from geneva_cli.curves.drawing import Drawing
@@ -136,9 +136,9 @@ def test_a_shaft_fits_its_bores(keys, process, shafts):
         for plate in [p for p in found if p.name in among]:
             sections = [p for p in _parts(whole) if min(p.high, plate.high) > max(p.low, plate.low)]
             sections = [p for p in sections if "groove" not in p.name and p.name != "end"]
-            bore = min((polygon(h, 500) for h in plate.holes), key=lambda p: p.centroid.x**2)
+            bore = min((polygon(h, 1e-5) for h in plate.holes), key=lambda p: p.centroid.x**2)
             for section in sections:
-                body = polygon(section.outline, 500)
+                body = polygon(section.outline, 1e-5)
                 assert bore.buffer(1e-4).contains(body)
                 gap = body.exterior.distance(bore.exterior)
                 assert gap == pytest.approx(0.5 * fit, abs=2e-4)
@@ -156,7 +156,7 @@ def test_solids_of_all_formats_are_one(keys):
     for name in ("wheel", "crank"):
         stack = shaft(design, name)
         assert isinstance(stack, Stack)
-        true = sum(polygon(p.outline, 4096).area * p.thickness for p in stack.plates)
+        true = sum(polygon(p.outline, 1e-6).area * p.thickness for p in stack.plates)
         drawing = Drawing("", (), solid=stack, tolerance=1e-3)
         file = File("".join(chunks(drawing, "mm")))
         (body,) = file.all("MANIFOLD_SOLID_BREP")
@@ -176,7 +176,7 @@ def test_solids_of_all_formats_are_one(keys):
 
 
 def _wide(plate):
-    x0, _, x1, _ = polygon(plate.outline, 64).bounds
+    x0, _, x1, _ = polygon(plate.outline).bounds
     return max(-x0, x1)
 
 
@@ -334,7 +334,7 @@ def test_shafts_of_a_sphere_fit_too(shape):
     parts = SphereParts(PartsModel(Design(Spherical(6), size=size).mechanism).shells)
     (bar,) = [m.part for m in parts.shafts if m.part.name == "wheel's shaft"]
     hub = next(s for s in solids(parts.wheel.part) if s.name == "wheel's hub")
-    body, bore = (polygon(s, 2000) for s in (bar.outline, hub.holes[0]))
+    body, bore = (polygon(s, 1e-6) for s in (bar.outline, hub.holes[0]))
     assert bore.contains(body)
     assert shapely.distance(body.exterior, bore.exterior) == pytest.approx(0.2, abs=1e-4)
     assert math.isclose(body.centroid.y, bore.centroid.y, abs_tol=0.1)

@@ -13,8 +13,6 @@ what a spec may hold. One row a machine and quantity, with the place where the p
   unit of p and of the engagement's mid-motion moves it. A slot also turns by one unit of the
   wheel's greatest angle.
 - ``share``: error / max(1, condition), at most 16; else the exit status is 1.
-- ``textbook``: the error there of the usual formulas in doubles, D = 1 - 2 l cos a + l² and so on
-  with l = math.sin(math.pi / z), at its own worst place, and its share.
 
 A curved slot's motion angle is a difference (alpha0_deg from the natural angle), and as
 ill-conditioned as alpha0_deg is near its limit. It has a row of its own, in units of the larger of

@@ -95,6 +95,7 @@ def test_peaks_of_the_laws():
     assert own["servo"]["acceleration_max_rad_s2"] == pytest.approx(6.0 * acceleration, rel=1e-12)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("eta", [1.0, 0.85, 0.4])
 @pytest.mark.parametrize("torque", [0.0, 1.5, 40.0])
 def test_the_servo_turns_its_rotor(eta, torque):

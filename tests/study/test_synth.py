@@ -1,7 +1,6 @@
 """From a wish to machines: closed forms against the built machine, the sources' tables, specs."""
 
 import csv
-import functools
 import io
 import json
 import math
@@ -10,6 +9,7 @@ from fractions import Fraction
 import mpmath
 import pytest
 from sampling import some
+from searched import searched
 from typer.testing import CliRunner
 from words import LAWS, Drive, Motion, Spec, Wheel, load
 from words import Keys as _keys
@@ -37,18 +37,6 @@ from geneva_cli.verdict.checks.motion import GROOVE_MAX_DEG, groove_pressure
 pytestmark = pytest.mark.usefixtures("few_four_bars")
 GEARINGS = ("external", "internal")
 COSTS = ("velocity_max", "acceleration_max", "acceleration_entry", "jerk_max", "power_max")
-
-
-@functools.cache
-def _searched(options):
-    target = read_target(**dict(options))
-    return target, search(target)
-
-
-def searched(**options):
-    """A target and what there is for it, searched for once."""
-    said = {k: tuple(v) if isinstance(v, list) else v for k, v in options.items()}
-    return _searched(tuple(sorted(said.items())))
 
 
 def listed(target):

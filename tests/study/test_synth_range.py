@@ -1,12 +1,12 @@
 """Wishes that combine: ranges, bounds, a frame, an order; against dense sweeps of every kind."""
 
-import functools
 import json
 import math
 import os
 
 import numpy as np
 import pytest
+from searched import searched
 from typer.testing import CliRunner
 from words import Drive, Keys, Motion, Spec, Wheel, load
 
@@ -29,18 +29,6 @@ pytestmark = pytest.mark.usefixtures("few_four_bars")
 DESIGNS = os.path.join(os.path.dirname(__file__), "..", "..", "designs")
 # A minimum found to a share d of its place is d² off in its value, and no dense sweep is nearer.
 NEAR = 1e-8
-
-
-@functools.cache
-def _searched(options):
-    target = read_target(**dict(options))
-    return target, search(target)
-
-
-def searched(**options):
-    """A target and what there is for it, searched for once."""
-    said = {k: tuple(v) if isinstance(v, list) else v for k, v in options.items()}
-    return _searched(tuple(sorted(said.items())))
 
 
 def rows(**options):

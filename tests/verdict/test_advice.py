@@ -277,23 +277,6 @@ def test_searches_of_loads_count(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     assert advice.WORK - adviser.work > (advice.TRIAL + 1) * len(built) > 0
 
 
-def test_trials_that_search_many_motions_are_fewer(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Three wheels with a body off the axis have nine motions a period: a trial takes 90 ms."""
-    mechanism = read(
-        tmp_path,
-        "[wheel]\nz = 3\n[drive]\nkind = 'carousel'\nwheels = 3\n[size]\nface_width_mm = 1\n"
-        "[load]\ninertia_kgm2 = 0.1\n[limits]\npin_force_max_N = 1\n"
-        "[[mass]]\nshape = 'point'\nmass_kg = 1\nradius_mm = 50\n",
-    )
-    built = []
-    monkeypatch.setattr(advice, "WORK", 80)
-    monkeypatch.setattr(advice, "build", lambda spec: built.append(spec) or build(spec))
-    judged(mechanism, parts=False)
-    assert 0 < len(built) * 9 <= advice.WORK
-
-
 @pytest.mark.long
 def test_an_error_is_no_advice() -> None:
     """Its text is the reason; the advice is a change."""

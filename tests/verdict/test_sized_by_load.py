@@ -11,7 +11,7 @@ import mpmath
 import numpy as np
 import pytest
 from sampling import some
-from strength_checks import HORNS, PARTS, rows
+from strength_checks import HORNS, PARTS, require_same_in_a_batch, rows
 
 from geneva_cli import Crank, Design, External, Internal, NoncircularGears, SideCrank
 from geneva_cli.errors import GenevaError
@@ -26,7 +26,6 @@ from geneva_cli.loads.strength.arm import (
 )
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.loads.strength.part_loads import part_loads
-from geneva_cli.machine.many import many
 from geneva_cli.machine.materials import wheel_material
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
@@ -282,17 +281,7 @@ def test_a_batch_has_the_numbers_of_its_designs():
         External(8), size=Size(center_distance_mm=160.0, crank_keyway="DIN 6885-1"), load=Load(1e-9)
     )
     torques = np.geomspace(0.01, 1e4, some(10, 3))
-    batch = Designs(many(spec, {"load.torque_Nm": torques}).machine)
-    single = [Designs(build(spec.with_("load.torque_Nm", float(T)))) for T in torques]
-    for quantity in (pin, wheel_shaft, crank_shaft, arm, crank_key):
-        together = quantity(batch)
-        for i, designs in enumerate(single):
-            alone = quantity(designs)
-            assert together.keys() == alone.keys()
-            for name, column in together.items():
-                value = np.broadcast_to(np.ravel(column), torques.shape)[i]
-                # a batch and a single design search the same peaks to some units in the last place
-                assert value == pytest.approx(np.ravel(alone[name])[0], rel=1e-12), (quantity, name)
+    require_same_in_a_batch(spec, torques, (pin, wheel_shaft, crank_shaft, arm, crank_key))
 
 
 def test_a_pin_that_the_load_depends_on_stays_usual():

@@ -11,7 +11,7 @@ import random
 import numpy as np
 import pytest
 from sampling import some
-from strength_checks import PARTS, rows
+from strength_checks import PARTS, require_same_in_a_batch, rows
 
 from geneva_cli import Crank, Spherical
 from geneva_cli.errors import GenevaError
@@ -19,7 +19,6 @@ from geneva_cli.layout.sphere_sizes import ball
 from geneva_cli.layout.sphere_stressed import sphere_stressed
 from geneva_cli.loads.strength.arm import arm_stress_MPa
 from geneva_cli.loads.strength.part_loads import single_loads
-from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.tables import Load, Shaft, Size
@@ -237,17 +236,7 @@ def test_a_batch_of_spheres_has_the_numbers_of_its_designs():
         load=Load(1e-9),
     )
     torques = np.geomspace(0.01, 3e3, some(8, 3))
-    batch = Designs(many(spec, {"load.torque_Nm": torques}).machine)
-    single = [Designs(build(spec.with_("load.torque_Nm", float(T)))) for T in torques]
-    for quantity in (pin, horn, wheel_shaft, crank_shaft, arm, crank_key):
-        together = quantity(batch)
-        for i, designs in enumerate(single):
-            alone = quantity(designs)
-            assert together.keys() == alone.keys()
-            for name, column in together.items():
-                value = np.broadcast_to(np.ravel(column), torques.shape)[i]
-                # a batch and a single design search the same peaks to some units in the last place
-                assert value == pytest.approx(np.ravel(alone[name])[0], rel=1e-12), (quantity, name)
+    require_same_in_a_batch(spec, torques, (pin, horn, wheel_shaft, crank_shaft, arm, crank_key))
 
 
 def test_the_bore_of_a_sphere_s_wheel_holds_the_torque_of_the_dwell():

@@ -49,17 +49,16 @@ def values_at(engagement, x):
     return routes, some, [engagement.motion(float(v), 3).derivatives() for v in some]
 
 
-def compare(table, machine, engagement, x, exact, peak, condition, where, book=None):
+def compare(table, machine, engagement, x, exact, peak, condition, where):
     """Position to jerk at the angles x, by every route."""
     routes, some, numbers = strictly(values_at, engagement, x)
     place = [f"{where} at {v:.17g}" for v in x]
     for k, name in enumerate(NAMES):
         u, values = unit(peak[name]), [e[k] for e in exact]
-        for i, route in enumerate(routes):
+        for route in routes:
             n = len(route[k])
             error = ulps(route[k], values[:n], u)
-            usual = ulps(book[k], values, u) if book is not None and not i else None
-            table.add((machine, name), error, condition[k][:n], place[:n], usual)
+            table.add((machine, name), error, condition[k][:n], place[:n])
         at = np.searchsorted(x, some)
         one = ulps([n[k] for n in numbers], [values[i] for i in at], u)
         table.add((machine, name), one, condition[k][at], [place[i] for i in at])

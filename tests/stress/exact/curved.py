@@ -116,10 +116,7 @@ def laid_out(table, machine, mechanism, series, top, values, front, gearing, z, 
         for k, by in enumerate(series.moves(u)):
             by = by * float(scale[NAMES[k]]) / unit(size[NAMES[k]])
             condition[k] = np.maximum(condition[k], by)
-    b, w = math.pi / z, math.radians(engagement.motion_deg)
-    s = series.textbook(u)
-    book = [2 * b * (s[0] - 0.5), *[2 * b * s[k] / w**k for k in (1, 2, 3)]]
-    compare(table, machine, engagement, x, exact, size, condition, where, book)
+    compare(table, machine, engagement, x, exact, size, condition, where)
     found = {}
     for name in PEAKS:
         places = [Found(c.size, entry + c.x * whole, c.shift * whole) for c in top[name][1]]

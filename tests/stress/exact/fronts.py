@@ -6,7 +6,6 @@ import random
 import tempfile
 from itertools import pairwise
 
-import numpy as np
 import spline_witness
 from spline_witness import derivatives
 from witness import mp, to_radians
@@ -36,10 +35,6 @@ class Plain:
     def keys(_):
         return {}
 
-    @staticmethod
-    def textbook(_, phi):
-        return phi, 1.0, 0.0, 0.0
-
 
 class SideCrank:
     """f = arg(A + e^(i phi))."""
@@ -62,15 +57,6 @@ class SideCrank:
     @staticmethod
     def keys(values):
         return {"A": values[0]}
-
-    @staticmethod
-    def textbook(values, phi):
-        (A,), s, c = values, np.sin(phi), np.cos(phi)
-        W = 1 + 2 * A * c + A * A
-        up = A * (1 - A * A)
-        third = up * ((1 + A * A) * c - 2 * A * c * c + 4 * A) / W**3
-        # -: both are odd or even about mid-motion as the pin's own are
-        return np.arctan2(s, A + c), (1 + A * c) / W, up * s / W**2, third
 
 
 class Ellipses:
@@ -96,15 +82,6 @@ class Ellipses:
     @staticmethod
     def keys(values):
         return {"eccentricity": abs(values[0]), "phase": "slow" if values[0] >= 0 else "quick"}
-
-    @staticmethod
-    def textbook(values, phi):
-        (e,), s, c = values, np.sin(phi), np.cos(phi)
-        W = 1 + e * e + 2 * e * c
-        up = 2 * e * (1 - e * e)
-        third = up * ((1 + e * e) * c - 2 * e * c * c + 4 * e) / W**3
-        f = 2 * np.arctan((1 - e) / (1 + e) * np.tan(phi / 2))
-        return f, (1 - e * e) / W, up * s / W**2, third
 
 
 class GearedSideCrank(SideCrank):
@@ -137,10 +114,6 @@ class Pair:
     @staticmethod
     def keys(values):
         return {"first_z": values[0]}
-
-    @staticmethod
-    def textbook(values, phi):
-        return textbook_wheel(1, math.sin(math.pi / values[0]), phi)
 
 
 class RatioFile:
@@ -192,15 +165,6 @@ class RatioFile:
     def keys(self, values):
         rows = zip(self.deg, (*values, values[0]), strict=True)
         return {"ratio": from_file(rows, registry.drive(self.kind), "ratio")}
-
-    def textbook(self, _, phi):
-        ratio = self.spline.by_scipy()
-        whole = ratio.antiderivative()
-        scale = 2 * math.pi / float(ratio.integrate(0.0, 2 * math.pi))
-        turns = np.floor(phi / (2 * math.pi))
-        at = phi - turns * 2 * math.pi
-        f = (whole(at) - whole(0.0)) * scale + turns * 2 * math.pi
-        return (f, *[scale * ratio.derivative(k)(at) for k in range(3)])
 
 
 def ratio_case(deg, ratio):
@@ -258,20 +222,6 @@ def spec_of(z, gearing, kind, values, rollers=1, motion=None, L=100.0):
         drive(rollers=rollers, **front.keys(values)),
         motion=motion,
         size=Size(center_distance_mm=L),
-    )
-
-
-def textbook_wheel(g, l, a):
-    s, c = np.sin(a), np.cos(a)
-    D = 1 - 2 * g * l * c + l * l
-    third = l * (1 - l * l) * (4 * l - g * (1 + l * l) * c - 2 * l * c * c) * g**2 / D**3
-    if g < 0:
-        third = -l * (1 - l * l) * (4 * l + (1 + l * l) * c - 2 * l * c * c) / D**3
-    return (
-        np.arctan2(l * s, 1 - g * l * c),
-        l * (c - l) / D if g > 0 else l * (c + l) / D,
-        -l * (1 - l * l) * s / D**2,
-        third,
     )
 
 

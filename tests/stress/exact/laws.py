@@ -52,37 +52,6 @@ class Series:
             out[name] = greatest(found)
         return out
 
-    def textbook(self, u):
-        """s(u) and three derivatives as the books write them, in doubles."""
-        law = self.law
-        if isinstance(law, PolynomialLaw):
-            c = [float(x) for x in law.c]
-            return [
-                sum(math.perm(n, k) * a * u ** (n - k) for n, a in enumerate(c) if n >= k)
-                for k in range(4)
-            ]
-        out = [np.zeros_like(u) for _ in range(4)]
-        for i, (start, end, v, s, terms) in enumerate(law.pieces):
-            w0, v0, s0 = float(start), float(v), float(s)
-            here = (u > w0) & (u <= float(end)) if i else u <= float(end)
-            t = u[here] - w0
-            got = [s0 + v0 * t, v0 + 0 * t, 0 * t, 0 * t]
-            for amplitude, rate, phase in terms:
-                a, w, p = float(amplitude), float(rate), float(phase)
-                if w:
-                    y, q = w * u[here] + p, w * w0 + p
-                    got[0] = got[0] + a / w * (math.cos(q) * t - (np.sin(y) - math.sin(q)) / w)
-                    got[1] = got[1] + a / w * (math.cos(q) - np.cos(y))
-                    got[2] = got[2] + a * np.sin(y)
-                    got[3] = got[3] + a * w * np.cos(y)
-                else:
-                    got[0] = got[0] + a * math.sin(p) * t**2 / 2
-                    got[1] = got[1] + a * math.sin(p) * t
-                    got[2] = got[2] + a * math.sin(p)
-            for o, g in zip(out, got, strict=True):
-                o[here] = g / float(law.whole)
-        return out
-
 
 class Points(Series):
     """The law through a file's points."""
@@ -133,11 +102,6 @@ class Points(Series):
         i = np.clip(np.searchsorted(x, u, "right") - 1, 0, len(x) - 1)
         c = np.moveaxis(self.changes[:, i], -1, 0)
         return [np.abs(v).max(axis=0) for v in derivatives(c, u - x[i])[:4]]
-
-    def textbook(self, u):
-        """SciPy's."""
-        spline = self.spline.by_scipy()
-        return [spline.derivative(k)(u) for k in range(4)]
 
 
 def point_cases(sample):
