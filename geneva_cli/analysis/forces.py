@@ -17,14 +17,17 @@ from __future__ import annotations
 import math
 from typing import Generic, NamedTuple
 
+import numpy as np
+
 from geneva_cli.analysis.carried import MM, inertia_kgm2, resisting_torque_Nm, unbalance_kgm
 from geneva_cli.analysis.contact import Contact
 from geneva_cli.analysis.guide_place import guide_place
 from geneva_cli.analysis.pin import pin_diameter_mm
+from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.arrays import N, Whole, all_true, choose, designs_of, library
+from geneva_cli.numerics.arrays import Mask, N, Whole, all_true, choose, designs_of, library
 from geneva_cli.numerics.jet import Jet, Number, V
 from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.workshops import Stock
@@ -226,6 +229,13 @@ def wheel_torque(case: LoadCase, at: Contact[V]) -> V:
         return torque
     _, across = _centrifugal_Nm(case, at.heading)
     return torque - across
+
+
+def is_loaded(case: LoadCase, engagement: Engagement, torque: Number) -> Mask:
+    """Return True where a torque at the wheel is more than rounding."""
+    usual = case.inertia_Nm * engagement.usual_acceleration + case.resists_Nm
+    loaded: Mask = np.abs(torque) > NEGLIGIBLE * usual
+    return loaded
 
 
 def frame_torque(case: LoadCase, at: Contact[V]) -> V:

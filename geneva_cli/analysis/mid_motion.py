@@ -12,12 +12,19 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.analysis.contact import NEAR_CUSP, Contact, contact
-from geneva_cli.analysis.forces import NEGLIGIBLE, LoadCase, QuantityValue, value, wheel_torque
+from geneva_cli.analysis.forces import (
+    NEGLIGIBLE,
+    LoadCase,
+    QuantityValue,
+    is_loaded,
+    value,
+    wheel_torque,
+)
 from geneva_cli.analysis.instant import Instant, bounded, signs, values
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Mask, array
+from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.jet import Array, Jet, Number
 
 # contact, signs of torque, of sliding and of the input's torque -> the quantities
@@ -51,7 +58,7 @@ def at_mid_motion(
         at = contact(engagement, np.zeros((n, 1)))
         before, after = array(at.acceleration.c[0]), _acceleration_after(engagement, n)
         # the two halves of a law are equal there to some roundings, or its acceleration jumps
-        jumps = np.abs(after - before) > 1e-6 * (np.abs(after) + _common(engagement))
+        jumps = np.abs(after - before) > 1e-6 * (np.abs(after) + engagement.usual_acceleration)
         accelerations = at.acceleration, Jet([after])
         near_places = [np.broadcast_to(x, (n, 1)) for x in (near, -near)]
         limits = [_limits(engagement, case, rows, x) for x in near_places]
@@ -67,7 +74,7 @@ def at_mid_motion(
                 curvature=at.curvature * sense,
             )
             torque = value(wheel_torque(case, here))
-            loaded = _is_loaded(engagement, case, torque)
+            loaded = is_loaded(case, engagement, torque)
             for k, row in enumerate(rows(here, *signs(case, here))):
                 known = np.broadcast_to(value(row.value), (n, 1))
                 margin = np.inf if row.margin is None else value(row.margin)
@@ -102,7 +109,7 @@ def at_crossing(engagement: Engagement, case: LoadCase) -> dict[str, Array] | No
     with np.errstate(all="ignore"):
         middle, near = np.zeros(1), np.array([NEAR_CUSP * engagement.entry_deg])
         at, before, h = contact(engagement, middle), contact(engagement, near, 2), np.radians(near)
-        if np.any(_is_loaded(engagement, case, value(wheel_torque(case, at)))):
+        if np.any(is_loaded(case, engagement, value(wheel_torque(case, at)))):
             return None
         # the torque's own sign is rounding, and where friction leaves no lever its force is 0/0
         here, jets = (Instant(case, x, *signs(case, before)) for x in (at, before))
@@ -120,18 +127,6 @@ def at_crossing(engagement: Engagement, case: LoadCase) -> dict[str, Array] | No
 def _limit(jet: Jet, h: Array) -> Array:
     """The value at mid-motion of a quantity known h radians after it."""
     return array(jet.c[0] - h * (jet.c[1] - h * jet.c[2]))
-
-
-def _is_loaded(engagement: Engagement, case: LoadCase, torque: Number) -> Mask:
-    """Return True if the wheel's torque at mid-motion is more than rounding."""
-    common = case.inertia_Nm * _common(engagement) + case.resists_Nm
-    loaded: Mask = np.abs(torque) > NEGLIGIBLE * common
-    return loaded
-
-
-def _common(engagement: Engagement) -> Array:
-    """An acceleration of usual size, half-way between entry and mid-motion, as an invariant."""
-    return np.abs(array(engagement.motion(0.5 * engagement.entry_deg, 2).c[2]))
 
 
 def _limits(engagement: Engagement, case: LoadCase, rows: Rows, x: Array) -> list[Array]:

@@ -39,8 +39,8 @@ def spans_of(engagement: Engagement, n: int) -> list[tuple[Array, Array]]:
 
 def smooth_ranges(engagement: Engagement) -> list[tuple[float, float]]:
     """Ends of the smooth parts of one design's motion, clear of the breaks between them."""
-    places = [np.array([[x]]) for x in engagement.motion.breaks_deg]
-    pieces = smooth_pieces(places, engagement.motion.BREAKS_TO)
+    motion = engagement.motion
+    pieces = smooth_pieces(motion.breaks(1), motion.BREAKS_TO)
     return [(start.item(), end.item()) for start, end in pieces]
 
 

@@ -366,6 +366,15 @@ class Engagement(Batchable):
         return self.exit_deg - self.entry_deg
 
     @property
+    def usual_acceleration(self) -> float:
+        """The step over the square of the motion, of which the greatest acceleration is a multiple.
+
+        It is an invariant, and the measure of what is rounding.
+        """
+        motion = radians(self.motion_deg)
+        return 2.0 * self.half_step / (motion * motion)
+
+    @property
     def mirrored(self) -> bool:
         """True if motion, slot and loads are symmetric about mid-motion."""
         return self.motion.symmetric and self.slot.mirrored and self.mid_angle is None

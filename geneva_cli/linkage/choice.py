@@ -10,9 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.kinematics.paths.samples import points
+from geneva_cli.kinematics.paths.course import PathWheels
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.linkage.wheels import PathWheels
 from geneva_cli.numerics.arrays import Array, Number, Whole, blocks, joined
 
 SAME_PEAK = 1e-8  # fraction by which two wheels' peak velocities may differ and count as equal
@@ -86,26 +85,18 @@ class _Velocities(NamedTuple):
 
 def _velocities(path: RollerPath, wheels: PathWheels, between: Array, count: int) -> _Velocities:
     """Peak velocities between crank angles (n, 2), by samples of ``count`` intervals."""
-    bounds: _Velocities = joined(
-        [
-            _block_velocities(path.roughly(wheels.which[i]), wheels.phi[i], between[i], count)
-            for i in blocks(len(between), 256)  # 256 wheels stay in the processor's cache
-        ],
-        0,
-    )
-    return bounds
+    parts = blocks(len(between), 256)  # 256 wheels stay in the processor's cache
+    return joined([_block_velocities(path, wheels.taken(i), between[i], count) for i in parts], 0)
 
 
-def _block_velocities(path: RollerPath, phi: Array, between: Array, count: int) -> _Velocities:
-    """Peak velocities of a block of wheels, each with its path."""
-    ends = points(path, phi)
-    (p, q), (t, u) = ends.p.T, ends.t.T
-    rho = np.abs(q - p) / np.abs(t + u)
-    centre = (0.5 * ((p + rho * t) + (q - rho * u)))[:, None]
+def _block_velocities(
+    path: RollerPath, wheels: PathWheels, between: Array, count: int
+) -> _Velocities:
+    """Peak velocities of a block of wheels."""
     low, high = between[:, :1], between[:, 1:]
     phi = low + (high - low) * (np.arange(count + 1) / count)
-    x, y = path.at(phi, 1)
-    ray = x.c[0] + 1j * y.c[0] - centre
+    x, y = path.roughly(wheels.which).at(phi, 1)
+    ray = x.c[0] + 1j * y.c[0] - wheels.centre[:, None]
     velocity = np.abs(((x.c[1] + 1j * y.c[1]) / ray).imag)
     # The mean velocity between two points is at most the peak.
     mean = np.abs(np.angle(ray[:, 1:] * ray[:, :-1].conj())) / np.diff(phi, axis=1)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from decimal import localcontext
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
 import numpy as np
 
@@ -36,15 +36,17 @@ from geneva_cli.numerics.jet import Jet, Number, sine_versine, turning
 if TYPE_CHECKING:
     from geneva_cli.linkage.wheels_for_paths import LongComplex
 
+Vectors: TypeAlias = "list[tuple[float, float]]"
+
 
 class LinkageMotion(StraightSlotMotion):
     """Motion of a wheel on a linkage."""
 
     def __init__(
-        self, path: AnchoredPath, half_step: float, body: LinkRate, centre: tuple[float, float]
+        self, path: AnchoredPath, half_step: float, about_centre: RoughLinkageMotion
     ) -> None:
         super().__init__(path, half_step, mirrored=False)
-        self.about_centre = RoughLinkageMotion(body, *centre)
+        self.about_centre = about_centre
 
     @property
     def rough(self) -> RoughMotion:
@@ -65,6 +67,41 @@ class RoughLinkageMotion(NamedTuple):
         return (turning(x - self.x, y - self.y) * self.body.sense).arrays()
 
 
+class PlacedWheel(NamedTuple):
+    """The numbers of a wheel on a path, rounded once; lengths are in mm, angles in radians."""
+
+    sense: float
+    middle: float  # the crank's angle at mid-motion
+    half_deg: float  # half of the motion
+    turn: float  # the wheel's angle when the crank is at mid-motion
+    ahead: float  # angle from the line of centres to the pin at mid-motion
+    x: float  # the wheel's centre on the path's axes
+    y: float
+    L: float
+
+    def engagement(
+        self, path: RollerPath, b: float, cranks: Vectors, rays: Vectors
+    ) -> tuple[Engagement, float]:
+        """Engagement, and the centre distance; ``rays`` lead from the centre to the pin."""
+        anchors = tuple(
+            Anchor(
+                end * self.half_deg,
+                wheel,
+                library(x).hypot(x, y) / self.L,
+                along_ray(path.about(*crank), (x, y), self.sense, self.L, end),
+            )
+            for end, wheel, crank, (x, y) in zip(
+                (-1.0, 0.0, 1.0), (-b, self.turn, b), cranks, rays, strict=True
+            )
+        )
+        anchored = AnchoredPath(anchors, self.ahead)
+        body = LinkRate(path, self.middle, self.sense)
+        motion = LinkageMotion(anchored, b, RoughLinkageMotion(body, self.x, self.y))
+        reactions = LinkReactions(*body, self.L, -self.x / self.L, -self.y / self.L)
+        carrier = Carrier(-self.sense, body, reactions)
+        return path_and_slot.engagement(0.0, anchored, motion, carrier), self.L
+
+
 def engagement_of(path: RollerPath, fit: Fit, step: HalfStep) -> tuple[Engagement, float]:
     """Engagement of a wheel for a path, and the centre distance in mm.
 
@@ -72,38 +109,17 @@ def engagement_of(path: RollerPath, fit: Fit, step: HalfStep) -> tuple[Engagemen
     """
     with localcontext(digits.FIFTY):
         ox, oy = fit.centre
-        L = (ox * ox + oy * oy).sqrt()
-        middle = (fit.entry + fit.exit) / 2
+        middle, half = (fit.entry + fit.exit) / 2, (fit.exit - fit.entry) / 2
         places = [ExactPoint.of(path, phi) for phi in (fit.entry, middle, fit.exit)]
         rays = [(p.p[0] - ox, p.p[1] - oy) for p in places]
         first, last = unit(rays[0]), unit(rays[2])
         turn = fit.sense * angle((first[0] + last[0], first[1] + last[1]), rays[1])
         ahead = fit.sense * angle((-ox, -oy), rays[1])
-        anchors = tuple(
-            Anchor(
-                digits.to_degrees(p.phi - middle),
-                wheel,
-                float(length(ray) / L),
-                along_ray(
-                    path.about(exactly(p.sine), exactly(p.cosine)),
-                    (float(ray[0]), float(ray[1])),
-                    fit.sense,
-                    float(L),
-                    end,
-                ),
-            )
-            for p, ray, wheel, end in zip(
-                places, rays, (-step.b, turn, step.b), (-1.0, 0.0, 1.0), strict=True
-            )
-        )
-    anchored = AnchoredPath(anchors, ahead)
-    body = LinkRate(path, float(middle), fit.sense)
-    motion = LinkageMotion(anchored, step.b, body, (float(ox), float(oy)))
-    ahead_x, ahead_y = float(-ox / L), float(-oy / L)
-    reactions = LinkReactions(path, float(middle), fit.sense, float(L), ahead_x, ahead_y)
-    return path_and_slot.engagement(
-        0.0, anchored, motion, Carrier(-fit.sense, body, reactions)
-    ), float(L)
+        L = float(length(fit.centre))
+        motion = float(middle), digits.to_degrees(half), turn, ahead
+        cranks = [(exactly(p.sine), exactly(p.cosine)) for p in places]
+        wheel = PlacedWheel(fit.sense, *motion, float(ox), float(oy), L)
+        return wheel.engagement(path, step.b, cranks, [(float(x), float(y)) for x, y in rays])
 
 
 def engagement_of_batch(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[Engagement, float]:
@@ -112,7 +128,7 @@ def engagement_of_batch(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[E
     The computation uses long doubles, if the computer has them, and rounds once.
     """
     path, fits, step = _alike(path, fits, step)
-    b, sense = step.b, parameter(fits.sense)
+    sense = parameter(fits.sense)
     with np.errstate(all="ignore"):
         entry, exit_ = polished(path, fits, step)
     middle, half = (entry + exit_) / 2, (exit_ - entry) / 2
@@ -120,7 +136,6 @@ def engagement_of_batch(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[E
     (p, t), (q, u) = (long_point(path, *cranks[i]) for i in (0, 2))
     rho = np.abs(q - p) / np.abs(t + u)
     centre = ((p + rho * t) + (q - rho * u)) / 2
-    L = np.abs(centre)
     rays = [place - centre for place in (p, long_place(path, *cranks[1]), q)]
     half_way = rays[0] / np.abs(rays[0]) + rays[2] / np.abs(rays[2])
     # arc tangents of long doubles take ten times as long
@@ -128,37 +143,13 @@ def engagement_of_batch(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[E
         sense * parameter(np.angle((rays[1] * line.conj()).astype(complex)))
         for line in (half_way, -centre)
     )
-    half_deg, distance = rounded(half * (180 / LONG_PI)), rounded(L)
-    anchors = tuple(
-        Anchor(
-            end * half_deg,
-            wheel,
-            parameter(np.abs(ray)) / distance,
-            along_ray(
-                path.about(exactly(sine), exactly(cosine)),
-                (parameter(ray.real), parameter(ray.imag)),
-                sense,
-                distance,
-                end,
-            ),
-        )
-        for end, (sine, cosine), ray, wheel in zip(
-            (-1.0, 0.0, 1.0),
-            cranks,
-            (ray.astype(complex) for ray in rays),
-            (-b, turn, b),
-            strict=True,
-        )
+    numbers = middle, half * (180 / LONG_PI), centre.real, centre.imag, np.abs(centre)
+    mid, half_deg, x, y, L = (rounded(number) for number in numbers)
+    wheel = PlacedWheel(sense, mid, half_deg, turn, ahead, x, y, L)
+    exact = [(exactly(sine), exactly(cosine)) for sine, cosine in cranks]
+    return wheel.engagement(
+        path, step.b, exact, [(rounded(ray.real), rounded(ray.imag)) for ray in rays]
     )
-    anchored = AnchoredPath(anchors, ahead)
-    mid = rounded(middle)
-    line = rounded(-centre.real / L), rounded(-centre.imag / L)
-    reactions = LinkReactions(path, mid, sense, distance, *line)
-    body = LinkRate(path, mid, sense)
-    motion = LinkageMotion(anchored, b, body, (rounded(centre.real), rounded(centre.imag)))
-    return path_and_slot.engagement(
-        0.0, anchored, motion, Carrier(-sense, body, reactions)
-    ), distance
 
 
 def _alike(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[RollerPath, Fits, HalfStep]:

@@ -7,18 +7,18 @@ is double. The acceleration then starts from zero.
 
 from __future__ import annotations
 
-import cmath
 import math
 from decimal import Decimal, localcontext
 from typing import NamedTuple, TypeAlias, cast
 
 import numpy as np
 
-from geneva_cli.kinematics.paths.pairs import DOUBLE_ROOT_SLOPE
+from geneva_cli.kinematics.paths.course import PathWheels
+from geneva_cli.kinematics.paths.pairs import DOUBLE_ROOT_SLOPE, ends_at, residual
 from geneva_cli.kinematics.roller_path import RollerPath, exactly
 from geneva_cli.kinematics.wheels.poses import HalfStep
 from geneva_cli.linkage.choice import chosen
-from geneva_cli.linkage.wheels import PathWheels, WheelSearch, followed, wheels
+from geneva_cli.linkage.wheels import WheelSearch, followed, wheels
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import scaled_sin_cos
 from geneva_cli.numerics.arrays import joined
@@ -87,13 +87,17 @@ class Fit(NamedTuple):
     sense: float  # +1 if the wheel turns counterclockwise on the path's own axes
 
 
-class _PathPoint(NamedTuple):
-    """A point of the path: position, velocity, unit tangent and the rate at which it turns."""
+class _Conditions(NamedTuple):
+    """The numbers of ``Residual`` for one pair, and the rates at which the path turns there."""
 
-    p: complex
-    v: complex
-    t: complex
+    away: float
+    by_entry: float
+    by_exit: float
+    excess: float
+    det: float
+    sense: float
     turn: float
+    turn_out: float
 
 
 def fit(
@@ -130,41 +134,31 @@ def _double(path: RollerPath, step: HalfStep, entry: float, exit_: float) -> Pat
     root = _refined(path, step.b, pair) if pair else None
     if root is None:
         return None
-    one, two = (_place(path, phi) for phi in root)
-    sense = math.copysign(1.0, cmath.phase(-two.t * one.t.conjugate()))
+    sense = _conditions(path, step.b, *root).sense
     drivable = followed(path, np.array([root]), np.array([sense]))
     with localcontext(digits.FIFTY):
         holds = len(drivable.which) and _polished(path, step, *root, sense)
     return drivable if holds else None
 
 
-def _place(path: RollerPath, phi: float) -> _PathPoint:
-    x, y = path.at(phi, 2)
-    p, v, a = (complex(*z) for z in zip(x.derivatives(), y.derivatives(), strict=True))
-    speed = abs(v)
-    return _PathPoint(p, v, v / speed, (v.conjugate() * a).imag / speed**2)
+def _conditions(path: RollerPath, b: float, entry: float, exit_: float) -> _Conditions:
+    with np.errstate(all="ignore"):
+        ends = ends_at(path, np.zeros(1, dtype=int), np.array([[entry, exit_]]))
+        rest = residual(ends, np.array([[b]]))
+    return _Conditions(*[x.item() for x in (*rest, *ends.at.turn.T)])
 
 
 def _on_family(path: RollerPath, b: float, entry: float, exit_: float) -> Pair | None:
     """Pair of ``entry`` and the exit near ``exit_`` equally far from the meeting point: Newton."""
-    one = _place(path, entry)
     for _ in range(40):
-        two = _place(path, exit_)
-        chord, both = two.p - one.p, one.t + two.t
-        value = (chord * both.conjugate()).imag
-        by_exit = (two.v * both.conjugate() + chord * (1j * two.turn * two.t).conjugate()).imag
-        if by_exit == 0.0:
+        rest = _conditions(path, b, entry, exit_)
+        if rest.by_exit == 0.0:
             return None
-        move = max(-0.05, min(0.05, -value / by_exit))
+        move = max(-0.05, min(0.05, -rest.away / rest.by_exit))
         exit_ += move
         if abs(move) < LAST_STEP:
-            break
-    else:
-        return None
-    by_entry = (-one.v * both.conjugate() + chord * (1j * one.turn * one.t).conjugate()).imag
-    between = cmath.phase(-two.t * one.t.conjugate())
-    slope = math.copysign(1.0, between) * (-two.turn * by_entry / by_exit - one.turn)
-    return Pair(entry, exit_, abs(between) - 2.0 * b, slope)
+            return Pair(entry, exit_, rest.excess, -rest.sense * rest.det / rest.by_exit)
+    return None
 
 
 def _refined(path: RollerPath, b: float, pair: Pair) -> tuple[float, float] | None:
@@ -213,27 +207,22 @@ def _polished(
     """
     first, last = Decimal(entry), Decimal(exit_)
     sin_2b, cos_2b = (Decimal(n) / Decimal(1 << 128) for n in scaled_sin_cos(2 * step.p, step.q))
-    one, two = _place(path, entry), _place(path, exit_)
-    chord, both = two.p - one.p, one.t + two.t
-    by_exit = (two.v * both.conjugate() + chord * (1j * two.turn * two.t).conjugate()).imag
-    by_entry = (-one.v * both.conjugate() + chord * (1j * one.turn * one.t).conjugate()).imag
-    slope = -two.turn * by_entry - one.turn * by_exit  # of the index angle, times by_exit
-    double = abs(slope) < DOUBLE_ROOT_SLOPE * abs(by_exit)
+    rest = _conditions(path, step.b, entry, exit_)
+    double = abs(rest.det) < DOUBLE_ROOT_SLOPE * abs(rest.by_exit)
     for _ in range(6):  # each step leaves about a millionth of the error
         p, q = ExactPoint.of(path, first), ExactPoint.of(path, last)
         apart = (q.p[0] - p.p[0], q.p[1] - p.p[1])
         total = (p.t[0] + q.t[0], p.t[1] + q.t[1])
         away = float(cross(total, apart))
         if double:
-            move = away / by_exit
+            move = away / rest.by_exit
             last -= Decimal(move)
             continue
         # sine of the error of the index angle, which is the angle from -t1 to t2
         sine, cosine = -cross(p.t, q.t), -(p.t[0] * q.t[0] + p.t[1] * q.t[1])
         excess = float(sine * cos_2b - Decimal(sense) * cosine * sin_2b)
-        # by_entry de + by_exit dx = -away,  -turn1 de + turn2 dx = -excess
-        det = by_entry * two.turn + by_exit * one.turn
-        move = (away * two.turn - excess * by_exit) / det
+        # by_entry de + by_exit dx = -away,  -turn de + turn_out dx = -excess
+        move = (away * rest.turn_out - excess * rest.by_exit) / rest.det
         first -= Decimal(move)
-        last -= Decimal((by_entry * excess + one.turn * away) / det)
+        last -= Decimal((rest.by_entry * excess + rest.turn * away) / rest.det)
     return (first, last) if abs(move) < 1e-20 else None  # radians, of the last step

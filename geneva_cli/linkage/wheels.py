@@ -14,11 +14,11 @@ import numpy as np
 
 from geneva_cli.kinematics.paths.course import (
     OpenIntervals,
+    PathWheels,
     PinCourse,
-    PlacedWheel,
+    bounded,
     leaves_slot,
     open_intervals,
-    peak_bounds,
 )
 from geneva_cli.kinematics.paths.pairs import (
     DOUBLE_ROOT_SLOPE,
@@ -31,26 +31,7 @@ from geneva_cli.kinematics.paths.pairs import (
 )
 from geneva_cli.kinematics.paths.samples import PathSamples, points, sampled
 from geneva_cli.kinematics.roller_path import RollerPath
-from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, joined
-
-
-class PathWheels(NamedTuple):
-    """Wheels of the designs numbered in ``which``.
-
-    ``phi`` holds the crank angles at entry and exit in two columns. ``sense`` is the direction in
-    which the wheel turns on the path's own axes. The peak velocity is between ``least`` and
-    ``most``.
-    """
-
-    which: Whole
-    phi: Array
-    sense: Array
-    least: Array
-    most: Array
-
-    def taken(self, where: Which) -> PathWheels:
-        """Select some of the wheels."""
-        return PathWheels._make(part[where] for part in self)
+from geneva_cli.numerics.arrays import Array, Mask, joined
 
 
 class WheelSearch(NamedTuple):
@@ -85,11 +66,8 @@ def wheels(path: RollerPath, b: Array) -> WheelSearch:
         # doubtful entries within 1e-4 radians lead to one wheel
         doubtful = doubtful.taken(firsts(doubtful.which, doubtful.at.phi, 1e-4))
         ends, sense = ends.taken(steep), rest.sense[steep]
-        block = np.zeros(len(b), dtype=int)
-        for i, samples in enumerate(every):
-            block[samples.which] = i
-        own = [block[ends.which] == i for i in range(len(every))]
-        parts = ((some, ends.taken(i), sense[i]) for some, i in zip(every, own, strict=True))
+        own = ((some, np.isin(ends.which, some.which)) for some in every)
+        parts = ((some, ends.taken(i), sense[i]) for some, i in own)
         return WheelSearch(_followed(path, parts), doubtful)
 
 
@@ -134,26 +112,24 @@ def _followed(path: RollerPath, parts: Iterable[tuple[PathSamples, EndPairs, Arr
     """Wheels of the pairs between which the roller stays in its slot, by blocks of designs."""
     blocks, count = [], 0
     for part in parts:
-        wheels, placed, intervals = _block_followed(*part)
-        intervals = intervals._replace(wheel=intervals.wheel + count)
-        blocks.append((wheels, placed, intervals))
-        count += len(wheels.which)
-    wheels, placed, intervals = joined(blocks, 0)
-    fails = leaves_slot(path, placed, wheels.which, wheels.phi[:, 0], intervals)
-    return wheels.taken(~fails)
+        block, intervals = _block_followed(*part)
+        blocks.append((block, intervals._replace(wheel=intervals.wheel + count)))
+        count += len(block.which)
+    every, intervals = joined(blocks, 0)
+    return every.taken(~leaves_slot(path, every, intervals))
 
 
 def _block_followed(
     samples: PathSamples, ends: EndPairs, sense: Array
-) -> tuple[PathWheels, PlacedWheel, OpenIntervals]:
+) -> tuple[PathWheels, OpenIntervals]:
     """Wheels of a block of pairs that are wrong at no sample, and where they may be wrong still."""
     (p, q), (t, u) = ends.at.p.T, ends.at.t.T
     rho = np.abs(q - p) / np.abs(t + u)
     centre = 0.5 * ((p + rho * t) + (q - rho * u))
-    wheel = PlacedWheel(centre, rho * rho, sense)
-    number = np.zeros(int(samples.which.max(initial=0)) + 1, dtype=int)
-    number[samples.which] = np.arange(len(samples.which))
-    row, count = number[ends.which], len(samples.angle) - 1
+    unknown = np.zeros(len(sense)), np.full(len(sense), np.inf)
+    wheel = PathWheels(ends.which, ends.at.phi, centre, rho * rho, sense, *unknown)
+    order, count = np.argsort(samples.which), len(samples.angle) - 1
+    row = order[np.searchsorted(samples.which, ends.which, sorter=order)]
     # the samples from entry onwards, over a turn, and after them entry and exit: (places, wheels)
     first = samples.at.phi[0, row]
     entry = first + (ends.at.phi[:, 0] - first) % math.tau
@@ -186,7 +162,5 @@ def _block_followed(
     node = node * len(row) + kept
     nodes, full = since.take(node), PinCourse._make(x.take(node) for x in course)
     nodes[-1] = math.tau
-    wheel, ends, motion = wheel.taken(kept), ends.taken(kept), motion[kept]
-    bounds = peak_bounds(nodes, motion, wheel, full)
-    every = PathWheels(ends.which, ends.at.phi, wheel.sense, *bounds)
-    return every, wheel, open_intervals(nodes, full, motion)
+    wheel, motion = bounded(wheel.taken(kept), nodes, motion[kept], full), motion[kept]
+    return wheel, open_intervals(nodes, full, motion)

@@ -16,7 +16,7 @@ from typing import TypeAlias
 import numpy as np
 
 from geneva_cli.analysis.contact import Contact, contact, contacts
-from geneva_cli.analysis.forces import NEGLIGIBLE, LoadCase, load_case, wheel_torque
+from geneva_cli.analysis.forces import LoadCase, is_loaded, load_case, wheel_torque
 from geneva_cli.analysis.instant import (
     INSTANT_QUANTITIES,
     Instant,
@@ -115,7 +115,7 @@ class Cycle:
         """Signs of the wheel's torque; where it is 0, that before, or at entry that after."""
         torque = array(wheel_torque(self.case, at))
         drives = np.copysign(1.0, torque)
-        none = np.flatnonzero(np.abs(torque) <= NEGLIGIBLE * np.abs(torque).max(initial=0.0))
+        none = np.flatnonzero(~is_loaded(self.case, engagement, torque))
         if len(none):
             x, step = input_deg[none], 1e-6 * engagement.motion_deg
             near = np.where(x - step < engagement.entry_deg, x + step, x - step)

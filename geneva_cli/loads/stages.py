@@ -76,10 +76,10 @@ def load_stages(
 
 def _clear_of_cusp(engagement: Engagement, stretch: Stretch) -> Stretch:
     """The stretch clear of breaks; next to a cusp it ends before values are rounding."""
-    starts, ends = zip(*smooth_ranges(engagement), strict=True)
-    first, *others = engagement.motion.breaks_deg
-    start = dict(zip((first, *others), starts, strict=False)).get(stretch.start, stretch.start)
-    end = dict(zip(others, ends, strict=True)).get(stretch.end, stretch.end)
+    middle = 0.5 * (stretch.start + stretch.end)
+    smooth = ((a, b) for a, b in smooth_ranges(engagement) if a < middle < b)
+    a, b = next(smooth, (stretch.start, stretch.end))
+    start, end = max(stretch.start, a), min(stretch.end, b)
     if not is_straight(engagement):
         before, after = NEAR_CUSP * engagement.entry_deg, NEAR_CUSP * engagement.exit_deg
         start = after if abs(start) < after else start

@@ -66,12 +66,11 @@ def meaning(c: Check, parts: str = "") -> str:
         return f"{NO_WALL[c.name]} by {-value:.4g} mm"
     if c.name == "dwell_hold":
         return "nothing holds the wheel in its dwell"
-    moves = "rack can move" if c.name.endswith("_mm") else "wheel can turn"
-    unit = c.name.rpartition("_")[2]
+    moves, unit = ("rack can move", " mm") if c.name.endswith("_mm") else ("wheel can turn", "°")
     if c.name in ("hand_over_play_deg", "hand_over_play_mm"):
         return (
-            f"between lock and slot the {moves} by {value:.4g} {unit}{where}, more than the "
-            f"{limit:.4g} {unit} at which the roller still finds its slot"
+            f"between lock and slot the {moves} by {value:.4g}{unit}{where}, more than the "
+            f"{limit:.4g}{unit} at which the roller still finds its slot"
         )
     if c.name == "hand_over_pressure_deg":
         return (
@@ -80,7 +79,7 @@ def meaning(c: Check, parts: str = "") -> str:
         )
     if c.name in ("motion_play_deg", "motion_play_mm"):
         return (
-            f"in its slot the {moves} by {value:.4g} {unit} either way{where}, more than "
-            f"{limit:.4g} {unit}"
+            f"in its slot the {moves} by {value:.4g}{unit} either way{where}, more than "
+            f"{limit:.4g}{unit}"
         )
     return ""

@@ -249,6 +249,19 @@ def test_a_row_at_either_end_has_the_sliding_beside_it(law):
     assert (rows >= slides.min).all()
 
 
+@pytest.mark.parametrize("law", ["mcv50", "s-curve"])
+def test_a_row_alone_has_the_values_that_it_has_among_others(law):
+    """Also at the end of a cruise, where a rounding of the torque is no sign of it."""
+    motion = Motion(law, alpha0_deg=10.0)
+    cycle = Cycle(build(Spec(Wheel(6), motion=motion, load=Load(1.0, friction=0.1))))
+    (engagement,) = cycle.mechanism.engagements
+    breaks = np.array(engagement.motion.breaks_deg)
+    together = cycle.moving(engagement, breaks)
+    for i in range(len(breaks)):
+        alone = cycle.moving(engagement, breaks[i : i + 1])
+        assert alone.sliding_m_s[0] == together.sliding_m_s[i]
+
+
 def test_without_a_load_no_force_is_0():
     found = run("--format", "json", text=WHEEL)
     tree = json.loads(found.stdout)

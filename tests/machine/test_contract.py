@@ -270,3 +270,17 @@ def test_a_known_carrier_turns_as_its_pin_goes_round_the_crank_axis(name):
         )
         # three derivatives of the path, each of which takes the rounding of those before it along
         assert np.abs(own - seen).max() <= 4 * UNITS * max(1.0, np.abs(seen).max())
+
+
+@pytest.mark.parametrize("name", ["crank", "side-crank", "internal", "cycloidal"])
+@pytest.mark.parametrize("count", [40, 41])
+def test_blocks_of_mirrored_angles_have_the_values_of_single_angles(monkeypatch, name, count):
+    """Blocks of 7 angles: the last one ends at the middle, or contains it."""
+    monkeypatch.setattr("geneva_cli.kinematics.engagement.BLOCK", 7)
+    motion = build(MACHINES[name][0]).engagements[0].motion
+    half = np.linspace(motion.entry_deg, 0.0, count // 2, endpoint=False)
+    x = np.concatenate((half, [0.0] * (count % 2), -half[::-1]))
+    single = np.array([motion(float(one), 3).derivatives() for one in x]).T
+    orders = (3, 0, 2)
+    for k, values in zip(orders, motion.derivatives(x, orders), strict=True):
+        assert np.all(np.abs(values - single[k]) <= UNITS * np.max(np.abs(single[k])))

@@ -227,6 +227,7 @@ def halved(path: RollerPath, boxes: Boxes, b: Array) -> Boxes:
     halves = _halves(path.roughly(which), joined([boxes.entry, boxes.exit]), origin, lean)
     turns = halves.turns(np.tile(boxes.sense, 4))
     box = np.tile(np.arange(count), 4)
+    # in order: first halves of the entries, first halves of the exits, and the last halves of both
     entry, exit_ = (box + 2 * count * np.repeat(of, count) for of in ((0, 0, 1, 1), (0, 1, 0, 1)))
     exit_ += count
     turn = boxes.turn[box]

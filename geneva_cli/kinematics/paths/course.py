@@ -32,12 +32,20 @@ class PinCourse(NamedTuple):
     short_slope: Array
 
 
-class PlacedWheel(NamedTuple):
-    """Wheels by their centres and senses: (wheels,)."""
+class PathWheels(NamedTuple):
+    """Wheels of the designs numbered in ``which``: (wheels,).
 
+    ``phi`` holds the crank angles at entry and exit in two columns. The peak velocity is between
+    ``least`` and ``most``.
+    """
+
+    which: Whole
+    phi: Array
     centre: Complex  # mm, on the path's axes
     square: Array  # squared distance from the centre to entry and exit, mm²
-    sense: Array  # 1 if the wheel turns counterclockwise, or -1
+    sense: Array  # 1 if the wheel turns counterclockwise on the path's axes, or -1
+    least: Array
+    most: Array
 
     def course(self, p: Complex, v: Complex, a: Complex) -> PinCourse:
         """Both quantities at places, velocities and accelerations of the pin: (n, wheels)."""
@@ -46,9 +54,9 @@ class PlacedWheel(NamedTuple):
         short = self.square - (ray.real**2 + ray.imag**2)
         return PinCourse(self.sense * along.imag, slope, short, -2.0 * along.real)
 
-    def taken(self, where: Which) -> PlacedWheel:
+    def taken(self, where: Which) -> PathWheels:
         """Select some of the wheels."""
-        return PlacedWheel._make(part[where] for part in self)
+        return PathWheels._make(part[where] for part in self)
 
 
 class OpenIntervals(NamedTuple):
@@ -75,18 +83,17 @@ def open_intervals(nodes: Array, course: PinCourse, motion: Array) -> OpenInterv
     return _open(np.arange(len(motion)), nodes, course, nodes[:-1] < motion, *bars)
 
 
-def leaves_slot(
-    path: RollerPath, wheel: PlacedWheel, design: Whole, entry: Array, intervals: OpenIntervals
-) -> Mask:
+def leaves_slot(path: RollerPath, wheels: PathWheels, intervals: OpenIntervals) -> Mask:
     """True for each wheel whose roller leaves its slot in an open interval."""
-    fails = np.zeros(len(entry), dtype=bool)
+    fails = np.zeros(len(wheels.which), dtype=bool)
     for _ in range(4):  # each round cuts an open interval into eight
         which, left, right, inside, low, far = intervals
         if not len(which):
             break
         places = left + (right - left) * (np.arange(9) / 8)[:, None]
-        at = points(path.roughly(design[which]), (places + entry[which]).T)
-        some = wheel.taken(which).course(at.p.T, at.v.T, at.a.T)
+        own = wheels.taken(which)
+        at = points(path.roughly(own.which), (places + own.phi[:, 0]).T)
+        some = own.course(at.p.T, at.v.T, at.a.T)
         wrong = np.where(inside, (some.moment < -low) | (some.short < -far), some.short > far)
         fails[which[wrong.any(axis=0)]] = True
         intervals = _open(which, places, some, inside, low, far)
@@ -95,11 +102,9 @@ def leaves_slot(
     return fails
 
 
-def peak_bounds(
-    nodes: Array, motion: Array, wheel: PlacedWheel, course: PinCourse
-) -> tuple[Array, Array]:
-    """Bounds of wheels' peak velocities, by the cubics between samples ``nodes`` since entry."""
-    width, square = np.diff(nodes, axis=0), wheel.square - course.short
+def bounded(wheels: PathWheels, nodes: Array, motion: Array, course: PinCourse) -> PathWheels:
+    """Wheels with bounds of their peak velocities, by the cubics between samples since entry."""
+    width, square = np.diff(nodes, axis=0), wheels.square - course.short
     moments = _coefficients(width, course.moment, course.moment_slope)
     squares = _coefficients(width, square, -course.short_slope)
     inside = nodes[1:] <= motion
@@ -107,7 +112,8 @@ def peak_bounds(
     # A quotient of cubics is between the quotients of their Bernstein coefficients.
     for moment, square in zip(moments[1:3], squares[1:3], strict=True):
         most = np.maximum(most, np.where(square > 0.0, moment / square, np.inf))
-    return tuple(np.where(inside, x, 0.0).max(axis=0) for x in (least, most))
+    least, most = (np.where(inside, x, 0.0).max(axis=0) for x in (least, most))
+    return wheels._replace(least=least, most=most)
 
 
 def _open(

@@ -73,7 +73,7 @@ class Residual(NamedTuple):
 
     ``away`` is the chord's component across the sum of the tangents, with its slopes by entry and
     by exit. ``excess`` is the error of the index angle, which turns with the tangents. ``det`` is
-    the determinant of both.
+    the determinant of both, and ``sense`` the wheel's sense of rotation.
     """
 
     away: Array

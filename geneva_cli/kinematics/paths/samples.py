@@ -52,23 +52,6 @@ class PathPoints(NamedTuple):
         numbers = numbers_of(where)
         return PathPoints._make(part.take(numbers, axis=0) for part in self)
 
-    @property
-    def heading(self) -> Heading:
-        """Direction of the path."""
-        return Heading(self.phi, self.t, self.turn)
-
-
-class Heading(NamedTuple):
-    """Unit tangent of a path at crank angles, and the rate at which it turns."""
-
-    phi: Array
-    t: Complex
-    turn: Array
-
-    def taken(self, where: Where) -> Heading:
-        """Select some of the places."""
-        return Heading._make(part[where] for part in self)
-
 
 class PathSamples(NamedTuple):
     """Samples of a full turn, one column per design: the last row is the first, one turn later.
@@ -115,7 +98,7 @@ def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
     # samples of 256 designs stay in the processor's cache
     parts = (every[i] for i in blocks(count, 256))
     base = joined([_rows(path.roughly(i), phi, len(i)) for i in parts], 0)
-    ends = [base.heading.taken((slice(None), i)) for i in (slice(None, -1), slice(1, None))]
+    ends = [base.taken((slice(None), i)) for i in (slice(None, -1), slice(1, None))]
     row, column = np.nonzero(_missed(*ends))
     extra = _between(path, row, *(end.taken((row, column)) for end in ends))
     # The rest of the samples' numbers follow from these, faster than they are put in order.
@@ -150,7 +133,7 @@ def _turned(t: Complex, u: Complex) -> Array:
     return turn
 
 
-def _missed(left: Heading, right: Heading) -> Mask:
+def _missed(left: PathPoints, right: PathPoints) -> Mask:
     """True where the rates at two samples do not predict the turn between them."""
     half, turned = 0.5 * (right.phi - left.phi), _turned(left.t, right.t)
     # radians; an arc turns by less than a pair for three slots does, which is pi/3
@@ -160,7 +143,7 @@ def _missed(left: Heading, right: Heading) -> Mask:
 
 
 def _between(
-    path: RollerPath, which: Whole, left: Heading, right: Heading
+    path: RollerPath, which: Whole, left: PathPoints, right: PathPoints
 ) -> list[tuple[Whole, Array, Complex, Complex, Complex]]:
     """Extra samples between samples of designs, until every turn is predicted."""
     added = []
@@ -170,7 +153,7 @@ def _between(
         phi = 0.5 * (left.phi + right.phi)
         at = points(path.roughly(which), phi[:, None]).taken((slice(None), 0))
         added.append((which, *at[:4]))
-        starts, ends = joined([left, at.heading]), joined([at.heading, right])
+        starts, ends = joined([left, at]), joined([at, right])
         missed = np.flatnonzero(_missed(starts, ends))
         left, right = starts.taken(missed), ends.taken(missed)
         which = np.concatenate((which, which))[missed]

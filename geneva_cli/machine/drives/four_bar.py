@@ -178,20 +178,20 @@ class CouplerPath(RodPath):
 
 
 class CouplerDisplacement(NamedTuple):
-    """Displacement of the coupler's point, from the numbers of one crank angle."""
+    """Displacement of the coupler's point, from its numbers at one crank angle."""
 
-    s: float
-    t: float
-    x0: float
-    D0: float
-    span: float
-    high: float
-    low: float
-    root: float
-    half: float
-    by_u: float
-    by_N: float
-    P: float
+    s: float  # a sin phi
+    t: float  # a cos phi
+    x0: float  # g - a cos phi: d is (x0, -s)
+    D0: float  # d²
+    span: float  # 2 g
+    high: float  # (b + c)² - D
+    low: float  # D - (b - c)²
+    root: float  # size of N
+    half: float  # 1 / (2 b)
+    by_u: float  # factor of 1 / D in the real part of k
+    by_N: float  # factor of N / D in its imaginary part
+    P: float  # the point's coordinates on the coupler
     Q: float
 
     def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
