@@ -181,10 +181,11 @@ def _peaks(parts: MachineParts, play: Play) -> Whole:
     value = np.where(where & (edges < most) & (edges > least), edges, -1.0)
     padded = np.full((len(value), value.shape[1] + 2), -1.0)
     padded[:, 1:-1] = value
+    before, after = padded[:, :-2], padded[:, 2:]
     # around a local maximum below 0.8 of the greatest no greater play is expected
-    least = np.maximum(0.8 * value.max(axis=1, keepdims=True), 0.0)
-    row, top = np.nonzero((value > least) & (value >= padded[:, :-2]) & (value >= padded[:, 2:]))
-    order = np.lexsort((-value[row, top], row))
+    great = np.maximum(0.8 * value.max(axis=1, keepdims=True), 0.0)
+    row, top = np.nonzero((value > great) & (value >= before) & (value >= after))
+    order = np.lexsort((-value[row, top], row))  # in each row the greatest first
     row, top = row[order], top[order]
     top = top[np.arange(len(row)) - np.searchsorted(row, row) < MOST]
     return np.concatenate((top - 1, top))

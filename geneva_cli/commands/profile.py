@@ -13,7 +13,7 @@ from geneva_cli.commands.options import (
     require_written,
     warn,
 )
-from geneva_cli.drawings.catalogue import PARTS, is_sheet
+from geneva_cli.drawings.catalogue import PARTS, is_sheet, require_tolerance
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output import draw, draw_sheet, in_units, show
 from geneva_cli.output.formats import (
@@ -135,6 +135,7 @@ def run(
         return
     if samples is not None:
         raise GenevaError("--samples is for tables of points; drawings take --tolerance")
+    require_tolerance(design.mechanism, tolerance)
     if design.spec.is_turned:
         require_written(design, design.judge(part), force)
     if sheet:

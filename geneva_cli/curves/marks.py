@@ -83,7 +83,8 @@ def _on_line(start: float, end: float, level: float, turn: float, text: str) -> 
     off = CLEAR + BELOW * SMALL
     if math.cos(turn) > 1e-9 or (abs(math.cos(turn)) <= 1e-9 and math.sin(turn) > 0.0):
         return Label(text, _at(u, n, start, level + off), SMALL, turn)
-    return Label(text, _at(u, n, end, level - off), SMALL, turn + math.pi)
+    readable = math.remainder(turn + math.pi, math.tau)
+    return Label(text, _at(u, n, end, level - off), SMALL, readable)
 
 
 def angular(

@@ -81,7 +81,7 @@ class PartsModel:
 
     @cached_property
     def front(self) -> PartsModel:
-        """The model of the first of two wheels in series; raises GenevaError if there is one."""
+        """The model of the first of two wheels in series. Raises GenevaError without a second."""
         from geneva_cli.parts.first_pair import first_pair
 
         return PartsModel(first_pair(self.mechanism))

@@ -7,6 +7,7 @@ of that bearing from the middle of the wheel's thickness, unless the spec has on
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -139,12 +140,14 @@ def _arm(assembly: Assembly, sizes: Sizes, contact: float) -> ArmDimensions:
     return ArmDimensions(*map(np.asarray, rows))
 
 
-def lock_of(where: Assembly, size: Sizes) -> Lock:
+def lock_of(where: Assembly, size: Sizes, cut: Sequence[float] = ()) -> Lock:
     """Return the lock of parts of these sizes, in its narrowest sector between two reliefs.
 
-    Its corner is that of the mouth that leaves the most play.
+    Its corner is that of the mouth that leaves the most play. ``cut`` has half the angles of the
+    crank's locking arcs, radians, if they are known and may be narrower.
     """
-    half = min((0.5 * (end - start) for start, end in sectors(where)), default=math.nan)
+    between = [0.5 * (end - start) for start, end in sectors(where)]
+    half = min((*between, *cut), default=math.nan)
     edge = where.full.spec.size.lock_edge_mm or 0.0
     lock = Lock(where.L, where.sign, size.lock, size.recess, size.rim, half, edge)
     corners = mouth_corners(where, size.roller, size.recess, size.rim)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 
-from geneva_cli.analysis.locking import Lock, loosest
+from geneva_cli.analysis.locking import Lock
 from geneva_cli.curves.shapes import Arc, Contour
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly
@@ -18,9 +18,8 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
     """Return the lock: the narrowest arc of the crank, and the corner that leaves the most play.
 
-    Beyond the axis of an internal wheel's crank, and where offset slots turn their horns past a
-    relief's edges, the wheel leaves less than a sector between two reliefs. The mouths of offset
-    slots and of unequal steps end at different radii, and so do the recesses between them.
+    Beyond the axis of an internal wheel's crank, and where horns of offset slots or of unequal
+    steps turn past a relief's edges, the wheel leaves less than a sector between two reliefs.
     """
     lock, kinds = lock_of(assembly, sizes), assembly.kinds
     if is_whole(assembly, sizes) and len(kinds) == 1 and not kinds[0].slot.offset:
@@ -31,15 +30,8 @@ def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
         parts = drawn(assembly, sizes)
     except GenevaError:  # the check of the parts reports the error
         return lock
-    near = SAME_LENGTH * assembly.L
-
-    locking = cut_arcs(parts.crank, lock.lock, 0.0, near)
-    half = min([lock.half, *(0.5 * abs(arc.sweep) for arc in locking)])
-    recesses = cut_arcs([parts.wheel], lock.recess, assembly.L, near)
-    corners = {math.hypot(*end) for one in recesses for end in (one.start, one.end)}
-    others = sorted(r for r in corners if abs(r - lock.corner) > near)  # than the widest mouth's
-    tried = [lock._replace(half=half, corner=r) for r in (lock.corner, *others)]
-    return loosest(tried)
+    locking = cut_arcs(parts.crank, lock.lock, 0.0, SAME_LENGTH * assembly.L)
+    return lock_of(assembly, sizes, [0.5 * abs(arc.sweep) for arc in locking])
 
 
 def cut_arcs(contours: Iterable[Contour], radius: float, away: float, near: float) -> Iterator[Arc]:

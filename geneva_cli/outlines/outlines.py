@@ -22,12 +22,11 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.latest import KEPT
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.crank import crank_contours, is_whole
-from geneva_cli.outlines.wheel import slot_walls, wheel_contour
+from geneva_cli.outlines.wheel import CURVED, turned_walls, wheel_contour
 
 if TYPE_CHECKING:
     from geneva_cli.outlines.bounds import FlatPairs
 
-CURVED = 2e-6  # of the centre distance: accuracy of curved walls
 # Of the centre distance, 0.2 um in 100 mm: parts that overlap by less count as touching. No cutter
 # and no roller is more accurate, nor are curved walls.
 CONTACT = CURVED
@@ -101,7 +100,7 @@ def outlines(mechanism: Mechanism) -> Outlines:
 def drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
     """Return the cached outlines of an assembly with known sizes."""
     kinds, L = assembly.kinds, assembly.L
-    walls = {one: slot_walls(assembly, sizes, one, 0.5 * CURVED * L) for one in kinds}
+    walls = turned_walls(assembly, sizes)
     close = (CURVED if any(engagement.slot.curved for engagement in kinds) else SAME_LENGTH) * L
     wheel = wheel_contour(assembly, sizes, walls)
     crank, relief, gaps = _relieved(Gaps(assembly, sizes, wheel, []), sizes, close)

@@ -17,6 +17,8 @@ from geneva_cli.layout.roller_paths import least_mouth
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.walls.straight import straight_walls
 
+CURVED = 2e-6  # of the centre distance: accuracy of curved walls for the full turn
+
 
 @lru_cache(maxsize=16)  # drawings, sheet and solids of one machine have the same walls
 def slot_walls(
@@ -28,6 +30,12 @@ def slot_walls(
 
         return curved_walls(assembly, sizes, engagement, tolerance, curves)
     return straight_walls(assembly, sizes, engagement)
+
+
+def turned_walls(assembly: Assembly, sizes: Sizes) -> dict[Engagement, Contour]:
+    """Return the walls of each kind of slot, as accurate as the full turn needs them."""
+    fine = 0.5 * CURVED * assembly.L
+    return {one: slot_walls(assembly, sizes, one, fine) for one in assembly.kinds}
 
 
 def wheel_contour(

@@ -10,7 +10,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.sizes import machine_sizes
 from geneva_cli.machine.materials import wheel_material
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.outlines.wheel import slot_walls, wheel_contour
+from geneva_cli.outlines.wheel import turned_walls, wheel_contour
 from geneva_cli.parts.wheel import wheel_part
 
 if TYPE_CHECKING:
@@ -34,8 +34,7 @@ def wheel_body(mechanism: Mechanism) -> MassProperties | None:
     from geneva_cli.curves.mass import added, mass_properties
 
     where, size = machine_sizes(mechanism)
-    walls = {one: slot_walls(where, size, one, 1e-6 * where.L) for one in where.kinds}
-    contour = wheel_contour(where, size, walls, spec.wheel.stopped)
+    contour = wheel_contour(where, size, turned_walls(where, size), spec.wheel.stopped)
     density = wheel_material(spec).density_kgm3
     solids = plates(wheel_part(where, size, contour))
     return reduce(added, (mass_properties(one, density) for one in solids))

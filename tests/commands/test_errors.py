@@ -497,6 +497,13 @@ def test_wrong_option(line, wants):
     assert len(said) <= 1001
 
 
+def test_a_wrong_tolerance_comes_before_a_machine_that_fails():
+    """It is wrong usage, which needs no parts; the disc of this machine does not fit."""
+    write("spec.toml", "[wheel]\nz = 200\n")
+    line = ("profile", "spec.toml", "--part", "wheel", "--tolerance", "0", "-o", "wheel.dxf")
+    refused(run(*line), "--tolerance 0")
+
+
 @pytest.mark.parametrize(
     ("arguments", "wants"),
     [

@@ -21,13 +21,14 @@ from geneva_cli.curves import marks
 from geneva_cli.curves.board import Board
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.placed import in_place
-from geneva_cli.curves.shapes import Contour, Line
+from geneva_cli.curves.shapes import Circle, Contour, Line
 from geneva_cli.curves.sheet import Label
 from geneva_cli.curves.sphere import place
 from geneva_cli.design import Design
 from geneva_cli.drawings.sheet.cut import faces
 from geneva_cli.drawings.sheet.paper import FORMATS, SCALES
 from geneva_cli.drawings.sheet.points import gear_tables, polyline, tables
+from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sphere.drawings import wheel_cone
 from geneva_cli.drawings.sphere.sheet import flat_slot
 from geneva_cli.errors import GenevaError
@@ -435,6 +436,22 @@ def test_a_leader_is_not_drawn_along_an_edge():
     assert all(whole.distance(shapely.Point(x, 6.0 + (x + 40.0) / 160.0)) > 1.2 for x in (-8, 8))
     shelf = LineString(leader[1])
     assert shelf.distance(LineString(edge.segments[0])) > 1.4
+
+
+def test_rounding_moves_no_dimension():
+    """Rounding once chose the side of a disc's dimension, and turned its text by -360 degrees."""
+
+    def drawn(y):
+        view = View("", 1.0)
+        view.draw_all([Circle("", (0.0, 0.0), 50.0)])
+        view.linear((0.0, 0.0), (-40.0, y), math.atan2(y, -40.0), "40", near=True)
+        (one,) = view.measures
+        return one
+
+    below, above = drawn(-1e-14), drawn(1e-14)
+    assert below.label.at == pytest.approx(above.label.at, abs=1e-9)
+    assert abs(below.label.turn) + abs(above.label.turn) < 1e-12
+    assert below.turn == pytest.approx(above.turn)
 
 
 def test_the_comparison_can_fail():

@@ -18,6 +18,7 @@ from geneva_cli.curves.sheet import CENTRE, LARGE, OUTLINE, SMALL, Label, Measur
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.layout.fits import Fits
 from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 
 FIRST, NEXT = 8.0, 7.0  # mm: from the outline to the first dimension line, and between lines
 RANKS = 14  # rows of dimension lines that are tried
@@ -125,6 +126,8 @@ class View:
         ``where`` is added if the distance stands as a note.
         """
         ends = self._at(p), self._at(q)
+        if turn < SAME_ON_SHEET - math.pi:  # rounding does not choose between -180 and 180 degrees
+            turn += math.tau
         value = abs((q[0] - p[0]) * math.cos(turn) + (q[1] - p[1]) * math.sin(turn))
         levels = list(self._levels(turn, ends if near else ()))
         self._put(marks.linear(ends, turn, levels, text, value), f"{text} {where}".rstrip())
@@ -240,7 +243,8 @@ class View:
             low, high = min(own), max(own)
         for k in range(2 * RANKS if near else RANKS):
             off = FIRST + (0.5 if near else 1.0) * k * NEXT
-            yield from sorted((low - off, high + off), key=abs)
+            # rounded to 1e-6 mm, so that rounding does not choose between equal distances
+            yield from sorted((low - off, high + off), key=lambda level: round(abs(level), 6))
 
     def _at(self, p: Point) -> Point:
         return self.scale * p[0], self.scale * p[1]
