@@ -3,12 +3,13 @@
 import numpy as np
 
 from geneva_cli.analysis.vibration.load_acceleration import greatest_accelerations
-from geneva_cli.analysis.vibration.swing import Swing, residual_swing
+from geneva_cli.analysis.vibration.oscillator import Oscillator
+from geneva_cli.analysis.vibration.swing import residual_swing
 
 
 def swing(ratios, damping):
     ratios = np.array(ratios, dtype=float)
-    return Swing(ratios, np.full(ratios.shape, damping))
+    return Oscillator(ratios, np.full(ratios.shape, damping))
 
 
 def residuals(panels, ratios, damping):

@@ -161,7 +161,13 @@ def certificate(
     with precision():
         exact = exact_rates(mechanism) if decimals and quantity in QUANTITIES else None
         if exact is None:
-            formulas = [_formula(mechanism, e, quantity) for e in each]
+            # in doubles, as the program computes it
+            formulas = [
+                load_formula(mechanism, e, quantity)
+                if quantity in LOADS
+                else _peak(e.motion.rate, quantity)
+                for e in each
+            ]
             peaks = [
                 greatest(_curve(formula), {*e.motion.seams_deg, *e.slot.seams_deg}, limit)
                 for formula, e in zip(formulas, each, strict=True)
@@ -175,13 +181,6 @@ def certificate(
         quantity, [_EngagementPeak(mechanism, *both) for both in zip(each, peaks, strict=True)]
     )
     return combined._replace(about=DOUBLES if exact is None else DECIMALS)
-
-
-def _formula(mechanism: Mechanism, engagement: Engagement, quantity: str) -> Formula:
-    """A quantity in doubles, as the program computes it."""
-    if quantity in LOADS:
-        return load_formula(mechanism, engagement, quantity)
-    return _peak(engagement.motion.rate, quantity)
 
 
 def _peak(rate: Formula, quantity: str) -> Formula:

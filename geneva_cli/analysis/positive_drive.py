@@ -35,7 +35,15 @@ class PositiveDrives(NamedTuple):
     def loose_deg(self) -> list[tuple[float, float]]:
         """Intervals of a single design without the needed wall, input angles in degrees."""
         ((at,), (loose,)) = self.input_deg, self.loose
-        return _intervals(at[loose].tolist(), (at[1] - at[0]).item())
+        step = (at[1] - at[0]).item()
+        out: list[tuple[float, float]] = []
+        for x in at[loose].tolist():  # each is half a step wide on both sides
+            low, high = x - 0.5 * step, x + 0.5 * step
+            if out and low - out[-1][1] < 0.1 * step:
+                out[-1] = (out[-1][0], high)
+            else:
+                out.append((low, high))
+        return out
 
 
 def positive_drives(mechanism: Mechanism) -> PositiveDrives | None:
@@ -68,15 +76,3 @@ def positive_drives(mechanism: Mechanism) -> PositiveDrives | None:
         x,
         loose,
     )
-
-
-def _intervals(places: list[float], step: float) -> list[tuple[float, float]]:
-    """Adjacent places, each half a step wide on both sides, joined to intervals."""
-    out: list[tuple[float, float]] = []
-    for x in places:
-        low, high = x - 0.5 * step, x + 0.5 * step
-        if out and low - out[-1][1] < 0.1 * step:
-            out[-1] = (out[-1][0], high)
-        else:
-            out.append((low, high))
-    return out

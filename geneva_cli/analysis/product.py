@@ -158,8 +158,7 @@ def _swing(mechanism: Mechanism) -> Array:
 
     It is NaN too where the motion's time over the natural period is out of the range computed.
     """
-    from geneva_cli.analysis.vibration.oscillator import PERIOD_RATIO
-    from geneva_cli.analysis.vibration.swing import Swing
+    from geneva_cli.analysis.vibration.oscillator import PERIOD_RATIO, Oscillator
     from geneva_cli.analysis.vibration.vibration import Oscillators
 
     product, m = mechanism.spec.product, mechanism.designs
@@ -167,6 +166,6 @@ def _swing(mechanism: Mechanism) -> Array:
         return np.full(m, np.nan)
     ratio = _each(timings(mechanism)[0].motion_s * product.swing_Hz, m)
     known = (ratio >= PERIOD_RATIO.low) & (ratio <= PERIOD_RATIO.high)
-    swing = Swing(np.where(known, ratio, 1.0), _each(product.swing_damping, m))
+    swing = Oscillator(np.where(known, ratio, 1.0), _each(product.swing_damping, m))
     left_deg = Oscillators(mechanism, swing).residual_deg.max(axis=0)
     return np.where(known, np.radians(left_deg), np.nan)

@@ -180,7 +180,9 @@ class Gaps:
         They are in the crank's frame. The wheel is placed at steps of ``step_deg`` degrees of the
         input.
         """
-        at = swept_deg(self.assembly, number, step_deg)
+        engagement, behind = self.assembly.motions[number]
+        count = max(2, math.ceil(engagement.motion_deg / step_deg)) + 1
+        at = behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count)
         turn, pose = self.assembly.wheel(at), self.assembly.crank(at)
         # 2^19 points of the wheel at a time fit into the cache
         step = max(1, (1 << 19) // len(self._wheel_points[0]))
@@ -226,13 +228,6 @@ class Gaps:
     def _axis(self, turn: Array) -> Array:
         """Return the crank's axis in the wheel's frame, (n, 2)."""
         return self.plane_motion.into(np.tile((self.assembly.L, 0.0), (len(turn), 1)), turn)
-
-
-def swept_deg(assembly: Assembly, number: int, step_deg: float) -> Array:
-    """Return input angles of a motion, at most ``step_deg`` degrees apart."""
-    engagement, behind = assembly.motions[number]
-    count = max(2, math.ceil(engagement.motion_deg / step_deg)) + 1
-    return behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count)
 
 
 def _repeats(outline: Polyarc, count: int, near: float, sense: float = 1.0) -> bool:

@@ -19,7 +19,7 @@ from geneva_cli.curves.measure import at
 from geneva_cli.curves.moments import with_material_left
 from geneva_cli.curves.pieces import prepared
 from geneva_cli.curves.plates import Plate
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Shape
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Layer, Line, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.numerics.roots import boundary
@@ -111,7 +111,7 @@ def _widest(contour: Contour, outside: bool, radius: float) -> float:
 
 
 def freed(
-    plate: Plate, radius: float, wall: float, works: Callable[[Line | Arc, str], bool]
+    plate: Plate, radius: float, wall: float, works: Callable[[Line | Arc, Layer], bool]
 ) -> dict[Shape, Contour]:
     """Outlines of a plate that have corners, with dog bones in them.
 
@@ -136,7 +136,7 @@ def freed(
 
 
 def _require_free(
-    shape: Contour, one: Bone, radius: float, works: Callable[[Line | Arc, str], bool]
+    shape: Contour, one: Bone, radius: float, works: Callable[[Line | Arc, Layer], bool]
 ) -> None:
     """Raise if a bone touches a wall that is not at its corner, or a working wall."""
     around, i = pieces(shape), one.corner.piece

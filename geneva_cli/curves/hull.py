@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from geneva_cli.curves.shapes import Circle, Contour, Line, Segment, about, closed, two_arcs
+from geneva_cli.curves.shapes import Circle, Contour, Layer, Line, Segment, about, closed, two_arcs
 
 HULL_ROUNDING = 1e-12  # radians, and mm: directions and points nearer to each other are one
 
 
-def convex_hull(layer: str, circles: Sequence[Circle]) -> Contour:
+def convex_hull(layer: Layer, circles: Sequence[Circle]) -> Contour:
     """Convex hull of circles, counterclockwise: arcs on circles, and lines between them.
 
     It touches a circle in the directions in which this circle reaches farthest. Going round, the

@@ -9,7 +9,17 @@ from __future__ import annotations
 import math
 
 from geneva_cli.curves.measure import STRAIGHT, directions
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Shape, closed, two_arcs
+from geneva_cli.curves.shapes import (
+    Arc,
+    Circle,
+    Contour,
+    Layer,
+    Line,
+    Point,
+    Shape,
+    closed,
+    two_arcs,
+)
 from geneva_cli.errors import GenevaError
 
 
@@ -53,7 +63,7 @@ def corner_slope(before: Line | Arc, after: Line | Arc, at: Point) -> Point:
     return (vy - uy) / det, (ux - vx) / det
 
 
-def inset(pieces: list[Line | Arc], layer: str, depth: float) -> Contour:
+def inset(pieces: list[Line | Arc], layer: Layer, depth: float) -> Contour:
     """Return the contour at a depth to the left of some pieces, piece by piece.
 
     Raises GenevaError where it has a piece no longer.

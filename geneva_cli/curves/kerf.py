@@ -17,7 +17,7 @@ from geneva_cli.curves.measure import at, directions, segment_length
 from geneva_cli.curves.moments import with_material_left
 from geneva_cli.curves.pieces import SHORTEST_MM, prepared
 from geneva_cli.curves.plates import plates
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Segment, closed
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Layer, Line, Point, Segment, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.numerics.roots import boundary
@@ -104,7 +104,7 @@ def offset(shape: Contour | Circle, outside: bool, distance: float) -> Contour |
     return path
 
 
-def _moved_piece(segment: Segment, layer: str, distance: float) -> Line | Arc:
+def _moved_piece(segment: Segment, layer: Layer, distance: float) -> Line | Arc:
     """Move a piece to the right of its direction of travel."""
     if isinstance(segment, Line):
         (x0, y0), (x1, y1) = segment

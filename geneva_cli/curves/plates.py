@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.curves.edges import Edge
-from geneva_cli.curves.shapes import Circle, Contour, Point
+from geneva_cli.curves.shapes import Circle, Contour, Layer, Point
 
 if TYPE_CHECKING:
     from geneva_cli.curves.cross_holes import CrossHole
@@ -28,7 +28,7 @@ class Plate(NamedTuple):
     """
 
     name: str
-    layer: str
+    layer: Layer
     outline: Contour | Circle
     holes: tuple[Contour | Circle, ...]
     low: float
@@ -60,7 +60,7 @@ class Stack(NamedTuple):
     """
 
     name: str
-    layer: str
+    layer: Layer
     plates: tuple[Plate, ...]
 
     @property
@@ -90,7 +90,7 @@ class Shell(NamedTuple):
     """
 
     name: str
-    layer: str
+    layer: Layer
     regions: tuple[Region, ...]
     inner: float
     outer: float

@@ -7,10 +7,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple, TypeAlias
+from typing import Literal, NamedTuple, TypeAlias
 
 Point: TypeAlias = tuple[float, float]
 ORIGIN: Point = (0.0, 0.0)
+# The names of all layers: of drawings, coupons, sheets and animations. Shapes that are not drawn
+# have none.
+Layer: TypeAlias = Literal[
+    "WHEEL", "CRANK", "ARM", "LINK", "FRAME", "GROOVE", "PITCH", "ROLLER", "BORE", "HUB", "SHAFT",
+    "COUPON", "ENGRAVE", "OUTLINE", "HIDDEN", "CENTER", "HATCH", "DIMENSION", "TEXT",
+    "GEAR", "SLOT", "HOLLOW", "",
+]  # fmt: skip
 
 
 class Line(NamedTuple):
@@ -60,7 +67,7 @@ Segment: TypeAlias = Line | Arc | Cubic
 class Contour(NamedTuple):
     """Segments end to end; if ``closed``, the last ends exactly where the first starts."""
 
-    layer: str
+    layer: Layer
     segments: tuple[Segment, ...]
     closed: bool = True
 
@@ -68,7 +75,7 @@ class Contour(NamedTuple):
 class Circle(NamedTuple):
     """A full circle: a bore, a roller."""
 
-    layer: str
+    layer: Layer
     centre: Point
     radius: float
 
@@ -112,13 +119,13 @@ def _from(start: Point, segment: Segment) -> Segment:
     return segment._replace(start=start)
 
 
-def closed(layer: str, segments: Iterable[Segment]) -> Contour:
+def closed(layer: Layer, segments: Iterable[Segment]) -> Contour:
     """A closed contour: ends that differ by rounding become one point."""
     pieces = joined(segments)
     return Contour(layer, (*pieces[:-1], pieces[-1]._replace(end=pieces[0].start)))
 
 
-def polygon(layer: str, corners: Sequence[Point]) -> Contour:
+def polygon(layer: Layer, corners: Sequence[Point]) -> Contour:
     """A closed contour of lines between corners.
 
     >>> len(polygon("", [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]).segments)

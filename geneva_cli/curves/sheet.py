@@ -11,22 +11,20 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from geneva_cli.curves.helvetica import width
-from geneva_cli.curves.shapes import Contour, Line, Point, Segment, Shape, polygon
+from geneva_cli.curves.shapes import Contour, Layer, Line, Point, Segment, Shape, polygon
 
 ARROW = 3.0, 0.4  # mm: an arrow's length, and half its width (ISO 129-1: filled, 15 degrees)
 SMALL, LARGE = 2.5, 3.5  # mm: capitals of dimensions, and of titles (ISO 3098-1)
 BELOW, ABOVE = 0.3, 1.1  # of a text's height: how far its letters reach below and above the line
 
 # The layers of a sheet, with the width of their lines in mm (ISO 128-2: two widths, 2 to 1).
-OUTLINE, HIDDEN, CENTRE, HATCH, DIMENSION, TEXT, FRAME = (
-    "OUTLINE",
-    "HIDDEN",
-    "CENTER",
-    "HATCH",
-    "DIMENSION",
-    "TEXT",
-    "FRAME",
-)
+OUTLINE: Layer = "OUTLINE"
+HIDDEN: Layer = "HIDDEN"
+CENTRE: Layer = "CENTER"
+HATCH: Layer = "HATCH"
+DIMENSION: Layer = "DIMENSION"
+TEXT: Layer = "TEXT"
+FRAME: Layer = "FRAME"
 WIDTHS = {
     **{OUTLINE: 0.5, HIDDEN: 0.25, CENTRE: 0.25, HATCH: 0.18, DIMENSION: 0.25, TEXT: 0.25},
     FRAME: 0.7,
@@ -125,7 +123,7 @@ class Sheet(NamedTuple):
         """All arrows of dimensions."""
         return [arrow for measure in self.measures for arrow in measure.arrows]
 
-    def by_layer(self) -> Iterator[tuple[str, list[Shape]]]:
+    def by_layer(self) -> Iterator[tuple[Layer, list[Shape]]]:
         """Yield the shapes of each layer, including the lines of dimensions."""
         lines = [Contour(DIMENSION, (p,), closed=False) for m in self.measures for p in m.lines]
         for layer in WIDTHS:
@@ -134,13 +132,13 @@ class Sheet(NamedTuple):
                 yield layer, shapes
 
 
-def line(layer: str, *points: Point) -> Contour:
+def line(layer: Layer, *points: Point) -> Contour:
     """An open polyline."""
     pieces = (Line(a, b) for a, b in zip(points, points[1:], strict=False))
     return Contour(layer, tuple(pieces), closed=False)
 
 
-def rectangle(layer: str, x0: float, y0: float, x1: float, y1: float) -> Contour:
+def rectangle(layer: Layer, x0: float, y0: float, x1: float, y1: float) -> Contour:
     """A rectangular frame."""
     return polygon(layer, [(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
 

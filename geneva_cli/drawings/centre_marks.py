@@ -7,8 +7,6 @@ from collections.abc import Iterable, Iterator
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape
 
-LAYER = "CENTER"
-
 
 def with_centre_marks(drawing: Drawing) -> Drawing:
     """Return a drawing with marks in circles and keyed bores, one for concentric ones.
@@ -48,4 +46,4 @@ def centre_marks(holes: Iterable[Circle]) -> Iterator[Contour]:
     for hole in holes:
         (x, y), reach = hole.centre, 1.25 * hole.radius  # half the length of a cross
         for dx, dy in ((reach, 0.0), (0.0, reach)):
-            yield Contour(LAYER, (Line((x - dx, y - dy), (x + dx, y + dy)),), closed=False)
+            yield Contour("CENTER", (Line((x - dx, y - dy), (x + dx, y + dy)),), closed=False)

@@ -15,7 +15,6 @@ from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, closed, 
 from geneva_cli.layout.projection import titled
 from geneva_cli.parts.flat_parts import FlatParts
 
-LAYER, HOLES, MARKS = "COUPON", "BORE", "ENGRAVE"
 # mm per side: the first suit a mill, the last a laser or a printer
 CLEARANCES = (0.0, 0.02, 0.04, 0.06, 0.1, 0.15, 0.2, 0.3)
 WALL, LEAST = 0.6, 2.0  # of material between holes: of the roller's radius, and at least in mm
@@ -56,7 +55,7 @@ def coupon(parts: FlatParts) -> Drawing:
         for i, press in enumerate(presses):
             x = wall + widest + i * each
             marks += number(f"{press:g}", x, up, height)
-            holes.append(Circle(HOLES, (x, up + height + wall + pin), pin - 0.5 * press))
+            holes.append(Circle("BORE", (x, up + height + wall + pin), pin - 0.5 * press))
         up += height + 2.0 * (wall + pin)
     for i, clearance in enumerate(clearances):
         x = wall + widest + i * each
@@ -65,15 +64,15 @@ def coupon(parts: FlatParts) -> Drawing:
     width = wall + len(clearances) * each
     top = up + height + 2.0 * (wall + widest + r)
     corners = [(0.0, 0.0), (width, 0.0), (width, top), (0.0, top)]
-    outline = polygon(LAYER, corners)
+    outline = polygon("COUPON", corners)
     centre = width + 10.0 + r, 0.5 * top  # 10 mm from the plate: wider than any cut
     disc = Circle("ROLLER", centre, r)
-    bore = (Circle(HOLES, centre, pin),) if pin else ()
+    bore = (Circle("BORE", centre, pin),) if pin else ()
     thick = sizes.wheel_thickness
     solid = Group(
         "fit coupon",
         (
-            Member(Plate("coupon", LAYER, outline, tuple(holes), 0.0, thick)),
+            Member(Plate("coupon", "COUPON", outline, tuple(holes), 0.0, thick)),
             Member(Plate("roller", "ROLLER", disc, bore, 0.0, thick)),
         ),
     )
@@ -95,7 +94,7 @@ def _slot(low: Point, half: float, length: float) -> Contour:
     """Return an upright slot of half a width, from the centre of its lower end."""
     (x, y), top = low, low[1] + length
     return closed(
-        LAYER,
+        "COUPON",
         [
             Line((x + half, y), (x + half, top)),
             Arc((x + half, top), (x - half, top), 1.0),
@@ -127,4 +126,4 @@ def number(text: str, x: float, y: float, height: float) -> Iterator[Contour]:
 
 
 def _stroke(a: Point, b: Point) -> Contour:
-    return Contour(MARKS, (Line(a, b),), closed=False)
+    return Contour("ENGRAVE", (Line(a, b),), closed=False)

@@ -16,7 +16,7 @@ from geneva_cli.curves.measure import turned
 from geneva_cli.curves.placed import placed
 from geneva_cli.curves.plates import Group, Member
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape, about
-from geneva_cli.drawings.part_drawings import PITCH, pitch_lines
+from geneva_cli.drawings.part_drawings import pitch_lines
 from geneva_cli.kinematics.layout import Joint
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.layout.projection import once, outlines_of, shapes, titled, uncovered
@@ -24,11 +24,8 @@ from geneva_cli.layout.roller_paths import roller_reaches
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.parts.arm import LAYER as ARM
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.link_sizes import places
-from geneva_cli.parts.links import LAYER as LINK
-from geneva_cli.parts.mounted_plate import LAYER as STANDING
 
 BEYOND = 0.04  # of the centre distance: from a part to the arrow that shows how it turns
 
@@ -43,7 +40,7 @@ def machine(parts: FlatParts) -> Drawing:
     drawn += outlines_of(Group("", parts.gear_pair))
     drawn += shapes(parts.first)
     drawn += [
-        shape._replace(layer=STANDING) if isinstance(shape, Circle) else shape
+        shape._replace(layer="FRAME") if isinstance(shape, Circle) else shape
         for shape in uncovered(parts.standing, drawn)
     ]
     drawn += _roller_lines(parts)
@@ -58,10 +55,10 @@ def _seen(member: Member) -> list[Shape]:
 
 def _links(parts: FlatParts) -> Iterator[Shape]:
     """Yield the links, and the round gears by their pitch circles, with all holes."""
-    yield from (shape._replace(layer=LINK) for shape in shapes(parts.links.cut))
+    yield from (shape._replace(layer="LINK") for shape in shapes(parts.links.cut))
     blanks = list(shapes(parts.round_gears))
-    yield from (shape for shape in blanks if shape.layer == PITCH)
-    yield from (shape._replace(layer=LINK) for shape in blanks if shape.layer != PITCH)
+    yield from (shape for shape in blanks if shape.layer == "PITCH")
+    yield from (shape._replace(layer="LINK") for shape in blanks if shape.layer != "PITCH")
 
 
 def _turns(parts: Outlines) -> Iterator[Arc]:
@@ -119,7 +116,7 @@ def _arm(parts: FlatParts, crank: Member) -> list[Shape]:
         return []
     bore = parts.arm.bore
     hidden = bore in outlines_of(crank.part)
-    visible: list[Shape] = [parts.arm.outline, *([] if hidden else [bore._replace(layer=ARM)])]
+    visible: list[Shape] = [parts.arm.outline, *([] if hidden else [bore._replace(layer="ARM")])]
     return [placed(shape, crank.at, crank.turn) for shape in visible]
 
 
@@ -128,14 +125,14 @@ def _roller_lines(parts: FlatParts) -> list[Shape]:
     assembly = parts.outlines.assembly
     cranks = [place.at for place in assembly.full.crank_places]
     lines: list[Shape] = [
-        Contour(PITCH, (Line((0.0, 0.0), axis),), closed=False) for axis in cranks
+        Contour("PITCH", (Line((0.0, 0.0), axis),), closed=False) for axis in cranks
     ]
     arms = set()
     for number, (engagement, behind) in enumerate(assembly.rollers):
         if not engagement.crank_sense and engagement.groove is None:
             x, y = assembly.pin(number, np.array([behind]))[0]
             arms.add(round(math.hypot(x - assembly.L, y), 9))
-    lines += [Circle(PITCH, axis, arm) for axis in cranks for arm in sorted(arms)]
+    lines += [Circle("PITCH", axis, arm) for axis in cranks for arm in sorted(arms)]
     pitches = {s: pitch_lines(parts, s) for s in assembly.kinds}
     lines += [
         turned(line, direction + parts.wheel.turn)

@@ -13,7 +13,7 @@ from geneva_cli.curves.corners import TooWide
 from geneva_cli.curves.cutter import faults, freed
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.plates import Group, Part, Plate, plates
-from geneva_cli.curves.shapes import Arc, Contour, Line, Shape
+from geneva_cli.curves.shapes import Arc, Contour, Layer, Line, Shape
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.least_wall import wall_min
@@ -21,8 +21,6 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.preferred import rounded_radius
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.outlines.locking_rings import LAYER as CRANK
-from geneva_cli.outlines.wheel import LAYER as WHEEL
 from geneva_cli.spec.rules import TOOL_MM, require_mm
 
 
@@ -50,8 +48,8 @@ def with_dog_bones(drawing: Drawing, model: PartsModel, cutter_mm: float) -> Dra
     wall = wall_min(mechanism.spec.size, mechanism.center_distance_mm)
     lock = model.outlines.sizes.lock if mechanism.spec.is_flat else 0.0
 
-    def works(piece: Line | Arc, layer: str) -> bool:
-        return layer == WHEEL or (layer == CRANK and _locks(piece, lock, mechanism))
+    def works(piece: Line | Arc, layer: Layer) -> bool:
+        return layer == "WHEEL" or (layer == "CRANK" and _locks(piece, lock, mechanism))
 
     def boned_by(diameter: float) -> dict[Shape, Contour]:
         each = (freed(p, 0.5 * diameter, wall, works) for p in dict.fromkeys(plates(solid)))

@@ -35,8 +35,6 @@ if TYPE_CHECKING:
     from geneva_cli.parts.counter_parts import CounterParts
     from geneva_cli.parts.rack_parts import RackParts
 
-PITCH = "PITCH"
-
 
 def wheel(parts: FlatParts | RackParts) -> Drawing:
     """Return the wheel or rack; x is along the first slot.
@@ -129,7 +127,7 @@ def gears(parts: FlatParts | RackParts) -> Drawing:
     about_crank = _moved(members, -mechanism.center_distance_mm)
     drawn = tuple(once(shapes(about_crank)))
     title, ends = titled(mechanism, name), [one.at for one in about_crank]
-    line = Contour(PITCH, (Line(min(ends), max(ends)),), closed=False)
+    line = Contour("PITCH", (Line(min(ends), max(ends)),), closed=False)
     return Drawing(title, (*drawn, line), solid=Group(title, members))
 
 
@@ -167,7 +165,7 @@ def _pitch_line(parts: FlatParts, engagement: Engagement) -> Contour:
     if not engagement.slot.curved:
         mouth, end = assembly.L * np.column_stack((x.c[0], y.c[0] + 0.0 * at))
         ends = [(float(p[0]), float(p[1])) for p in (mouth, end)]
-        return Contour(PITCH, (Line(*ends),), closed=False)
+        return Contour("PITCH", (Line(*ends),), closed=False)
     from geneva_cli.curves import fit
     from geneva_cli.outlines.walls.path_walls import parallel
 
@@ -175,4 +173,4 @@ def _pitch_line(parts: FlatParts, engagement: Engagement) -> Contour:
     for a, b in ((engagement.entry_deg, 0.0), (0.0, engagement.exit_deg)):
         path = parallel(assembly, engagement, 0.0, b > 0.0)
         pieces += fit.KINDS[parts.curves](path, a, b, fine)
-    return Contour(PITCH, joined(pieces), closed=False)
+    return Contour("PITCH", joined(pieces), closed=False)

@@ -35,7 +35,7 @@ def plate(parts: FlatParts | RackParts | CounterParts) -> Drawing:
 
 def _laid(whole: list[Plate | Stack]) -> list[Member]:
     """Return parts at z = 0 side by side, on a square bed that is as small as they allow."""
-    blocks = [_block(one) for one in whole]
+    blocks = [Block(*bounds_of(outlines_of(one)), (), ()) for one in whole]
     side = math.sqrt(sum((b.width + APART) * (b.height + APART) for b in blocks))
     placed = None
     while placed is None:
@@ -50,8 +50,3 @@ def _laid(whole: list[Plate | Stack]) -> list[Member]:
         )
         for one, before, block in zip(whole, blocks, placed, strict=True)
     ]
-
-
-def _block(part: Plate | Stack) -> Block:
-    """Return the box around a part, seen from above."""
-    return Block(*bounds_of(outlines_of(part)), (), ())

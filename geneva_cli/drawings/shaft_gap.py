@@ -18,14 +18,13 @@ from geneva_cli.curves.measure import at, bounds
 from geneva_cli.curves.moments import oriented
 from geneva_cli.curves.placed import in_place
 from geneva_cli.curves.plates import Member, plates
-from geneva_cli.curves.shapes import Arc, Point, Segment, as_contour
+from geneva_cli.curves.shapes import Arc, Layer, Point, Segment, as_contour
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.gear_pair import PITCH, gear_seats, pitch_radii
+from geneva_cli.parts.gear_pair import gear_seats, pitch_radii
 from geneva_cli.parts.pair_teeth import pair_teeth
 
 if TYPE_CHECKING:
@@ -46,7 +45,7 @@ class Ring(NamedTuple):
     """The ring that a plate sweeps about the axis that it turns on."""
 
     name: str
-    layer: str
+    layer: Layer
     axis: Point
     inner: float
     outer: float
@@ -96,7 +95,7 @@ def _least(
 ) -> ShaftGap | None:
     """Return the least gap of rings to shafts, other parts, and the hubs of wheel and crank."""
     near = SAME_LENGTH * parts.mechanism.center_distance_mm
-    axes = [ring for ring in turning if ring.layer == HUB] + _rings_of((*parts.shafts, *others))
+    axes = [ring for ring in turning if ring.layer == "HUB"] + _rings_of((*parts.shafts, *others))
     return min(
         (
             ShaftGap(
@@ -165,7 +164,7 @@ def _noncircular(mechanism: Mechanism, drawn: Outlines | None) -> Iterator[Ring]
     tips = teeth.tips if teeth else (0.0, 0.0)
     gears = zip(gear_seats(mechanism, drawn), places, pitch_radii(pair), tips, strict=True)
     for seat, place, (_, pitch), tip in gears:
-        yield Ring(seat.part, PITCH, (place, 0.0), 0.0, pitch + tip, seat.low, seat.high)
+        yield Ring(seat.part, "PITCH", (place, 0.0), 0.0, pitch + tip, seat.low, seat.high)
 
 
 def _rings_of(members: Iterable[Member]) -> list[Ring]:

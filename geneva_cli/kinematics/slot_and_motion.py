@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import cached_property
+from functools import cached_property, partial
 
 from geneva_cli.kinematics.engagement import Slot, SlotAxis
 from geneva_cli.kinematics.law_motion import LawMotion
@@ -47,27 +47,21 @@ class SolvedPath(Batchable):
         return rho, R
 
     def _distances(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
-
-        def whole(x: Number) -> Jet:
-            return _stacked(*self._by_sines(x, order))
-
-        def middle(x: Number) -> Jet:
-            return _stacked(*self._by_series(x, order))
-
+        whole, middle = (partial(f, order=order) for f in (self._by_sines, self._by_series))
         both = piecewise(input_deg, self.seams_deg, (whole, middle, whole)).c
         return Jet(both[: order + 1]), Jet(both[order + 1 :])
 
-    def _by_sines(self, x: Number, order: int) -> tuple[Jet, Jet]:
+    def _by_sines(self, x: Number, order: int) -> Jet:
         phi, psi = Jet.variable(radians(x), order), self.motion(x, order)
         below = sin_cos(phi + psi * self.sign)[0]
-        return sin_cos(phi)[0] / below, sin_cos(psi)[0] / below
+        return _stacked(sin_cos(phi)[0] / below, sin_cos(psi)[0] / below)
 
     @cached_property
     def _series(self) -> Sequence[Number]:
         """Coefficients of psi in powers of phi, about mid-motion."""
         return self.motion(0.0, TERMS if self.motion.law.ANALYTIC else SPLINE_TERMS).c
 
-    def _by_series(self, x: Number, order: int) -> tuple[Jet, Jet]:
+    def _by_series(self, x: Number, order: int) -> Jet:
         """Both distances near mid-motion, where both sines vanish: each is first divided by phi."""
         t, c = Jet.variable(radians(x), order), self._series[1:]
         # psi / phi, each coefficient of its jet a polynomial of the angle
@@ -80,7 +74,7 @@ class SolvedPath(Batchable):
         psi = slope * t
         angle = slope * self.sign + 1.0  # (phi +- psi) / phi
         below = angle * _sinc(angle * t)
-        return _sinc(t) / below, slope * _sinc(psi) / below
+        return _stacked(_sinc(t) / below, slope * _sinc(psi) / below)
 
     @property
     def crossing(self) -> Number:

@@ -12,7 +12,18 @@ from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from geneva_cli.curves.measure import at
-from geneva_cli.curves.shapes import ORIGIN, Arc, Circle, Line, Point, Shape, about, closed, polygon
+from geneva_cli.curves.shapes import (
+    ORIGIN,
+    Arc,
+    Circle,
+    Layer,
+    Line,
+    Point,
+    Shape,
+    about,
+    closed,
+    polygon,
+)
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.keyways import ParallelKey, key
 from geneva_cli.layout.written import length
@@ -30,10 +41,10 @@ class Bore(ABC):
     radius: float
 
     @abstractmethod
-    def shape(self, layer: str, direction: float) -> Shape:
+    def shape(self, layer: Layer, direction: float) -> Shape:
         """Return the bore about the origin, with its feature in a direction, radians."""
 
-    def section(self, layer: str, direction: float) -> Shape:
+    def section(self, layer: Layer, direction: float) -> Shape:
         """Return the section of a shaft of this size."""
         return self.shape(layer, direction)
 
@@ -73,7 +84,7 @@ class RoundBore(Bore):
 
     is_plain: ClassVar[bool] = True
 
-    def shape(self, layer: str, direction: float) -> Shape:
+    def shape(self, layer: Layer, direction: float) -> Shape:
         """Return the circle."""
         return Circle(layer, ORIGIN, self.radius)
 
@@ -105,14 +116,14 @@ class KeyedBore(Bore):
         wide, deep = length(self.key.width, fine=True), length(self.key.in_shaft)
         return f"keyway {wide} P9, {deep} deep ({self.standard})"
 
-    def shape(self, layer: str, direction: float) -> Shape:
+    def shape(self, layer: Layer, direction: float) -> Shape:
         """Return the bore about the origin; its first piece is the keyway's top."""
         first, second = self._arcs(direction)
         low, high = self._across(self.reach, direction)
         sides = Line(high, first.start), first, second, Line(second.end, low)
         return closed(layer, [Line(low, high), *sides])
 
-    def section(self, layer: str, direction: float) -> Shape:
+    def section(self, layer: Layer, direction: float) -> Shape:
         """Return the shaft's section with its keyway."""
         first, second = self._arcs(direction)
         low, high = self._across(self.radius - self.key.in_shaft, direction)
@@ -144,7 +155,7 @@ class FlatBore(Bore):
         """None: the flat is milled up to the shaft's end."""
         return None
 
-    def shape(self, layer: str, direction: float) -> Shape:
+    def shape(self, layer: Layer, direction: float) -> Shape:
         """Return the bore about the origin; its first piece is the flat."""
         half = math.acos(1.0 - self.depth / self.radius)
         first, second = _arcs(self.radius, direction, half)
@@ -177,7 +188,7 @@ class HexBore(Bore):
         """Diameter that the lathe leaves within the hexagon, a twentieth below its flats."""
         return 1.9 * self.radius
 
-    def shape(self, layer: str, direction: float) -> Shape:
+    def shape(self, layer: Layer, direction: float) -> Shape:
         """Return the bore about the origin; its first piece is the side in the direction."""
         corners = [
             _turned(self.reach, 0.0, direction + (2 * k - 1) * math.pi / 6.0) for k in range(6)

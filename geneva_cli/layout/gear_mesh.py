@@ -188,7 +188,10 @@ class _Pair:
         if cosine >= 1.0:
             raise self._error("teeth are too many for the distance of the axes")
         angle = math.acos(cosine)
-        off = self._backlash(apart / self.distance)
+        # the shift, in modules, that thins each tooth by half of the backlash; that is measured
+        # along the pitch circles at work
+        thinner = 0.5 * self.size.gear_backlash_mm * (apart / self.distance)
+        off = 0.5 * thinner / (self.module * math.tan(self.rack.angle))
         shifts = self._shifts(angle, off)
         small, large = self._teeth(shifts, off, angle)
         for teeth, link in ((small, self.small), (large, self.large)):
@@ -210,14 +213,6 @@ class _Pair:
             )
         }
         return GearMesh(gears, angle, contact)
-
-    def _backlash(self, scale: float) -> float:
-        """Return the shift, in modules, that thins each tooth by half of the backlash.
-
-        ``scale`` is the reference circle's radius over that of the pitch circle at work.
-        """
-        thinner = 0.5 * self.size.gear_backlash_mm * scale
-        return 0.5 * thinner / (self.module * math.tan(self.rack.angle))
 
     def _shifts(self, angle: float, off: float) -> tuple[float, float]:
         """Return the profile shifts of the smaller and the larger gear, in modules."""

@@ -104,7 +104,10 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
             )
     outputs = tuple(dict.fromkeys(cycle.mechanism.output.column for cycle in cycles.values()))
     requested = tuple(dict.fromkeys(pick)) or (*outputs, *USUAL_QUANTITIES)
-    has = {design: _known(cycle) for design, cycle in cycles.items()}
+    has = {
+        design: {one.mechanism.output.column, *MOTION_QUANTITIES, *sources(one.mechanism)}
+        for design, one in cycles.items()
+    }
     shown = [name for name in requested if any(name in known for known in has.values())]
     missing = [name for name in requested if name not in shown]
     if missing and pick:
@@ -131,10 +134,6 @@ def _title(machines: Sequence[Mechanism]) -> str:
         return f"{len(machines)} designs over a cycle"
     spec = machines[0].spec
     return spec.title or spec.path or f"Geneva {machines[0].output.noun} of {spec.wheel.z} slots"
-
-
-def _known(cycle: Cycle) -> set[str]:
-    return {cycle.mechanism.output.column, *MOTION_QUANTITIES, *sources(cycle.mechanism)}
 
 
 def _left_out(cycle: Cycle, names: Sequence[str]) -> Iterator[str]:

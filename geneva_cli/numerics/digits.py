@@ -23,11 +23,6 @@ def sin_cos(radians: Decimal) -> tuple[Decimal, Decimal]:
     return ((s, c), (c, -s), (-s, -c), (-c, s))[quarter % 4]
 
 
-def of_degrees(degrees: float) -> Decimal:
-    """Degrees, taken as exact, to radians."""
-    return Decimal(degrees) * PI / 180
-
-
 def to_degrees(radians: Decimal) -> float:
     """Radians to degrees, rounded once."""
     return float(radians * 180 / PI)

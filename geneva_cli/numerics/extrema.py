@@ -3,7 +3,9 @@
 Designs are processed in blocks that fit in the processor's cache. All are scanned over their own
 spans. Where a cubic through two neighbours' values and slopes misses the value midway, only those
 designs are sampled again between them. Newton's method, within brackets, then refines the rest. A
-design that is NaN anywhere has NaN for a result, and disturbs no other.
+design that is NaN anywhere has NaN for a result, and disturbs no other. ``search`` has its own
+engine: on motions of a batch it takes 9 to 16 times as long, places peaks to 3e-11 degrees only,
+and does not list stationary points.
 """
 
 from __future__ import annotations

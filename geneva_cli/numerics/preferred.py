@@ -37,18 +37,6 @@ def rounded_from(least: float, most: float) -> list[float]:
     return [least, *(n for n in _rounded(least, most) if above < n <= end)]
 
 
-def bore_below(most: float) -> float:
-    """Return the greatest bore of standard bearings up to ``most`` mm; or 0.
-
-    >>> bore_below(16.7), bore_below(41.0)
-    (15.0, 40.0)
-    """
-    bores = _bores()
-    if not bores[0] <= most <= bores[-1]:
-        return rounded_below(most)
-    return bores[bisect_right(bores, most * (1.0 + ROUNDED)) - 1]
-
-
 def bores_from(least: float, most: float) -> list[float]:
     """Return ``least``, and after it the bores of standard bearings up to ``most`` mm.
 
@@ -87,10 +75,13 @@ def rounded_radius(most: float) -> float:
 def bore_radius(most: float) -> float:
     """Return the radius up to ``most`` mm of a standard bearing's bore; or 0.
 
-    >>> bore_radius(8.3)
-    7.5
+    >>> bore_radius(8.35), bore_radius(20.5)
+    (7.5, 20.0)
     """
-    return 0.5 * bore_below(2.0 * most)
+    bores, widest = _bores(), 2.0 * most
+    if not bores[0] <= widest <= bores[-1]:
+        return 0.5 * rounded_below(widest)
+    return 0.5 * bores[bisect_right(bores, widest * (1.0 + ROUNDED)) - 1]
 
 
 def _rounded(low: float, high: float) -> list[float]:

@@ -32,8 +32,6 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.roots import boundary
 
-WHEEL, CRANK = "WHEEL", "CRANK"
-
 
 class CounterSizes(NamedTuple):
     """The teeth of driver and pinion about their axes, and the locking rim; mm and radians."""
@@ -181,7 +179,7 @@ def driver_teeth(sizes: CounterSizes, write: Writer) -> Contour:
     one = teeth.one(write)
     pieces = *turned_pieces([*one, teeth.between()], -half), *turned_pieces(one, half)
     start = half + teeth.rack.corner[0] / teeth.radius
-    return closed(CRANK, [*pieces, about(ORIGIN, teeth.root, start, math.tau - 2.0 * start)])
+    return closed("CRANK", [*pieces, about(ORIGIN, teeth.root, start, math.tau - 2.0 * start)])
 
 
 def driver_rim(sizes: CounterSizes, write: Writer) -> Contour:
@@ -190,17 +188,17 @@ def driver_rim(sizes: CounterSizes, write: Writer) -> Contour:
     before, after = teeth.sides(write)
     pieces = *turned_pieces([*after, teeth.between()], -half), *turned_pieces(before, half)
     start = half - teeth.half_angle(sizes.rim)
-    return closed(CRANK, [*pieces, about(ORIGIN, sizes.rim, start, math.tau - 2.0 * start)])
+    return closed("CRANK", [*pieces, about(ORIGIN, sizes.rim, start, math.tau - 2.0 * start)])
 
 
 def pinion_teeth(sizes: CounterSizes, wide: bool, write: Writer) -> Contour:
     """Return the pinion in the plane of its wide teeth alone, or in that of all teeth."""
-    return closed(WHEEL, _all_round(sizes.pinion, write, 0.0, 2 if wide else 1))
+    return closed("WHEEL", _all_round(sizes.pinion, write, 0.0, 2 if wide else 1))
 
 
 def number_teeth(sizes: CounterSizes, write: Writer) -> Contour:
     """Return the gear of the number wheel, whose space is about the x axis, as the driver's."""
-    return closed(CRANK, _all_round(sizes.number, write, sizes.half_space))
+    return closed("CRANK", _all_round(sizes.number, write, sizes.half_space))
 
 
 def _all_round(teeth: RoundTeeth, write: Writer, first: float, each: int = 1) -> list[Segment]:

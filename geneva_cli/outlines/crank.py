@@ -28,6 +28,7 @@ from geneva_cli.layout.roller_paths import mouth_corners
 from geneva_cli.layout.roller_paths import roller_centres as roller_centres
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.outlines.locking_rings import LAYER, Swept, rings
+from geneva_cli.outlines.locking_rings import Swept, polar_points, rings, towards
 
 
 def crank_contours(
@@ -57,7 +58,7 @@ def crank_contours(
         segments += [_arc(sizes, one)] if relief == "arc" else _sector(assembly, sizes, one)
         if after - one.end > SAME_ANGLE:
             segments.append(about((0.0, 0.0), sizes.lock, one.end, after - one.end))
-    return [closed(LAYER, segments)]
+    return [closed("CRANK", segments)]
 
 
 def crank_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:

@@ -25,8 +25,6 @@ from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 # points of the wheel inside the disc in one motion: x and y in the crank's frame
 Swept: TypeAlias = Callable[[int], tuple[Array, Array]]
 
-LAYER = "CRANK"
-
 
 class PolarPoints(NamedTuple):
     """Points that the wheel reaches: distances from the crank's axis, and directions.
@@ -102,7 +100,7 @@ def _ring(sizes: Sizes, middle: float, half: float, edge: float, floor: float) -
     end = edge * math.cos(low), edge * math.sin(low)
     bulge = (edge * math.cos(half) - floor) / (edge * math.sin(half))
     return closed(
-        LAYER, [outer, Line(outer.end, start), Arc(start, end, bulge), Line(end, outer.start)]
+        "CRANK", [outer, Line(outer.end, start), Arc(start, end, bulge), Line(end, outer.start)]
     )
 
 

@@ -17,7 +17,6 @@ from geneva_cli.layout.roller_paths import least_mouth
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.walls.straight import straight_walls
 
-LAYER = "WHEEL"
 CURVED = 2e-6  # of the centre distance: accuracy of curved walls for the full turn
 
 
@@ -64,7 +63,7 @@ def wheel_contour(
             segments.append(_about((0.0, 0.0), *ends, 1.0))
         else:
             segments += _rim(assembly, sizes, *ends, between)
-    return closed(LAYER, segments)
+    return closed("WHEEL", segments)
 
 
 def wheel_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
@@ -72,7 +71,7 @@ def wheel_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
 
     Raises GenevaError for a shape or keyway that the bore cannot have.
     """
-    circles: list[Shape] = [Circle(LAYER, (0.0, 0.0), sizes.outer)] if sizes.outer else []
+    circles: list[Shape] = [Circle("WHEEL", (0.0, 0.0), sizes.outer)] if sizes.outer else []
     size = assembly.mechanism.spec.size
     if sizes.wheel_bore or has_shape(size, "wheel"):
         own = bore_of(size, "wheel", sizes.wheel_bore)

@@ -16,8 +16,6 @@ from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.outlines.wheel import wheel_circles
 from geneva_cli.spec.tables import Size
 
-HUB = "HUB"
-
 
 def wheel_hub(assembly: Assembly, sizes: Sizes) -> Plate | None:
     """Return the hub below the wheel; None unless the spec has its diameter or its length.
@@ -34,8 +32,8 @@ def _plate(assembly: Assembly, sizes: Sizes) -> Plate | None:
     if not requested or sizes.wheel_hub <= sizes.wheel_bore:
         return None
     bores = about_axis(wheel_circles(assembly, sizes) if sizes.wheel_bore else [])
-    outline = Circle(HUB, ORIGIN, sizes.wheel_hub)
-    return Plate("wheel's hub", HUB, outline, bores, -wheel_hub_length(size, sizes), 0.0)
+    outline = Circle("HUB", ORIGIN, sizes.wheel_hub)
+    return Plate("wheel's hub", "HUB", outline, bores, -wheel_hub_length(size, sizes), 0.0)
 
 
 def wheel_hub_length(size: Size, sizes: Sizes) -> float:

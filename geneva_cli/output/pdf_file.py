@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Sequence
+from itertools import chain
 from typing import NamedTuple
 
 from geneva_cli.curves import helvetica
@@ -72,13 +73,10 @@ def outline(shape: Shape) -> str:
     """The operators that trace a shape, closed if the shape is."""
     shape = as_contour(shape)
     words = [f"{point(shape.segments[0].start)} m\n"]
-    words += [_piece(part) for segment in shape.segments for part in _quarters(segment)]
-    return "".join(words) + ("h\n" if shape.closed else "")
-
-
-def _quarters(segment: Segment) -> list[Segment]:
     # The bulge of slightly more than 90 degrees: a longer arc needs more than one cubic.
-    return halved(segment, lambda bulge: bulge > 0.415)
+    parts = (halved(segment, lambda bulge: bulge > 0.415) for segment in shape.segments)
+    words += map(_piece, chain.from_iterable(parts))
+    return "".join(words) + ("h\n" if shape.closed else "")
 
 
 def _piece(segment: Segment) -> str:

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 
 from geneva_cli.curves.measure import mapped
 from geneva_cli.curves.placed import in_place
-from geneva_cli.curves.plates import Member, Part, Plate
-from geneva_cli.curves.shapes import Contour, Shape, as_contour
+from geneva_cli.curves.plates import Member, Part
+from geneva_cli.curves.shapes import Contour, Layer, Shape, as_contour
 from geneva_cli.output.inks import INKS, inks
 from geneva_cli.output.svg_paths import number, path
 
@@ -42,25 +42,22 @@ def filled(solid: Part, fill: str, unit: float, mm: float) -> Iterator[str]:
     yield "</g>\n"
 
 
-def opacity(layer: str) -> float:
+def opacity(layer: Layer) -> float:
     """Opacity of a layer's tint, from 0 to 1."""
     return 0.55 if layer == "ROLLER" else 0.16
 
 
-def rings(solid: Part, unit: float = 1.0) -> list[tuple[str, tuple[Contour, ...]]]:
+def rings(solid: Part, unit: float = 1.0) -> list[tuple[Layer, tuple[Contour, ...]]]:
     """The outline and holes of each plate, with its layer; the lowest plate first.
 
     Of plates of one shape above each other, such as a counter's wheels, only the highest is there:
     their tints would add up.
     """
-    every = sorted((plate for _, plate in in_place([Member(solid)])), key=_heights)
+    placed = (plate for _, plate in in_place([Member(solid)]))
+    every = sorted(placed, key=lambda plate: (plate.high, plate.low))
 
     def in_unit(shape: Shape) -> Contour:
         return as_contour(mapped(shape, lambda p: (p[0] / unit, p[1] / unit), lambda r: r / unit))
 
     drawn = [(one.layer, tuple(map(in_unit, (one.outline, *one.holes)))) for one in every]
     return list(dict.fromkeys(reversed(drawn)))[::-1]
-
-
-def _heights(plate: Plate) -> tuple[float, float]:
-    return plate.high, plate.low

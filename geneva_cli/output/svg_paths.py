@@ -24,14 +24,11 @@ def path(contour: Contour) -> str:
     words = [f"M {point(segments[0].start)}"]
     if contour.closed and isinstance(segments[-1], Line):
         segments = segments[:-1]  # Z draws the last line; drawn here it would have no length there
-    words += [_command(part) for segment in segments for part in _split(segment)]
-    return " ".join(words) + (" Z" if contour.closed else "")
-
-
-def _split(segment: Segment) -> list[Segment]:
     # Bulges of 150, 210 and 300 degrees. Near a half turn the radius determines the centre badly,
     # near a whole turn the chord does.
-    return halved(segment, lambda bulge: 0.7673 < bulge < 1.3032 or bulge > 3.7)
+    split = [halved(one, lambda bulge: 0.7673 < bulge < 1.3032 or bulge > 3.7) for one in segments]
+    words += [_command(part) for parts in split for part in parts]
+    return " ".join(words) + (" Z" if contour.closed else "")
 
 
 def _command(segment: Segment) -> str:

@@ -33,8 +33,6 @@ from geneva_cli.machine.least_wall import eye_about
 from geneva_cli.outlines.crank import crank_circles, is_whole, roller_centres
 from geneva_cli.outlines.outlines import Outlines
 
-LAYER, HOLES = "ARM", "BORE"
-
 
 class CrankArm(NamedTuple):
     """The arm as it is cut, and the radii of its hub and of the widest eye about a pin."""
@@ -81,12 +79,12 @@ def crank_arm(parts: Outlines) -> CrankArm:
             f"must be below {2.0 * (min(away) - hole):.6g}",
             ("size", "arm_bore_mm"),
         )
-    pins, screwed = [Circle(HOLES, c, hole) for c in centres], bolts(parts)
-    about = [Circle(LAYER, (0.0, 0.0), hub), *(Circle(LAYER, c, eye) for c in centres)]
+    pins, screwed = [Circle("BORE", c, hole) for c in centres], bolts(parts)
+    about = [Circle("ARM", (0.0, 0.0), hub), *(Circle("ARM", c, eye) for c in centres)]
     bolted = wall_of_bolts(spec.size, wall)
-    about += [Circle(LAYER, c.centre, eye_about(c.radius, bolted)) for c in screwed]
-    bored = form.shape(HOLES, keyway_direction(assembly))
-    return CrankArm(convex_hull(LAYER, about), bored, pins, screwed, hub, eye, passing - eye)
+    about += [Circle("ARM", c.centre, eye_about(c.radius, bolted)) for c in screwed]
+    bored = form.shape("BORE", keyway_direction(assembly))
+    return CrankArm(convex_hull("ARM", about), bored, pins, screwed, hub, eye, passing - eye)
 
 
 def bolts(parts: Outlines) -> list[Circle]:
@@ -113,7 +111,7 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
     rings = [_widest(parts, at) for at in directions]
     r = bolt_radius(size.lock_bolt_mm, L, min((half for _, half in rings), default=0.0))
     return [
-        Circle(HOLES, (far * math.cos(turn), far * math.sin(turn)), r)
+        Circle("BORE", (far * math.cos(turn), far * math.sin(turn)), r)
         for (far, _), at in zip(rings, directions, strict=True)
         for turn in at
     ]
@@ -124,8 +122,8 @@ def _leave_walls(parts: Outlines, screwed: list[Circle]) -> bool:
     assembly, sizes = parts.assembly, parts.sizes
     size = assembly.mechanism.spec.size
     wall = wall_of_bolts(size, sizes.wall_min)
-    pins = [Circle(HOLES, c, pin_hole(size, sizes.pin)) for c in roller_centres(assembly)]
-    shaft = Circle(HOLES, (0.0, 0.0), bore_of(size, "crank", sizes.arm_bore).reach)
+    pins = [Circle("BORE", c, pin_hole(size, sizes.pin)) for c in roller_centres(assembly)]
+    shaft = Circle("BORE", (0.0, 0.0), bore_of(size, "crank", sizes.arm_bore).reach)
     eye = max(math.hypot(*c.centre) + eye_about(c.radius, wall) for c in screwed)
     passing = assembly.L - max(sizes.wheel_bore, sizes.wheel_hub) >= eye or assembly.sign < 0.0
     apart = least_wall([shaft, *pins, *screwed]) >= wall
@@ -156,7 +154,7 @@ def walls(arm: CrankArm, parts: Outlines) -> float:
     """
     in_disc: list[Shape] = [*arm.bolts]
     if parts.sizes.crank_bore and is_whole(parts.assembly, parts.sizes):
-        in_disc += [s for s in crank_circles(parts.assembly, parts.sizes) if s.layer == HOLES]
+        in_disc += [s for s in crank_circles(parts.assembly, parts.sizes) if s.layer == "BORE"]
     return min(
         least_wall([arm.bore, *arm.pins, *arm.bolts], [arm.outline]),
         least_wall(in_disc, parts.crank),

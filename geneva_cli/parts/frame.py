@@ -33,8 +33,6 @@ from geneva_cli.parts.edged_parts import FrameAndShafts
 from geneva_cli.parts.link_shafts import outside_links
 from geneva_cli.parts.links import Links, placed_holes
 from geneva_cli.parts.mounted_plate import (
-    HOLES,
-    LAYER,
     corner_radius,
     hole_without_shaft,
     mounted_plate,
@@ -84,11 +82,11 @@ def framed(
     eye = corner_radius(size, L)
     if mechanism.frame > 0.0:
         reach = max((c.radius for c in holes), default=0.0) + eye
-        eyes = [Circle(LAYER, at, reach) for at in places]
-        plate = Plate("carrier", LAYER, convex_hull(LAYER, eyes), tuple(holes), bottom, top)
+        eyes = [Circle("FRAME", at, reach) for at in places]
+        plate = Plate("carrier", "FRAME", convex_hull("FRAME", eyes), tuple(holes), bottom, top)
     else:
         # a frame contains every axis, drilled or not
-        within = [*holes, *(Circle(HOLES, at, 0.0) for at in (ORIGIN, *places))]
+        within = [*holes, *(Circle("BORE", at, 0.0) for at in (ORIGIN, *places))]
         plate = mounted_plate(holes, within, eye, (bottom, top))
     return FrameAndShafts(plate, tuple(outside_links(axles, bars, L)), tuple(spacers))
 
@@ -139,7 +137,7 @@ def _fixed(bars: Links) -> Iterator[Screwed]:
     for gear in bars.gears:
         for hole in gear.bolts:
             (x, y), (u, v) = gear.at, hole.centre
-            yield Circle(HOLES, (x + u, y + v), hole.radius), gear.plate
+            yield Circle("BORE", (x + u, y + v), hole.radius), gear.plate
 
 
 def _mounted(base: Plate, L: float) -> Iterator[Screwed]:
@@ -150,8 +148,8 @@ def _mounted(base: Plate, L: float) -> Iterator[Screwed]:
 
 def _spacer(screw: Circle, part: Plate, top: float) -> Member:
     """Return the ring about a screw, twice as wide, between the frame and the fixed part."""
-    outline, bore = Circle(LAYER, ORIGIN, 2.0 * screw.radius), screw._replace(centre=ORIGIN)
-    plate = Plate(f"spacer of the {part.name}", LAYER, outline, (bore,), top, part.low)
+    outline, bore = Circle("FRAME", ORIGIN, 2.0 * screw.radius), screw._replace(centre=ORIGIN)
+    plate = Plate(f"spacer of the {part.name}", "FRAME", outline, (bore,), top, part.low)
     return Member(plate, screw.centre)
 
 

@@ -31,8 +31,6 @@ from geneva_cli.layout.gear_mesh import ToothedGear
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.link_sizes import LinkSizes
 
-PITCH, HOLES, RIM = "PITCH", "BORE", "LINK"
-
 
 class Gear(NamedTuple):
     """A gear about its axis: pitch circle, radius of its bore (0 for none or a ring), and plate.
@@ -61,7 +59,7 @@ class Gear(NamedTuple):
     def bolts(self) -> list[Circle]:
         """The holes by which the gear is screwed to the frame."""
         holes = [hole for hole in self.plate.holes if isinstance(hole, Circle)]
-        return [hole for hole in holes if hole.layer == HOLES and hole.centre != ORIGIN]
+        return [hole for hole in holes if hole.layer == "BORE" and hole.centre != ORIGIN]
 
     @property
     def outer(self) -> float:
@@ -75,7 +73,7 @@ class Gear(NamedTuple):
         """Return the gear with its teeth drawn, if it has any; ``write`` fits curves."""
         if self.cut is None:
             return self
-        plate = self.plate._replace(layer=RIM)  # which is cut
+        plate = self.plate._replace(layer="LINK")  # which is cut
         if self.teeth.inside:
             opening = _toothed(self.cut, 0.0, write)
             return self._replace(plate=plate._replace(holes=(opening, *plate.holes[1:])))
@@ -105,13 +103,13 @@ def link_gear(
     low, high = sizes.span(link.plane)
     hole = 0.0 if teeth.inside else bore
     holes: list[Circle] = []
-    outline: Circle | Contour = Circle(PITCH, ORIGIN, radius)
+    outline: Circle | Contour = Circle("PITCH", ORIGIN, radius)
     if teeth.inside:
         inner, outer = radius, radius + 2.0 * sizes.eye
-        outline, holes = Circle(RIM, ORIGIN, outer), [Circle(PITCH, ORIGIN, inner)]
+        outline, holes = Circle("LINK", ORIGIN, outer), [Circle("PITCH", ORIGIN, inner)]
     else:
         inner, outer = bore, radius
-        holes += [Circle(HOLES, ORIGIN, bore)] if bore else []
+        holes += [Circle("BORE", ORIGIN, bore)] if bore else []
         hub = sizes.hub(bore)
         if not teeth.all_round:
             _refuse(link.name, radius - hub, "hub", shaft)
@@ -120,7 +118,7 @@ def link_gear(
     if teeth.fixed:
         # the first at 45 degrees, off the line on which the shafts lie
         holes += bolt_circle(size, "gear", L, (inner, outer), 0.25 * math.pi).holes
-    plate = Plate(link.name, PITCH, outline, tuple(holes), low, high)
+    plate = Plate(link.name, "PITCH", outline, tuple(holes), low, high)
     _refuse(link.name, plate_wall(plate), "bolts" if teeth.fixed else "bore", shaft)
     return Gear(at, link.radius_mm, hole, teeth, plate, cut)
 
@@ -146,7 +144,7 @@ def _toothed(gear: ToothedGear, hub: float, write: Writer) -> Contour:
             back = about(ORIGIN, hub, end, (start - end) % math.tau)
             rise = about(ORIGIN, gear.teeth.root, start, step).start
             pieces += [Line(pieces[-1].end, back.start), back, Line(back.end, rise)]
-    return closed(RIM, pieces)
+    return closed("LINK", pieces)
 
 
 def sectors(radius: float, hub: float, teeth: Teeth) -> Contour:
@@ -160,7 +158,7 @@ def sectors(radius: float, hub: float, teeth: Teeth) -> Contour:
         back = about(ORIGIN, hub, start + wide, pitch - wide)
         first = pieces[-1].end if pieces else about(ORIGIN, hub, start, 1.0).start
         pieces += [Line(first, rim.start), rim, Line(rim.end, back.start), back]
-    return closed(PITCH, pieces)
+    return closed("PITCH", pieces)
 
 
 def _bored_by(at: Point, L: float) -> str:

@@ -13,7 +13,7 @@ import numpy as np
 
 from geneva_cli.curves.gear_teeth import Writer
 from geneva_cli.curves.plates import Member, Plate
-from geneva_cli.curves.shapes import Circle, Point, closed
+from geneva_cli.curves.shapes import Circle, Layer, Point, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.drive import Gears
 from geneva_cli.layout.bores import RoundBore
@@ -31,7 +31,6 @@ from geneva_cli.parts.shaft import Ends, Seat, Shaft, shaft_ends
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-PITCH, BORE, CUT = "PITCH", "BORE", "LINK"
 NAMES = "driven gear", "driver gear"
 THIN = 1e-6  # of the axes' distance: a pitch curve nearer to its axis encloses no shaft
 # Of the axes' distance: coarsest tolerance of the fitted curves. Teeth are spaced along both
@@ -65,15 +64,16 @@ def gear_pair(
     fine = FINE["cubics"] if mechanism.spec.size.gear_module_mm is None else 1e-6
     write = writer(fine * pair.distance_mm)
     sense = mechanism.gear_shaft.sense
-    layer, outlines = CUT, [gear.outline(write) for gear in pair_with_teeth(mechanism)]
+    layer: Layer = "LINK"
+    outlines = [gear.outline(write) for gear in pair_with_teeth(mechanism)]
     if not outlines:
         both = driven_curve(pair, sense), driver_curve(pair, sense)
-        layer, outlines = PITCH, [list(write(curve, -np.pi, np.pi)) for curve in both]
+        layer, outlines = "PITCH", [list(write(curve, -np.pi, np.pi)) for curve in both]
     members = []
     seats, bores = gear_seats(mechanism, parts), gear_bores(mechanism, parts, on_crank)
     for seat, pieces, (at, bore) in zip(seats, outlines, bores, strict=True):
         outline = closed(layer, pieces)
-        holes = (Circle(BORE, (0.0, 0.0), bore),) if bore else ()
+        holes = (Circle("BORE", (0.0, 0.0), bore),) if bore else ()
         members.append(Member(Plate(seat.part, layer, outline, holes, seat.low, seat.high), at))
     return tuple(members)
 

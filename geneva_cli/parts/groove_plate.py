@@ -13,7 +13,7 @@ import numpy as np
 
 from geneva_cli.curves import fit
 from geneva_cli.curves.plates import Plate
-from geneva_cli.curves.shapes import Circle, Contour, closed
+from geneva_cli.curves.shapes import Circle, Contour, Layer, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.groove import groove_curve
@@ -23,7 +23,6 @@ from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import about_axis
 from geneva_cli.parts.links import Links
 
-LAYER, HOLES, GROOVE, PITCH = "FRAME", "BORE", "GROOVE", "PITCH"
 BELOW = 2  # planes below the wheel: that of the groove, below the crank
 MOUNTS = 4
 
@@ -45,14 +44,14 @@ def groove_lines(
     motion, fine = guide.motion, 1e-3 if tolerance is None else tolerance
     ends = (motion.entry_deg, motion.exit_deg, motion.entry_deg + 360.0)
 
-    def line(layer: str, side: float) -> Contour:
+    def line(layer: Layer, side: float) -> Contour:
         curve = groove_curve(guide, parts.assembly.L, side * parts.sizes.half_width)
         pairs = zip(ends, ends[1:], strict=False)
         return closed(
             layer, [piece for a, b in pairs for piece in fit.KINDS[curves](curve, a, b, fine)]
         )
 
-    return line(GROOVE, 1.0), line(GROOVE, -1.0), line(PITCH, 0.0)
+    return line("GROOVE", 1.0), line("GROOVE", -1.0), line("PITCH", 0.0)
 
 
 def groove_base(parts: Outlines, bars: Links) -> Plate:
@@ -65,17 +64,17 @@ def groove_base(parts: Outlines, bars: Links) -> Plate:
     far, rim = groove_reaches(parts.assembly, parts.sizes)
     mount, at = rounded_radius(0.25 * rim), far + 0.5 * rim
     mounts = [
-        Circle(HOLES, (at * math.cos(turn), at * math.sin(turn)), mount)
+        Circle("BORE", (at * math.cos(turn), at * math.sin(turn)), mount)
         for turn in (math.tau * (k + 0.5) / MOUNTS for k in range(MOUNTS))
     ]
     shaft = bars.shaft((L, 0.0), L)
-    bore = [Circle(HOLES, (0.0, 0.0), shaft)] if shaft else []
-    edge = Circle(LAYER, (0.0, 0.0), far + rim)
+    bore = [Circle("BORE", (0.0, 0.0), shaft)] if shaft else []
+    edge = Circle("FRAME", (0.0, 0.0), far + rim)
     high, _ = bars.sizes.span(BELOW)
     low = high - parts.sizes.arm_thickness
     if parts.assembly.full.spec.drive_before:  # it fills its plane: another drive is below it
         low, _ = bars.sizes.span(BELOW + 1)
-    return Plate("groove plate's base", LAYER, edge, (*bore, *mounts), low, high)
+    return Plate("groove plate's base", "FRAME", edge, (*bore, *mounts), low, high)
 
 
 def groove_stack(
@@ -89,8 +88,8 @@ def groove_stack(
     mounts = (hole for hole in base.holes if hole not in bore)
     return (
         base,
-        Plate("groove plate's ring", LAYER, base.outline, (outer, *mounts), low, high),
-        Plate("groove plate's island", LAYER, inner, bore, low, high),
+        Plate("groove plate's ring", "FRAME", base.outline, (outer, *mounts), low, high),
+        Plate("groove plate's island", "FRAME", inner, bore, low, high),
     )
 
 

@@ -16,8 +16,6 @@ from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.link_sizes import LinkSizes, places, point_at_zero
 
-LAYER, ROLLER = "LINK", "ROLLER"
-
 
 class SharedJoint(NamedTuple):
     """Links that share a joint at all input angles: the joint's path, their names and planes."""
@@ -51,15 +49,15 @@ def pins(links: Iterable[Link], sizes: LinkSizes, near: float) -> Iterator[Membe
         where = point_at_zero(one.path)
         spans = [sizes.span(plane) for plane in one.planes]
         origin = (0.0, 0.0)
-        hole = Circle(LAYER, origin, sizes.pin)
+        hole = Circle("LINK", origin, sizes.pin)
         pin = hole._replace(radius=sizes.pin - 0.5 * sizes.shaft_fit)
         name = " and ".join(one.names)
-        yield Member(Plate(f"pin of {name}", LAYER, pin, (), spans[-1][0], spans[0][1]), where)
+        yield Member(Plate(f"pin of {name}", "LINK", pin, (), spans[-1][0], spans[0][1]), where)
         for (high, _), (_, low) in zip(spans, spans[1:], strict=False):
             if high > low:
-                ring = Circle(LAYER, origin, sizes.ring)
+                ring = Circle("LINK", origin, sizes.ring)
                 what = "washer" if high - low <= sizes.washer else "spacer"
-                yield Member(Plate(f"{what} of {name}", LAYER, ring, (hole,), low, high), where)
+                yield Member(Plate(f"{what} of {name}", "LINK", ring, (hole,), low, high), where)
 
 
 def rollers(
@@ -69,7 +67,7 @@ def rollers(
     if not pin_radius:
         return
     bored = pin_radius + 0.5 * sizes.shaft_fit
-    pin, hole, whole = (Circle(ROLLER, (0.0, 0.0), r) for r in (pin_radius, bored, roller))
+    pin, hole, whole = (Circle("ROLLER", (0.0, 0.0), r) for r in (pin_radius, bored, roller))
     for link in links:
         for at, kind in zip(places(link), link.kinds, strict=True):
             where = point_at_zero(at)
@@ -77,11 +75,11 @@ def rollers(
                 low, high = sizes.span(link.plane - 1)
                 below = sizes.span(link.plane)[0]
                 yield Member(
-                    Plate(f"{link.name}'s roller", ROLLER, whole, (hole,), low, high), where
+                    Plate(f"{link.name}'s roller", "ROLLER", whole, (hole,), low, high), where
                 )
-                yield Member(Plate(f"{link.name}'s pin", ROLLER, pin, (), below, high), where)
+                yield Member(Plate(f"{link.name}'s pin", "ROLLER", pin, (), below, high), where)
             if kind is Joint.CARRIED:
                 low, high = sizes.span(link.plane + 1)
                 yield Member(
-                    Plate("roller in the groove", ROLLER, whole, (hole,), low, high), where
+                    Plate("roller in the groove", "ROLLER", whole, (hole,), low, high), where
                 )

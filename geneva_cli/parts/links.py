@@ -18,7 +18,7 @@ from geneva_cli.curves.hole_walls import apart, plate_wall
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.placed import placed
 from geneva_cli.curves.plates import Member, Plate
-from geneva_cli.curves.shapes import Circle, Contour, Point, Shape
+from geneva_cli.curves.shapes import Circle, Layer, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.layout.link_positions import links_at, same, turn_deg
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from geneva_cli.layout.gear_mesh import GearMesh
     from geneva_cli.parts.gear_blanks import Gear
 
-LAYER, HOLES, SHAFT = "LINK", "BORE", Joint.SHAFT
+SHAFT = Joint.SHAFT
 
 
 class Links(NamedTuple):
@@ -88,7 +88,7 @@ class _UnboredLink(NamedTuple):
 
     def clearance(self, z: complex) -> float:
         """Return the distance from a point to the nearest hole, or half-way to another shaft."""
-        away = [apart(_circle(HOLES, z, 0.0), hole) for hole in self.holes]
+        away = [apart(_circle("BORE", z, 0.0), hole) for hole in self.holes]
         others = (o for o, kind in zip(self.own, self.link.kinds, strict=True) if kind is SHAFT)
         return max(0.0, min([*away, *(0.5 * abs(o - z) for o in others if o != z)]))
 
@@ -238,9 +238,9 @@ def _bar(link: Link, sizes: LinkSizes, L: float) -> _UnboredLink:
     blocks: list[Member] = []
     for joint, z, kind in zip(joints, own, link.kinds, strict=True):
         if kind in (Joint.PIN, Joint.ROLLER):
-            holes.append(_circle(HOLES, z, sizes.hole(kind)))
+            holes.append(_circle("BORE", z, sizes.hole(kind)))
             eye = sizes.roller_eye if kind is Joint.ROLLER else sizes.eye
-            eyes.append(_circle(LAYER, z, eye))
+            eyes.append(_circle("LINK", z, eye))
         elif kind in (Joint.SLIDE, Joint.CARRIED):
             hole = sizes.hole(kind)
             along = z / abs(z)
@@ -248,18 +248,18 @@ def _bar(link: Link, sizes: LinkSizes, L: float) -> _UnboredLink:
             half, long = sizes.block(hole)
             spare = long + SLOT_MARGIN * hole
             ends = float(distances.min()) - spare, float(distances.max()) + spare
-            holes.append(_slot(along, ends, half))
-            eyes += [_circle(LAYER, r * along, half + hole) for r in ends]
+            holes.append(convex_hull("LINK", [_circle("LINK", r * along, half) for r in ends]))
+            eyes += [_circle("LINK", r * along, half + hole) for r in ends]
             if link.kinds[0] is Joint.NONE:  # it is fixed to the frame beyond both ends
                 beyond = half + 2.0 * sizes.pin
                 fixed = [(ends[0] - beyond) * along, (ends[1] + beyond) * along]
-                holes += [_circle(HOLES, f, sizes.pin) for f in fixed]
-                eyes += [_circle(LAYER, f, sizes.eye) for f in fixed]
+                holes += [_circle("BORE", f, sizes.pin) for f in fixed]
+                eyes += [_circle("LINK", f, sizes.eye) for f in fixed]
             block = Plate(
                 f"{link.name}'s block",
-                LAYER,
-                convex_hull(LAYER, [Circle(LAYER, (x, 0.0), half) for x in (-long, long)]),
-                (Circle(HOLES, (0.0, 0.0), hole),),
+                "LINK",
+                convex_hull("LINK", [Circle("LINK", (x, 0.0), half) for x in (-long, long)]),
+                (Circle("BORE", (0.0, 0.0), hole),),
                 low,
                 high,
             )
@@ -276,10 +276,10 @@ def _members(
         if kind is SHAFT:
             there = bar.at + z * bar.unit
             axis = next(one for one in turning if same(one.at, (there.real, there.imag), L))
-            eyes.append(_circle(LAYER, z, sizes.hub(axis.radius)))
-            holes += [] if name in axis.one_piece else [_circle(HOLES, z, axis.radius)]
+            eyes.append(_circle("LINK", z, sizes.hub(axis.radius)))
+            holes += [] if name in axis.one_piece else [_circle("BORE", z, axis.radius)]
     low, high = sizes.span(bar.link.plane)
-    plate = Plate(name, LAYER, convex_hull(LAYER, eyes), tuple(holes), low, high)
+    plate = Plate(name, "LINK", convex_hull("LINK", eyes), tuple(holes), low, high)
     _refuse(plate)
     yield _placed(plate, bar.at, bar.unit)
     yield from bar.blocks
@@ -297,13 +297,8 @@ def placed_holes(member: Member) -> Iterator[Circle]:
             yield placed(hole, member.at, member.turn)
 
 
-def _circle(layer: str, at: complex, radius: float) -> Circle:
+def _circle(layer: Layer, at: complex, radius: float) -> Circle:
     return Circle(layer, (at.real, at.imag), radius)
-
-
-def _slot(along: complex, ends: tuple[float, float], half: float) -> Contour:
-    """Return a slot with round ends about two points in a direction from the origin."""
-    return convex_hull(LAYER, [_circle(LAYER, r * along, half) for r in ends])
 
 
 def _refuse(plate: Plate) -> None:

@@ -17,7 +17,7 @@ from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.spec.tables import Size
 
-NAME, LAYER, HOLES = "frame", "FRAME", "BORE"
+NAME = "frame"
 
 
 def mounted_plate(
@@ -34,9 +34,9 @@ def mounted_plate(
         for sense, pick in ((-1.0, min), (1.0, max))
     )
     corners = [(x, y) for x in (low[0], high[0]) for y in (low[1], high[1])]
-    outline = convex_hull(LAYER, [Circle(LAYER, corner, eye) for corner in corners])
-    mounts = [Circle(HOLES, corner, rounded_radius(0.4 * eye)) for corner in corners]
-    return Plate(NAME, LAYER, outline, (*holes, *mounts), *span)
+    outline = convex_hull("FRAME", [Circle("FRAME", corner, eye) for corner in corners])
+    mounts = [Circle("BORE", corner, rounded_radius(0.4 * eye)) for corner in corners]
+    return Plate(NAME, "FRAME", outline, (*holes, *mounts), *span)
 
 
 def corner_radius(size: Size, L: float) -> float:
@@ -53,8 +53,8 @@ def shaft_hole(shaft: Plate | Stack, at: Point, top: float, fit_mm: float) -> Ci
         # both are exactly the numbers of which the steps were made
         seat = next(step for step in shaft.plates if step.high == top)
         bearing = next(one for one in SERIES_60 if one.bore == 2.0 * around(seat.outline))
-        return Circle(HOLES, at, 0.5 * bearing.outside)
-    return Circle(HOLES, at, around(shaft.outline) + 0.5 * fit_mm)
+        return Circle("BORE", at, 0.5 * bearing.outside)
+    return Circle("BORE", at, around(shaft.outline) + 0.5 * fit_mm)
 
 
 def shaft_holes(size: Size, axles: Iterable[Member], top: float) -> list[Circle]:
@@ -69,7 +69,7 @@ def shaft_holes(size: Size, axles: Iterable[Member], top: float) -> list[Circle]
 
 def hole_without_shaft(diameter_mm: float | None, at: Point, L: float) -> Circle:
     """Return the hole for a part that is one piece with its shaft, of the spec or L/10 wide."""
-    return Circle(HOLES, at, half_or(diameter_mm, bore_radius(L / 20.0)))
+    return Circle("BORE", at, half_or(diameter_mm, bore_radius(L / 20.0)))
 
 
 def require_walls(holes: list[Circle], least: float, axles: list[Member]) -> None:

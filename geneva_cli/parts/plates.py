@@ -6,7 +6,7 @@ The wheel stands on the plane z = 0. The arm is below it, and carries the lockin
 from __future__ import annotations
 
 from geneva_cli.curves.plates import Plate
-from geneva_cli.curves.shapes import Circle
+from geneva_cli.curves.shapes import ORIGIN, Circle
 from geneva_cli.outlines.crank import crank_circles, is_whole
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.arm import CrankArm, bolts
@@ -48,12 +48,11 @@ def roller_plates(
 
     The roller's bore is wider than the pin by ``fit`` mm of the diameter.
     """
-    layer, at = "ROLLER", (0.0, 0.0)
-    outline = Circle(layer, at, radius)
+    outline = Circle("ROLLER", ORIGIN, radius)
     if not pin_radius:
-        return [Plate("roller", layer, outline, (), 0.0, high)]
-    pin = Circle(layer, at, pin_radius)
+        return [Plate("roller", "ROLLER", outline, (), 0.0, high)]
+    pin, bore = (Circle("ROLLER", ORIGIN, r) for r in (pin_radius, pin_radius + 0.5 * fit))
     return [
-        Plate("roller", layer, outline, (Circle(layer, at, pin_radius + 0.5 * fit),), 0.0, high),
-        Plate("pin", layer, pin, (), low, high),
+        Plate("roller", "ROLLER", outline, (bore,), 0.0, high),
+        Plate("pin", "ROLLER", pin, (), low, high),
     ]

@@ -31,8 +31,6 @@ from geneva_cli.parts.built_shafts import built_shafts
 from geneva_cli.parts.edged_parts import FrameAndShafts
 from geneva_cli.parts.gear_pair import gear_seats, gear_shafts
 from geneva_cli.parts.mounted_plate import (
-    HOLES,
-    LAYER,
     corner_radius,
     hole_without_shaft,
     mounted_plate,
@@ -130,7 +128,7 @@ def guide_bar(mechanism: Mechanism, count: int) -> Plate:
 def bar_bolts(sizes: RackSizes, count: int) -> tuple[Circle, ...]:
     """Return the holes that fix the bar to a rack, behind each of its slots."""
     x = sizes.guide.middle
-    return tuple(Circle(HOLES, (x, y), _bolt(sizes)) for y in slot_places(sizes, count))
+    return tuple(Circle("BORE", (x, y), _bolt(sizes)) for y in slot_places(sizes, count))
 
 
 def guide(mechanism: Mechanism) -> tuple[Plate, ...]:
@@ -149,14 +147,14 @@ def guide(mechanism: Mechanism) -> tuple[Plate, ...]:
         )
     over = heights.rack + mechanism.spec.size.allowances.pin_gap_mm
     on_rail, on_wall = (tuple(_row(sizes, at)) for at in _rows(sizes))
-    rail = rectangle(LAYER, x + bar + slide, -half, x + 2.0 * bar + slide, half)
-    wall = rectangle(LAYER, x - slide - 2.0 * bar, -half, x - slide, half)
+    rail = rectangle("FRAME", x + bar + slide, -half, x + 2.0 * bar + slide, half)
+    wall = rectangle("FRAME", x - slide - 2.0 * bar, -half, x - slide, half)
     # the cover ends a tenth of a bar inside the edges of wall and bar
-    cover = rectangle(LAYER, x - slide - 1.9 * bar, -half, x + 0.9 * bar, half)
+    cover = rectangle("FRAME", x - slide - 1.9 * bar, -half, x + 0.9 * bar, half)
     return (
-        Plate("guide rail", LAYER, rail, on_rail, heights.top, 0.0),
-        Plate("guide wall", LAYER, wall, on_wall, heights.top, over),
-        Plate("guide cover", LAYER, cover, on_wall, over, over + heights.cover),
+        Plate("guide rail", "FRAME", rail, on_rail, heights.top, 0.0),
+        Plate("guide wall", "FRAME", wall, on_wall, heights.top, over),
+        Plate("guide cover", "FRAME", cover, on_wall, over, over + heights.cover),
     )
 
 
@@ -189,7 +187,7 @@ def _row(sizes: RackSizes, x: float) -> Iterator[Circle]:
     """Yield three screws' holes along the guide, half a bar's width from its ends."""
     far = sizes.guide.half - 0.5 * sizes.guide.bar
     for y in (-far, 0.0, far):
-        yield Circle(HOLES, (x, y), _bolt(sizes))
+        yield Circle("BORE", (x, y), _bolt(sizes))
 
 
 def _bolt(sizes: RackSizes) -> float:

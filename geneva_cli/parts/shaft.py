@@ -10,8 +10,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bores import Bore, fitted
 from geneva_cli.spec.tables import Size
 
-SHAFT = "SHAFT"
-
 
 class Seat(NamedTuple):
     """Where a part sits on its shaft: its name, its lower and its upper face."""
@@ -62,8 +60,10 @@ class Shaft(NamedTuple):
                 f"{self.part}_shaft_high_mm",
                 ("size", key),
             )
-        section = fitted(size, self.bore).section(SHAFT, self.direction)
-        return Member(Plate(self.name, SHAFT, section, (), self.low, self.high), self.at, self.turn)
+        section = fitted(size, self.bore).section("SHAFT", self.direction)
+        return Member(
+            Plate(self.name, "SHAFT", section, (), self.low, self.high), self.at, self.turn
+        )
 
 
 class Ends(NamedTuple):

@@ -24,7 +24,7 @@ from geneva_cli.layout.reliefs import keyway_direction
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.crank import crank_circles, is_whole
 from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.outlines.wheel_hub import HUB, about_axis, wheel_hub
+from geneva_cli.outlines.wheel_hub import about_axis, wheel_hub
 from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.shaft import Seat, Shaft, shaft_ends
 
@@ -61,7 +61,7 @@ def _crank_hub(parts: Outlines) -> Plate | None:
     if high <= low:
         return None
     bores = about_axis(crank_circles(parts.assembly, sizes) if sizes.crank_bore else [])
-    return Plate("crank's hub", HUB, Circle(HUB, ORIGIN, sizes.crank_hub), bores, low, high)
+    return Plate("crank's hub", "HUB", Circle("HUB", ORIGIN, sizes.crank_hub), bores, low, high)
 
 
 def shafts(

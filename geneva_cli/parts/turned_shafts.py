@@ -18,7 +18,7 @@ from geneva_cli.curves.shapes import ORIGIN, Circle, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bearings import Bearing, bearing_up_to, circlip_up_to
 from geneva_cli.layout.bores import Bore, fitted, rounded
-from geneva_cli.parts.shaft import SHAFT, Seat, Shaft
+from geneva_cli.parts.shaft import Seat, Shaft
 from geneva_cli.spec.tables import Size
 
 
@@ -67,15 +67,15 @@ def turned_shaft(size: Size, shaft: Shaft, frame: float, free: float | None = No
     steps = [*others, last._replace(high=high)]
     heights = pairwise([low, *(step.high for step in steps)])
     plates = (
-        Plate(step.name, SHAFT, step.section, (), *ends)
+        Plate(step.name, "SHAFT", step.section, (), *ends)
         for step, ends in zip(steps, heights, strict=True)
     )
-    return Member(Stack(shaft.name, SHAFT, tuple(plates)), shaft.at, shaft.turn)
+    return Member(Stack(shaft.name, "SHAFT", tuple(plates)), shaft.at, shaft.turn)
 
 
 def _above(shaft: Shaft, own: Bore, free: float | None) -> Iterator[Step]:
     """Yield the steps from the frame's upper face up."""
-    section = own.section(SHAFT, shaft.direction)
+    section = own.section("SHAFT", shaft.direction)
     below = rounded(section) if own.is_round else _circle(2.0 * own.radius)
     first = shaft.seats[0].low if shaft.seats else shaft.high
     top = first if free is None else min(first, free)
@@ -118,4 +118,4 @@ def _end(key: str, own: float | None, needed: float, outwards: float) -> float:
 
 
 def _circle(diameter: float) -> Circle:
-    return Circle(SHAFT, ORIGIN, 0.5 * diameter)
+    return Circle("SHAFT", ORIGIN, 0.5 * diameter)

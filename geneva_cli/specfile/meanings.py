@@ -56,8 +56,8 @@ def listed() -> list[tuple[str, str, str]]:
     """Everything that is explained: group, name, and a sentence."""
     out = []
     for entry in entries():
-        whole = _of_entry(entry, entry.names[0]).meaning
-        out += [(entry.group, name, _sentence(whole)) for name in entry.names]
+        sentence = _of_entry(entry, entry.names[0]).meaning.partition(". ")[0].rstrip(".") + "."
+        out += [(entry.group, name, sentence) for name in entry.names]
     return out
 
 
@@ -170,11 +170,6 @@ def _of_key(key: Key) -> Meaning:
         unit=key.unit,
         manual="geneva help keys",
     )
-
-
-def _sentence(text: str) -> str:
-    """First sentence of a text."""
-    return text.partition(". ")[0].rstrip(".") + "."
 
 
 def _sentenced(text: str) -> str:

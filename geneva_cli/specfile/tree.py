@@ -171,17 +171,13 @@ def _before(values: Any, drives: _Kinds, files: _Files) -> Any:
         own = ("kind", *(field.key for field in own_fields(registry.drive(values["kind"]))))
         for key in values:
             # a key of another kind is refused below, with its kind
-            if key not in own and not _has_key(drives, key):
+            known = any(one.key == key for _, kind in drives.all() for one in fields(kind))
+            if key not in own and not known:
                 raise unknown(key, BEFORE, own)
     try:
         return _kind(values, drives, files)
     except GenevaError as error:
         raise GenevaError(f"[{BEFORE}]: {error}", (*place, *error.key[1:])) from None
-
-
-def _has_key(kinds: _Kinds, key: str) -> bool:
-    """True if any kind has a key."""
-    return any(field.key == key for _, kind in kinds.all() for field in fields(kind))
 
 
 def _motion(values: dict[str, Any], files: _Files) -> Motion | None:

@@ -1,13 +1,15 @@
-"""Many specs at once, built as batch machines where possible, and their quantities as arrays."""
+"""Many designs at once, built as batch machines where possible, and their quantities as arrays."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.machine.many import many, may_vary
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import BEFORE, Spec
@@ -15,6 +17,7 @@ from geneva_cli.machine.spec import attribute as attribute_of
 from geneva_cli.numerics.arrays import Array, Number
 from geneva_cli.spec.schema import SpecTable, fields
 from geneva_cli.study.fields import Cell
+from geneva_cli.study.sweep.values import Value
 from geneva_cli.verdict.quantities.designs import Designs
 from geneva_cli.verdict.quantities.names import group_of, in_batch
 
@@ -52,19 +55,77 @@ def batch_machines(specs: Sequence[Spec]) -> Iterator[Batch]:
 
     A spec that cannot be built is in none of them.
     """
-    apart: dict[Any, list[int]] = {}
     wide: list[dict[str, float]] = []
     keys: dict[Any, list[BatchKey]] = {}
-    for i, spec in enumerate(specs):
+    shapes = []
+    for spec in specs:
         shape, own = _split(spec, keys)
         wide.append(own)
-        apart.setdefault(shape, []).append(i)
-    for members in apart.values():
+        shapes.append(shape)
+    for members in _alike(range(len(specs)), shapes.__getitem__):
         varied = {k: np.array([wide[i][k] for i in members]) for k in wide[members[0]]}
         differing = {k: v for k, v in varied.items() if (v != v[0]).any()}
-        batch = many(specs[members[0]], differing or dict([*varied.items()][:1]))
-        if batch.machine is not None:
-            yield [members[i] for i in batch.which.tolist()], batch.machine
+        yield from _built(specs[members[0]], differing or dict([*varied.items()][:1]), members)
+
+
+def batch_rows(
+    rows: Sequence[Sequence[Value]],
+    keys: Sequence[str],
+    read: Callable[[Sequence[Value]], Spec],
+) -> Iterator[Batch]:
+    """Batch machines of rows of values of some keys, each with the numbers of its rows.
+
+    ``read`` makes the spec of a row, which takes longer than the row's share of a batch: it is
+    called for the first rows of a batch only. Rows that share their words are machines of one kind,
+    which tells which of their numbers may be arrays; the rows of a batch share the others too.
+    """
+    numbers = [k for k in range(len(keys)) if not any(isinstance(row[k], str) for row in rows)]
+
+    def without(wide: Sequence[int]) -> Callable[[int], object]:
+        return lambda i: tuple(v for k, v in enumerate(rows[i]) if k not in wide)
+
+    for kind in _alike(range(len(rows)), without(numbers)):
+        spec = _first_spec(rows, kind, read)
+        wide = [k for k in numbers if spec and _may_vary(spec, keys[k])]
+        for members in _alike(kind, without(wide)) if wide else ():
+            spec = _first_spec(rows, members, read)
+            if spec is not None:
+                varied = {keys[k]: np.array([rows[i][k] for i in members]) for k in wide}
+                yield from _built(spec, varied, members)
+
+
+def _alike(members: Iterable[int], shape: Callable[[int], object]) -> Iterator[list[int]]:
+    """Groups of the members whose shapes are equal."""
+    groups: dict[object, list[int]] = {}
+    for i in members:
+        groups.setdefault(shape(i), []).append(i)
+    yield from groups.values()
+
+
+def _built(spec: Spec, varied: Mapping[str, Array], members: Sequence[int]) -> Iterator[Batch]:
+    """The machine of those members that can be built, if there are any."""
+    batch = many(spec, varied)
+    if batch.machine is not None:
+        yield [members[i] for i in batch.which.tolist()], batch.machine
+
+
+def _first_spec(
+    rows: Sequence[Sequence[Value]],
+    members: Sequence[int],
+    read: Callable[[Sequence[Value]], Spec],
+) -> Spec | None:
+    """The first valid spec among the first 20 members; None if there is none."""
+    for i in members[:20]:
+        with suppress(GenevaError):
+            return read(rows[i])
+    return None
+
+
+def _may_vary(spec: Spec, key: str) -> bool:
+    try:
+        return may_vary(spec, key)
+    except GenevaError:  # the key belongs to another kind of machine
+        return False
 
 
 class BatchKey(NamedTuple):

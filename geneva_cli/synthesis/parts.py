@@ -84,7 +84,11 @@ def parts(mechanism: Mechanism) -> Parts:
     if not spec.is_turned:
         return Parts(spec, None)
     if not spec.output.turns:
-        return Parts(spec, _suiting_rack(mechanism))
+        try:
+            rack_sizes(mechanism)  # with the roller of the spec, or the usual one
+        except GenevaError:
+            return Parts(spec, SIZES)
+        return Parts(spec, "")
     if not spec.is_flat:
         r, why = _suiting_sphere(mechanism)
         return Parts(spec if r is None else with_roller(spec, r), why)
@@ -95,15 +99,6 @@ def parts(mechanism: Mechanism) -> Parts:
     else:
         r, why = _suiting_plane(assembly(mechanism), at, m)
     return Parts(spec if r is None else with_roller(spec, r), why)
-
-
-def _suiting_rack(mechanism: Mechanism) -> str:
-    """The obstacle to a rack and its crank with the roller of the spec, or the usual one."""
-    try:
-        rack_sizes(mechanism)
-    except GenevaError:
-        return SIZES
-    return ""
 
 
 @lru_cache(maxsize=1024)

@@ -7,8 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from geneva_cli import Carousel, Crank, Design, External, Load, Mass, Shaft
-from geneva_cli.analysis.vibration.oscillator import oscillator
-from geneva_cli.analysis.vibration.swing import Swing
+from geneva_cli.analysis.vibration.oscillator import Oscillator, oscillator
 from geneva_cli.analysis.vibration.vibration import Oscillators
 
 ANGLE = math.radians(30.0)
@@ -71,7 +70,8 @@ def test_the_force_alone_is_exact(damping):
     """Without its stiffness. 1e-8: the integration's 1e-11 of a swing that is 100 residuals."""
     design = carousel(200.0, damping)
     own = Oscillators(
-        design.mechanism, Swing(np.array([oscillator(design.mechanism).ratio]), np.array([damping]))
+        design.mechanism,
+        Oscillator(np.array([oscillator(design.mechanism).ratio]), np.array([damping])),
     )
     for index in own.indices:
         index.pull = index.pull._replace(moving=np.zeros(1))
@@ -93,7 +93,9 @@ def test_the_stiffness_of_the_force_counts_by_its_mean(stiffness, damping):
 def test_a_body_on_the_carriers_side_softens_the_shaft():
     """At mid-motion it is nearest: k falls by U cos x, so that fewer periods pass."""
     near, far = (
-        Oscillators(one.mechanism, Swing(np.array([10.0]), np.zeros(1))).indices[0].pull.moving[0]
+        Oscillators(one.mechanism, Oscillator(np.array([10.0]), np.zeros(1)))
+        .indices[0]
+        .pull.moving[0]
         for one in (carousel(1e3, body=BODY.replace(angle_deg=turn)) for turn in (0.0, 180.0))
     )
     assert near > 0.0
@@ -111,7 +113,8 @@ def test_the_steady_state_is_the_sum_of_all_earlier_residuals():
     """Slowly built up: 60 turns of the wheel, each motion a kick between free swings."""
     design = carousel(200.0, 0.02)
     own = Oscillators(
-        design.mechanism, Swing(np.array([oscillator(design.mechanism).ratio]), np.array([0.02]))
+        design.mechanism,
+        Oscillator(np.array([oscillator(design.mechanism).ratio]), np.array([0.02])),
     )
     kicks = [complex(one[0]) for one in own.residual]
     z, most = 0.0j, []

@@ -8,7 +8,6 @@ from typer.testing import CliRunner
 
 from geneva_cli.app import app
 from geneva_cli.specfile.reader import read
-from geneva_cli.study.sweep import batch
 from geneva_cli.study.sweep.plan import plan
 from geneva_cli.study.sweep.run import Sweep, sweep
 from geneva_cli.study.sweep.values import axis
@@ -52,7 +51,7 @@ def rows(spec, vary, picks, random=None):
 def test_together_as_alone(spec, vary, some):
     together, alone, found = rows(spec, vary, TIMING)
     keys = [a.key for a in found.plan.axes]
-    known = batch.table(found.plan.rows(0, len(alone)), keys, found.pick.names, found._spec)
+    known = found.known(found.plan.rows(0, len(alone)))
     built = sum(row[-1] is None for row in alone)
     # engagements that differ have no single timing: those designs are had one by one
     assert len(known) == (built if some else 0)
@@ -69,7 +68,7 @@ def test_what_no_design_has_is_had_at_once():
         "internal-z6.toml", ["drive.n_rpm=10..50:10"], ["loads.contact_stress_MPa.max"]
     )
     every = found.plan.rows(0, len(alone))
-    known = batch.table(every, ["drive.n_rpm"], found.pick.names, found._spec)
+    known = found.known(every)
     assert [*known.values()] == [[None]] * 5 == [row[1:-1] for row in alone]
 
 
@@ -89,7 +88,7 @@ def test_locks_together_as_alone(spec):
     vary = ["size.lock_radius_mm=0,20,35,60", "load.dwell_torque_Nm=0,3", "load.inertia_kgm2=1"]
     together, alone, found = rows(spec, [*vary, "size.face_width_mm=10"], picks)
     keys = [axis.key for axis in found.plan.axes]
-    known = batch.table(found.plan.rows(0, 8), keys, found.pick.names, found._spec)
+    known = found.known(found.plan.rows(0, 8))
     assert len(known) == sum(row[-1] is None for row in alone) > 0
     for one, other in zip(together, alone, strict=True):
         assert one[-1] == other[-1]
@@ -118,7 +117,7 @@ def test_where_a_torque_alone_resists():
         "side-crank-z6.toml", ["drive.A=0,0.3", "load.torque_Nm=10"], picks
     )
     every = found.plan.rows(0, 2)
-    assert len(batch.table(every, ["drive.A", "load.torque_Nm"], picks, found._spec)) == 2
+    assert len(found.known(every)) == 2
     for one, other in zip(together, alone, strict=True):
         assert one[-3:] == other[-3:] == [None, None, None]
         assert one[:-3] == pytest.approx(other[:-3], rel=1e-12)

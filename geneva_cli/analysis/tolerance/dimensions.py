@@ -30,11 +30,6 @@ class Deviations(NamedTuple):
     lock_radius_mm: Jet
     recess_radius_mm: Jet
 
-    @property
-    def slot_clearance(self) -> Jet:
-        """Their contribution to the clearance between roller and slot, per side, mm."""
-        return (self.slot_width_mm - self.roller_diameter_mm) * 0.5
-
 
 def tolerances(spec: Spec) -> dict[str, float]:
     """Plus or minus of each dimension, in millimetres and radians."""

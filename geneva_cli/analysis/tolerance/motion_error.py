@@ -45,14 +45,15 @@ class MotionError(NamedTuple):
         free = self.play_mm(by)
         free = free * choose(free.c[0] > 0.0, 1.0, 0.0)
         turned = atan2(scale * y * x - moved * y, px * x + py * y)
-        tilt = _asin(free * side + offset, px * px + py * py)
+        height = free * side + offset
+        tilt = atan2(height, sqrt(px * px + py * py - height * height))
         true = np.arcsin(offset / np.hypot(x, y))
         out: Jet = turned + (tilt - true) + by.slot_angle_deg
         return out
 
     def play_mm(self, by: Deviations) -> Jet:
         """Clearance per side, mm; negative if the roller does not fit into the slot."""
-        return by.slot_clearance + self.clearance
+        return (by.slot_width_mm - by.roller_diameter_mm) * 0.5 + self.clearance
 
     def margin_mm(self, spec: Spec, use: Mapping[str, float]) -> float:
         """Greatest sum of errors of L and R that every random machine allows, mm.
@@ -112,12 +113,6 @@ class WorstErrors(NamedTuple):
 def _machines_first(z: Number) -> Array:
     """Deviations of machines as (k, n, 1), with n = 1 for one design."""
     return np.reshape(z, (np.shape(z)[0] if np.ndim(z) else 1, -1, 1))
-
-
-def _asin(height: Jet, square: Jet) -> Jet:
-    """Angle whose sine is a height over the root of a square."""
-    left = square - height * height
-    return atan2(height, sqrt(left))
 
 
 def motion_errors(mechanism: Mechanism) -> list[MotionError]:

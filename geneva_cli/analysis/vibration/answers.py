@@ -11,7 +11,6 @@ from geneva_cli.analysis.forces import unbalance_Nm
 from geneva_cli.analysis.motion import check_samples
 from geneva_cli.analysis.vibration.centrifugal import STIFFEST, stiffness_ratio
 from geneva_cli.analysis.vibration.oscillator import NO_INERTIA, Oscillator
-from geneva_cli.analysis.vibration.swing import Swing
 from geneva_cli.analysis.vibration.vibration import (
     FASTER,
     SLOWER,
@@ -36,7 +35,7 @@ SPECTRUM_COLUMNS = (
 )
 
 
-def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
+def values(mechanism: Mechanism, load: Oscillator[float] | None) -> dict[str, Any]:
     """Named values, with equal names for every machine; all None if no inertia is known."""
     why = _unknown(mechanism, load)
     if load is None or why:
@@ -56,7 +55,7 @@ def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
     }
 
 
-def _unknown(mechanism: Mechanism, load: Oscillator | None) -> str:
+def _unknown(mechanism: Mechanism, load: Oscillator[float] | None) -> str:
     """Return the reason why no value is computed; empty where there is none."""
     if any(one.motion.jump for one in mechanism.engagements):
         return "the wheel's speed jumps at entry, and so does the load's"
@@ -101,7 +100,7 @@ STATION_COLUMNS = (
 NUMBERS = (*Vibrations._fields, "speeds_to_avoid_rpm")
 
 
-def _warnings(mechanism: Mechanism, load: Oscillator, least: float) -> list[Notice]:
+def _warnings(mechanism: Mechanism, load: Oscillator[float], least: float) -> list[Notice]:
     out = []
     moment = math.hypot(*unbalance_Nm(mechanism))
     if moment:
@@ -155,14 +154,14 @@ def _never_steady(mechanism: Mechanism, load: Oscillator) -> str:
     return ""
 
 
-def vibration_table(mechanism: Mechanism, load: Oscillator | None) -> Table:
+def vibration_table(mechanism: Mechanism, load: Oscillator[float] | None) -> Table:
     """Record of ``geneva vibration``."""
     title = mechanism.spec.title
     head = {"spec": mechanism.spec.path, "title": title}
     return record_table(head | values(mechanism, load), title)
 
 
-def spectrum(mechanism: Mechanism, load: Oscillator, samples: int) -> Table:
+def spectrum(mechanism: Mechanism, load: Oscillator[float], samples: int) -> Table:
     """Table of ``samples`` speeds from half to twice the design's, in geometric progression."""
     check_samples(samples)
     n_rpm = mechanism.spec.drive.n_rpm
@@ -172,7 +171,7 @@ def spectrum(mechanism: Mechanism, load: Oscillator, samples: int) -> Table:
     def rows(begin: int, end: int) -> list[object]:
         speed = every[begin:end]
         ratio = load.ratio * (n_rpm / speed)
-        oscillators = Oscillators(mechanism, Swing(ratio, np.full(len(speed), load.damping)))
+        oscillators = Oscillators(mechanism, Oscillator(ratio, np.full(len(speed), load.damping)))
         share, turned = oscillators.share.max(axis=0), oscillators.residual_deg.max(axis=0)
         known = not _never_steady(mechanism, load)
         settled = oscillators.steady_share.max(axis=0) if known else [None] * len(speed)

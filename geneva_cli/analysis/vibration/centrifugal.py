@@ -28,9 +28,10 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.carried import MM, inertia_kgm2, unbalance_kgm
+from geneva_cli.analysis.vibration.oscillator import Oscillator
 from geneva_cli.analysis.vibration.panels import Panels
 from geneva_cli.analysis.vibration.shape import motion_shapes
-from geneva_cli.analysis.vibration.swing import Swing, residual_swing
+from geneva_cli.analysis.vibration.swing import residual_swing
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
@@ -49,14 +50,16 @@ class Pull(NamedTuple):
     moving: Array  # the mean of U cos X over k, times Omega²
     resting: Array  # its value in the dwell that follows
 
-    def softened(self, swing: Swing, which: Whole, resting: bool = False) -> Swing:
+    def softened(
+        self, swing: Oscillator[Array], which: Whole, resting: bool = False
+    ) -> Oscillator[Array]:
         """Return the oscillators with the stiffness of the unbalance."""
         own = self.resting if resting else self.moving
         less = (own if len(own) == 1 else own[which]) / (2.0 * np.pi) ** 2
         ratio = np.sqrt(swing.ratio**2 - less)
-        return Swing(ratio, swing.damping * swing.ratio / ratio)
+        return Oscillator(ratio, swing.damping * swing.ratio / ratio)
 
-    def residual(self, motion: Whole, swing: Swing) -> Complex:
+    def residual(self, motion: Whole, swing: Oscillator[Array]) -> Complex:
         """Return what g adds to the residuals of oscillators."""
         added = residual_swing(self.shape, motion, swing)
         out: Complex = -added * np.conj(swing.p) / (swing.p * abs(swing.p) ** 2)

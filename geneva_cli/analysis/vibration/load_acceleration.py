@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from geneva_cli.analysis.vibration.oscillator import Oscillator
 from geneva_cli.analysis.vibration.panels import NODES, SERIES, Panels, X
-from geneva_cli.analysis.vibration.swing import Swing
 from geneva_cli.numerics.arrays import Array, Complex, Whole, matrix_product
 
 legendre = np.polynomial.legendre
@@ -19,7 +19,7 @@ _INTEGRALS = matrix_product(
 )
 
 
-def greatest_accelerations(panels: Panels, motion: Whole, swing: Swing) -> Array:
+def greatest_accelerations(panels: Panels, motion: Whole, swing: Oscillator[Array]) -> Array:
     """Return the greatest size of each load's acceleration by u over the step: (n,).
 
     It is over the motion, with the load at rest at entry. ``motion`` (n,) are the motions of the

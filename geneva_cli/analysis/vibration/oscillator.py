@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Generic, NamedTuple
+
+import numpy as np
 
 from geneva_cli.analysis.carried import inertia_kgm2
 from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics.engagement import K
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.arrays import Complex, library
 from geneva_cli.spec.rules import Range
 
 PERIOD_RATIO = Range(1e-6, 1e5)  # the range that is computed
@@ -25,16 +28,25 @@ def _ratios() -> str:
     return f"{PERIOD_RATIO.low:g} to {PERIOD_RATIO.high:g}"
 
 
-class Oscillator(NamedTuple):
-    """The load on its shaft: the period ratio of the first motion, and the damping ratio."""
+class Oscillator(NamedTuple, Generic[K]):
+    """Loads on their shafts: period ratios of the first motion, and damping ratios below 1.
 
-    ratio: float
-    damping: float
+    Floats of one load, arrays of several.
+    """
+
+    ratio: K
+    damping: K
+
+    @property
+    def p(self) -> Complex:
+        """Complex rate p of each, by the motion's time."""
+        zeta = np.asarray(self.damping)
+        return 2.0 * np.pi * self.ratio * (-zeta + 1j * np.sqrt(1.0 - zeta * zeta))
 
 
 def oscillator(
     mechanism: Mechanism, period_ratio: float | None = None, damping: float | None = None
-) -> Oscillator | None:
+) -> Oscillator[float] | None:
     """The load from [shaft], or from the arguments; None if no inertia is known.
 
     Raises GenevaError without a stiffness, and for values out of range.
@@ -82,7 +94,7 @@ def period_ratio_of(mechanism: Mechanism, stiffness_Nm_rad: float, inertia_kgm2:
 
 def required_oscillator(
     mechanism: Mechanism, period_ratio: float | None = None, damping: float | None = None
-) -> Oscillator:
+) -> Oscillator[float]:
     """The load as an oscillator. Raises GenevaError if no inertia is known."""
     load = oscillator(mechanism, period_ratio, damping)
     if load is None:

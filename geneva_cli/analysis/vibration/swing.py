@@ -16,10 +16,11 @@ does not occur.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geneva_cli.analysis.vibration.oscillator import Oscillator
 from geneva_cli.analysis.vibration.panels import TERMS, Panels
 from geneva_cli.numerics.arrays import Array, Complex, Whole
 
@@ -27,36 +28,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-class Swing(NamedTuple):
-    """Oscillators: arrays of period ratios, and of damping ratios below 1."""
-
-    ratio: Array
-    damping: Array
-
-    @property
-    def p(self) -> Complex:
-        """Complex rate p of each, by the motion's time."""
-        zeta = self.damping
-        return 2.0 * np.pi * self.ratio * (-zeta + 1j * np.sqrt(1.0 - zeta * zeta))
-
-    def after(self, v: float | Array) -> Complex:
-        """e^(p v), with the angle reduced before it is rounded; elementwise for arrays."""
-        whole = np.floor(self.ratio)
-        split = 2.0**26  # half of a double's bits
-        head = np.floor(v * split) / split
-        turns = (whole * head) % 1.0 + whole * (v - head) + (self.ratio - whole) * v
-        angle = 2.0 * np.pi * (turns - np.round(turns))
-        zeta = self.damping
-        if not zeta.any():
-            return np.cos(angle) + 1j * np.sin(angle)
-        # difference of sqrt(1 - zeta²) from 1
-        slower = zeta * zeta / (1.0 + np.sqrt(1.0 - zeta * zeta))
-        omega = 2.0 * np.pi * self.ratio
-        angle -= omega * slower * v
-        return np.exp(-omega * zeta * v) * (np.cos(angle) + 1j * np.sin(angle))
-
-
-def residual_swing(panels: Panels, motion: Whole, swing: Swing) -> Complex:
+def residual_swing(panels: Panels, motion: Whole, swing: Oscillator[Array]) -> Complex:
     """Return the residual vibration of each oscillator after a motion: (n,), over the step.
 
     It is (r' - p* r) / Im p at the end of the motion, which begins without vibration. Here r is the
@@ -74,7 +46,7 @@ def residual_swing(panels: Panels, motion: Whole, swing: Swing) -> Complex:
             # 16,384 pairs of an oscillator and a panel at a time stay in the cache
             stop = max(start + 1, int(np.searchsorted(count, done + (1 << 14), side="right")))
             part = at[start:stop]
-            some = Swing(swing.ratio[part], swing.damping[part])
+            some = Oscillator(swing.ratio[part], swing.damping[part])
             p = some.p
             # By parts: one more derivative, if it vanishes at both ends, gains a factor p.
             out[part] = -_integral(panels, k, motion[part], some) * p ** (2 - k) / p.imag
@@ -82,7 +54,7 @@ def residual_swing(panels: Panels, motion: Whole, swing: Swing) -> Complex:
     return out
 
 
-def _orders(panels: Panels, motion: Whole, swing: Swing) -> Whole:
+def _orders(panels: Panels, motion: Whole, swing: Oscillator[Array]) -> Whole:
     """Return the best derivative to integrate: rounding is proportional to its greatest value."""
     best = np.ones(len(motion), dtype=np.intp)
     omega = 2.0 * np.pi * swing.ratio
@@ -93,11 +65,11 @@ def _orders(panels: Panels, motion: Whole, swing: Swing) -> Whole:
     return best
 
 
-def _integral(panels: Panels, order: int, motion: Whole, swing: Swing) -> Complex:
+def _integral(panels: Panels, order: int, motion: Whole, swing: Oscillator[Array]) -> Complex:
     """Integrate a derivative of each oscillator's motion against its vibration."""
     of, panel, first = panels.paired(motion)
     p, h = swing.p[of], panels.half[panel]
-    each = Swing(swing.ratio[of], swing.damping[of])
+    each = Oscillator(swing.ratio[of], swing.damping[of])
     series = panels.series[order - 1, panel]
     # Without damping q = -i omega h, and all recurrences are real in omega h.
     unit = 1.0 if swing.damping.any() else -1j
@@ -106,18 +78,35 @@ def _integral(panels: Panels, order: int, motion: Whole, swing: Swing) -> Comple
     size = np.abs(p) * reach
     reduced: Array | Complex = -p * reach if unit == 1.0 else size
     out: Complex = np.empty(len(of), dtype=complex)
-    after = each.after(1.0 - panels.right[panel])
+    after = _after(each, 1.0 - panels.right[panel])
     large = size >= TERMS  # there the upward recurrence is stable
     # apart, since 56 terms of a |q| below 1e-8 overflow, and 32 of 1e-15 do not
     for here in (size < 0.5, (size >= 0.5) & ~large):
         if here.any():
             out[here] = _by_recurrence(reduced[here], unit, series[here]) * h[here] * after[here]
     if large.any():
-        some = Swing(each.ratio[large], each.damping[large])
+        some = Oscillator(each.ratio[large], each.damping[large])
         one, other = _by_ends(reduced[large], unit, series[large])
-        both = some.after(1.0 - panels.left[panel[large]]) * one + after[large] * other
+        both = _after(some, 1.0 - panels.left[panel[large]]) * one + after[large] * other
         out[large] = both / p[large]
     return np.add.reduceat(out, first)
+
+
+def _after(one: Oscillator[Array], v: float | Array) -> Complex:
+    """e^(p v), with the angle reduced before it is rounded; elementwise for arrays."""
+    whole = np.floor(one.ratio)
+    split = 2.0**26  # half of a double's bits
+    head = np.floor(v * split) / split
+    turns = (whole * head) % 1.0 + whole * (v - head) + (one.ratio - whole) * v
+    angle = 2.0 * np.pi * (turns - np.round(turns))
+    zeta = one.damping
+    if not zeta.any():
+        return np.cos(angle) + 1j * np.sin(angle)
+    # difference of sqrt(1 - zeta²) from 1
+    slower = zeta * zeta / (1.0 + np.sqrt(1.0 - zeta * zeta))
+    omega = 2.0 * np.pi * one.ratio
+    angle -= omega * slower * v
+    return np.exp(-omega * zeta * v) * (np.cos(angle) + 1j * np.sin(angle))
 
 
 def _sums(terms: NDArray[np.inexact], series: Array) -> Complex:

@@ -39,7 +39,7 @@ from geneva_cli.analysis.vibration.load_acceleration import greatest_acceleratio
 from geneva_cli.analysis.vibration.lobes import Lobes, highest_ratio, lobes
 from geneva_cli.analysis.vibration.oscillator import PERIOD_RATIO, Oscillator, period_ratio_of
 from geneva_cli.analysis.vibration.shape import law_shape, motion_shapes, shape
-from geneva_cli.analysis.vibration.swing import Swing, residual_swing
+from geneva_cli.analysis.vibration.swing import residual_swing
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
@@ -102,14 +102,14 @@ class Index:
     def residual(self, which: Whole, ratio: Array, damping: Array) -> Complex:
         """Return the residuals of oscillators, by period ratios of the first motion."""
         scale = self.scale if len(self.scale) == 1 else self.scale[which]
-        swing = Swing(ratio * scale, damping)
+        swing = Oscillator(ratio * scale, damping)
         if self.pull is None:
             return residual_swing(self.panels, self.shapes(which), swing)
         swing = self.pull.softened(swing, which)
         added = self.pull.residual(self.shapes(which), swing)
         return residual_swing(self.panels, self.shapes(which), swing) + added
 
-    def spans_deg(self, dwell_deg: float, swing: Swing) -> tuple[Array, Array]:
+    def spans_deg(self, dwell_deg: float, swing: Oscillator[Array]) -> tuple[Array, Array]:
         """Return input angles of the motion and of the dwell after it, as the load swings in them.
 
         They are angles in which the load without an unbalance would swing as often.
@@ -147,7 +147,7 @@ class Oscillators:
     it, except in the steady state.
     """
 
-    def __init__(self, mechanism: Mechanism, swing: Swing) -> None:
+    def __init__(self, mechanism: Mechanism, swing: Oscillator[Array]) -> None:
         self.mechanism, self.swing = with_each_motion(mechanism), swing
         self.every = np.arange(len(swing.ratio))
         self.indices = [Index(self.mechanism, e) for e in self.mechanism.engagements]
@@ -193,7 +193,7 @@ class Oscillators:
         """I alpha / k at the load's greatest acceleration during the motion, degrees."""
         damping = self.swing.damping
         rows = [
-            greatest_accelerations(i.panels, i.shapes(self.every), Swing(ratio, damping))
+            greatest_accelerations(i.panels, i.shapes(self.every), Oscillator(ratio, damping))
             for i, ratio in zip(self.indices, self.ratio, strict=True)
         ]
         return np.array(rows) * self._bent_deg
@@ -267,9 +267,9 @@ class Oscillators:
         return out
 
 
-def oscillators_of(mechanism: Mechanism, load: Oscillator) -> Oscillators:
+def oscillators_of(mechanism: Mechanism, load: Oscillator[float]) -> Oscillators:
     """Return the oscillator of one design."""
-    return Oscillators(mechanism, Swing(np.array([load.ratio]), np.array([load.damping])))
+    return Oscillators(mechanism, Oscillator(np.array([load.ratio]), np.array([load.damping])))
 
 
 def vibrations(
@@ -317,12 +317,12 @@ def design_vibrations(
     size = 32  # designs at a time: the panels of each are some 20 kB, and stay in the cache
     for i in range(0, len(known), size):
         part = known[i : i + size]
-        some = Oscillators(taken(mechanism, part), Swing(ratio[part], zeta[part]))
+        some = Oscillators(taken(mechanism, part), Oscillator(ratio[part], zeta[part]))
         out[:, part] = vibrations(some, requested)
     return Vibrations(*out)
 
 
-def speeds_to_avoid(mechanism: Mechanism, load: Oscillator) -> list[SpeedToAvoid]:
+def speeds_to_avoid(mechanism: Mechanism, load: Oscillator[float]) -> list[SpeedToAvoid]:
     """Return speeds at which the residual has a local maximum above ``AVOIDED_SHARE`` of the step.
 
     They range from half to twice the design's, ascending. If engagements differ, the greatest

@@ -102,7 +102,7 @@ def subject(quick: bool) -> Subject:
     return Subject(
         f"Motion of a wheel of {Z} slots, and of every machine, at N angles",
         "greatest error, in units of each quantity's peak; of every machine against single angles",
-        [*tasks, *kind_tasks(1_000 if quick else 1_000_000)],
+        [*tasks, *(_kind_task(kind, 1_000 if quick else 1_000_000) for kind in KINDS)],
         absent=missing("numexpr", "numba"),
     )
 
@@ -169,11 +169,6 @@ def _peak(k: int) -> float:
     half = 90.0 - 180.0 / Z
     scan = np.linspace(0.0, half, 1001) * DEGREE
     return float(np.abs(stable(math.sin(math.pi / Z), scan, (k,))[0]).max())
-
-
-def kind_tasks(count: int) -> list[Task]:
-    """A task for each machine, over ``count`` angles from entry to exit."""
-    return [_kind_task(kind, count) for kind in KINDS]
 
 
 def _kind_task(kind: VariedMachine, count: int) -> Task:

@@ -13,8 +13,9 @@ from typing import Any
 
 import numpy as np
 
+from geneva_cli.analysis.vibration.oscillator import Oscillator
 from geneva_cli.analysis.vibration.shape import law_shape
-from geneva_cli.analysis.vibration.swing import Swing, residual_swing
+from geneva_cli.analysis.vibration.swing import residual_swing
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.bench.truth import digits
 from geneva_cli.kinematics import registry
@@ -125,7 +126,7 @@ def _task(damping: float, quick: bool) -> Task:
     ratio[:4] = 2.0 / 3.0, 2.0 / 3.0 + 1e-9, 2.0, 2.0 - 1e-9
     # a loop is run over a sample of the ratios
     ours, sample = law_shape(registry.law("modified-sine")()), 5 if quick else 20
-    swing, motion = Swing(ratio, np.full(count, damping)), np.zeros(count, dtype=np.intp)
+    swing, motion = Oscillator(ratio, np.full(count, damping)), np.zeros(count, dtype=np.intp)
     methods = [
         Method(
             f"loop: SciPy solve_ivp (extrapolated from {sample})",

@@ -19,7 +19,6 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.outlines.crank import is_whole
 from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.flat_parts import FlatParts
 
@@ -29,7 +28,7 @@ def draw_disc(view: View, parts: FlatParts) -> None:
     outlines, mechanism = parts.outlines, parts.mechanism
     assembly, sizes = outlines.assembly, outlines.sizes
     own = plates(parts.crank.part)
-    discs, hubs = ([plate for plate in own if plate.layer == layer] for layer in ("CRANK", HUB))
+    discs, hubs = ([plate for plate in own if plate.layer == layer] for layer in ("CRANK", "HUB"))
     bores, screwed = holes_of(discs)
     contours = [disc.outline for disc in discs if isinstance(disc.outline, Contour)]
     view.draw_all((*contours, *screwed, *bores, *(hub.outline for hub in hubs)))
@@ -40,7 +39,9 @@ def draw_disc(view: View, parts: FlatParts) -> None:
     bored(view, bores, mechanism.spec.size, "crank")
     arcs = [s for contour in contours for s in contour.segments if isinstance(s, Arc)]
     locking = [
-        a for a in arcs if math.hypot(*a.centre) < SAME_ON_SHEET and _is(a.radius, sizes.lock)
+        arc
+        for arc in arcs
+        if max(math.hypot(*arc.centre), abs(arc.radius - sizes.lock)) < SAME_ON_SHEET
     ]
     _gaps(view, sizes.lock, locking)  # first, as their legs have no other place
     view.of_arcs(locking, sized.lock(view.fits, mechanism, sizes.lock), whole=True)
@@ -140,7 +141,3 @@ def draw_assembly(view: View, parts: Outlines, shapes: tuple[Shape, ...]) -> Non
     for place in parts.assembly.full.crank_places:
         view.cross(place.at, max(parts.sizes.lock, 0.1 * L))
     view.linear((0.0, 0.0), (L, 0.0), 0.0, sized.plain(L, "L = ", deviation))
-
-
-def _is(a: float, b: float) -> bool:
-    return abs(a - b) < SAME_ON_SHEET

@@ -13,7 +13,7 @@ from geneva_cli.curves import marks
 from geneva_cli.curves.board import Board, chords
 from geneva_cli.curves.measure import legs, mapped
 from geneva_cli.curves.plates import Plate
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, Shape
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Layer, Point, Segment, Shape
 from geneva_cli.curves.sheet import CENTRE, LARGE, OUTLINE, SMALL, Label, Measure, line, polar
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.layout.fits import Fits
@@ -92,7 +92,7 @@ class View:
         self.notes: list[str] = []  # remarks, and dimensions that did not fit
         self.board = Board()
 
-    def draw(self, shape: Shape, layer: str) -> None:
+    def draw(self, shape: Shape, layer: Layer) -> None:
         """Draw a shape on a layer."""
         self._draw(mapped(shape, self._at, self._long)._replace(layer=layer))
 

@@ -20,7 +20,6 @@ from geneva_cli.layout.projection import outlines_of
 from geneva_cli.layout.written import degrees, length
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.flat_parts import FlatParts
 
 
@@ -30,7 +29,7 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
     assembly, sizes = outlines.assembly, outlines.sizes
     wheel, *hubs = plates(parts.wheel.part)
     for shape in outlines_of(parts.wheel.part):
-        view.draw(shape, HIDDEN if shape.layer == HUB else OUTLINE)
+        view.draw(shape, HIDDEN if shape.layer == "HUB" else OUTLINE)
     edges = [s for s in (wheel.outline, *wheel.holes) if isinstance(s, Contour)]
     contour = next(s for s in edges if s.layer == wheel.layer)
     reach = sizes.outer or max(math.hypot(*s.start) for s in contour.segments)

@@ -14,7 +14,7 @@ from geneva_cli.drawings.sphere.laid_flat import Cone
 from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.projection import titled
 from geneva_cli.parts.sphere.arm import CapArm, crank_arm
-from geneva_cli.parts.sphere.sphere_parts import ARM, SphereParts, arm_solids
+from geneva_cli.parts.sphere.sphere_parts import SphereParts, arm_solids
 
 
 def arm(parts: SphereParts) -> Drawing:
@@ -26,7 +26,7 @@ def arm(parts: SphereParts) -> Drawing:
     cap_arm = parts.arm or crank_arm(parts.shells)  # the error says why there is no arm
     shapes = arm_flat(parts, cap_arm)
     low, high = ball.arm_span_mm
-    plate = Plate("arm", ARM, shapes[0], tuple(shapes[1:]), 0.0, high - low)
+    plate = Plate("arm", "ARM", shapes[0], tuple(shapes[1:]), 0.0, high - low)
     solid = Group("arm", tuple(map(Member, arm_solids(ball, cap_arm))))
     title = titled(parts.mechanism, f"arm, flat: {arm_cone(ball).described('crank')}")
     return Drawing(title, tuple(shapes), solid=plate, shells=solid)
@@ -60,7 +60,7 @@ def arm_flat(parts: SphereParts, arm: CapArm) -> list[Contour]:
         region = Cap(hole.axis, hole.angle(cone.radius_mm)).region
         about = cut + (azimuth - cut) % math.tau
         holes.append(flat_region("BORE", region, cone, about, parts))
-    return [closed(ARM, outline), *holes]
+    return [closed("ARM", outline), *holes]
 
 
 def _widest_gap(azimuths: list[float]) -> float:

@@ -10,9 +10,8 @@ import math
 from geneva_cli.curves.drawing import Annotations, Drawing
 from geneva_cli.curves.measure import bounds, mapped
 from geneva_cli.curves.plates import Group, Member, Part, Plate
-from geneva_cli.curves.shapes import Contour, Line, Point, Segment, Shape, closed, joined
+from geneva_cli.curves.shapes import Contour, Layer, Line, Point, Segment, Shape, closed, joined
 from geneva_cli.curves.sphere import Region
-from geneva_cli.drawings.part_drawings import PITCH
 from geneva_cli.drawings.sphere.laid_flat import Cone
 from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.projection import titled
@@ -76,7 +75,7 @@ def wheel_flat(parts: SphereParts, cone: Cone) -> list[Shape]:
     slot = slot_flat(ball, cone, parts.tolerance, parts.curves)
     mouth = math.acos(math.cos(ball.rim) / math.cos(ball.half_width))
     ends = [cone.point(polar, 0.0) for polar in (mouth, ball.bottom)]
-    path = Contour(PITCH, (Line(*ends),), closed=False)
+    path = Contour("PITCH", (Line(*ends),), closed=False)
     outer: list[Segment] = []
     pitch: list[Shape] = []
     for k in range(ball.z):
@@ -110,12 +109,12 @@ def crank_flat(parts: SphereParts, cone: Cone) -> list[Shape]:
     for region, about in zip(rollers(ball), ball.rollers, strict=True):
         shapes.append(flat_region("ROLLER", region, cone, about, parts))
     ends = cone.point(ball.arm, 0.0), cone.point(ball.arm, math.tau)
-    shapes.append(Contour(PITCH, (cone.level(*ends, math.tau),), closed=False))
+    shapes.append(Contour("PITCH", (cone.level(*ends, math.tau),), closed=False))
     return shapes
 
 
 def flat_region(
-    layer: str, region: Region, cone: Cone, about: float, parts: SphereParts
+    layer: Layer, region: Region, cone: Cone, about: float, parts: SphereParts
 ) -> Contour:
     """Return a region laid flat, whose azimuths are within half a turn of ``about``."""
     segments: list[Segment] = []

@@ -21,7 +21,7 @@ from geneva_cli.layout.written import degrees
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.outlines.sphere_wheel import QUARTER
 from geneva_cli.parts.sphere.arm import CapArm
-from geneva_cli.parts.sphere.sphere_parts import ROLLER, SphereParts
+from geneva_cli.parts.sphere.sphere_parts import SphereParts
 
 Side: TypeAlias = Callable[[float], float]  # an angle from the wheel's axis, on each sphere
 
@@ -50,7 +50,8 @@ def section(parts: SphereParts, scale: float, items: Mapping[str, int]) -> View:
     for face in (one for some in cut.values() for one in some):
         view.draw(face, OUTLINE)
     view.draw(_ring(inner, outer, radial(end), radial(ball.rim)), HIDDEN)  # the slot's wall, beyond
-    middle, far = ball.axes - ball.arm, max(_far(parts), outer)
+    middle = ball.axes - ball.arm
+    far = max([outer, *(step.high for one in parts.shafts for step in steps_of(one.part))])
     for angle in (0.0, ball.axes, middle):
         view.centre_line((0.0, 0.0), _at(far + 0.1 * ball.radius_mm, angle))
     locked = Contour("", (_arc(ball.radius_mm, -back, ball.axes + ball.lock),), closed=False)
@@ -128,7 +129,7 @@ def _plates(parts: SphereParts) -> Iterator[tuple[Plate, float]]:
     axes = parts.ball.axes
     yield from ((plate, 0.0) for plate in plates(parts.wheel.part))
     for plate in dict.fromkeys(plates(parts.crank.part)):
-        angles = _rollers(parts.ball) if plate.layer == ROLLER else [axes]
+        angles = _rollers(parts.ball) if plate.layer == "ROLLER" else [axes]
         yield from ((plate, angle) for angle in angles)
     for member in parts.shafts:
         for step in steps_of(member.part):
@@ -144,11 +145,6 @@ def _along(plate: Plate, angle: float) -> Iterator[Contour]:
         c, s = math.cos(angle), math.sin(angle)
         ring = [(c * x + s * y, c * y - s * x) for x, y in corners]
         yield polygon("", ring)
-
-
-def _far(parts: SphereParts) -> float:
-    """Return the distance of the shafts' farthest end from the centre."""
-    return max((step.high for m in parts.shafts for step in steps_of(m.part)), default=0.0)
 
 
 def _reach(parts: SphereParts) -> tuple[float, ...]:

@@ -18,7 +18,7 @@ from geneva_cli.drawings.shaft_gap import ShaftGap, ring_gap
 from geneva_cli.layout.bores import around
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.sphere.sphere_parts import ROLLER, SphereParts
+from geneva_cli.parts.sphere.sphere_parts import SphereParts
 
 
 class Sweep(NamedTuple):
@@ -58,7 +58,7 @@ def shaft_gap(parts: SphereParts) -> ShaftGap | None:
     ball = parts.ball
     shafts = [(step, m.frame is not None) for m in parts.shafts for step in steps_of(m.part)]
     on_wheel, on_crank = (
-        [p for p in plates(one.part) if p.layer != ROLLER]
+        [p for p in plates(one.part) if p.layer != "ROLLER"]
         + [p for p, of_crank in shafts if of_crank is crank]
         for crank, one in ((False, parts.wheel), (True, parts.crank))
     )

@@ -16,7 +16,6 @@ from geneva_cli.curves.measure import at, mapped
 from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, Shape
 from geneva_cli.curves.sheet import CENTRE, OUTLINE, Sheet
-from geneva_cli.drawings.part_drawings import PITCH
 from geneva_cli.drawings.parts_list import part_rows
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bored
@@ -44,9 +43,8 @@ from geneva_cli.layout.held_hubs import hub_note
 from geneva_cli.layout.written import degrees, length, quantity
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_ON_SHEET
-from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.sphere.arm import CapArm
-from geneva_cli.parts.sphere.sphere_parts import ROLLER, SphereParts
+from geneva_cli.parts.sphere.sphere_parts import SphereParts
 
 
 def sheet(parts: SphereParts) -> Sheet:
@@ -105,12 +103,12 @@ def _axles(parts: SphereParts, scale: float) -> Iterator[View]:
     size = parts.mechanism.spec.size
     for part, whose in ((parts.wheel, "wheel"), (parts.crank, "crank")):
         for hub in plates(part.part):
-            if hub.layer == ROLLER:
+            if hub.layer == "ROLLER":
                 continue
             view = View(hub.name, scale, Fits(size.process))
             view.draw_plate(hub)
             bored(view, hub.holes, size, whose)
-            draw_hub(view, hub, hub_note(size, whose) if hub.layer == HUB else "")
+            draw_hub(view, hub, hub_note(size, whose) if hub.layer == "HUB" else "")
             view.remark(f"{length(hub.thickness)} long")
             yield view
 
@@ -128,7 +126,7 @@ def _flat(whose: str, ball: Ball, cone: Cone, shapes: Sequence[Shape], scale: fl
     near = shift != 0.0
     moved = [mapped(s, lambda p: (p[0] + shift, p[1])) for s in shapes]
     for shape in moved:
-        view.draw(shape, CENTRE if shape.layer == PITCH else OUTLINE)
+        view.draw(shape, CENTRE if shape.layer == "PITCH" else OUTLINE)
     contours = [s for s in moved if isinstance(s, Contour)]
     if near:
         view.cross((0.0, 0.0), 0.05 * ball.radius_mm)
@@ -140,7 +138,9 @@ def _flat(whose: str, ball: Ball, cone: Cone, shapes: Sequence[Shape], scale: fl
                 radii.setdefault(sized.plain(arc.radius, "R "), []).append(arc)
         for text, some in radii.items():
             view.of_arcs(some, text)
-    axes = [c.segments[0] for c in contours if c.layer == PITCH and isinstance(c.segments[0], Line)]
+    axes = [
+        c.segments[0] for c in contours if c.layer == "PITCH" and isinstance(c.segments[0], Line)
+    ]
     if not axes:
         return view
     first, after = axes[:2]

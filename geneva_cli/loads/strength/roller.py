@@ -199,13 +199,13 @@ def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:
     """Lives of m designs, (m,) each, or of one, from the passages of their rollers."""
     spec, m = mechanism.spec, rollers(mechanism)
     radius_m = np.ravel(mechanism.roller_radius_mm / 1000.0)
-    rows = []
+    rows, per_h = [], 60.0 * spec.drive.n_rpm * 360.0 / mechanism.under_load.period_deg  # periods
     for own in (each[i::m] for i in range(min(m, len(each)))):
         rolled = np.ravel(sum(one.rolled_m for one in own))
         with np.errstate(invalid="ignore"):  # where gears drive throughout, no roller rolls
             force = (sum(one.load for one in own) / rolled) ** (1.0 / LIFE_EXPONENT)
         turns = rolled / len(own) / (2.0 * math.pi * radius_m)
-        often = np.ravel(_periods_per_h(mechanism) * (len(own) if len(each) >= m else 1.0 / m))
+        often = np.ravel(per_h * (len(own) if len(each) >= m else 1.0 / m))
         rows.append(np.stack(np.broadcast_arrays(force, turns, often)))
     with np.errstate(all="ignore"):
         every = np.stack(rows)
@@ -218,7 +218,3 @@ def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:
             rated = 1e6 * (np.ravel(capacity) / force) ** LIFE_EXPONENT
             lasts = [parameter(x) for x in (rated, rated / turns, rated / turns / often)]
     return Life(parameter(force), parameter(turns), *lasts)
-
-
-def _periods_per_h(mechanism: Mechanism) -> float:
-    return 60.0 * mechanism.spec.drive.n_rpm * 360.0 / mechanism.under_load.period_deg

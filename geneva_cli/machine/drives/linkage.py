@@ -61,7 +61,13 @@ class Linkage(PinPath, kw_only=True):
         entry is nearest to ``entry_deg``. Raises GenevaError if there is none, or if the spec sets
         the centre distance, which follows from the linkage.
         """
-        refuse(L != DISTANCE_MM, self._no_distance)
+        refuse(
+            L != DISTANCE_MM,
+            lambda: GenevaError(
+                f'center_distance_mm follows from the linkage of kind = "{self.NAME}": remove it',
+                ("size", "center_distance_mm"),
+            ),
+        )
         step, path = wheel.step, self.roller_path
         if self.varies or is_array(step.b):
             engagement, L = linkage.solve_batch(path, step, self._wanted, self._alone)
@@ -72,12 +78,6 @@ class Linkage(PinPath, kw_only=True):
             engagement, L = solved
         x, y = engagement.path(0.0, 0)
         return self.planned(engagement, parameter(library(L).hypot(1.0 - x.c[0], y.c[0])), L)
-
-    def _no_distance(self) -> GenevaError:
-        return GenevaError(
-            f'center_distance_mm follows from the linkage of kind = "{self.NAME}": remove it',
-            ("size", "center_distance_mm"),
-        )
 
     def backwards(self, plan: Plan) -> Self:
         """The drive on the same path, which it enters where it left it; a kind adds its mirror."""
@@ -208,7 +208,7 @@ class RodPath(RollerPath):
 def _exactly(*lengths: float, reach_mm: float, angle_deg: float) -> tuple[Decimal, ...]:
     """Lengths, and a point's coordinates from its distance and angle, in 50 digits."""
     with localcontext(digits.FIFTY):
-        sine, cosine = digits.sin_cos(digits.of_degrees(angle_deg))
+        sine, cosine = digits.sin_cos(Decimal(angle_deg) * digits.PI / 180)
         point = Decimal(reach_mm) * cosine, Decimal(reach_mm) * sine
         return (*(Decimal(x) for x in lengths), *point)
 

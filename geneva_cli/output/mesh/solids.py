@@ -11,7 +11,7 @@ import numpy as np
 
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.plates import Group, Member, Part, Shell, Solid, Stack
-from geneva_cli.curves.shapes import Point
+from geneva_cli.curves.shapes import Layer, Point
 from geneva_cli.curves.stacks import Run, Side, levels, outline_of, sides
 from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.arrays import Array
@@ -37,7 +37,7 @@ class Body(NamedTuple):
     """A kind of solid: its name and layer, its surface, and where it stands."""
 
     name: str
-    layer: str
+    layer: Layer
     surface: Surface
     places: tuple[Place, ...]
 

@@ -16,7 +16,7 @@ from geneva_cli.output.svg_paths import element
 from geneva_cli.output.ticks import labels, ticks
 
 if TYPE_CHECKING:
-    from geneva_cli.scene import Bar, Body, Push, Scene, Track
+    from geneva_cli.scene import Bar, Body, Scene, Track
 
 
 def chunks(scene: Scene) -> Iterator[str]:
@@ -94,7 +94,7 @@ def _data(scene: Scene) -> dict[str, Any]:
         "bars": [_bar(bar) for bar in scene.bars],
         "rollers": [[_track(t) for t in place] for place in scene.rollers],
         "radius": scene.roller_radius,
-        "pushes": [_push(push) for push in scene.pushes],
+        "pushes": [[[_short(v) for v in column] for column in push] for push in scene.pushes],
         "states": [[_short(s.start), _short(s.end), s.moves, s.words] for s in scene.states],
         "panels": [_panel(panel) for panel in scene.figure.panels],
         "window": scene.figure.window,
@@ -105,7 +105,9 @@ def _data(scene: Scene) -> dict[str, Any]:
 
 def _track(track: Track) -> dict[str, Any]:
     columns = (track.at, track.value, track.slope)
-    named = dict(zip("avs", ([_exact(x) for x in column] for column in columns), strict=True))
+    # angles and places to 1e-9 of a turn
+    exact = ([float(f"{x:.10g}") for x in column] for column in columns)
+    named = dict(zip("avs", exact, strict=True))
     return {**named, "g": track.gain} if track.gain else named
 
 
@@ -113,10 +115,6 @@ def _bar(bar: Bar) -> dict[str, Any]:
     joints = [[_track(t) for t in place] for place in bar.joints]
     plates = [plate.joint for plate in bar.plates]
     return {"name": bar.name, "joints": joints, "radius": bar.radius, "plates": plates}
-
-
-def _push(push: Push) -> list[list[float]]:
-    return [[_short(v) for v in column] for column in push]
 
 
 def _panel(panel: Panel) -> dict[str, Any]:
@@ -144,11 +142,6 @@ def _pieces(curve: Curve) -> Iterator[list[list[float]]]:
         every = max(1, len(x) // 120)  # leaves 120 to 240 points
         chosen = sorted({*range(0, len(x), every), len(x) - 1})
         yield [[_short(x[i]) for i in chosen], [_short(y[i]) for i in chosen]]
-
-
-def _exact(value: float) -> float:
-    """An angle or a place, to 1e-9 of a turn."""
-    return float(f"{value:.10g}")
 
 
 def _short(value: float) -> float:

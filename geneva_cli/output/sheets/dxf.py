@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from geneva_cli.curves.shapes import Contour
+from geneva_cli.curves.shapes import Contour, Layer
 from geneva_cli.curves.sheet import DASHED, DIMENSION, TEXT, WIDTHS, Arrow, Label, Measure, Sheet
 from geneva_cli.errors import clean
 from geneva_cli.output.dxf_contours import draw
@@ -124,7 +124,7 @@ def _arrow(space: BaseLayout, arrow: Arrow) -> None:
     space.add_solid([tip, left, right, right], dxfattribs={"layer": DIMENSION})
 
 
-def _text(space: BaseLayout, label: Label, layer: str) -> None:
+def _text(space: BaseLayout, label: Label, layer: Layer) -> None:
     space.add_text(
         _signed(label.text),
         height=label.height,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from geneva_cli.curves.helvetica import CAPITALS
-from geneva_cli.curves.sheet import DASHED, WIDTHS, Arrow, Label, Sheet
+from geneva_cli.curves.sheet import DASHED, WIDTHS, Arrow, Sheet
 from geneva_cli.output import pdf_file
 from geneva_cli.output.pdf_file import POINT, Page, number, outline, point
 
@@ -25,13 +25,9 @@ def _content(sheet: Sheet) -> Iterator[str]:
         yield from (f"{outline(shape)}S\n" for shape in shapes)
     yield from map(_arrow, sheet.arrows)
     for label in sheet.texts:
-        yield _text(label)
+        yield pdf_file.text(label.text, label.at, label.height / CAPITALS, label.turn)
 
 
 def _arrow(arrow: Arrow) -> str:
     a, b, c = map(point, arrow.corners)
     return f"{a} m {b} l {c} l f\n"
-
-
-def _text(label: Label) -> str:
-    return pdf_file.text(label.text, label.at, label.height / CAPITALS, label.turn)

@@ -28,7 +28,6 @@ from geneva_cli.layout.sphere_sizes import ball
 from geneva_cli.machine.materials import wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.sphere_wheel import POLE, web_angle, web_region, wheel_regions
-from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.parts_of_machine import PartsOfMachine
 from geneva_cli.parts.shaft import Seat, Shaft, shaft_ends
 from geneva_cli.parts.sphere.arm import CapArm, crank_arm, has_arm
@@ -39,8 +38,6 @@ from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
     from geneva_cli.parts.sphere.shells import Shells
-
-ARM, CRANK, ROLLER = "ARM", "CRANK", "ROLLER"
 
 
 class SphereParts(PartsOfMachine):
@@ -61,8 +58,11 @@ class SphereParts(PartsOfMachine):
 
     @cached_property
     def wheel(self) -> Member:
-        """The wheel's shell with its hub."""
-        return Member(wheel_group(self.mechanism.spec.size, self.ball))
+        """The wheel's shell with its hub. Raises GenevaError for one that cannot be made."""
+        size, ball = self.mechanism.spec.size, self.ball
+        hub = wheel_hub(size, ball)
+        shell = wheel_shell(size, ball)
+        return Member(Group("wheel", (Member(shell), *([Member(hub)] if hub else []))))
 
     @cached_property
     def arm(self) -> CapArm | None:
@@ -106,15 +106,6 @@ class SphereParts(PartsOfMachine):
         yield "wheel", lambda: [self.wheel.part]
         yield "crank", lambda: [self.crank.part]
         yield "shafts", lambda: [one.part for one in self.shafts]
-
-
-def wheel_group(size: Size, ball: Ball) -> Group:
-    """Return the wheel's shell with its hub.
-
-    Raises GenevaError for a keyway or hub that cannot be made.
-    """
-    hub = wheel_hub(size, ball)
-    return Group("wheel", (Member(wheel_shell(size, ball)), *([Member(hub)] if hub else [])))
 
 
 def wheel_shell(size: Size, ball: Ball) -> Shell:
@@ -161,7 +152,7 @@ def _wheel_hub(size: Size, ball: Ball) -> Plate | None:
         )
     long = inside + ball.hub_length_mm(size)
     bored = (form.shape("BORE", ball.half_step),) if ball.bore_mm else ()
-    return Plate("wheel's hub", HUB, Circle(HUB, ORIGIN, ball.hub_mm), bored, inside, long)
+    return Plate("wheel's hub", "HUB", Circle("HUB", ORIGIN, ball.hub_mm), bored, inside, long)
 
 
 def shell_body(mechanism: Mechanism) -> MassProperties:
@@ -183,15 +174,15 @@ def crank_group(parts: Shells, arm: CapArm | None) -> Group:
     members = []
     for k, region in enumerate(parts.crank):
         screwed = arm.bolts_of(k, len(parts.crank)) if arm else ()
-        sector = Shell("locking sector", CRANK, (region,), *ball.lock_span_mm, screwed)
+        sector = Shell("locking sector", "CRANK", (region,), *ball.lock_span_mm, screwed)
         members.append(Member(sector))
     members += [Member(one) for one in (arm_solids(ball, arm) if arm else ())]
     inner, outer = ball.span_mm
     bored = ball.pin_mm + 0.5 * size.allowances.shaft_fit_mm
     hole = (RoundHole(POLE, bored),) if arm else ()
-    roller = Shell("roller", ROLLER, (Cap(POLE, ball.roller).region,), inner, outer, hole)
-    long = Circle(ROLLER, ORIGIN, ball.pin_mm)
-    pin = Plate("pin", ROLLER, long, (), inner, ball.arm_span_mm[1])
+    roller = Shell("roller", "ROLLER", (Cap(POLE, ball.roller).region,), inner, outer, hole)
+    long = Circle("ROLLER", ORIGIN, ball.pin_mm)
+    pin = Plate("pin", "ROLLER", long, (), inner, ball.arm_span_mm[1])
     for azimuth in ball.rollers:
         frame = axis_frame(place(ball.arm, azimuth))
         members += [Member(one, frame=frame) for one in ((roller, pin) if arm else (roller,))]
@@ -201,9 +192,11 @@ def crank_group(parts: Shells, arm: CapArm | None) -> Group:
 
 def arm_solids(ball: Ball, arm: CapArm) -> tuple[Shell, Plate]:
     """Return the arm's cap and its hub, which has flat faces and the bore."""
-    cap = Shell("arm", ARM, (arm.boundary,), *ball.arm_span_mm, arm.holes)
+    cap = Shell("arm", "ARM", (arm.boundary,), *ball.arm_span_mm, arm.holes)
     bored = arm.bore.shape("BORE", arm.keyway)
-    return cap, Plate("arm's hub", ARM, Circle(ARM, ORIGIN, arm.hub), (bored,), *ball.arm_span_mm)
+    return cap, Plate(
+        "arm's hub", "ARM", Circle("ARM", ORIGIN, arm.hub), (bored,), *ball.arm_span_mm
+    )
 
 
 def _inner_hub(size: Size, ball: Ball, arm: CapArm | None) -> Plate | None:
@@ -218,7 +211,7 @@ def _inner_hub(size: Size, ball: Ball, arm: CapArm | None) -> Plate | None:
     if size.crank_bore_mm:
         form = bore_of(size, "crank", 0.5 * size.crank_bore_mm)
         bored = (form.shape("BORE", arm.keyway),)
-    return Plate("crank's hub", HUB, Circle(HUB, ORIGIN, radius), bored, low, high)
+    return Plate("crank's hub", "HUB", Circle("HUB", ORIGIN, radius), bored, low, high)
 
 
 def _shafts(parts: Shells, arm: CapArm | None) -> Iterator[Member]:

@@ -20,8 +20,6 @@ from geneva_cli.study.animation.teeth import DrawnTeeth, round_gears
 from geneva_cli.study.animation.tracks import still
 from geneva_cli.study.animation.turn import MachineTurn
 
-WHEEL = "WHEEL"  # layer
-
 
 def bodies(design: Design, turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Body]:
     """Wheel, crank with its arm, the cam's groove and gears, as far as the machine has them."""
@@ -67,11 +65,11 @@ def _shapes(design: Design, part: str) -> tuple[Shape, ...]:
 
 def _hollow(shapes: tuple[Shape, ...]) -> tuple[Shape, ...]:
     """The shapes of an internal wheel: its rim first, then its cut-outs."""
-    rims = tuple(s for s in shapes if isinstance(s, Circle) and s.layer == WHEEL)
+    rims = tuple(s for s in shapes if isinstance(s, Circle) and s.layer == "WHEEL")
     if not rims:
         return shapes
     # the layer of what is cut out of a plate, together with the plate's edge
-    hollow = [s._replace(layer="HOLLOW") if s.layer == WHEEL else s for s in shapes]
+    hollow = [s._replace(layer="HOLLOW") if s.layer == "WHEEL" else s for s in shapes]
     return (*rims, *(h for h, s in zip(hollow, shapes, strict=True) if s not in rims))
 
 
@@ -79,10 +77,10 @@ def _slots(turn: MachineTurn) -> tuple[Shape, ...]:
     """A symbol for a wheel without drawing: a disc with a line along each slot."""
     spec, reach = turn.mechanism.spec, _reach(turn)
     lines = [
-        Contour(WHEEL, (Line(_at(reach.min(), a), _at(reach.max(), a)),), closed=False)
+        Contour("WHEEL", (Line(_at(reach.min(), a), _at(reach.max(), a)),), closed=False)
         for a in np.arange(spec.wheel.z) * math.tau / spec.wheel.z
     ]
-    return (Circle(WHEEL, (0.0, 0.0), 1.02 * float(reach.max())), *lines)
+    return (Circle("WHEEL", (0.0, 0.0), 1.02 * float(reach.max())), *lines)
 
 
 def _reach(turn: MachineTurn) -> Array:

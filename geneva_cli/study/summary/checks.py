@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine
 from geneva_cli.study.verdicts import Verdict, checks_record, checks_table
@@ -25,16 +25,15 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
     """
     table = checks_table(verdicts)
     data = checks_record(verdicts) if as_json else table
-    return Answer(tuple(_summaries(verdicts)), table if page else None, data)
-
-
-def _summaries(verdicts: Sequence[Verdict]) -> list[Summary]:
     if len(verdicts) == 1:
         (verdict,) = verdicts
         both = both_ways_lines(verdict.checks) if verdict.both_ways else ()
         lines = (*_lines(verdict), *proof_lines(verdict.checks), *both, *tightest(verdict.checks))
-        return [_head(verdict)._replace(lines=lines)]
-    return [*map(_head, verdicts), _count(verdicts), *_details(verdicts)]
+        summaries = [_head(verdict)._replace(lines=lines)]
+    else:
+        details = [Summary(v.path, lines) for v in verdicts if (lines := _lines(v))]
+        summaries = [*map(_head, verdicts), _count(verdicts), *details]
+    return Answer(tuple(summaries), table if page else None, data)
 
 
 def _head(verdict: Verdict) -> Summary:
@@ -60,10 +59,3 @@ def _count(verdicts: Sequence[Verdict]) -> Summary:
     )
     more = f", {warned} with warnings" if warned else ""
     return Summary(text + more, state=FAILS if failed else WARNS if warned else PASSES)
-
-
-def _details(verdicts: Sequence[Verdict]) -> Iterator[Summary]:
-    for verdict in verdicts:
-        lines = _lines(verdict)
-        if lines:
-            yield Summary(verdict.path, lines)

@@ -17,9 +17,9 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.latest import KEPT
 from geneva_cli.specfile.reader import Text
 from geneva_cli.specfile.settings import Setting, setting
+from geneva_cli.study.batches import batch_rows, cells_of, number_rows
 from geneva_cli.study.fields import Cell, Pick, pick
 from geneva_cli.study.pool import cores, mapped
-from geneva_cli.study.sweep import batch
 from geneva_cli.study.sweep.plan import BLOCK, WHOLE, Shard, SweepPlan
 from geneva_cli.study.sweep.values import Value, VariedKey
 from geneva_cli.verdict.together import share
@@ -85,7 +85,7 @@ class Sweep(NamedTuple):
         machines = [self._machine_or_error(values) for values in designs]
         if any(group.makes_parts for group in self.pick.groups):
             keys = [a.key for a in self.plan.axes]
-            for members, machine in batch.machines(designs, keys, self._spec):
+            for members, machine in batch_rows(designs, keys, self._spec):
                 own = [one for i in members if isinstance(one := machines[i], Mechanism)]
                 if len(own) == len(members) > 1:
                     share(machine, own)
@@ -99,8 +99,11 @@ class Sweep(NamedTuple):
 
     def known(self, designs: Sequence[Sequence[Value]]) -> Mapping[int, list[Cell]]:
         """The quantities that a batch can compute, of the designs of batches by their numbers."""
-        keys, names = [a.key for a in self.plan.axes], self.pick.batched
-        return batch.table(designs, keys, names, self._spec) if names else {}
+        names = self.pick.batched
+        if not names:
+            return {}
+        rows = number_rows(batch_rows(designs, [a.key for a in self.plan.axes], self._spec), names)
+        return {i: cells for i, row in rows.items() if (cells := cells_of(row))}
 
     @property
     def task_size(self) -> int:

@@ -33,7 +33,7 @@ from geneva_cli.synthesis.families.family import (
     only,
     rollers,
 )
-from geneva_cli.synthesis.families.two_stages import two_stages
+from geneva_cli.synthesis.families.two_stages import pairs, sectors
 
 
 def straight(target: Target, wheel: Gearing) -> Iterator[Family]:
@@ -47,7 +47,9 @@ def straight(target: Target, wheel: Gearing) -> Iterator[Family]:
             if m == 1:
                 yield from planets(target, wheel)
     yield from driven(target, wheel)
-    yield from two_stages(target, wheel)
+    if target.rollers in (None, 1):
+        yield from sectors(target, wheel)
+        yield from pairs(target, wheel)
 
 
 def plain(target: Target, wheel: Gearing, m: int) -> Spec:

@@ -30,13 +30,6 @@ from geneva_cli.synthesis.families.family import (
 )
 
 
-def two_stages(target: Target, wheel: Gearing) -> Iterator[Family]:
-    """The families with gear sectors and with first wheels for a wheel that can have them."""
-    if target.rollers in (None, 1):
-        yield from sectors(target, wheel)
-        yield from pairs(target, wheel)
-
-
 def sectors(target: Target, wheel: Gearing) -> Iterator[Family]:
     """Gear sectors that take over without a jump, with a free half angle b of the slots.
 
