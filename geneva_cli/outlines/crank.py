@@ -22,13 +22,10 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.bores import bore_of
 from geneva_cli.layout.plain_sizes import Sizes
-from geneva_cli.layout.reliefs import Relief, followed, keyway_direction, reliefs, widened
-from geneva_cli.layout.reliefs import is_whole as is_whole
-from geneva_cli.layout.roller_paths import mouth_corners
-from geneva_cli.layout.roller_paths import roller_centres as roller_centres
+from geneva_cli.layout.reliefs import Relief, followed, is_whole, keyway_direction, reliefs, widened
+from geneva_cli.layout.roller_paths import mouth_corners, roller_centres
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.outlines.locking_rings import LAYER, Swept, rings
-from geneva_cli.outlines.locking_rings import Swept, polar_points, rings, towards
+from geneva_cli.outlines.locking_rings import Swept, rings
 
 
 def crank_contours(

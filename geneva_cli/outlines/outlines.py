@@ -15,13 +15,13 @@ from geneva_cli.curves.shapes import Contour
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.plain_sizes import Sizes
-from geneva_cli.layout.reliefs import has_arcs, without_lock
+from geneva_cli.layout.reliefs import has_arcs, is_whole, without_lock
 from geneva_cli.layout.sizes import machine_sizes
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.latest import KEPT
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.outlines.crank import crank_contours, is_whole
+from geneva_cli.outlines.crank import crank_contours
 from geneva_cli.outlines.wheel import CURVED, turned_walls, wheel_contour
 
 if TYPE_CHECKING:

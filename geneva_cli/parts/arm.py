@@ -28,9 +28,10 @@ from geneva_cli.layout.arm_sizes import (
 )
 from geneva_cli.layout.bolt_holes import bolt_radius
 from geneva_cli.layout.bores import bore_of, has_shape
-from geneva_cli.layout.reliefs import keyway_direction, reliefs, sectors
+from geneva_cli.layout.reliefs import is_whole, keyway_direction, reliefs, sectors
+from geneva_cli.layout.roller_paths import roller_centres
 from geneva_cli.machine.least_wall import eye_about
-from geneva_cli.outlines.crank import crank_circles, is_whole, roller_centres
+from geneva_cli.outlines.crank import crank_circles
 from geneva_cli.outlines.outlines import Outlines
 
 

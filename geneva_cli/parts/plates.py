@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import ORIGIN, Circle
-from geneva_cli.outlines.crank import crank_circles, is_whole
+from geneva_cli.layout.reliefs import is_whole
+from geneva_cli.outlines.crank import crank_circles
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.arm import CrankArm, bolts
 

@@ -20,9 +20,9 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bores import bore_of
 from geneva_cli.layout.held_hubs import held_hub
 from geneva_cli.layout.link_positions import links_at
-from geneva_cli.layout.reliefs import keyway_direction
+from geneva_cli.layout.reliefs import is_whole, keyway_direction
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.outlines.crank import crank_circles, is_whole
+from geneva_cli.outlines.crank import crank_circles
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import about_axis, wheel_hub
 from geneva_cli.parts.arm import has_arm

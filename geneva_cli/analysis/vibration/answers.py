@@ -142,7 +142,7 @@ def _warnings(mechanism: Mechanism, load: Oscillator[float], least: float) -> li
     return out
 
 
-def _never_steady(mechanism: Mechanism, load: Oscillator) -> str:
+def _never_steady(mechanism: Mechanism, load: Oscillator[float]) -> str:
     """Return the reason why there is no steady state; empty where there is one."""
     if mechanism.spec.wheel.stopped:
         return "the stop blocks the crank after z - 1 motions, too few for a steady state"

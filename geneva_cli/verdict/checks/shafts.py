@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.layout.clamps import clamp_of
 from geneva_cli.layout.plain_sizes import Sizes
-from geneva_cli.outlines.crank import is_whole
+from geneva_cli.layout.reliefs import is_whole
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.verdict.checks.check import Check, compared, gap
 

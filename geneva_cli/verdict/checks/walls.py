@@ -14,7 +14,8 @@ from geneva_cli.curves.shapes import Arc, Circle, Line, Point, Segment, backward
 from geneva_cli.kinematics.pitch_curve import opposites
 from geneva_cli.layout.bores import has_shape
 from geneva_cli.layout.plain_sizes import Sizes
-from geneva_cli.outlines.crank import is_whole, rollers_gap
+from geneva_cli.layout.reliefs import is_whole
+from geneva_cli.outlines.crank import rollers_gap
 from geneva_cli.outlines.wheel import wheel_circles
 from geneva_cli.outlines.wheel_hub import wheel_hub
 from geneva_cli.parts.flat_parts import FlatParts
