@@ -53,9 +53,11 @@ def test_the_names_are_the_same_for_every_machine(path):
         assert "speed jumps at entry" in found["warnings"][0]
         return
     lacks = spec.output.lacks  # a rack has no angle
+    if spec.wheel.stopped:
+        lacks = [*lacks, "steady_share"]  # it moves at most z - 1 times in a row
     unknown = [name for name in NAMES if found[name] is None and name not in lacks]
     assert unknown in ([], ["stations"])
-    assert found["warnings"] == [] or "tuned" in found["warnings"][0]
+    assert all("tuned" in text or "steady_share" in text for text in found["warnings"])
 
 
 def test_without_an_inertia_all_is_null_and_why():
