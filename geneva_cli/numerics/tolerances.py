@@ -58,3 +58,11 @@ def keeps(value: float, must_be: str, limit: float, noise: float = 0.0) -> bool:
     if must_be == "above":
         return value > limit
     raise ValueError(must_be)
+
+
+def same(value: object, other: object) -> bool:
+    """Return True if two values of a table are equal, numbers apart from rounding."""
+    if isinstance(value, float) and isinstance(other, float):
+        # a play of 0 degrees has a rounding of 1e-14; the least power of a watch is some 1e-12 W
+        return math.isclose(value, other, rel_tol=ROUNDED, abs_tol=1e-13)
+    return value == other

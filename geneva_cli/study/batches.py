@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from typing import Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -17,9 +17,11 @@ from geneva_cli.machine.spec import attribute as attribute_of
 from geneva_cli.numerics.arrays import Array, Number
 from geneva_cli.spec.schema import SpecTable, fields
 from geneva_cli.study.fields import Cell
-from geneva_cli.study.sweep.values import Value
 from geneva_cli.verdict.quantities.designs import Designs
 from geneva_cli.verdict.quantities.names import group_of, in_batch
+
+if TYPE_CHECKING:
+    from geneva_cli.study.sweep.values import Value
 
 Batch: TypeAlias = tuple[list[int], Mechanism]  # the numbers of some designs, and their machine
 

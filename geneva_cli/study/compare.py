@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.machine.spec import Spec
-from geneva_cli.numerics.tolerances import ROUNDED
+from geneva_cli.numerics.tolerances import same
 from geneva_cli.spec.tables import PLAIN
 from geneva_cli.specfile.writer import keys_in, values_of
 from geneva_cli.study.fields import Cell, pick, values
@@ -75,14 +74,6 @@ def differing(table: Table) -> Table:
     """The rows of a comparison whose cells differ; none of a single design."""
     rows = [row for row in table.rows() if row[-1]] if "differs" in table.names else []
     return rows_table(table.names, rows, mixed=True).replaced(reading=table.reading)
-
-
-def same(cell: Cell, first: Cell) -> bool:
-    """Return True if two cells are equal, numbers apart from rounding."""
-    if isinstance(cell, float) and isinstance(first, float):
-        # a play of 0 degrees has a rounding of 1e-14; the least power of a watch is some 1e-12 W
-        return math.isclose(cell, first, rel_tol=ROUNDED, abs_tol=1e-13)
-    return cell == first
 
 
 def _ratios(cells: Sequence[Cell]) -> list[Cell]:

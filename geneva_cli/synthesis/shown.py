@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
+from geneva_cli.numerics.tolerances import same
 from geneva_cli.output.text import cell
-from geneva_cli.study.compare import same
 from geneva_cli.synthesis.rows import OWN_KEYS
 from geneva_cli.table import Reading, Table
 

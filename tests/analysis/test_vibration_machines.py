@@ -144,7 +144,8 @@ def test_rounding_is_no_burden():
         cuts = [mp.mpf(k) / 32 for k in range(33)]
         expected = abs((mp.quad(swing, cuts, maxdegree=4) * p + 1) * p) / p.imag
         found = shares(panels, [ratio], damping)[0]
-        assert abs(found - expected) <= 1e-14
+        # a few units of the entry angle's last place, which is 1.6e-14 of the motion
+        assert abs(found - expected) <= 1e-13
 
 
 def test_many_points_are_no_burden():

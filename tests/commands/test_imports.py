@@ -145,7 +145,7 @@ STRAIGHT, CURVED = "[wheel]\nz = 6\n", '[wheel]\nz = 6\n[motion]\nlaw = "modifie
 MOST = {
     "peaks -": (72, 92),
     "motion -": (74, 93),
-    "loads - --set load.inertia_kgm2=0.05": (192, 211),
+    "loads - --set load.inertia_kgm2=0.05": (197, 216),
     "vibration - --period-ratio 5": (103, 108),
     "check -": (185, 230),
     "report -": (256, 276),

@@ -61,7 +61,7 @@ ROWS = {
     "pin_stress_MPa": ("material.roller.stress_max_MPa", 6.0),
     "horn_stress_MPa": ("material.wheel.stress_max_MPa", 3.0),
     "lock_horn_stress_MPa": ("material.wheel.stress_max_MPa", 2.0),
-    "slot_wear_max_mm_per_million": ("limits.slot_wear_max_mm_per_million", 1e-4),
+    "slot_wear_max_mm_per_million": ("limits.slot_wear_max_mm_per_million", 2e-4),
     "lock_stress_max_MPa": ("limits.lock_stress_max_MPa", 400.0),
     "lock_deflection_max_deg": ("limits.lock_deflection_max_deg", 0.002),
     "wheel_shaft_stress_MPa": ("shaft.shear_stress_max_MPa", 15.0),
