@@ -111,8 +111,7 @@ class Slowness(NamedTuple):
         """The quantity, which is unbounded where the place allows no speed."""
         unit = self.case.at_speed(0.0)._replace(resists_Nm=1.0)
         factor = self.of(Instant(unit, i.at, i.drives, i.slides, i.feeds))
-        free = self.case._replace(resists_Nm=0.0)
-        load = self.of(Instant(free, i.at, i.drives, i.slides, i.feeds))
+        load = self.of(i)
         left = self.limit - factor * self.case.resists_Nm
         # Where the wheel is not driven, any speed keeps the limit. The margin is then that next to
         # it, as at rest the load's sign is rounding.
