@@ -39,7 +39,7 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Whole, array, parameter
 from geneva_cli.numerics.jet import Array, Jet, Number
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
-from geneva_cli.numerics.search import Stretches, search
+from geneva_cli.numerics.search import search
 
 LIFE_EXPONENT = 10.0 / 3.0  # p, of line contact
 
@@ -95,8 +95,9 @@ def _integrals(every: LoadBatch, n: int, half: float) -> Array:
     engagement = every.engagement
     # the integrals are bounded where the force is
     load = LoadFunctions(every, ("slides", "along") if turns_back(engagement) else ("slides",))
+    # spans end at mid-motion, where a roller on an arm turns back in a straight slot
     pieces = search(SignFunctions(load), spans_of(engagement, n), n, False, w=load.spread).stretches
-    design, _, (a, b), positive = _turning(engagement, to_mid_motion(engagement, pieces, n))
+    design, _, (a, b), positive = to_mid_motion(engagement, pieces, n)
     own = np.flatnonzero(half * (a + b) >= 0.0)
     design, a, b, positive = design[own], a[own], b[own], positive[:, own]
     signs = dict(zip(load.kinds, np.where(positive, 1.0, -1.0)[..., None], strict=True))
@@ -121,23 +122,6 @@ def _integrals(every: LoadBatch, n: int, half: float) -> Array:
     pressed = greatest_rubbing_N(Rubbing(design, moved, others[1], wall, branch), n)
     total = [np.bincount(design, row, n) for row in (abs(moved), *others)]
     return np.where((*requested, bounded), (*total, pressed), np.inf)
-
-
-def _turning(engagement: Engagement, pieces: Stretches) -> Stretches:
-    """The pieces, divided at mid-motion, where a roller on an arm turns back in a straight slot."""
-    if engagement.slot.curved:
-        return pieces
-    design, span, (a, b), positive = pieces
-    cut = np.flatnonzero((a < 0.0) & (b > 0.0))
-    after = a[cut] * 0.0, b[cut]
-    b = b.copy()
-    b[cut] = 0.0
-    every = np.arange(len(design)), cut
-    which = np.concatenate(every)
-    x = np.concatenate(((a, b), after), axis=1)
-    order = np.lexsort((x[0], design[which]))
-    which = which[order]
-    return Stretches(design[which], span[which], x[:, order], positive[:, which])
 
 
 def turns_back(engagement: Engagement) -> bool:
