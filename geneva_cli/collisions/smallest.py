@@ -101,10 +101,9 @@ def positions(parts: MachineParts) -> Array:
 def _drives(parts: MachineParts, x: Array) -> Mask:
     """Return a mask of the rollers that move the wheel at input angles, (n, m)."""
     assembly = parts.assembly
-    half = 0.5 * assembly.turn_deg
     columns = []
     for engagement, behind in assembly.rollers:
-        away = (x - behind + half) % assembly.turn_deg - half
+        away = assembly.from_mid(x, behind)
         columns.append(
             (away >= engagement.entry_deg - SAME_INPUT_DEG)
             & (away <= engagement.exit_deg + SAME_INPUT_DEG)

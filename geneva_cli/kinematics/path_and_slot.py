@@ -27,7 +27,17 @@ from geneva_cli.numerics.arrays import (
     parameter,
     picked,
 )
-from geneva_cli.numerics.jet import Array, Jet, Number, atan2, piecewise, sin_cos, sqrt, turning
+from geneva_cli.numerics.jet import (
+    Array,
+    Jet,
+    Number,
+    atan2,
+    piecewise,
+    sin,
+    sin_cos,
+    sqrt,
+    turning,
+)
 from geneva_cli.numerics.latest import Latest
 
 END_DEG = 0.05  # nearer than this to entry or exit, angle and velocity keep their relative accuracy
@@ -138,7 +148,7 @@ class MeridianSlot(Slot):
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         """Lever (the pin's distance from the wheel's axis) and the pin's speed along the slot."""
         polar = self(input_deg, order + 1)[0]
-        return SlotAxis(sin_cos(polar.lower)[0], polar.derivative())
+        return SlotAxis(sin(polar.lower), polar.derivative())
 
     def upright(self, input_deg: Number, order: int = 0) -> Jet:
         """Cosine of the pin's polar angle: the roller's axis passes through the sphere's centre."""

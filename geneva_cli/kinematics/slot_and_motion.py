@@ -16,7 +16,7 @@ from geneva_cli.kinematics.engagement import Slot, SlotAxis
 from geneva_cli.kinematics.law_motion import LawMotion
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Batchable
-from geneva_cli.numerics.jet import Jet, Number, piecewise, sin_cos
+from geneva_cli.numerics.jet import Jet, Number, piecewise, sin, sin_cos
 from geneva_cli.numerics.latest import Latest
 
 # Where psi and phi nearly vanish together, a series of psi / phi serves. Within this fraction of
@@ -53,8 +53,8 @@ class SolvedPath(Batchable):
 
     def _by_sines(self, x: Number, order: int) -> Jet:
         phi, psi = Jet.variable(radians(x), order), self.motion(x, order)
-        below = sin_cos(phi + psi * self.sign)[0]
-        return _stacked(sin_cos(phi)[0] / below, sin_cos(psi)[0] / below)
+        below = sin(phi + psi * self.sign)
+        return _stacked(sin(phi) / below, sin(psi) / below)
 
     @cached_property
     def _series(self) -> Sequence[Number]:

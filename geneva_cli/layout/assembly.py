@@ -100,15 +100,18 @@ class Assembly(NamedTuple):
 
     def geared(self, input_deg: Array) -> Mask:
         """Return a mask (n,) of the input angles at which gears drive the wheel, not a roller."""
-        half = 0.5 * self.turn_deg
         mask = np.zeros(len(input_deg), dtype=bool)
         for engagement, behind in self.motions:
-            at = (input_deg - behind + half) % self.turn_deg - half
-            mask |= engagement.slot.touches(at) == 0.0
+            mask |= engagement.slot.touches(self.from_mid(input_deg, behind)) == 0.0
         return mask
 
+    def from_mid(self, input_deg: Array, mid: float) -> Array:
+        """Return input angles from a mid-motion, in degrees, within half a turn of it."""
+        half = 0.5 * self.turn_deg
+        return (input_deg - mid + half) % self.turn_deg - half
+
     def _path(self, engagement: Engagement, behind: float, input_deg: Array) -> Array:
-        at = (input_deg - behind + 0.5 * self.turn_deg) % self.turn_deg - 0.5 * self.turn_deg
+        at = self.from_mid(input_deg, behind)
         if engagement.groove is not None:
             from geneva_cli.layout.groove import roller_in_groove
 

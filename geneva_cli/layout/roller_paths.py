@@ -66,17 +66,10 @@ def least_mouth(L: float, recess: float, rim: float) -> float:
     return reach + 0.2 * (rim - reach)
 
 
-class MouthCorners(NamedTuple):
-    """Radii of the corners between a mouth and the recesses where the roller comes and goes, mm."""
-
-    entry: float
-    exit: float
-
-
 def mouth_corners(
     assembly: Assembly, r: float, recess: float, rim: float
-) -> dict[Engagement, MouthCorners]:
-    """Return the corners of the mouth of each kind of slot.
+) -> dict[Engagement, tuple[float, float]]:
+    """Return the radii of each mouth's corners where the roller comes and goes, mm.
 
     The mouths of offset slots and of unequal steps end at different radii. If the spec sets the
     rim, it moves all mouths by as much as the widest one.
@@ -90,7 +83,7 @@ def mouth_corners(
         at = math.hypot(*corner(assembly, kind, end, r)) if offset else widest[kind]
         return max(at + shift, least)
 
-    return {kind: MouthCorners(own(kind, -1.0), own(kind, 1.0)) for kind in widest}
+    return {kind: (own(kind, -1.0), own(kind, 1.0)) for kind in widest}
 
 
 def rest(assembly: Assembly, engagement: Engagement, end: float) -> tuple[float, float]:

@@ -106,8 +106,7 @@ class Roller:
 
     def own(self, on: Intervals) -> tuple[Array, Array]:
         """Return the ends of intervals as angles of the roller's own engagement."""
-        half, turn = 0.5 * self.gaps.assembly.turn_deg, self.gaps.assembly.turn_deg
-        start = (on.start - self.behind + half) % turn - half
+        start = self.gaps.assembly.from_mid(on.start, self.behind)
         return start, start + (on.end - on.start)
 
     def centre(self, pose: Pose) -> Array:

@@ -13,6 +13,7 @@ from geneva_cli.output.inks import inks
 from geneva_cli.output.letters import width
 from geneva_cli.output.strokes import DARK, LIGHT
 from geneva_cli.output.svg_paths import number, path, place, point
+from geneva_cli.table import in_decimals
 
 ARROW = 4.5, 0.9  # an arrow's length, and half its width, mm in that drawing
 
@@ -106,7 +107,7 @@ def _ends(span: LevelDistance, unit: float) -> tuple[float, float]:
 def span_text(span: LevelDistance, units: str) -> str:
     """The name and the length, to four decimals of an inch and three of a millimetre."""
     a, b = _ends(span, UNITS[units])
-    value = f"{b - a:.{4 if units == 'inch' else 3}f}".rstrip("0").rstrip(".")
+    value = in_decimals(b - a, 4 if units == "inch" else 3)
     return f"{span.name} = {value} {SUFFIX[units]}"
 
 

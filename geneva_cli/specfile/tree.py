@@ -169,10 +169,9 @@ def _before(values: Any, drives: _Kinds, files: _Files) -> Any:
         )
     if values["kind"] in [*registry.DRIVES]:  # a list, as the value may be anything
         own = ("kind", *(field.key for field in own_fields(registry.drive(values["kind"]))))
-        for key in values:
+        for key in [k for k in values if k not in own]:
             # a key of another kind is refused below, with its kind
-            known = any(one.key == key for _, kind in drives.all() for one in fields(kind))
-            if key not in own and not known:
+            if not any(field.key == key for _, kind in drives.all() for field in fields(kind)):
                 raise unknown(key, BEFORE, own)
     try:
         return _kind(values, drives, files)

@@ -238,6 +238,13 @@ def test_few_own_modules(line):
         assert len(modules) <= most
 
 
+def test_a_drive_before_another_imports_no_third_kind():
+    modules = own(loaded(["peaks", os.path.join(DESIGNS, "behind-gears.toml")]))
+    drives = {name for name in modules if name.startswith("machine.drives.")}
+    assert drives >= {"machine.drives.epicyclic", "machine.drives.elliptical_gears"}
+    assert not drives & {"machine.drives.cam", "machine.drives.four_bar", "machine.drives.carousel"}
+
+
 @pytest.mark.parametrize("words", ["geneva ", "geneva ta", "geneva table --", "geneva motion --s"])
 def test_completion(words):
     count = len(words.split(" ")) - 1

@@ -98,7 +98,7 @@ class MachineTurn:
             return ahead + rate * (x - one.mid)
 
         def shaft(x: Array) -> Array:
-            at = self._local(x, one.mid)
+            at = self.assembly.from_mid(x, one.mid)
             return even(x) + rate * (one.engagement.own_deg(at) - at)
 
         def angle(x: Array) -> Array:
@@ -144,13 +144,8 @@ class MachineTurn:
         """All links at input angles, cached: each joint's x and y are sampled at equal angles."""
         key = input_deg.tobytes()
         if key not in self._links:
-            self._links[key] = links_at(self.mechanism, self._local(input_deg, 0.0))
+            self._links[key] = links_at(self.mechanism, self.assembly.from_mid(input_deg, 0.0))
         return self._links[key]
-
-    def _local(self, input_deg: Array, mid: float) -> Array:
-        """Input angles from a mid-motion, in degrees, within half a turn of the machine."""
-        half = 0.5 * self.turn_deg
-        return (input_deg - mid + half) % self.turn_deg - half
 
     def _place(self, place: Callable[[Array], Array]) -> Place:
         def along(i: int) -> Track:
