@@ -86,6 +86,32 @@ def within_hub(size: Size, part: str) -> float:
     return ((0.5 / 1.6) if has_shape(size, part) else 0.4) * hub_mm if hub_mm else math.inf
 
 
+def wheel_bore(spec: Spec, end: float, wall: float, L: float) -> float:
+    """Return the radius of the wheel's bore: of the spec, of its shaft, or the default.
+
+    ``end`` is the distance of the slots' ends from the axis. Shaft and default leave a wall to
+    them, and the default one in the hub.
+    """
+    size, shaft = spec.size, spec.shaft.wheel_diameter_mm
+    if size.wheel_bore_mm is None and shaft is not None and 0.5 * shaft <= end - wall:
+        return 0.5 * shaft
+    usual = bore_radius(min(L / 12.0, 0.4 * end, end - wall, within_hub(size, "wheel")))
+    return half_or(size.wheel_bore_mm, usual)
+
+
+def refuse_thin_hub(part: str, hub: float, bored: float, bore: float) -> None:
+    """Raise GenevaError, naming the key, for a hub that its bore with its shape cuts through.
+
+    The bore reaches to ``bored`` with its keyway. A hub no wider than the round bore is none.
+    """
+    if bore < hub <= bored:
+        raise GenevaError(
+            f"{part}_hub_mm = {2.0 * hub:g}: it must be above {2.0 * bored:.6g}, the diameter "
+            f"over bore and keyway; a smaller {part}_bore_mm leaves more of it",
+            ("size", f"{part}_hub_mm"),
+        )
+
+
 def wheel_reach_and_hub(size: Size, bore: float, wall: float, end: float) -> tuple[float, float]:
     """Return how far the wheel's bore reaches with its shape, and the radius of its hub.
 

@@ -10,22 +10,21 @@ from __future__ import annotations
 import math
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.arm_sizes import crank_reach_and_hub, wheel_reach_and_hub, within_hub
-from geneva_cli.layout.plain_sizes import half_or
+from geneva_cli.layout.arm_sizes import crank_reach_and_hub, wheel_bore, wheel_reach_and_hub
 from geneva_cli.machine.least_wall import wall_min
-from geneva_cli.numerics.preferred import bore_radius
+from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.tables import Size
 
 
-def wheel_axle(size: Size, L: float, inside: float, slot_end: float) -> tuple[float, float]:
+def wheel_axle(spec: Spec, L: float, inside: float, slot_end: float) -> tuple[float, float]:
     """Return the radii of the wheel's bore and its hub, mm, 0 for none.
 
     ``inside`` is the radius of the wheel's inner sphere, ``slot_end`` the angle from its axis to
     the ends of its slots. Raises GenevaError, naming the key, where one of them cuts the slots.
     """
     end = inside * math.sin(min(slot_end, 0.5 * math.pi))
-    usual = min(L / 12.0, 0.4 * end, end - wall_min(size, L), within_hub(size, "wheel"))
-    bore = half_or(size.wheel_bore_mm, bore_radius(usual))
+    size = spec.size
+    bore = wheel_bore(spec, end, wall_min(size, L), L)
     hub = hub_about(size, L, bore, end)
     for key, radius in (("wheel_bore_mm", bore), ("wheel_hub_mm", hub)):
         if radius >= end:

@@ -17,6 +17,8 @@ from geneva_cli.layout.arm_sizes import (
     arm_bore,
     crank_reach_and_hub,
     hole_radius,
+    refuse_thin_hub,
+    wheel_bore,
     wheel_reach_and_hub,
     within_hub,
 )
@@ -116,9 +118,8 @@ def _usual(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
     within = min(space, depth - relief)
     bore = _crank_bore(assembly.full.spec, within, L) if spec.drive.LOCKS else 0.0
     wall = wall_min(size, L)
-    wheel_bore = half_or(size.wheel_bore_mm, _bore(assembly.full.spec, end, wall, L))
-    wheel_bore = wheel_bore if outside or size.wheel_bore_mm else 0.0
-    wheel_reach, wheel_hub = wheel_reach_and_hub(size, wheel_bore, wall, end)
+    axle = wheel_bore(assembly.full.spec, end, wall, L) if outside or size.wheel_bore_mm else 0.0
+    wheel_reach, wheel_hub = wheel_reach_and_hub(size, axle, wall, end)
     crank_reach, crank_hub = crank_reach_and_hub(size, bore, wall)
     thick, pin = drawn_thicknesses(size, L), pin_radius(size, r)
     usual = Sizes(
@@ -133,7 +134,7 @@ def _usual(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
         recess=lock + allowed.lock_clearance_mm if lock else 0.0,
         relief=relief,
         wall_min=wall,
-        wheel_bore=wheel_bore,
+        wheel_bore=axle,
         wheel_reach=wheel_reach,
         wheel_hub=wheel_hub,
         crank_bore=bore,
@@ -191,17 +192,6 @@ def drawn_pin_radius(mechanism: Mechanism) -> float:
     flat = sized(mechanism)
     parts = flat[1] if flat else None
     return pin_radius(mechanism.spec.size, mechanism.roller_radius_mm, parts)
-
-
-def _bore(spec: Spec, end: float, wall: float, L: float) -> float:
-    """Return the wheel's default bore: it leaves a wall to the slots' ends, and in the hub.
-
-    It is that of the spec's shaft if that leaves the wall.
-    """
-    limit, own = within_hub(spec.size, "wheel"), spec.shaft
-    if own.wheel_diameter_mm is not None and 0.5 * own.wheel_diameter_mm <= end - wall:
-        return 0.5 * own.wheel_diameter_mm
-    return bore_radius(min(L / 12.0, 0.4 * end, end - wall, limit))
 
 
 def _arm_bore(assembly: Assembly, pin: float, disc: float) -> float:
@@ -372,12 +362,5 @@ def _refuse_hubs(size: Size, sizes: Sizes) -> None:
             f"{on_axis[0]}: an internal wheel is open in the middle; remove it",
             ("size", on_axis[0]),
         )
-    hubs = {"wheel": (sizes.wheel_hub, sizes.wheel_reach, sizes.wheel_bore)}
-    hubs["crank"] = sizes.crank_hub, sizes.crank_reach, sizes.crank_bore
-    for part, (hub, bored, bore) in hubs.items():
-        if bore < hub <= bored:
-            raise GenevaError(
-                f"{part}_hub_mm = {2.0 * hub:g}: it must be above {2.0 * bored:.6g}, the diameter "
-                f"over bore and keyway; a smaller {part}_bore_mm leaves more of it",
-                ("size", f"{part}_hub_mm"),
-            )
+    refuse_thin_hub("wheel", sizes.wheel_hub, sizes.wheel_reach, sizes.wheel_bore)
+    refuse_thin_hub("crank", sizes.crank_hub, sizes.crank_reach, sizes.crank_bore)

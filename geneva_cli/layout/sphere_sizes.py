@@ -90,7 +90,7 @@ def _ball(mechanism: Mechanism, radius_mm: float, thickness_mm: float | None) ->
     inside, outside = L - 0.5 * thick.wheel, L + 0.5 * thick.wheel
     under = outside + size.allowances.pin_gap_mm  # the arm's inner face, on which the sectors stand
     slot_end = bottom - w
-    bore, hub = wheel_axle(size, L, inside, slot_end)
+    bore, hub = wheel_axle(spec, L, inside, slot_end)
     lock = _lock(mechanism, arm - w, abs(axes - rim), roller)
     many = spec.drive.rollers
     turns = [p.crank_deg for p in (first, *others)]

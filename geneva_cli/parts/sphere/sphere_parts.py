@@ -18,6 +18,7 @@ from geneva_cli.curves.shapes import ORIGIN, Circle, Shape
 from geneva_cli.curves.sphere import Rotation, axis_frame, place
 from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.arm_sizes import refuse_thin_hub
 from geneva_cli.layout.axles import crank_hub, refuse_wide
 from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.bearings import shoulder_length
@@ -144,12 +145,7 @@ def _wheel_hub(size: Size, ball: Ball) -> Plate | None:
     inside, outside = ball.span_mm
     refuse_wide("wheel_hub_mm", ball.hub_mm, inside, outside)
     form = bore_of(size, "wheel", ball.bore_mm)
-    if ball.hub_mm <= form.reach:
-        raise GenevaError(
-            f"wheel_hub_mm = {2.0 * ball.hub_mm:g}: it must be above {2.0 * form.reach:.6g}, the "
-            "diameter over the hub's bore and keyway",
-            ("size", "wheel_hub_mm"),
-        )
+    refuse_thin_hub("wheel", ball.hub_mm, form.reach, ball.bore_mm)
     long = inside + ball.hub_length_mm(size)
     bored = (form.shape("BORE", ball.half_step),) if ball.bore_mm else ()
     return Plate("wheel's hub", "HUB", Circle("HUB", ORIGIN, ball.hub_mm), bored, inside, long)
@@ -210,6 +206,7 @@ def _inner_hub(size: Size, ball: Ball, arm: CapArm | None) -> Plate | None:
     bored: tuple[Shape, ...] = ()
     if size.crank_bore_mm:
         form = bore_of(size, "crank", 0.5 * size.crank_bore_mm)
+        refuse_thin_hub("crank", radius, form.reach, form.radius)
         bored = (form.shape("BORE", arm.keyway),)
     return Plate("crank's hub", "HUB", Circle("HUB", ORIGIN, radius), bored, low, high)
 

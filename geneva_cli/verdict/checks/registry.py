@@ -108,6 +108,7 @@ SPHERE: Checks = {
     "wheel_clamp_Nm": "shafts:held_torque",
     "crank_clamp_Nm": "shafts:held_torque",
     "dial_wall_mm": "sphere:dial",
+    "crank_bore_wall_mm": "sphere:crank_bore",
     "beside_shafts_mm": "sphere:passing_parts",
     "arm_wall_mm": "sphere:arm_wall",
     "cut_plate_mm": "process:thickest_shell",
