@@ -96,7 +96,7 @@ def test_plane_stress_agrees_on_curved_walls(name, fine):
     design = read(str(repo.DESIGNS / f"{name}.toml"))
     _, sizes = sized(design.mechanism)
     side = horns(design.mechanism, sizes.half_width, sizes.recess)[0]
-    wall = side.wall(side.mouth_deg * np.linspace(1.0, 1e-3, 1500))[0][:, 0]
+    wall = side.wall(side.at.mouth_deg * np.linspace(1.0, 1e-3, 1500))[0][:, 0]
     h = float(side.stoutness[0]) * sizes.recess
     assert h < sizes.recess / 6.0
     middle = [-product(side.centre, axis).item() for axis in (side.inwards, side.across)]
@@ -106,8 +106,8 @@ def test_plane_stress_agrees_on_curved_walls(name, fine):
     wall = np.column_stack(([-0.15 * h, wall[1, 0]], wall))
     s, pulled, _ = along(wall, sizes.recess, opening, fine)
     inside = (s > 0.8 * h) & (s < 0.75 * wall[0].max())
-    assert design.strength["strength.horn.at_deg"] == side.mouth_deg
-    at = state(design.mechanism, side.engagement, side.mouth_deg)
+    assert design.strength["strength.horn.at_deg"] == side.at.mouth_deg
+    at = state(design.mechanism, side.at.engagement, side.at.mouth_deg)
     wide = design.spec.size.face_width_mm
     per_newton = design.strength["strength.horn.stress_MPa"] * wide / at.pin_force_N
     assert pulled[inside].max() == pytest.approx(per_newton, rel=0.02)

@@ -62,8 +62,8 @@ def test_a_section_by_vectors_in_space(rub):
     z, L, b = 6, 100.0, 10.0
     w, k, S = angles(z, 90.0, L, 5.0, 5.0)
     side = sphere_horns(machine(z, 90.0, L, 5.0), w, k, S)[0]
-    sections = side.mouth_deg * np.array([[0.95, 0.9, 0.85]])
-    mouth_deg = np.array([[side.mouth_deg]])
+    sections = side.at.mouth_deg * np.array([[0.95, 0.9, 0.85]])
+    mouth_deg = np.array([[side.at.mouth_deg]])
     stresses = side.unit_stress(mouth_deg, np.array([[rub]]), sections, b)
     polar = side.polar(sections)[0]
     with mp.workdps(30):
@@ -127,11 +127,11 @@ def test_finite_elements_of_the_shell_agree_with_the_beam(z, axes_deg, L, h, b):
     """
     own = angles(z, axes_deg, L, 5.0, h)
     side = sphere_horns(machine(z, axes_deg, L, 5.0), *own)[0]
-    mouth, deep = (side.polar(np.array([[x]])).item() for x in (side.mouth_deg, 0.0))
+    mouth, deep = (side.polar(np.array([[x]])).item() for x in (side.at.mouth_deg, 0.0))
     w, k, S = own
     at, mises = in_the_shell(L, b, S, math.pi / z, w, k, (mouth, deep), 0.15 * h / L)
-    places = side.mouth_deg * np.linspace(1.0, 0.01, 400)
-    beam = side.unit_stress(np.array([[side.mouth_deg]]), np.zeros((1, 1)), places[None], b)
+    places = side.at.mouth_deg * np.linspace(1.0, 0.01, 400)
+    beam = side.unit_stress(np.array([[side.at.mouth_deg]]), np.zeros((1, 1)), places[None], b)
     inwards = (mouth - at) * L * math.cos(w)
     own_stress = np.interp(inwards, beam.inwards[0], beam.stress[0, 0])
     inside = (inwards > 0.8 * h) & (inwards < 0.75 * (mouth - deep) * L)

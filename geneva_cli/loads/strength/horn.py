@@ -21,15 +21,20 @@ higher if h < R/6, and 5 % lower to 7 % higher at R/2.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.contact import NEAR_CUSP
-from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.pitch_curve import pitch
-from geneva_cli.loads.strength.horn_search import HornStress, UnitStress, greatest_stress, squeezed
+from geneva_cli.loads.strength.horn_search import (
+    HornStress,
+    SlotEnd,
+    UnitStress,
+    greatest_stress,
+    slot_ends,
+    squeezed,
+)
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Number, blocks, joined, parameter
@@ -42,35 +47,24 @@ SHEAR = 1.2  # of a rectangular section: energy of its shear stress over that of
 class Horn(NamedTuple):
     """One horn of a slot, in the wheel's frame: the one that bears torque forwards, or backwards.
 
-    ``engagement`` is that of the roller in its slot. ``whole`` is the engagement of the motion,
-    which has the load, at an input angle smaller by ``ahead_deg``.
-
     Numbers are floats or (m, 1), positions and directions (2, m, 1).
     """
 
-    engagement: Engagement
+    at: SlotEnd
     L: float
     half_width: float
     recess: float
-    end: float  # -1: between the slot and where the crank's axis is before the motion; 1: after
     centre: Array  # position of the recess's centre
     inwards: Array  # direction along the slot at its mouth
     across: Array  # direction perpendicular to that, from the recess's centre to the slot
     outwards: Array  # direction out of the wheel at the recess's centre, between two horns
-    whole: Engagement
-    ahead_deg: float
-
-    @property
-    def mouth_deg(self) -> float:
-        """Input angle at which the roller is at this horn's mouth."""
-        return self.engagement.end_deg(self.end)
 
     def wall(self, input_deg: Number) -> tuple[Array, Array]:
         """Points of the slot's wall, and its normals towards the recess, in the horn's frame.
 
         At angles (m, k) both are (2, m, k). The origin is the recess's centre.
         """
-        x, y = self.engagement.slot(squeezed(input_deg), 1)
+        x, y = self.at.engagement.slot(squeezed(input_deg), 1)
         place = self._turned(self.L * vector(x.c[0], y.c[0]) - self.centre)
         normal = self._turned(vector(-np.asarray(y.c[1]), x.c[1]))
         normal *= np.where(normal[1] > 0.0, -1.0, 1.0) / np.hypot(*normal)
@@ -104,17 +98,6 @@ class Horn(NamedTuple):
         half: Array = np.arctan2(sense * away, sense * up)
         return half
 
-    @property
-    def runs_from_deg(self) -> Sequence[float]:
-        """Input angles of the ends from which the roller runs along this horn's wall.
-
-        It is the horn's own end for curved slots, and also if another roller leaves by another
-        slot. Else both.
-        """
-        if not self.whole.slot.walls_flat:
-            return [self.mouth_deg]
-        return [self.engagement.entry_deg, self.engagement.exit_deg]
-
     def unit_stress(
         self, roller: Array, rub: Array, sections: Array, width_mm: float
     ) -> UnitStress:
@@ -141,12 +124,12 @@ class Horn(NamedTuple):
 
     def places(self, count: int) -> Array:
         """Input angles from the mouth inwards."""
-        return self.mouth_deg * np.linspace(1.0, NEAR_CUSP, count)
+        return self.at.mouth_deg * np.linspace(1.0, NEAR_CUSP, count)
 
     @property
     def stoutness(self) -> Array:
         """Thickness at the mouth over the recess's radius, (m,)."""
-        return np.ravel(self.thickness(*self.wall(self.mouth_deg)) / self.recess)
+        return np.ravel(self.thickness(*self.wall(self.at.mouth_deg)) / self.recess)
 
 
 def vector(x: Number, y: Number) -> Array:
@@ -167,20 +150,18 @@ def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[
     """Both horns of each kind of slot."""
     L, sides = mechanism.center_distance_mm, []
     moving = mechanism.spec.wheel.plane_motion(parameter(np.ravel(L)))
-    for whole in mechanism.under_load.engagements:
-        for end, (engagement, ahead) in ((-1.0, whole.passages[0]), (1.0, whole.passages[-1])):
-            turn = np.ravel(end * engagement.half_step)  # of the wheel at rest
-            axes = np.column_stack(np.broadcast_arrays(np.ravel(L), 0.0, turn))
-            centre = moving.into(axes[:, :2], axes[:, 2])
-            outwards = moving.outwards(centre).T[:, :, None]
-            centre = centre.T[:, :, None]
-            at = pitch(engagement, engagement.end_deg(end))
-            inwards = -end * vector(at.tangent_x, at.tangent_y)
-            across = vector(-inwards[1], inwards[0])
-            towards = L * vector(at.x, at.y) - centre
-            across = across * np.copysign(1.0, product(across, towards))
-            frame = centre, inwards, across, outwards
-            sides.append(Horn(engagement, L, half_width_mm, recess_mm, end, *frame, whole, ahead))
+    for at in slot_ends(mechanism):
+        turn = np.ravel(at.end * at.engagement.half_step)  # of the wheel at rest
+        axes = np.column_stack(np.broadcast_arrays(np.ravel(L), 0.0, turn))
+        centre = moving.into(axes[:, :2], axes[:, 2])
+        outwards = moving.outwards(centre).T[:, :, None]
+        centre = centre.T[:, :, None]
+        mouth = pitch(at.engagement, at.mouth_deg)
+        inwards = -at.end * vector(mouth.tangent_x, mouth.tangent_y)
+        across = vector(-inwards[1], inwards[0])
+        towards = L * vector(mouth.x, mouth.y) - centre
+        across = across * np.copysign(1.0, product(across, towards))
+        sides.append(Horn(at, L, half_width_mm, recess_mm, centre, inwards, across, outwards))
     return sides
 
 

@@ -7,7 +7,7 @@ times, between its neighbours.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
@@ -49,28 +49,47 @@ class UnitStress(NamedTuple):
     thickness: Array  # mm, (m, sections); infinite beyond the horn
 
 
+class SlotEnd(NamedTuple):
+    """An end of a slot, entry or exit, and so the horn beside it that bears on that side.
+
+    ``engagement`` is that of the roller in its slot. ``whole`` is the engagement of the motion,
+    which has the load, at an input angle smaller by ``ahead_deg``.
+    """
+
+    engagement: Engagement
+    end: float  # -1: between the slot and where the crank's axis is before the motion; 1: after it
+    whole: Engagement
+    ahead_deg: float
+
+    @property
+    def mouth_deg(self) -> float:
+        """Input angle at which the roller is at this end's mouth."""
+        return self.engagement.end_deg(self.end)
+
+    @property
+    def runs_from_deg(self) -> Sequence[float]:
+        """Input angles of the ends from which the roller runs along the wall of this end's horn.
+
+        It is this end alone for curved slots. Else both.
+        """
+        if not self.whole.slot.walls_flat:
+            return [self.mouth_deg]
+        return [self.engagement.entry_deg, self.engagement.exit_deg]
+
+
+def slot_ends(mechanism: Mechanism) -> Iterator[SlotEnd]:
+    """Yield both ends of each kind of slot under its load."""
+    for whole in mechanism.under_load.engagements:
+        for end, (engagement, ahead) in ((-1.0, whole.passages[0]), (1.0, whole.passages[-1])):
+            yield SlotEnd(engagement, end, whole, ahead)
+
+
 class HornSide(Protocol):
     """A horn: the wall on one side of a slot."""
 
     @property
-    def end(self) -> float:
-        """-1: between the slot and where the crank's axis is before the motion; 1: after it."""
-
-    @property
-    def whole(self) -> Engagement:
-        """Engagement of the motion, which has the load."""
-
-    @property
-    def ahead_deg(self) -> float:
-        """Angle by which the input of ``whole`` is smaller."""
-
-    @property
-    def mouth_deg(self) -> float:
-        """Input angle at which the roller is at this horn's mouth."""
-
-    @property
-    def runs_from_deg(self) -> Sequence[float]:
-        """Input angles from which the roller runs along this horn's wall up to mid-motion."""
+    def at(self) -> SlotEnd:
+        """The end of the slot where this horn bears."""
 
     def unit_stress(
         self, roller: Array, rub: Array, sections: Array, width_mm: float
@@ -106,7 +125,7 @@ def greatest_stress(
     next_, count = [], 61  # places and sections of the first sampling
     for number, side in enumerate(sides(mechanism, half_width, recess)):
         start = _SamplePlaces(
-            _from(side.runs_from_deg, count), _from([side.mouth_deg], count)[:, 0]
+            _from(side.at.runs_from_deg, count), _from([side.at.mouth_deg], count)[:, 0]
         )
         sample, around = _sampled(mechanism, side, start, width)
         better = ~(sample[0] <= best[0] * (1.0 + TIE)) & ~np.isnan(sample[0])
@@ -124,7 +143,7 @@ def greatest_stress(
         for _ in range(3):  # the middle of the remaining places is the best so far
             sample, around = _sampled(some[0], one, around, some[3])
             best[:, own] = np.where(np.isnan(sample[0]), best[:, own], sample)
-        best[1, own] += np.ravel(one.whole.mid_deg - one.ahead_deg)
+        best[1, own] += np.ravel(one.at.whole.mid_deg - one.at.ahead_deg)
     at_deg = np.ravel(mechanism.under_load.shown_deg(parameter(best[1][:, None])))
     return HornStress(*map(parameter, (best[0], at_deg, *best[2:])))
 
@@ -171,10 +190,10 @@ def _stress(
     mechanism: Mechanism, side: HornSide, width: float, x: Array, sections: Array
 ) -> UnitStress:
     """Stresses under the machine's load: 0 where the other horn bears."""
-    at = contact_values(contact(side.whole, squeezed(x - side.ahead_deg), reactions=False))
+    at = contact_values(contact(side.at.whole, squeezed(x - side.at.ahead_deg), reactions=False))
     case = load_case(mechanism)
     loads = bounded_loads(case, at)
-    bears = np.asarray(loads.wheel_torque_Nm) * side.end < 0.0
+    bears = np.asarray(loads.wheel_torque_Nm) * side.at.end < 0.0
     force = np.atleast_2d(np.where(bears, np.abs(loads.pin_force_N), 0.0))
     own = np.flatnonzero(bears.any(axis=0) if bears.ndim > 1 else bears)  # elsewhere it is 0
     # a mouth is away from the axis, but for internal wheels

@@ -28,15 +28,20 @@ taken as even through the shell, at L. On a large sphere the stress is that of t
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from functools import lru_cache, partial
 from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.loads.strength.arm import torsion_MPa
-from geneva_cli.loads.strength.horn_search import HornStress, UnitStress, greatest_stress, squeezed
+from geneva_cli.loads.strength.horn_search import (
+    HornStress,
+    SlotEnd,
+    UnitStress,
+    greatest_stress,
+    slot_ends,
+    squeezed,
+)
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
 
@@ -44,26 +49,17 @@ from geneva_cli.numerics.jet import Array
 class SphereHorn(NamedTuple):
     """One horn of a slot; angles in radians."""
 
-    engagement: Engagement
+    at: SlotEnd
     radius_mm: float  # L, of the sphere
     crank_axis: tuple[float, float, float]  # c: y towards this horn, z along the wheel's axis
     half_width: float  # w
     recess: float  # k
     half_step: float  # from the slot's middle to the next horn, about the wheel's axis
-    # as ``HornSide`` describes them
-    end: float
-    whole: Engagement
-    ahead_deg: float
 
     @property
-    def mouth_deg(self) -> float:
-        """Input angle at which the roller is at this horn's mouth."""
-        return self.engagement.end_deg(self.end)
-
-    @property
-    def runs_from_deg(self) -> Sequence[float]:
-        """Input angles of the slot's ends: its walls are flat along the slot."""
-        return [self.engagement.entry_deg, self.engagement.exit_deg]
+    def mouth(self) -> Array:
+        """The polar angle of the roller at this horn's mouth, (1, 1)."""
+        return self.polar(np.array([[self.at.mouth_deg]]))
 
     def unit_stress(
         self, roller: Array, rub: Array, sections: Array, width_mm: float
@@ -90,7 +86,7 @@ class SphereHorn(NamedTuple):
             normal = 6.0 * in_shell / (b * h * h) + 6.0 * off_shell / (h * b * b) + pull / (b * h)
             shear = torsion_MPa(twist, b + 0.0 * h, h)
             stress = np.sqrt(np.maximum(normal, 0.0) ** 2 + 3.0 * shear**2)
-            inwards = L * math.cos(w) * (self.polar(np.array([[self.mouth_deg]])) - t)
+            inwards = L * math.cos(w) * (self.mouth - t)
             stress = np.where((t[:, None] < t0) & np.isfinite(stress), stress, 0.0)
         return UnitStress(stress, inwards, thick)
 
@@ -107,7 +103,7 @@ class SphereHorn(NamedTuple):
 
     def polar(self, input_deg: Array) -> Array:
         """The polar angles of the roller at input angles, (m, k) both."""
-        return np.atleast_2d(self.engagement.slot(squeezed(input_deg), 0)[0].c[0])
+        return np.atleast_2d(self.at.engagement.slot(squeezed(input_deg), 0)[0].c[0])
 
 
 def _at(t: Array, x: Array | float) -> Array:
@@ -130,22 +126,17 @@ def sphere_horns(
 ) -> list[SphereHorn]:
     """Both horns of each kind of slot; slot, recess and the angle of the shafts in radians."""
     L, sides = mechanism.center_distance_mm, []
-    for whole in mechanism.engagements:
-        engagement, aheads = whole.through, whole.ahead_deg
-        half = engagement.half_step
-        out = math.sin(axes)
+    for at in slot_ends(mechanism):
+        half, out = at.engagement.half_step, math.sin(axes)
         axis = out * math.cos(half), out * math.sin(half), math.cos(axes)
-        for end, ahead in ((-1.0, aheads[0]), (1.0, aheads[-1])):
-            sides.append(
-                SphereHorn(engagement, L, axis, half_width, recess, half, end, whole, ahead)
-            )
+        sides.append(SphereHorn(at, L, axis, half_width, recess, half))
     return sides
 
 
 def sphere_stoutness(mechanism: Mechanism, half_width: float, recess: float, axes: float) -> float:
     """Greatest thickness of a horn at its mouth over the recess's radius."""
     sides = sphere_horns(mechanism, half_width, recess, axes)
-    most = max(side.thickness(side.polar(np.array([[side.mouth_deg]]))).item() for side in sides)
+    most = max(side.thickness(side.mouth).item() for side in sides)
     return most / (mechanism.center_distance_mm * math.sin(recess))
 
 
