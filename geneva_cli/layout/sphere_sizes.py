@@ -30,22 +30,21 @@ class PartDoesNotFit(GenevaError):
     """Error for a part that does not fit, but would with a smaller roller."""
 
 
-def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
-    """Return the sizes of a spherical machine; ``roller_mm`` replaces its own roller radius.
+def ball(mechanism: Mechanism) -> Ball:
+    """Return the sizes of a spherical machine.
 
     Those that the spec leaves out are as large as its load needs. Raises GenevaError, naming the
     key, where they leave no wheel or no lock.
     """
     spec = mechanism.spec
-    radius_mm = mechanism.roller_radius_mm if roller_mm is None else roller_mm
-    usual = _ball(mechanism, radius_mm, spec.size.wheel_thickness_mm)
+    usual = _ball(mechanism, spec.size.wheel_thickness_mm)
     if not spec.is_loaded:
         return usual
     from geneva_cli.layout.sphere_load_sizes import horn_thickness_mm, sphere_load_sizes
 
     thick = horn_thickness_mm(mechanism, usual)
     if thick is not None:
-        usual = _ball(mechanism, radius_mm, thick)
+        usual = _ball(mechanism, thick)
     return sphere_load_sizes(mechanism, usual)
 
 
@@ -61,12 +60,12 @@ def sized_ball(mechanism: Mechanism) -> Ball | None:
         return None  # the check of the parts reports the error
 
 
-def _ball(mechanism: Mechanism, radius_mm: float, thickness_mm: float | None) -> Ball:
-    """Return the sizes for a roller and a thickness of the wheel, or else its default."""
+def _ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
+    """Return the sizes for a thickness of the wheel, or else its default."""
     from geneva_cli.layout.axles import about_crank, wheel_axle
     from geneva_cli.layout.ball import Ball, inner_edge
 
-    spec, L = mechanism.spec, mechanism.center_distance_mm
+    spec, L, radius_mm = mechanism.spec, mechanism.center_distance_mm, mechanism.roller_radius_mm
     size, z = spec.size, spec.wheel.z
     if z > Z_DRAWN:
         raise GenevaError(f"z = {z}: parts are drawn up to {Z_DRAWN} slots", ("wheel", "z"))

@@ -137,12 +137,13 @@ def _suiting_plane(where: Assembly, at: PartsData, m: int) -> tuple[float | None
 
 def _suiting_sphere(mechanism: Mechanism) -> tuple[float | None, str]:
     """The radius of the roller that suits a machine on a sphere, and the obstacle to the parts."""
-    L, size = mechanism.center_distance_mm, mechanism.spec.size
+    L, spec = mechanism.center_distance_mm, mechanism.spec
+    size = spec.size
     least = wall_min(size, L) / L
 
     def obstacle(percent: float) -> str:
         try:
-            shells = ball(mechanism, 0.01 * percent * L)
+            shells = ball(mechanism._replace(spec=with_roller(spec, 0.01 * percent * L)))
         except GenevaError as error:
             return LOCK if error.key == ("size", "lock_radius_mm") else SIZES
         return (

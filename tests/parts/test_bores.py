@@ -162,6 +162,7 @@ def test_a_spherical_crank_hub_that_its_keyway_cuts_is_refused():
     with pytest.raises(GenevaError, match="crank_hub_mm = 9: it must be above 10, the diam") as no:
         assert SphereParts(PartsModel(design.mechanism).shells).crank
     assert no.value.key == ("size", "crank_hub_mm")
+    assert standing_check("crank_bore_wall_mm", **size).why == str(no.value)
 
 
 @pytest.mark.parametrize("wheel", [External(6), Spherical(6)])

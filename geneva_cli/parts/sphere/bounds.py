@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.collisions.pairs import Bounds, Intervals, Pair, Window, raised
+from geneva_cli.collisions.pairs import Bounds, Intervals, Pair, Pose, Window, raised
 from geneva_cli.curves.sphere import Region
 from geneva_cli.curves.sphere_extents import Circle, FromCircle, farthest, short_arcs
 from geneva_cli.numerics.arrays import Array, Mask, Whole
@@ -59,9 +59,9 @@ class Roller:
         self.pairs, self.number = pairs, number
         self.ball, self.gaps = pairs.ball, pairs.gaps
 
-    def centre(self, input_deg: Array) -> Array:
-        """Return the centre in the wheel's frame at input angles, (n, 3)."""
-        return self.gaps.in_wheel(self.number, input_deg)
+    def centre(self, pose: Pose) -> Array:
+        """Return the centre in the wheel's frame, (n, 3)."""
+        return about(pose.pins[:, self.number], -pose.wheel)
 
     def gap(self, on: Intervals) -> Array:
         """Return the gap to the wheel in the middle of intervals, mm."""
@@ -104,7 +104,7 @@ class FreeRoller(Roller):
 
         While the wheel rests, the centre is also on its circle about the crank's axis.
         """
-        centre, ball = self.centre(on.middle), self.ball
+        centre, ball = self.centre(on.at_middle), self.ball
         away = polar(centre)
         # the wheel is within its rim's circle
         gap = np.maximum(self.gap(on), ball.radius_mm * (away - ball.rim - ball.roller))
@@ -122,7 +122,8 @@ class DrivingRoller(Roller):
 
     def __init__(self, pairs: SpherePairs, number: int, span: tuple[float, float]) -> None:
         super().__init__(pairs, number)
-        x, y, _ = self.centre(np.array([0.5 * (span[0] + span[1])]))[0]
+        middle = self.gaps.pose(np.array([0.5 * (span[0] + span[1])]))
+        x, y, _ = self.centre(middle)[0]
         out = np.array((x, y, 0.0)) / math.hypot(x, y)
         across = np.array((-out[1], out[0], 0.0))
         self.path = FromCircle(self.gaps.wheel, Circle(across, np.array(POLE), out, QUARTER))
@@ -131,7 +132,7 @@ class DrivingRoller(Roller):
         """Return the gap along the piece of the meridian that the centre may reach."""
         gap = self.gap(on)
         # the distance from the wheel's axis changes by no more than the roller moves
-        along = self.along(self.path, self.centre(on.middle), self.travel(on), gap)
+        along = self.along(self.path, self.centre(on.at_middle), self.travel(on), gap)
         return Bounds(gap, along)
 
 
@@ -171,7 +172,7 @@ class Lock:
         start, end = self.window.start, self.window.end
         nearer = np.where(on.middle - start < end - on.middle, start, end)
         axis = np.tile(gaps.crank_frame[2], (len(wheel), 1))
-        middle = about(axis, -gaps.pose(nearer).wheel)
+        middle = about(axis, -gaps.assembly.wheel(nearer))
         free, _ = gaps.to_wheel(middle)
         offset = gaps.in_crank(about(middle, wheel), crank)
         far = np.where(self._within_rim(on, crank), farthest(self.pieces, offset), 0.0)

@@ -31,7 +31,7 @@ def fitted(mechanism: Mechanism, advice: bool = True) -> tuple[Ball, list[Region
     message names the largest roller that fits, if there is one.
     """
     try:
-        return _sizes_and_sectors(mechanism, mechanism.roller_radius_mm)
+        return _sizes_and_sectors(mechanism)
     except PartDoesNotFit as error:
         if not advice:
             raise
@@ -44,15 +44,17 @@ def fitted(mechanism: Mechanism, advice: bool = True) -> tuple[Ball, list[Region
 
 
 def _fits(mechanism: Mechanism, roller_mm: float) -> bool:
+    spec = mechanism.spec
+    size = spec.size.replace(roller_radius_mm=roller_mm)
     try:
-        _sizes_and_sectors(mechanism, roller_mm)
+        _sizes_and_sectors(mechanism._replace(spec=spec.replace(size=size)))
     except GenevaError:
         return False
     return True
 
 
-def _sizes_and_sectors(mechanism: Mechanism, roller_mm: float) -> tuple[Ball, list[Region]]:
-    sizes = ball(mechanism, roller_mm)
+def _sizes_and_sectors(mechanism: Mechanism) -> tuple[Ball, list[Region]]:
+    sizes = ball(mechanism)
     return sizes, sectors(sizes)
 
 

@@ -6,6 +6,7 @@ import math
 
 from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.drawings.sphere.shaft_gap import shaft_gap
+from geneva_cli.layout.arm_sizes import refuse_thin_hub
 from geneva_cli.layout.bores import reach_or_bore
 from geneva_cli.outlines.sphere_wheel import POLE
 from geneva_cli.parts.sphere.dial import dial_wall
@@ -30,27 +31,34 @@ def horn(name: str, parts: SphereParts) -> Check | None:
     return compared(name, sizes.horn, "at least", sizes.wall_min) if parts.shells.crank else None
 
 
-def wheel_bore(name: str, parts: SphereParts) -> Check:
+def wheel_bore(name: str, parts: SphereParts) -> Check | None:
     """The wall between the slots' ends and what is about the wheel's axis, and the hub's own."""
     ball = parts.ball
     opening = RoundHole(POLE, ball.opening_mm).angle(ball.span_mm[0]) or ball.inner
     to_slots = ball.radius_mm * (ball.slot_end - opening)
-    wall = min(to_slots, _in_hub("wheel", parts) or math.inf)
-    return compared(name, wall, "at least", parts.shells.sizes.wall_min)
+
+    def least() -> float:
+        return min(to_slots, _in_hub("wheel", parts) or math.inf)
+
+    return at_least(name, least, parts.shells.sizes.wall_min)
 
 
 def crank_bore(name: str, parts: SphereParts) -> Check | None:
     """The wall around the bore of the crank's hub inside the arm; None without that hub."""
-    wall = _in_hub("crank", parts)
-    return None if wall is None else compared(name, wall, "at least", parts.shells.sizes.wall_min)
+    return at_least(name, lambda: _in_hub("crank", parts), parts.shells.sizes.wall_min)
 
 
 def _in_hub(part: str, parts: SphereParts) -> float | None:
-    """Return the wall of a hub around its bore and keyway, mm; None without hub or bore."""
+    """Return the wall of a hub around its bore and keyway, mm; None without hub or bore.
+
+    Raises GenevaError, naming the key, for a hub that its keyway cuts through.
+    """
     bore, hub = parts.hub_radii(part)
     if not 0.0 < bore < hub:
         return None
-    return hub - reach_or_bore(parts.mechanism.spec.size, part, bore)
+    bored = reach_or_bore(parts.mechanism.spec.size, part, bore)
+    refuse_thin_hub(part, hub, bored, bore)
+    return hub - bored
 
 
 def dial(name: str, parts: SphereParts) -> Check | None:
