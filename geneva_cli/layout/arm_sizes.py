@@ -12,6 +12,7 @@ from geneva_cli.layout.plain_sizes import Sizes, half_or
 from geneva_cli.machine.least_wall import eye_about
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.spec.tables import Size
 
 HUB = 1.6  # outside diameter of a hub, as a multiple of its bore
@@ -70,6 +71,20 @@ def pin_hole(size: Size, pin: float) -> float:
     return hole
 
 
+def refuse_wide_pin(size: Size, pin: float, roller: float) -> None:
+    """Raise GenevaError, naming the key, for a pin whose hole leaves nothing of the roller.
+
+    ``roller`` is the roller's radius, of a cone where it is thinnest.
+    """
+    loose = size.allowances.shaft_fit_mm
+    if pin and 2.0 * pin + loose >= 2.0 * roller:
+        raise GenevaError(
+            f"pin_mm = {2.0 * pin:g}: it must be below {2.0 * roller - loose:.6g}, the roller's "
+            "least diameter less shaft_fit_mm",
+            ("size", "pin_mm"),
+        )
+
+
 def arm_bore(spec: Spec, disc: float, L: float, space: float) -> float:
     """Return the radius of the arm's bore: of the spec, of the ``disc`` on it, or of the shaft.
 
@@ -77,6 +92,20 @@ def arm_bore(spec: Spec, disc: float, L: float, space: float) -> float:
     """
     diameter = spec.size.arm_bore_mm or 2.0 * disc or spec.shaft.crank_diameter_mm
     return half_or(diameter, bore_radius(min(L / 20.0, 0.35 * space)))
+
+
+def refuse_stepped_shaft(size: Size, crank_bore: float, L: float) -> None:
+    """Raise GenevaError, naming the key, where the arm's bore is not as wide as the crank's.
+
+    One shaft runs through both. A ``crank_bore`` of 0 ends it in the arm.
+    """
+    own = size.arm_bore_mm
+    if own and crank_bore and abs(0.5 * own - crank_bore) > SAME_LENGTH * L:
+        raise GenevaError(
+            f"arm_bore_mm = {own:g}: the shaft runs through the arm and on, so crank_bore_mm = "
+            f"{2.0 * crank_bore:g} must be equal, or 0 to end it in the arm",
+            ("size", "arm_bore_mm"),
+        )
 
 
 def within_hub(size: Size, part: str) -> float:

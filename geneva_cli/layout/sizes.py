@@ -17,7 +17,9 @@ from geneva_cli.layout.arm_sizes import (
     arm_bore,
     crank_reach_and_hub,
     hole_radius,
+    refuse_stepped_shaft,
     refuse_thin_hub,
+    refuse_wide_pin,
     wheel_bore,
     wheel_reach_and_hub,
     within_hub,
@@ -26,7 +28,6 @@ from geneva_cli.layout.assembly import Assembly, assembly
 from geneva_cli.layout.plain_sizes import (
     Sizes,
     drawn_thicknesses,
-    half_or,
     pin_radius,
 )
 from geneva_cli.layout.reliefs import arc_floor, has_arcs
@@ -35,7 +36,6 @@ from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.preferred import bore_radius
-from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.tables import Size
 
@@ -291,19 +291,8 @@ def _refuse(assembly: Assembly, sizes: Sizes) -> None:
             f"{sizes.slot_end:.6g} mm; it must be below {2.0 * sizes.slot_end:.6g}",
             ("size", "wheel_bore_mm"),
         )
-    own = assembly.mechanism.spec.size.arm_bore_mm
-    one_arm = assembly.full.spec.drive.ONE_ARM
-    if (
-        one_arm
-        and own
-        and sizes.crank_bore
-        and abs(0.5 * own - sizes.crank_bore) > SAME_LENGTH * assembly.L
-    ):
-        raise GenevaError(
-            f"arm_bore_mm = {own:g}: the shaft runs through arm and locking disc, so crank_bore_mm "
-            f"= {2.0 * sizes.crank_bore:g} must be equal, or 0 to end it in the arm",
-            ("size", "arm_bore_mm"),
-        )
+    if assembly.full.spec.drive.ONE_ARM:
+        refuse_stepped_shaft(assembly.mechanism.spec.size, sizes.crank_bore, assembly.L)
     if sizes.lock and sizes.crank_bore >= sizes.lock:
         raise GenevaError(
             f"crank_bore_mm = {2.0 * sizes.crank_bore:g}: it must be below the locking disc's "
@@ -314,13 +303,7 @@ def _refuse(assembly: Assembly, sizes: Sizes) -> None:
         assembly.mechanism.spec.size,
         min(sizes.wheel_thickness, sizes.lock_thickness, sizes.arm_thickness),
     )
-    loose = assembly.mechanism.spec.size.allowances.shaft_fit_mm
-    if sizes.pin and 2.0 * sizes.pin + loose >= 2.0 * sizes.roller:
-        raise GenevaError(
-            f"pin_mm = {2.0 * sizes.pin:g}: it must be below {2.0 * sizes.roller - loose:g}, the "
-            "roller's diameter less shaft_fit_mm",
-            ("size", "pin_mm"),
-        )
+    refuse_wide_pin(assembly.mechanism.spec.size, sizes.pin, sizes.roller)
     if not outside and sizes.outer <= max(sizes.slot_end, assembly.L + sizes.recess):
         raise GenevaError(
             f"wheel_outer_radius_mm = {sizes.outer:g}: it must be larger: the slots reach "

@@ -13,7 +13,12 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.arm_sizes import arm_bore, hole_radius
+from geneva_cli.layout.arm_sizes import (
+    arm_bore,
+    hole_radius,
+    refuse_stepped_shaft,
+    refuse_wide_pin,
+)
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
 from geneva_cli.layout.sizes import lock_between, refuse_edges, require_lock_between
 from geneva_cli.machine.mechanism import Mechanism
@@ -128,6 +133,7 @@ def _arm_bore(spec: Spec, pin: float, L: float, arm: float) -> float:
     if not (spec.drive.CRANKED and pin):
         return 0.0
     disc, space = 0.5 * (spec.size.crank_bore_mm or 0.0), L * arm - hole_radius(spec.size, pin)
+    refuse_stepped_shaft(spec.size, disc, L)
     return arm_bore(spec, disc, L, space)
 
 
@@ -192,10 +198,4 @@ def _refuse_thick(thick: Thicknesses, size: Size, L: float, roller: float, pin_m
             f"which is {most:g} mm from the sphere's centre; it must be below {most:g}",
             ("size", "lock_thickness_mm"),
         )
-    thin = (L - 0.5 * thick.wheel) * math.sin(roller)
-    if pin_mm >= thin:
-        raise GenevaError(
-            f"pin_mm = {2.0 * pin_mm:g}: it must be below {2.0 * thin:.6g}, the diameter of the "
-            "roller's cone where it is thinnest",
-            ("size", "pin_mm"),
-        )
+    refuse_wide_pin(size, pin_mm, (L - 0.5 * thick.wheel) * math.sin(roller))

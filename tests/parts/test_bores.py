@@ -165,6 +165,33 @@ def test_a_spherical_crank_hub_that_its_keyway_cuts_is_refused():
     assert standing_check("crank_bore_wall_mm", **size).why == str(no.value)
 
 
+@pytest.mark.parametrize("wheel", [External(6), TILTED])
+def test_one_shaft_runs_through_arm_and_crank(wheel):
+    """So their bores are equal, on a sphere as in the plane; a bore of 0 ends it in the arm."""
+    design = Design(wheel, size=Size(100.0, 5.0, arm_bore_mm=10.0, crank_bore_mm=8.0))
+    said = r"arm_bore_mm = 10: .* crank_bore_mm = 8 must be equal"
+    with pytest.raises(GenevaError, match=said) as error:
+        assert PartsModel(design.mechanism).built.members
+    assert error.value.key == ("size", "arm_bore_mm")
+    for bore in (0.0, 10.0):
+        assert PartsModel(design.with_("size.crank_bore_mm", bore).mechanism).built.members
+
+
+@pytest.mark.parametrize(
+    ("wheel", "most"),
+    # the cone of 5 mm at 100 mm is thinnest inside, at 95 mm
+    [(External(6), 9.5), (TILTED, 2.0 * 95.0 * math.sin(0.05) - 0.5)],
+)
+def test_a_roller_is_left_around_its_pin_and_their_fit(wheel, most):
+    def members(pin):
+        size = Size(100.0, 5.0, pin_mm=pin, shaft_fit_mm=0.5)
+        return PartsModel(Design(wheel, size=size).mechanism).built.members
+
+    assert members(most - 1e-6)
+    with pytest.raises(GenevaError, match="it must be below"):
+        members(most + 1e-6)
+
+
 @pytest.mark.parametrize("wheel", [External(6), Spherical(6)])
 def test_a_wheel_is_bored_for_its_shaft(wheel):
     design = Design(wheel, size=Size(80.0, 5.0), shaft=Shaft(wheel_diameter_mm=9.0))
