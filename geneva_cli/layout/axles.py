@@ -37,9 +37,13 @@ def wheel_axle(spec: Spec, L: float, inside: float, slot_end: float) -> tuple[fl
 
 
 def hub_about(size: Size, L: float, bore: float, end: float) -> float:
-    """Return the radius of the wheel's hub about a bore; ``end`` is that of the slots' ends."""
-    _, hub = wheel_reach_and_hub(size, bore, wall_min(size, L), end)
-    return hub if size.wheel_hub_mm is not None else max(bore, hub)
+    """Return the radius of the wheel's hub about a bore; ``end`` is that of the slots' ends.
+
+    Where a default hub would leave no wall around the bore there is none: it is the bore's.
+    """
+    wall = wall_min(size, L)
+    bored, hub = wheel_reach_and_hub(size, bore, wall, end)
+    return bore if size.wheel_hub_mm is None and hub < bored + wall else hub
 
 
 def about_crank(size: Size, L: float) -> float:

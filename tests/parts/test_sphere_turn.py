@@ -171,8 +171,10 @@ def test_shafts_and_arm_have_room_or_not():
     # the arm is a shell from 84 mm on, and the wheel's one from 76
     eye = math.radians(75.0) - ball.arm - 10.0 / 80.0 - math.asin(15.0 / 84.0)
     assert row("beside_shafts_mm").value == pytest.approx(84.0 * eye, rel=1e-12)
-    deepest = ball.bottom - ball.half_width - math.asin(15.0 / 76.0)
-    assert row("wheel_bore_wall_mm").value == pytest.approx(80.0 * deepest, rel=1e-12)
+    assert row("wheel_bore_wall_mm").value == 5.0  # of the hub around its bore
+    bare = design.with_("size.wheel_hub_mm", 0.0)
+    deepest = ball.bottom - ball.half_width - math.asin(10.0 / 76.0)
+    assert row("wheel_bore_wall_mm", bare).value == pytest.approx(80.0 * deepest, rel=1e-12)
     assert row("beside_shafts_mm", design.with_("size.arm_eye_mm", 110.0)).passes is False
     # without an arm one check says why
     thin = SphereParts(shells(design.with_("size.arm_hub_mm", 3.0).mechanism))
