@@ -269,7 +269,7 @@ class Design:
         >>> size.center_distance_mm, size.wheel_thickness_mm
         (100.0, 10.0)
         """
-        from geneva_cli.layout.sizes import built
+        from geneva_cli.outlines.sizes import built
 
         return built(self.mechanism)
 

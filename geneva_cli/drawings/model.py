@@ -68,7 +68,7 @@ class PartsModel:
         return model
 
     def _has_parts_of(self, mechanism: Mechanism) -> bool:
-        from geneva_cli.layout.sizes import machine_sizes
+        from geneva_cli.outlines.sizes import machine_sizes
 
         own, other = (
             (spec.wheel, spec.drive.replace(n_rpm=1.0), spec.motion, spec.size)
@@ -89,7 +89,7 @@ class PartsModel:
     @cached_property
     def outlines(self) -> Outlines:
         """The outlines; raises GenevaError where the sizes leave none."""
-        from geneva_cli.outlines.outlines import outlines
+        from geneva_cli.outlines.sizes import outlines
 
         return outlines(self.mechanism)
 

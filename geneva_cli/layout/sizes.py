@@ -1,16 +1,13 @@
-"""The sizes of the parts, in millimetres: those of the spec, or defaults.
+"""The usual sizes of the parts, in millimetres: those of the spec, or defaults without a load.
 
-Default bores are those of standard bearings, other default sizes rounded numbers. Under a load they
-are as large as it needs (``load_sizes``). The rim is where the roller enters. On a smaller wheel
-the roller would lose its slot, on a larger one it would touch the rim. The locking disc reaches
-past the rim and leaves a horn next to the slot.
+Default bores are those of standard bearings, other default sizes rounded numbers. The rim is where
+the roller enters. On a smaller wheel the roller would lose its slot, on a larger one it would touch
+the rim. The locking disc reaches past the rim and leaves a horn next to the slot.
 """
 
 from __future__ import annotations
 
 import math
-from functools import lru_cache
-from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import (
@@ -24,76 +21,22 @@ from geneva_cli.layout.arm_sizes import (
     wheel_reach_and_hub,
     within_hub,
 )
-from geneva_cli.layout.assembly import Assembly, assembly
+from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.plain_sizes import (
     Sizes,
     drawn_thicknesses,
     pin_radius,
 )
 from geneva_cli.layout.reliefs import arc_floor, has_arcs
-from geneva_cli.layout.roller_paths import RollerPaths, mouth, roller_paths, roller_reaches
+from geneva_cli.layout.roller_paths import RollerPaths, mouth, roller_reaches
 from geneva_cli.machine.least_wall import wall_min
-from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.tables import Size
 
-if TYPE_CHECKING:
-    from geneva_cli.loads.strength.part_loads import PartLoads
 
-
-Layout: TypeAlias = tuple[Assembly, Sizes]  # of one machine
-
-
-def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> Layout | None:
-    """Return a machine's assembly and sizes; None where no flat parts can be cut.
-
-    ``loads`` are those on its parts, if computed already.
-    """
-    if not mechanism.spec.is_flat:
-        return None
-    try:
-        if loads is None:
-            return machine_sizes(mechanism)
-        where = assembly(mechanism)
-        return where, sizes(where, loads=loads)
-    except GenevaError:
-        return None  # the check of the parts reports the error
-
-
-@lru_cache(maxsize=16)
-def machine_sizes(mechanism: Mechanism) -> Layout:
-    """Return a machine's assembly and sizes, cached for its strength, checks and parts.
-
-    Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
-    """
-    where = assembly(mechanism)
-    return where, sizes(where)
-
-
-def sizes(
-    assembly: Assembly, known: RollerPaths | None = None, loads: PartLoads | None = None
-) -> Sizes:
-    """Return the sizes of a machine's parts.
-
-    ``known`` are its roller paths, and ``loads`` those on its parts, if computed already.
-    Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
-    """
-    usual, space = _usual(assembly, known or roller_paths(assembly))
-    out = usual
-    if assembly.full.spec.is_loaded:
-        # without a load none is needed
-        from geneva_cli.layout.first_sizes import first_sizes
-        from geneva_cli.layout.load_sizes import load_sizes
-
-        out = load_sizes(assembly, usual, space, loads, first_sizes(assembly.full, sized))
-    _refuse(assembly, out)
-    _refuse_hubs(assembly.mechanism.spec.size, out)
-    return out
-
-
-def _usual(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
+def usual_sizes(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
     """Return the sizes without a load, and the radius about the crank's axis inside the relief."""
     spec, L, kinds = assembly.mechanism.spec, assembly.L, assembly.kinds
     size, r = spec.size, assembly.mechanism.roller_radius_mm
@@ -148,50 +91,6 @@ def _usual(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
         link_thickness=thick.link,
     )
     return usual, within
-
-
-def built(mechanism: Mechanism) -> Size:
-    """Return the spec's sizes with the machine's values for the keys left out, mm and diameters.
-
-    Without flat parts only centre distance, roller and clearances are added.
-    """
-    size = mechanism.spec.size
-    known: dict[str, float] = {
-        "center_distance_mm": mechanism.center_distance_mm,
-        "roller_radius_mm": mechanism.roller_radius_mm,
-        "slot_clearance_mm": size.allowances.slot_clearance_mm,
-        "lock_clearance_mm": size.allowances.lock_clearance_mm,
-        "press_fit_mm": size.allowances.press_fit_mm,
-        "shaft_fit_mm": size.allowances.shaft_fit_mm,
-        "pin_gap_mm": size.allowances.pin_gap_mm,
-    }
-    if flat := sized(mechanism):
-        _, own = flat
-        known |= {
-            "wheel_radius_mm": own.rim,
-            "slot_bottom_clearance_mm": own.slot_bottom,
-            "lock_radius_mm": own.lock,
-            "relief_clearance_mm": own.relief,
-            "wall_min_mm": own.wall_min,
-            "wheel_bore_mm": 2.0 * own.wheel_bore,
-            "wheel_hub_mm": 2.0 * own.wheel_hub,
-            "crank_bore_mm": 2.0 * own.crank_bore,
-            "crank_hub_mm": 2.0 * own.crank_hub,
-            "pin_mm": 2.0 * own.pin,
-            "wheel_thickness_mm": own.wheel_thickness,
-            "lock_thickness_mm": own.lock_thickness,
-            "arm_thickness_mm": own.arm_thickness,
-        }
-        known |= {"wheel_outer_radius_mm": own.outer} if own.outer else {}
-    values = size.as_dict()
-    return size.replace(**{key: x for key, x in known.items() if values[key] is None})
-
-
-def drawn_pin_radius(mechanism: Mechanism) -> float:
-    """Return the radius of a roller's pin as its machine has it, 0 for none."""
-    flat = sized(mechanism)
-    parts = flat[1] if flat else None
-    return pin_radius(mechanism.spec.size, mechanism.roller_radius_mm, parts)
 
 
 def _arm_bore(assembly: Assembly, pin: float, disc: float) -> float:
@@ -271,7 +170,13 @@ def _bottom(deepest: float, offset: float, gap: float) -> float:
     return math.copysign(math.hypot(along, offset), along)
 
 
-def _refuse(assembly: Assembly, sizes: Sizes) -> None:
+def refuse_sizes(assembly: Assembly, sizes: Sizes) -> None:
+    """Raise GenevaError, naming the key, where a size leaves no wheel or no lock."""
+    _refuse_plates(assembly, sizes)
+    _refuse_hubs(assembly.mechanism.spec.size, sizes)
+
+
+def _refuse_plates(assembly: Assembly, sizes: Sizes) -> None:
     outside = assembly.sign > 0.0
     if sizes.lock and not abs(assembly.L - sizes.rim) < sizes.recess:
         raise GenevaError(

@@ -16,8 +16,6 @@ from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.reliefs import has_arcs, is_whole, without_lock
-from geneva_cli.layout.sizes import machine_sizes
-from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.latest import KEPT
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -86,14 +84,6 @@ class Outlines(NamedTuple):
     def relief_depth(self) -> float:
         """The distance of the crank's outline from its axis at the bottom of a relief, mm."""
         return abs(float(Polyarc(self.crank).signed(np.zeros((1, 2)))[0]))
-
-
-def outlines(mechanism: Mechanism) -> Outlines:
-    """Return the outlines in lines and arcs, as accurate as the full turn needs them.
-
-    Raises GenevaError where the machine has no flat parts, or its sizes leave none.
-    """
-    return drawn(*machine_sizes(mechanism))
 
 
 @lru_cache(maxsize=KEPT)  # a sweep cuts the locks of its designs first, and then turns the parts

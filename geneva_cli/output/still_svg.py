@@ -32,7 +32,7 @@ def chunks(scene: Scene) -> Iterator[str]:
     )
     if scene.frame:
         (x, y), turned = scene.frame.centre, -math.degrees(value_at(scene.frame.angle, t))
-        yield f'<g transform="rotate({turned:.6g} {x:.6g} {-y:.6g})">\n'
+        yield f'<g transform="rotate({turned:.6g} {x:.6g} {0.0 - y:.6g})">\n'
     for body in scene.bodies:
         yield from _body(body, t)
     for bar in scene.bars:
@@ -45,7 +45,7 @@ def chunks(scene: Scene) -> Iterator[str]:
 
 def _body(body: Body, t: float) -> Iterator[str]:
     x, y, angle = body_pose(body, t)
-    yield f'<g transform="translate({x:.6g} {-y:.6g}) rotate({-math.degrees(angle):.6g})">\n'
+    yield f"<g {_placed(x, y, angle)}>\n"
     for shape in body.shapes:
         ink = INKS[shape.layer].rgb if shape.layer in INKS else GREY
         if shape.layer == "HOLLOW":
@@ -56,6 +56,12 @@ def _body(body: Body, t: float) -> Iterator[str]:
     yield "</g>\n"
 
 
+def _placed(x: float, y: float, angle: float) -> str:
+    """The attribute that puts a body in its place; y points down, and 0 has no sign."""
+    down, turned = 0.0 - y, 0.0 - math.degrees(angle)
+    return f'transform="translate({x:.6g} {down:.6g}) rotate({turned:.6g})"'
+
+
 def _bar(bar: Bar, t: float, size: float) -> Iterator[str]:
     joints = [_at(place, t) for place in bar.joints]
     if bar.radius:
@@ -63,8 +69,7 @@ def _bar(bar: Bar, t: float, size: float) -> Iterator[str]:
         return
     for plate in bar.plates:
         x, y, angle = pose(bar, plate, t)
-        turned = -math.degrees(angle)
-        yield f'<g transform="translate({x:.6g} {-y:.6g}) rotate({turned:.6g})" stroke="{BROWN}">\n'
+        yield f'<g {_placed(x, y, angle)} stroke="{BROWN}">\n'
         for i, shape in enumerate(plate.shapes):
             yield f'<g fill="{"none" if i else BROWN + "33"}">{element(shape).strip()}</g>\n'
         yield "</g>\n"

@@ -20,7 +20,8 @@ from geneva_cli.kinematics.layout import Dimension
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
 from geneva_cli.layout.roller_paths import roller_centres
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.outlines.outlines import Outlines, outlines
+from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.outlines.sizes import outlines
 from geneva_cli.outlines.wheel import slot_walls, wheel_contour
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
 from geneva_cli.parts.edged_parts import EdgedParts, FrameAndShafts

@@ -18,12 +18,12 @@ from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.layout.arm_sizes import HUB, pin_hole
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, half_or, pin_radius, plane_span
-from geneva_cli.layout.sizes import sized
 from geneva_cli.machine.least_wall import eye_about, wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.outlines.sizes import sized
 from geneva_cli.parts.arm import has_arm
 from geneva_cli.spec.tables import Size
 
@@ -93,7 +93,7 @@ def link_sizes(
     first = None
     if drawn and spec.is_loaded:
         # without a load none is needed
-        from geneva_cli.layout.first_sizes import first_sizes
+        from geneva_cli.outlines.first_sizes import first_sizes
 
         first = first_sizes(mechanism, sized)
     stands = first.pin if first else pin_radius(size, mechanism.roller_radius_mm, drawn)

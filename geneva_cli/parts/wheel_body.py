@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.curves.plates import plates
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.sizes import machine_sizes
 from geneva_cli.machine.materials import wheel_material
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.outlines.sizes import machine_sizes
 from geneva_cli.outlines.wheel import turned_walls, wheel_contour
 from geneva_cli.parts.wheel import wheel_part
 

@@ -17,7 +17,6 @@ from typing import NamedTuple
 from geneva_cli.analysis.undercut import depths_mm
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly, assembly
-from geneva_cli.layout.sizes import sizes
 from geneva_cli.layout.sphere_sizes import ball
 from geneva_cli.machine.least_wall import wall_min
 from geneva_cli.machine.mechanism import Mechanism, build
@@ -25,6 +24,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.outlines.outlines import CONTACT
 from geneva_cli.outlines.rack import rack_sizes
+from geneva_cli.outlines.sizes import sizes
 from geneva_cli.synthesis.parts_data import PartsData, distances_at_rest, parts_data
 from geneva_cli.verdict.checks.motion import undercut_depth
 from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT

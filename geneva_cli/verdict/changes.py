@@ -69,7 +69,7 @@ def size_now(mechanism: Mechanism, key: str) -> float | None:
     if key not in _SIZES:
         return None
     from geneva_cli.layout.assembly import assembly
-    from geneva_cli.layout.sizes import sizes
+    from geneva_cli.outlines.sizes import sizes
 
     try:
         return _SIZES[key](sizes(assembly(mechanism)))

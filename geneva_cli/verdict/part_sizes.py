@@ -14,7 +14,6 @@ import numpy as np
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.drawings.model import kind_of
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.sizes import Layout, sized
 from geneva_cli.layout.stressed import Stressed, stressed
 from geneva_cli.machine.many import alone, designs_in
 from geneva_cli.machine.mechanism import Mechanism, build
@@ -22,6 +21,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import Record, parameter, record_of
 from geneva_cli.numerics.jet import Array
 from geneva_cli.outlines.cut_lock import cut_lock
+from geneva_cli.outlines.sizes import Layout, sized
 
 
 class LockSizes(NamedTuple):

@@ -10,10 +10,10 @@ from typing import TypeAlias
 import numpy as np
 
 from geneva_cli.errors import Notice
-from geneva_cli.layout.sizes import sized
 from geneva_cli.loads.strength import horn, lock, shafts
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Number
+from geneva_cli.outlines.sizes import sized
 from geneva_cli.verdict.quantities.designs import single
 from geneva_cli.verdict.quantities.groups import REPORT, only
 from geneva_cli.verdict.quantities.under_load import under_load

@@ -12,9 +12,9 @@ from plane_stress import horn as in_plane_stress
 from words import Motion, Spec, Wheel
 
 from geneva_cli import load as read
-from geneva_cli.layout.sizes import sized
 from geneva_cli.loads.strength.horn import horn_stresses, horns, product, stoutness
 from geneva_cli.machine.mechanism import build
+from geneva_cli.outlines.sizes import sized
 from geneva_cli.spec.tables import Load, Size
 
 LOAD = Load(torque_Nm=10.0)

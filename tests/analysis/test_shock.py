@@ -24,8 +24,8 @@ from geneva_cli.analysis.impacts import entry_impacts
 from geneva_cli.analysis.shock_force import impulse_Nms
 from geneva_cli.kinematics.laws.standard import Cycloidal
 from geneva_cli.kinematics.motion import Motion
-from geneva_cli.layout.sizes import built
 from geneva_cli.machine.drives.cam import Cam
+from geneva_cli.outlines.sizes import built
 from geneva_cli.spec.tables import RollerMaterial, WheelMaterial
 
 # A contact is where a square root of the error says: half of a double's digits would be lost of

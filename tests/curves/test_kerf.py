@@ -20,7 +20,7 @@ from geneva_cli.curves.shapes import Arc, Circle, Cubic, Line, about, backwards,
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import build
-from geneva_cli.outlines.outlines import outlines
+from geneva_cli.outlines.sizes import outlines
 from geneva_cli.spec.tables import Size
 
 SAGITTA = 1e-4  # mm, of the chords that shapely is given

@@ -41,7 +41,7 @@ from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.retimed import retimed
 from geneva_cli.machine.spec import Spec
-from geneva_cli.outlines.outlines import outlines
+from geneva_cli.outlines.sizes import outlines
 from geneva_cli.parts.planes import planes
 from geneva_cli.specfile.tree import spec_of
 from geneva_cli.specfile.writer import spec_lines

@@ -28,7 +28,7 @@ from geneva_cli.curves import fit
 from geneva_cli.layout.assembly import assembly
 from geneva_cli.layout.groove import groove_curve
 from geneva_cli.outlines.wheel import slot_walls
-from geneva_cli.layout.sizes import sizes
+from geneva_cli.outlines.sizes import sizes
 def load(path):
     return design.load(path).mechanism
 def tell(what):

@@ -26,7 +26,7 @@ from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.kinematics.layout import Joint
 from geneva_cli.layout.link_positions import links_at
-from geneva_cli.output import animate, moving_gif, page
+from geneva_cli.output import animate, moving_gif, page, still_svg
 from geneva_cli.scene import body_pose, value_at
 from geneva_cli.study.animation.scene import scene
 from geneva_cli.study.animation.turn import MachineTurn
@@ -470,3 +470,22 @@ def test_teeth_that_do_not_fit_leave_the_pitch_curves():
         for keys in ([], ["size.gear_module_mm=3"])
     )
     assert [one.shapes for one in bare[-2:]] == [one.shapes for one in wrong[-2:]]
+
+
+@pytest.mark.parametrize("name", ["elliptical-gears", "noncircular-gears"])
+def test_curves_are_0_where_nobody_sees_more(name):
+    """Their loads change sides at 0 and start a little beyond it, where 1e-302 N m is left."""
+    _, data = script(name)
+    pieces = [column for panel in data["panels"] for piece in panel["pieces"] for column in piece]
+    for column in pieces:
+        sizes = np.abs(column)
+        # far below a pixel of any screen
+        assert sizes[sizes > 0.0].min(initial=math.inf) > 1e-10 * sizes.max()
+
+
+def test_zeros_of_the_still_picture_have_no_sign():
+    """Both gears of a pair are on the line of centres."""
+    text = "".join(still_svg.chunks(scene(design_of("noncircular-gears"))))
+    places = re.findall(r"translate\((\S+) (\S+)\) rotate\((\S+)\)", text)
+    assert any(place[1] == "0" for place in places)
+    assert not any(number == "-0" for place in places for number in place)

@@ -12,8 +12,8 @@ from words import Spec, Wheel
 from geneva_cli import Counter, Design
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.layout.ball import inner_edge
-from geneva_cli.layout.sizes import machine_sizes
 from geneva_cli.outlines.counter import counter_sizes
+from geneva_cli.outlines.sizes import machine_sizes
 from geneva_cli.outlines.wheel import dial_bolts
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.counter_frame import bore as counter_bore

@@ -12,9 +12,9 @@ from geneva_cli.curves.hole_walls import least_wall
 from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.sizes import machine_sizes
 from geneva_cli.layout.stressed import stressed
 from geneva_cli.machine.least_wall import wall_min
+from geneva_cli.outlines.sizes import machine_sizes
 
 # The pivots of the parts list whose shafts reach the frame, of each kind of drive. The crank of a
 # side-crank ends above the input crank, and the wheel's shaft of the four-bar above the wheel.

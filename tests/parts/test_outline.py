@@ -26,9 +26,9 @@ from geneva_cli.curves.shapes import Arc, Contour
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.motion import Motion as Given
 from geneva_cli.layout.assembly import assembly
-from geneva_cli.layout.sizes import sizes
 from geneva_cli.machine.mechanism import build
-from geneva_cli.outlines.outlines import CURVED, Outlines, outlines
+from geneva_cli.outlines.outlines import CURVED, Outlines
+from geneva_cli.outlines.sizes import outlines, sizes
 from geneva_cli.outlines.walls.path_walls import _free
 from geneva_cli.outlines.walls.straight import straight_walls
 from geneva_cli.outlines.wheel import wheel_contour

@@ -29,10 +29,9 @@ from geneva_cli.drawings.sphere.drawings import wheel_cone
 from geneva_cli.layout.bores import RoundBore, bore_of
 from geneva_cli.layout.reliefs import arc_floor, reliefs, widened
 from geneva_cli.layout.roller_paths import mouth_corners
-from geneva_cli.layout.sizes import machine_sizes
 from geneva_cli.layout.stressed import lock_of, stressed
 from geneva_cli.outlines.cut_lock import cut_arcs
-from geneva_cli.outlines.outlines import outlines
+from geneva_cli.outlines.sizes import machine_sizes, outlines
 from geneva_cli.parts.all_shafts import passing_arm
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.counter_parts import CounterParts

@@ -23,7 +23,8 @@ from geneva_cli.collisions.full_turn import full_turn
 from geneva_cli.collisions.gaps import Gaps
 from geneva_cli.collisions.machine_parts import WorkLimit
 from geneva_cli.collisions.play import windows
-from geneva_cli.outlines.outlines import Outlines, outlines
+from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.outlines.sizes import outlines
 from geneva_cli.verdict.checks.registry import turn_checks
 
 DESIGNS = repo.DESIGNS

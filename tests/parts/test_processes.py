@@ -13,10 +13,10 @@ from geneva_cli import Design, External, Load, Size, load
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import assembly
-from geneva_cli.layout.sizes import sizes
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.outlines.sizes import sizes
 from geneva_cli.spec.processes import PROCESSES
 from geneva_cli.spec.workshops import deviation_mm, workshop
 from geneva_cli.verdict.checks.check import Check

@@ -12,7 +12,7 @@ from geneva_cli.app import app
 from geneva_cli.curves.shapes import Arc
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import build
-from geneva_cli.outlines.outlines import outlines
+from geneva_cli.outlines.sizes import outlines
 from geneva_cli.spec.tables import Size
 
 HUGE = [

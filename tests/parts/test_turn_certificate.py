@@ -33,7 +33,7 @@ from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import Undecided
-from geneva_cli.outlines.outlines import outlines
+from geneva_cli.outlines.sizes import outlines
 from geneva_cli.outlines.travel import UNKNOWN, Travel, curve_rates, path_travel, slot_travel
 from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.checks.proved import least_gap as least_gap_check

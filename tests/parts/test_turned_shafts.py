@@ -16,8 +16,8 @@ from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics import registry
 from geneva_cli.layout.bearings import DIN_471, SERIES_60, bearing_up_to, circlip_up_to
-from geneva_cli.layout.sizes import machine_sizes
 from geneva_cli.layout.stressed import stressed
+from geneva_cli.outlines.sizes import machine_sizes
 from geneva_cli.output.mesh import scad
 from geneva_cli.output.mesh.solids import bodies
 from geneva_cli.output.step import chunks

@@ -16,7 +16,6 @@ from strength_checks import HORNS, PARTS, require_same_in_a_batch, rows
 from geneva_cli import Crank, Design, External, Internal, NoncircularGears, SideCrank
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.keyways import DIN_6885_1
-from geneva_cli.layout.sizes import sized
 from geneva_cli.layout.stressed import lock_of, stressed
 from geneva_cli.loads.strength.arm import (
     ArmDimensions,
@@ -31,6 +30,7 @@ from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.outlines.cut_lock import cut_arcs, cut_lock
 from geneva_cli.outlines.outlines import drawn
+from geneva_cli.outlines.sizes import sized
 from geneva_cli.spec.tables import Load, Shaft, Size, WheelMaterial
 from geneva_cli.verdict.quantities.designs import Designs
 from geneva_cli.verdict.quantities.strength import arm, crank_key, crank_shaft, pin, wheel_shaft
@@ -348,3 +348,26 @@ def test_sizes_are_for_the_lock_as_it_is_cut(wheel, clearance):
     cut = [abs(arc.sweep) for arc in cut_arcs(parts.crank, lock.lock, 0.0, 1e-6)]
     assert lock.half == pytest.approx(0.5 * min(cut), abs=1e-12)
     assert cut_lock(*flat) == lock
+
+
+@pytest.mark.parametrize(("roller_mm", "z"), [(12.0, 3), (16.0, 4), (16.0, 5)])
+def test_shafts_are_for_the_locking_sector_that_the_wheel_leaves(roller_mm, z):
+    """An internal wheel narrows its locking sector, so that the same torque needs more force.
+
+    The end of the sector bears on the recess, in the direction of its radius. So the force passes
+    the wheel's axis at L sin(half the sector), which the drawn arcs give.
+    """
+    size = Size(center_distance_mm=100.0, roller_radius_mm=roller_mm)
+    spec = Spec(Internal(z), size=size, load=Load(torque_Nm=1.0, dwell_torque_Nm=100.0))
+    machine = build(spec)
+    flat = sized(machine)
+    arcs = list(cut_arcs(drawn(*flat).crank, flat[1].lock, 0.0, 1e-6))
+    sweep = min(abs(arc.sweep) for arc in arcs)
+    dwell = math.radians(machine.dwell_deg(0))
+    assert sweep < 0.95 * dwell  # else the case would show nothing
+    force = 100.0 / (0.1 * math.sin(0.5 * sweep))
+    parts = stressed(*flat)
+    bending = 1.5 * force * 1e-3 * parts.crank_shaft.overhang
+    stress = 16e3 * bending / (math.pi * parts.crank_shaft.diameter**3)
+    assert stress <= 82.5
+    assert rows(spec)["crank_shaft_stress_MPa"].passes

@@ -15,16 +15,16 @@ from words import Drive, Motion, Spec, Wheel, load
 from geneva_cli import Cam, Carousel, Design, Epicyclic, External, Internal, SideCrank, design
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.sizes import sized
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
+from geneva_cli.outlines.sizes import sized
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, Size, WheelMaterial
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.check import NONE
 from geneva_cli.verdict.quantities.designs import Designs
-from geneva_cli.verdict.quantities.strength import margin
+from geneva_cli.verdict.quantities.strength import lock, margin
 from geneva_cli.verdict.strength import REPORT_GROUPS, Strength
 
 DESIGNS = repo.DESIGNS
@@ -349,6 +349,19 @@ def test_default_bores_hold_the_torque_of_the_dwell():
         for name in names:
             column = REPORT_GROUPS[name].columns(batch)[name.rpartition(".")[2]]
             assert np.ravel(column)[i] == pytest.approx(one[name], rel=1e-13)
+
+
+@pytest.mark.parametrize("wheel", [External(6), Internal(6)])
+def test_a_lock_under_more_loads_than_are_computed_together(wheel):
+    """One lock under 20 torques: its stresses are proportional to them, as a beam's are."""
+    size = Size(face_width_mm=10.0, wheel_thickness_mm=10.0, lock_clearance_mm=0.1)
+    spec = Spec(wheel, size=size, load=Load(torque_Nm=1.0))
+    torques = np.arange(1.0, 21.0)
+    batch = Designs(many(spec, {"load.torque_Nm": torques}).machine)
+    stress = lock(batch)["horn_stress_MPa"]
+    assert stress == pytest.approx(torques * stress[0], rel=1e-12)
+    one = lock(Designs(build(spec)))["horn_stress_MPa"]
+    assert stress[0] == pytest.approx(float(np.ravel(one)[0]), rel=1e-12)
 
 
 def test_margins():

@@ -18,7 +18,7 @@ from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.outlines.outlines import outlines
+from geneva_cli.outlines.sizes import outlines
 from geneva_cli.spec.tables import Size
 
 

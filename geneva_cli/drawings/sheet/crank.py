@@ -14,11 +14,11 @@ from geneva_cli.drawings.sheet.standing import draw_hub
 from geneva_cli.drawings.sheet.view import View, grouped, times
 from geneva_cli.layout.held_hubs import hub_note
 from geneva_cli.layout.reliefs import is_whole
-from geneva_cli.layout.sizes import drawn_pin_radius
 from geneva_cli.layout.written import degrees, length
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.outlines.sizes import drawn_pin_radius
 from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.flat_parts import FlatParts
 

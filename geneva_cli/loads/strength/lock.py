@@ -161,7 +161,11 @@ def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) 
     if m == 1:
         return _weakest(*every)
     # the sections of 8 designs stay in the cache
-    groups = [_weakest(*taken(every, block)) for block in blocks(m, 8)]
+    groups = []
+    for block in blocks(m, 8):
+        # what does not differ, as where loads alone do, is one row for all of them
+        size = block.stop - block.start, 1
+        groups.append([np.broadcast_to(row, size) for row in _weakest(*taken(every, block))])
     return HornBending(*(np.concatenate(row) for row in zip(*groups, strict=True)))
 
 

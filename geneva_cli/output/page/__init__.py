@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
 
@@ -141,7 +141,13 @@ def _pieces(curve: Curve) -> Iterator[list[list[float]]]:
     for x, y in curve.pieces:
         every = max(1, len(x) // 120)  # leaves 120 to 240 points
         chosen = sorted({*range(0, len(x), every), len(x) - 1})
-        yield [[_short(x[i]) for i in chosen], [_short(y[i]) for i in chosen]]
+        yield [_viewed([values[i] for i in chosen]) for values in (x, y)]
+
+
+def _viewed(values: Sequence[float]) -> list[float]:
+    """Values of a curve that are only viewed; 0 for one that no screen shows beside the others."""
+    least = 1e-9 * max(map(abs, values))
+    return [_short(value) if abs(value) > least else 0.0 for value in values]
 
 
 def _short(value: float) -> float:

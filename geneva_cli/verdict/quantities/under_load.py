@@ -10,13 +10,13 @@ import numpy as np
 
 from geneva_cli.analysis import pin as pins
 from geneva_cli.analysis.quantities import FORCE, PV
-from geneva_cli.layout.sizes import Layout, sized
 from geneva_cli.layout.sphere_sizes import sized_ball
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.strength import lock, roller, shafts
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.machine.materials import roller_material
 from geneva_cli.numerics.arrays import Array, Number, library, parameter
+from geneva_cli.outlines.sizes import Layout, sized
 from geneva_cli.verdict.part_sizes import (
     LockSizes,
     batched,

@@ -53,7 +53,7 @@ def _cut_radii(model: PartsModel) -> Values:
     if spec.is_flat:
         from geneva_cli.layout.assembly import assembly
         from geneva_cli.layout.roller_paths import roller_paths
-        from geneva_cli.layout.sizes import machine_sizes
+        from geneva_cli.outlines.sizes import machine_sizes
 
         where = assembly(model.mechanism)
         ends = roller_paths(where).ends

@@ -15,6 +15,7 @@ import math
 
 import numpy as np
 
+from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.unbalance import centrifugal_N
 from geneva_cli.layout.arm_sizes import (
     crank_reach_and_hub,
@@ -35,12 +36,13 @@ from geneva_cli.layout.holds import (
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.layout.plain_sizes import FirstSizes, Sizes, drawn_thicknesses
 from geneva_cli.layout.roller_paths import roller_reaches
-from geneva_cli.layout.stressed import lock_of, stressed
+from geneva_cli.layout.stressed import stressed
 from geneva_cli.loads.strength import lock
 from geneva_cli.loads.strength.horn import horn_stresses
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.materials import wheel_material
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bores_from, rounded_from
 from geneva_cli.numerics.tolerances import keeps
 
@@ -49,22 +51,24 @@ def load_sizes(
     assembly: Assembly,
     usual: Sizes,
     space: float,
+    by: Lock | None,
     known: PartLoads | None = None,
     first: FirstSizes | None = None,
 ) -> Sizes:
     """Return the sizes of a machine under its load, from the usual ones.
 
-    ``space`` is the radius about the crank's axis inside the relief, mm; ``known`` are the loads,
-    if computed already; ``first`` is what they need of a first wheel. A load without a bound leaves
-    all sizes.
+    ``space`` is the radius about the crank's axis inside the relief, mm; ``by`` is the lock as it
+    is cut, None without one; ``known`` are the loads, if computed already; ``first`` is what they
+    need of a first wheel. A load without a bound leaves all sizes.
     """
     loads = known or single_loads(assembly.full)
     if not all(map(math.isfinite, loads)):
         return usual
     size = assembly.full.spec.size
     sizes = usual._replace(link_thickness=first.thickness) if first else usual
+    loads = _with_held_force(assembly.full, by, loads)
     if size.wheel_thickness_mm is None and size.face_width_mm is None:
-        sizes = _thick(assembly, sizes, wheel=_wheel_thickness(assembly, sizes))
+        sizes = _thick(assembly, sizes, wheel=_wheel_thickness(assembly, sizes, by))
     sizes = sizes._replace(pin=_pin(assembly, sizes, loads))
     has_arm = sizes.arm_bore > 0.0 and sizes.pin > 0.0
     if not has_arm or size.arm_thickness_mm is not None:
@@ -95,13 +99,12 @@ def _thick(
     )
 
 
-def _wheel_thickness(assembly: Assembly, sizes: Sizes) -> float:
+def _wheel_thickness(assembly: Assembly, sizes: Sizes, by: Lock | None) -> float:
     """Return the wheel's thickness at which its horns hold, at most twice the usual one."""
-    usual = sizes.wheel_thickness
-    if not sizes.lock:
+    usual, machine = sizes.wheel_thickness, assembly.full
+    if by is None:
         return usual
-    machine = assembly.full
-    held = lock.loaded_locks(machine, sizes.half_width, lock_of(assembly, sizes), 1.0)
+    held = lock.loaded_locks(machine, sizes.half_width, by, 1.0)
     per_mm = [held.horn_stress_MPa] if held else []
     for way in every_way(machine):
         per_mm.append(horn_stresses(way, sizes.half_width, sizes.recess, 1.0).stress_MPa)
@@ -128,12 +131,6 @@ def _bored(
 
     Unless ``keyed``, the crank's bore is not sized by its key.
     """
-    held = _held_force_N(assembly, sizes)  # which no bore changes
-    machine = assembly.full
-    carried = float(np.max(centrifugal_N(machine))) if machine.frame else 0.0
-    loads = loads._replace(
-        wheel_shaft_N=max(loads.wheel_shaft_N, held + carried), crank_N=max(loads.crank_N, held)
-    )
     wheel = _wheel_bored(assembly, sizes, loads)
     return _crank_bored(assembly, wheel, loads, space, keyed)
 
@@ -159,12 +156,14 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
     return trial
 
 
-def _held_force_N(assembly: Assembly, sizes: Sizes) -> float:
-    """Return the force between disc and wheel in the dwell; 0 without a torque or a disc."""
-    torque = lock.dwell_torque_Nm(assembly.full)
-    if not (sizes.lock and torque.any()):
-        return 0.0
-    return float(lock.held_force_N(torque, lock_of(assembly, sizes)).item())
+def _with_held_force(machine: Mechanism, by: Lock | None, loads: PartLoads) -> PartLoads:
+    """Return the loads with the force between disc and wheel in the dwell on both shafts."""
+    torque = lock.dwell_torque_Nm(machine)
+    held = float(lock.held_force_N(torque, by).item()) if by and torque.any() else 0.0
+    carried = float(np.max(centrifugal_N(machine))) if machine.frame else 0.0
+    return loads._replace(
+        wheel_shaft_N=max(loads.wheel_shaft_N, held + carried), crank_N=max(loads.crank_N, held)
+    )
 
 
 def _crank_bored(
