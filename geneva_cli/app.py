@@ -296,6 +296,8 @@ def _command(name: str, run: Any) -> Any:
 def _usage(path: str, error: Any) -> str:
     """The message on wrong arguments of ``path``: the program and its command."""
     message = error.format_message().rstrip(".")
+    if ". Did you mean " in message:
+        message = message.replace(". Did you mean ", " (did you mean ") + ")"
     return f"{path}: {message[:1].lower()}{message[1:]}; see {path} -h"
 
 

@@ -196,10 +196,11 @@ def draw(
 def draw_sheet(
     sheet: Sheet, output: str = "-", format: str = "", inputs: Iterable[str] = (), **own: Any
 ) -> None:
-    """Print the drawing sheet, or write it to a file; ``own`` as in ``draw``.
+    """Print the drawing sheet, or write it to the file ``output``.
 
-    Raises GenevaError if the format is not one of SHEETS, for an option of another format, and if
-    the file cannot be written.
+    ``inputs`` are never overwritten; ``own`` are options of one format, from OPTIONS. Raises
+    GenevaError if the format is not one of SHEETS, for an option of another format, and if the file
+    cannot be written.
     """
     name = sheet_as(output, format)
     require_own(own, name)

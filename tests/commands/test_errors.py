@@ -133,6 +133,7 @@ UNKNOWN = [
     key("no-unit", "[load]\ntorque_max = 5\n", 2, 'did you mean "torque_Nm"?'),
     key("word-of-a-meaning", "[drive]\nspeed = 5\n", 2, '"n_rpm", constant speed of the input'),
     key("letter-of-a-meaning", "[size]\nL = 80\n", 2, '"center_distance_mm", centre distance L?'),
+    key("large-clearance", "[size]\nslot_clearance_mm = 60\n", 2, "below 50, the smaller of the"),
     key("size-or-deviation", "[size]\nroller_diameter_mm = 8\n", 2, "(± of the roller diameter)"),
     key("limits", "[limits]\nvelocty_max = 1\n", 2, '"velocity_max"'),
     wheel("gearing", 'gearing = "extrenal"\nz = 6', '"external"'),
@@ -586,7 +587,7 @@ def test_some_options_are_texts():
     [
         (["peaks", "spec.toml"], "spec.toml:2: "),
         (["table", "--z", "2"], "--z 2: "),
-        (["tabel"], "geneva: no such command 'tabel'. Did you mean 'table'?; see geneva -h"),
+        (["tabel"], "geneva: no such command 'tabel' (did you mean 'table'?); see geneva -h"),
         (["peaks"], "geneva peaks: missing argument 'SPEC'; see geneva peaks -h"),
     ],
     ids=["spec", "option", "command", "argument"],
