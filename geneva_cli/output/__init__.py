@@ -243,6 +243,8 @@ def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
     Raises GenevaError for another extension, for a .gif without Pillow, and if the file cannot be
     written.
     """
+    if is_seen(output):
+        raise GenevaError("a page is not for a terminal: give -o FILE.html, or --open to show it")
     extension = os.path.splitext(output)[1].lower()
     if output != "-" and extension not in (".html", ".htm", ".gif", ".svg"):
         raise GenevaError(f'-o "{cut(output)}": it must end in .html or .htm or .gif or .svg')
