@@ -372,7 +372,8 @@ ROWS = "u,s\n0,0\n0.2,0.1\n0.4,0.3\n0.6,0.7\n0.8,0.9\n1,1\n"
 POINTS = [
     ("text", ROWS.replace("0.4,0.3", "0.4,much"), 4, "two numbers u,s"),
     ("three-columns", ROWS.replace("0.4,0.3", "0.4,0.3,0"), 4, "two numbers u,s"),
-    ("semicolons", ROWS.replace(",", ";"), 1, "two numbers u,s"),
+    ("semicolons", ROWS.replace(",", ";"), 1, "two numbers u,s; write a comma between them"),
+    ("tabs", ROWS.replace(",", "\t"), 1, "two numbers u,s; write a comma between them"),
     ("nan", ROWS.replace("0.4,0.3", "0.4,nan"), 4, "finite"),
     ("infinite", ROWS.replace("0.4,0.3", "0.4,inf"), 4, "finite"),
     ("huge", ROWS.replace("0.4,0.3", "0.4,1e308"), 4, "s"),
