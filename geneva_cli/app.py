@@ -1,8 +1,8 @@
 """The command line: commands that load when chosen, and the one place where errors become text.
 
-Start-up is measured (`make bench-start`): the group below knows each command by name and one line
-of help, so that --help, completion and suggestions import no command, and a command imports only
-what it shows. Annotations are objects here and in the commands, as Typer reads them.
+Start-up is measured (`make bench-start`). The group below knows each command by name and one line
+of help, so that --help, completion and suggestions import no command. A command imports only what
+it shows. Annotations are objects here and in the commands, as Typer reads them.
 """
 
 import importlib
@@ -296,6 +296,8 @@ def _command(name: str, run: Any) -> Any:
 def _usage(path: str, error: Any) -> str:
     """The message on wrong arguments of ``path``: the program and its command."""
     message = error.format_message().rstrip(".")
+    if ". Did you mean " in message:
+        message = message.replace(". Did you mean ", " (did you mean ") + ")"
     return f"{path}: {message[:1].lower()}{message[1:]}; see {path} -h"
 
 

@@ -221,8 +221,8 @@ def sliding(at: Contact[V], drives: Number, radius: float) -> V:
 def wheel_torque(case: LoadCase, at: Contact[V]) -> V:
     """The torque that the wheel needs for inertia and resistance, N m.
 
-    On a carrier the centrifugal force of a body off the wheel's axis takes it away from the
-    carrier's axis: it helps the wheel by its moment times the sine of its angle from there.
+    On a carrier, the centrifugal force of a body off the wheel's axis points away from the
+    carrier's axis. Its moment helps the wheel, times the sine of the body's angle from there.
     """
     torque = at.acceleration * case.inertia_Nm + case.resists_Nm
     if at.heading is None:

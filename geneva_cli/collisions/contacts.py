@@ -81,8 +81,9 @@ def _on_arcs(
 ) -> Iterator[tuple[Whole, Array, Array]]:
     """Yield points of arcs in the directions of centres and normals, (k, pieces) each.
 
-    All is measured along the chord of each arc and outwards, from its centre, over its radius: an
-    arc that was fitted to a nearly straight wall has its centre too far away to measure from there.
+    Coordinates are from each arc's centre, along its chord and outwards, over its radius. They are
+    computed from the chord's middle: the centre of an arc fitted to a nearly straight wall is too
+    far away.
     """
     owner, piece = near
     bent = np.flatnonzero(own.arc[piece])

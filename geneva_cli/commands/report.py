@@ -25,7 +25,7 @@ def run(
         str, option("FORMAT", one_of(WRITTEN), complete=completion.words(lambda: WRITTEN))
     ] = "",
 ) -> None:
-    """Report on a design for people: failed checks, words, timing, peaks, loads, sizes.
+    """Report on a design for people: checks that fail, timing, peaks, loads, sizes.
 
     As html, pdf or md it is a document to hand over: the verdict, drawings, all inputs with their
     defaults, curves and every check. It lists what is not known, and the key that would give it.

@@ -199,8 +199,8 @@ class HexBore(Bore):
 def bore_of(size: Size, part: str, radius: float) -> Bore:
     """Return the bore of a part, "wheel" or "crank", with a radius in mm.
 
-    Raises GenevaError, naming the key, for a keyway that its standard does not have or that is in
-    no round bore, for a flat that leaves no bore, and for a shape without a bore.
+    Raises GenevaError, naming the key, for a keyway that its standard does not have, for one in a
+    bore that is not round, for a flat that leaves no bore, and for a shape without a bore.
 
     >>> bore_of(Size(crank_keyway="DIN 6885-1"), "crank", 10.0).reach
     12.8

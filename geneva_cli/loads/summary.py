@@ -102,7 +102,8 @@ def loads_table(
         table = rows_table(("quantity", *LoadSummary._fields), rows, mixed=True)
         # in order of importance, for a narrow window
         first = ("quantity", "max", "rms", "max_at_deg", "min", "mean")
-        values["loads"] = table.replaced(reading=Reading(first))
+        title = "max and min over the motions; mean and rms over the whole period"
+        values["loads"] = table.replaced(reading=Reading(first, title))
     else:
         for name, one in loads.items():
             values |= {f"{name}.{key}": value for key, value in one._asdict().items()}

@@ -204,12 +204,12 @@ class RetimedMotion(WheelMotion):
 
     @property
     def breaks_deg(self) -> tuple[float, ...]:
-        """Those of the own motion, as input angles."""
+        """Ends, middle and possible jumps of the drive's own motion, as input angles, degrees."""
         return self._from_own(self.own.breaks_deg)
 
     @property
     def seams_deg(self) -> tuple[float, ...]:
-        """Those of the own motion, and those of the drive before."""
+        """Input angles, degrees, where the formula of the own motion or of the gears changes."""
         own = self._from_own(self.own.seams_deg)
         places = {*own, *self.timing.cuts, *self.timing.changes_deg}
         inside = sorted(at for at in places if self.entry_deg < at < self.exit_deg)
@@ -247,7 +247,7 @@ class RetimedSlot(Slot):
 
     @property
     def seams_deg(self) -> tuple[float, ...]:
-        """Those of the own slot, as input angles."""
+        """Input angles, degrees, at which the formula of the drive's own slot changes."""
         return tuple(self.timing.input_deg(at) for at in self.own.seams_deg)
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis | None:

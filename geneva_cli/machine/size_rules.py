@@ -68,7 +68,8 @@ def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[tuple[str, float, fl
         short = long = narrow = L  # a roller whose arm changes has no fixed arm length
         what = distance
     elif spec.wheel.FLAT and spec.wheel.SIGN > 0.0:
-        narrow, what = smaller(short, L - long), "the crank's arm and the wheel radius inside it"
+        narrow = smaller(short, L - long)
+        what = "the smaller of the crank radius R and the rest of the centre distance, L - R"
     bounds = (
         (narrow, what, ("roller_radius_mm", "slot_clearance_mm")),
         (short, "the crank's arm", ("lock_radius_mm", "lock_clearance_mm")),

@@ -4,10 +4,10 @@ A function is given by its Taylor coefficients at a ball. On an interval of half
 enclosure is the sum of c_k(m) t^k for k < ORDER and c_ORDER(interval) t^ORDER, with |t| <= h: the
 theorem of Taylor, with Lagrange's remainder. The same holds for its first two derivatives.
 
-An interval is settled if its values lie below the greatest that is known (by more than the fraction
-``TIE``, so that all equal peaks remain), if the function is monotonic on it, or if its size is
-convex there: then its ends decide. It is settled too if the size is concave and interval Newton
-closes on the one zero of the derivative. Else it is halved.
+An interval is settled if its values lie below the greatest known one. They must do so by more than
+the fraction ``TIE``, so that all equal peaks remain. It is settled too if the function is monotonic
+on it, or if its size is convex there: then its ends decide. The third case is a concave size, where
+interval Newton closes on the one zero of the derivative. Else the interval is halved.
 """
 
 from __future__ import annotations

@@ -67,8 +67,8 @@ def _least(free: Callable[[Array, Array], Array], inputs: Array) -> Array:
     """Return the least value along a line, for inputs (n, 1).
 
     A line has at most a few minima, which 200 steps tell apart. The least is then searched between
-    the neighbours of the best sample, in steps a tenth as long each time: ends of what is within
-    reach are missed by 1e-9 of the line, and minima inside by its square.
+    the neighbours of the best sample, in steps a tenth as long each time. The error at an end of
+    the reachable part is 1e-9 of the line, and at a minimum inside it the square of that.
     """
     at = np.broadcast_to(np.linspace(0.0, 1.0, 201), (len(inputs), 201))
     fine, rows = np.linspace(0.0, 1.0, 21), np.arange(len(inputs))

@@ -43,9 +43,9 @@ def wheel_contour(
 ) -> Contour:
     """Return the wheel's contour, counterclockwise; an internal wheel's is its opening.
 
-    With ``convex`` the recess opposite the first slot is left convex, at the rim: it stops the
-    crank, and at input angle 0 the crank is as far from one stop as from the other, or half a turn
-    nearer to one.
+    With ``convex`` the recess opposite the first slot is a convex face at the rim, which stops the
+    crank at both ends. At input angle 0 the crank is as far from one stop as from the other, or
+    half a turn nearer to one.
 
     ``slots`` has the walls of each kind of slot, from one corner of the mouth round the bottom to
     the other. They are in the wheel's frame, with that slot ahead. Raises GenevaError where a

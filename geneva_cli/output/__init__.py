@@ -196,10 +196,11 @@ def draw(
 def draw_sheet(
     sheet: Sheet, output: str = "-", format: str = "", inputs: Iterable[str] = (), **own: Any
 ) -> None:
-    """Print the drawing sheet, or write it to a file; ``own`` as in ``draw``.
+    """Print the drawing sheet, or write it to the file ``output``.
 
-    Raises GenevaError if the format is not one of SHEETS, for an option of another format, and if
-    the file cannot be written.
+    ``inputs`` are never overwritten; ``own`` are options of one format, from OPTIONS. Raises
+    GenevaError if the format is not one of SHEETS, for an option of another format, and if the file
+    cannot be written.
     """
     name = sheet_as(output, format)
     require_own(own, name)
@@ -242,6 +243,8 @@ def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
     Raises GenevaError for another extension, for a .gif without Pillow, and if the file cannot be
     written.
     """
+    if is_seen(output):
+        raise GenevaError("a page is not for a terminal: give -o FILE.html, or --open to show it")
     extension = os.path.splitext(output)[1].lower()
     if output != "-" and extension not in (".html", ".htm", ".gif", ".svg"):
         raise GenevaError(f'-o "{cut(output)}": it must end in .html or .htm or .gif or .svg')

@@ -35,6 +35,7 @@ def _record(table: Table, window: Window) -> Iterator[str]:
             yield ""
         if name:
             yield styled(heading(name), BOLD, window.styled)
+            yield from paragraphs(part.reading.title, window)
         yield from lines
         is_first = False
 

@@ -418,10 +418,11 @@ def _pairs(place: tuple[str, ...], field: Field, value: Any) -> tuple[tuple[floa
         ) from None
 
 
-def unknown(key: str, table: str, known: Sequence[str]) -> GenevaError:
-    """Error for a key that a table does not have."""
+def unknown(key: str, table: str, known: Sequence[str], hint: str = "") -> GenevaError:
+    """Error for a key that a table does not have; without a hint it names the nearest key."""
+    hint = hint or nearest(key, known)
     return GenevaError(
-        f"unknown key {cut(key)} in [{table}]{nearest(key, known)}; known: {few(key, known)}",
+        f"unknown key {cut(key)} in [{table}]{hint}; known: {few(key, known)}",
         (*table.split("."), key),
     )
 

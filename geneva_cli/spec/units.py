@@ -7,7 +7,7 @@ from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.names import SHORT_UNITS, unit_of
+from geneva_cli.names import SHORT_UNITS, unit_end, unit_of
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -117,6 +117,32 @@ def in_unit_of(key: str, text: str) -> float:
         return float(_number(parts[1]) * unit.size / wanted.size)
     except (OverflowError, ZeroDivisionError):
         raise GenevaError(f'{key} = "{cut(text)}" is too large a number') from None
+
+
+def with_unit(typed: str, value: object, key: str) -> str:
+    """``KEY = "VALUE UNIT"`` for a key that was typed with another unit; nothing for other keys.
+
+    >>> with_unit("torque_Ncm", 60, "torque_Nm"), with_unit("torque_lbin", 60, "torque_Nm")
+    ('torque_Nm = "60 N cm"', 'torque_Nm = "60 lbf in"')
+    """
+    stem = key.removesuffix(unit_end(key)) + "_"
+    if unit_key(key) is None or not typed.startswith(stem) or not isinstance(value, int | float):
+        return ""
+    all_names = {name for names in UNITS.values() for name in names}
+    names = sorted(all_names - {"Nm"}, key=len, reverse=True)  # Nmm is N mm, not Nm m
+    one = rf"(?:{'|'.join(names)})[2-4]?"
+    factors = typed.removeprefix(stem).split("_")  # all but the first divide
+    if not all(re.fullmatch(rf"(?:{one})+", factor) for factor in factors):
+        return ""
+    unit = "/".join(" ".join(re.findall(one, factor)) for factor in factors)
+    as_force = re.sub(r"\b(lb|oz)\b", r"\1f", unit)  # torque_lbin is in lbf in
+    for text in (f"{value:g} {unit}", f"{value:g} {as_force}"):
+        try:
+            in_unit_of(key, text)
+        except GenevaError:
+            continue
+        return f'{key} = "{text}"'
+    return ""
 
 
 def ratio(unit: str, other: str) -> float:

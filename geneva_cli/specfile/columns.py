@@ -107,7 +107,11 @@ def read_pairs(path: str, rule: Csv, key: tuple[str, ...]) -> list[tuple[float, 
             x, y = (float(cell) for cell in row)
         except ValueError:
             shown = cut(",".join(row))
-            raise GenevaError(f'{where}: "{shown}" is not two numbers {rule.x},{rule.y}') from None
+            other = re.search(r"[;\t]", line)  # spreadsheets of many countries write these
+            hint = "; write a comma between them, and points as in 0.5" if other else ""
+            raise GenevaError(
+                f'{where}: "{shown}" is not two numbers {rule.x},{rule.y}{hint}'
+            ) from None
         points.append((x, y))
         fault = rule.fault(points, len(points) - 1)
         if fault:

@@ -71,13 +71,13 @@ def full_names() -> dict[str, str]:
     return {k.name: k.meaning for k in all_keys() if k.table}
 
 
-def tables_with(key: str) -> list[str]:
-    """The tables that have a key.
+def tables_with(key: str) -> dict[str, str]:
+    """The tables that have a key, each with the key's meaning in it.
 
-    >>> tables_with("friction")
+    >>> list(tables_with("friction"))
     ['load', 'support', 'product']
     """
-    return list(dict.fromkeys(k.whole_table for k in all_keys() if k.key == key and k.table))
+    return {k.whole_table: k.meaning for k in all_keys() if k.key == key and k.table}
 
 
 def words_of(name: str) -> tuple[str, ...]:

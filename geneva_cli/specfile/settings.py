@@ -47,7 +47,7 @@ def _whole(text: str) -> str:
     from geneva_cli.specfile.keys import tables_with  # only for messages
 
     tables = tables_with(text.partition("=")[0].strip())
-    return f"{tables[0]}.{text.strip()}" if tables else "drive.n_rpm=90"
+    return f"{next(iter(tables))}.{text.strip()}" if tables else "drive.n_rpm=90"
 
 
 def read_value(text: str, option: str) -> Any:

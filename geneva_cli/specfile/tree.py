@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Collection, Iterator
+import re
+from collections.abc import Callable, Collection, Iterable, Iterator
 from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, clean, cut, few, nearest
@@ -12,8 +13,18 @@ from geneva_cli.kinematics.drive import Drive
 from geneva_cli.kinematics.motion import Motion
 from geneva_cli.machine.spec import BEFORE, Spec, attribute
 from geneva_cli.spec.rules import Csv
-from geneva_cli.spec.schema import REQUIRED, Points, SpecTable, fields, require, shown, unknown
+from geneva_cli.spec.schema import (
+    REQUIRED,
+    Field,
+    Points,
+    SpecTable,
+    fields,
+    require,
+    shown,
+    unknown,
+)
 from geneva_cli.spec.tables import LISTS, PLAIN
+from geneva_cli.spec.units import with_unit
 
 TABLES = ("wheel", "drive", "motion", *dict.fromkeys(t.partition(".")[0] for t in PLAIN))
 
@@ -60,7 +71,7 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
         raise GenevaError(f"title must be text, not {shown(title)}", ("title",))
     for table, value in tree.items():
         if table not in TABLES:
-            if not isinstance(value, dict) and (tables := _tables_with(table)):
+            if not isinstance(value, dict) and (tables := _tables(_meanings(table))):
                 raise GenevaError(
                     f"{table} belongs to {tables}; write it below that line", (table,)
                 )
@@ -210,20 +221,47 @@ def _refuse_lawless(values: dict[str, Any], laws: _Kinds) -> None:
             raise _unknown(key, "motion", ("law", *known))
 
 
-def _unknown(key: str, table: str, known: Collection[str]) -> GenevaError:
-    """Error for a key that a table does not have; it names the tables that have it."""
-    if tables := _tables_with(key):
+def _unknown(key: str, table: str, known: Collection[str], hint: str = "") -> GenevaError:
+    """Error for a key that a table does not have; it names the tables that have it.
+
+    A single table is named with the key's meaning in it: a size in [tolerance] is a deviation.
+    """
+    meanings = _meanings(key)
+    if tables := _tables(meanings):
+        meaning = f" ({meanings.popitem()[1]})" if len(meanings) == 1 else ""
         where = (*table.split("."), key)
-        return GenevaError(f"unknown key {key} in [{table}]; it belongs to {tables}", where)
-    return unknown(key, table, tuple(known))
+        return GenevaError(
+            f"unknown key {key} in [{table}]; it belongs to {tables}{meaning}", where
+        )
+    return unknown(key, table, tuple(known), hint)
 
 
-def _tables_with(key: str) -> str:
-    """The tables that have a key, for a message; nothing where none or more than three have it."""
+def _meanings(key: str) -> dict[str, str]:
+    """The tables that have a key, each with the key's meaning in it."""
     from geneva_cli.specfile.keys import tables_with  # only for messages
 
-    tables = [f"[[{name}]]" if name in LISTS else f"[{name}]" for name in tables_with(key)]
+    return tables_with(key)
+
+
+def _tables(names: Collection[str]) -> str:
+    """Tables for a message; nothing for none and for more than three."""
+    tables = [f"[[{name}]]" if name in LISTS else f"[{name}]" for name in names]
     return " or ".join(tables) if len(tables) <= 3 else ""
+
+
+def _hint(typed: str, value: object, known: Iterable[Field]) -> str:
+    """The known key that an unknown one means by its unit or by a word of the meanings, or nothing.
+
+    Nothing too where a known key is spelt like it: that one is named without this hint.
+    """
+    for field in known:
+        if right := with_unit(typed, value, field.key):
+            return f" (another unit goes with the value: {right})"
+    by_meaning = [field for field in known if typed in re.findall(r"[\w-]+", field.meaning)]
+    if nearest(typed, [field.key for field in known]) or not by_meaning:
+        return ""
+    first = by_meaning[0]
+    return f' (did you mean "{first.key}", {first.meaning.partition(";")[0]}?)'
 
 
 def _refuse_foreign(values: dict[str, Any], cls: type[SpecTable], kinds: _Kinds, of: str) -> None:
@@ -266,7 +304,7 @@ def _values(
     out = {}
     for key, value in values.items():
         if key not in known:
-            raise _unknown(key, cls.TABLE, (*also, *known))
+            raise _unknown(key, cls.TABLE, (*also, *known), _hint(key, value, known.values()))
         field = known[key]
         rule = field.rule
         named = isinstance(rule, Csv)

@@ -49,6 +49,12 @@ def on_a_terminal(columns, environment, *words):
         return repo.read_terminal(master).decode().splitlines()
 
 
+def test_a_page_is_not_for_a_terminal():
+    """It would fill the screen with half a megabyte of HTML."""
+    (line,) = on_a_terminal(80, {}, "animate", str(repo.DESIGNS / "turret.toml"))
+    assert line == "a page is not for a terminal: give -o FILE.html, or --open to show it"
+
+
 @pytest.mark.parametrize("columns", COLUMNS)
 def test_help_fits(monkeypatch, columns):
     for name in COMMANDS:

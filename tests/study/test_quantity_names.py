@@ -116,6 +116,9 @@ def test_compare_and_synth_read_the_same_names():
         ("rim_radius_mm", "it may be sizes.rim_radius_mm or parts.rim_radius_mm; say which"),
         ("efficiency", 'no quantity of a design (did you mean "inputs.load.efficiency"?)'),
         ("limits.acceleration_max", "no quantity of a design"),
+        ("pin_force", 'no quantity of a design (did you mean "pin_force_N.max"?)'),
+        ("torque", '(did you mean "torque_Nm.max"?)'),
+        ("force_N", "strength.lock.force_N or 1 more; say which"),
         ("acceleration.mx", '(did you mean "acceleration.max"?)'),
     ],
 )

@@ -14,6 +14,7 @@ from geneva_cli.answer import FAILS, PASSES, WARNS, Summary, SummaryLine
 from geneva_cli.app import app
 from geneva_cli.design import Design, load
 from geneva_cli.loads.makers_form import RATED_kW, RecommendedMotor
+from geneva_cli.output import terminal
 from geneva_cli.output.summary import chunks
 from geneva_cli.output.window import Window
 from geneva_cli.study.summary.loads import of_loads
@@ -23,6 +24,15 @@ from geneva_cli.study.summary.vibration import of_vibration
 
 pytestmark = pytest.mark.usefixtures("made_once")
 TURRET = str(repo.DESIGNS / "turret.toml")
+
+
+def test_a_terminal_says_what_extremes_and_means_are_over() -> None:
+    """The least stress of the motions is above the mean, which counts the dwells too."""
+    turret = design("turret")
+    stress = turret.loads["contact_stress_MPa"]
+    assert stress.min > stress.mean
+    text = "".join(terminal.chunks(turret.loads_page, Window(80)))
+    assert "max and min over the motions; mean and rms over the whole period" in text
 
 
 def design(name: str, *given: str) -> Design:

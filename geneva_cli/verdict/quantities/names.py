@@ -64,7 +64,7 @@ def whole_name(name: str, option: str = "--pick") -> str:
     for meanings in _readings(name):
         if len(meanings) > 1:
             more = len(meanings) - 5  # a message has at most five candidates
-            those = [*meanings[:5], *([f"{more} others"] if more > 0 else [])]
+            those = [*meanings[:5], *([f"{more} more"] if more > 0 else [])]
             raise GenevaError(f"{option} {cut(name)}: it may be {' or '.join(those)}; say which")
         if meanings:
             return meanings[0]
@@ -119,5 +119,11 @@ def _nearest(typed: str) -> str:
     if behind or keys:
         best = max(behind or keys, key=len)
         return nearest(best, [best])
-    ends = [end for name in known if not name.startswith(INPUTS) for end in _ends(name)]
+    own = [name for name in known if not name.startswith(INPUTS)]
+    own.sort(key=lambda name: name.startswith(CHECKS))  # a check gives way to a quantity
+    ends = [end for name in own for end in (name, *_ends(name))]
+    begun = [end for end in ends if end.startswith(typed)] if len(typed) > 2 else []
+    if begun:  # the shortest name; of its values the first, which is the greatest
+        best = min(begun, key=lambda end: len(end.partition(".")[0]))
+        return nearest(best, [best])
     return nearest(typed, dict.fromkeys([*known, *ends]))
