@@ -1,5 +1,6 @@
 """The page on which a machine turns: its script puts the wheel where the core has it."""
 
+import io
 import json
 import math
 import re
@@ -27,6 +28,7 @@ from geneva_cli.curves.shapes import Circle
 from geneva_cli.kinematics.layout import Joint
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.output import animate, moving_gif, page
+from geneva_cli.output.inks import INKS
 from geneva_cli.scene import body_pose, value_at
 from geneva_cli.study.animation.scene import scene
 from geneva_cli.study.animation.turn import MachineTurn
@@ -470,3 +472,16 @@ def test_teeth_that_do_not_fit_leave_the_pitch_curves():
         for keys in ([], ["size.gear_module_mm=3"])
     )
     assert [one.shapes for one in bare[-2:]] == [one.shapes for one in wrong[-2:]]
+
+
+@pytest.mark.parametrize("name", ["cam-geneva", "four-bar-z4"])
+def test_a_gif_has_the_inks_of_small_parts(name, monkeypatch):
+    """Pixels of lines 0.7 px wide are mixed with what is beside them: 60 of 441 in RGB."""
+    from PIL import Image
+
+    monkeypatch.setattr(moving_gif, "FRAMES", 1)
+    picture = Image.open(io.BytesIO(moving_gif.gif_bytes(scene(design_of(name))))).convert("RGB")
+    shown = [rgb for _, rgb in picture.getcolors(picture.width * picture.height)]
+    for layer in ("ROLLER", "BORE", "WHEEL"):
+        ink = [int(INKS[layer].rgb[i : i + 2], 16) for i in (1, 3, 5)]
+        assert min(math.dist(ink, rgb) for rgb in shown) < 60.0
