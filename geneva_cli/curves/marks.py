@@ -96,16 +96,15 @@ def angular(
 ) -> Iterator[Measure]:
     """Yield candidates of an angle about the axis, counterclockwise from leg to leg, on arcs.
 
-    Angles are in radians. The extension lines begin at the distance ``begin`` from the axis.
+    Angles are in radians. The extension lines begin at the distance ``begin`` from the axis. An arc
+    goes on to a text beyond its legs.
     """
     first, last = legs
+    wide = last - first
     for radius in radii:
-        inside = radius * (last - first) > 3.0 * LENGTH
+        inside = radius * wide > 3.0 * LENGTH
         spare = 0.0 if inside else 2.5 * LENGTH / radius
-        lines: list[Segment] = [
-            about(ORIGIN, radius, first - spare, last - first + 2.0 * spare),
-            *(Line(polar(ORIGIN, begin, leg), polar(ORIGIN, radius + PAST, leg)) for leg in legs),
-        ]
+        sides = [Line(polar(ORIGIN, begin, leg), polar(ORIGIN, radius + PAST, leg)) for leg in legs]
         tilt = 0.5 * LENGTH / radius  # an arrow's back lies on the arc
         quarter = 0.5 * math.pi
         turns = (
@@ -123,9 +122,11 @@ def angular(
             polar(ORIGIN, radius, middle),
         )
         for fraction in (0.5, 0.3, 0.7, -0.3, 1.3):
-            at = first + fraction * (last - first) if inside else middle
+            at = first + fraction * wide if inside else middle
+            start, end = min(first - spare, at), max(last + spare, at)
+            arc = about(ORIGIN, radius, start, end - start)
             label = _clear_of(polar(ORIGIN, radius, at), at, text)
-            yield Measure("angular", points, value, label, tuple(lines), arrows)
+            yield Measure("angular", points, value, label, (arc, *sides), arrows)
 
 
 def _clear_of(p: Point, angle: float, text: str) -> Label:

@@ -119,7 +119,9 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
         design: _drawn(cycle, [n for n in shown if n in has[design]], window)
         for design, cycle in cycles.items()
     }
-    panels = tuple(_panel(name, drawn) for name in shown)
+    nouns = {machine.output.noun for machine in machines}
+    noun = nouns.pop() if len(nouns) == 1 else "wheel"
+    panels = tuple(_panel(name, drawn, noun) for name in shown)
     axis, rests = Axis("input_deg", "Input angle", "deg"), tuple(_rests(machines, window))
     left = []
     for design, cycle in cycles.items():
@@ -159,7 +161,8 @@ def _why(cycle: Cycle, name: str) -> str:
     return f'gearing = "{cycle.mechanism.spec.wheel.NAME}" has another quantity instead'
 
 
-def _panel(name: str, drawn: Mapping[str, MachineCurves]) -> Panel:
+def _panel(name: str, drawn: Mapping[str, MachineCurves], noun: str) -> Panel:
+    """The curves of a quantity; ``noun`` is the part that moves, as its label says."""
     curves: list[Curve] = []
     bounds: list[float] = []
     for number, (design, machine_curves) in enumerate(drawn.items()):
@@ -169,7 +172,11 @@ def _panel(name: str, drawn: Mapping[str, MachineCurves]) -> Panel:
                 marks = tuple(sorted(marks, key=_size, reverse=True)[:1])
             curves.append(Curve(number, design, tuple(machine_curves.pieces[name]), marks))
             bounds += machine_curves.bounds.get(name, ())
-    return Panel(AXIS_BY_NAME[name], tuple(curves), (min(bounds), max(bounds)) if bounds else None)
+    axis = AXIS_BY_NAME[name]
+    label = axis.label.replace("wheel", noun).replace("Wheel", noun.capitalize())
+    return Panel(
+        axis._replace(label=label), tuple(curves), (min(bounds), max(bounds)) if bounds else None
+    )
 
 
 def _size(mark: Mark) -> float:
@@ -210,12 +217,15 @@ def _peak(
     stages: Sequence[Stage],
     window: tuple[float, float],
 ) -> tuple[Mark, ...]:
-    """The greatest size of a quantity of the motion, with its sign; none for the wheel's angle."""
+    """The greatest size of a quantity of the motion, with its sign; none for the wheel's angle.
+
+    It has no bound where the speed jumps.
+    """
     if name == machine.output.column:
         return ()
     peak = peaks.worst_of(machine, name)
-    if math.isinf(peak.max):  # where the speed jumps
-        return ()
+    if math.isinf(peak.max):
+        return (Mark("peak", _placed(machine, peak.at_deg, window), None),)
     first = first_entry_deg(machine)
     x = _placed(machine, peak.at_deg, (first, first))
     values = [

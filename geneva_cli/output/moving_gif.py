@@ -37,12 +37,14 @@ def gif_bytes(scene: Scene) -> bytes:
     margin = 0.03 * max(x1 - x0, y1 - y0)
     scale = FINER * WIDE / (x1 - x0 + 2.0 * margin)
     high = round((y1 - y0 + 2.0 * margin) * scale / FINER)
+    octree = Image.Quantize.FASTOCTREE
     frames: list[Image.Image] = []
     for i in tracked(range(FRAMES), "pictures", FRAMES):
         image = Image.new("RGB", (FINER * WIDE, FINER * high), "#ffffff")
         _draw(ImageDraw.Draw(image, "RGBA"), scene, scene.turn_deg * i / FRAMES, margin, scale)
         small = image.resize((WIDE, high), Image.Resampling.LANCZOS)
-        colours = {"palette": frames[0]} if frames else {"colors": 48}  # one palette for all
+        # one palette for all frames; by the median cut it has no colour of a few pixels, as rollers
+        colours = {"palette": frames[0]} if frames else {"colors": 48, "method": octree}
         frames.append(small.quantize(**colours, dither=Image.Dither.NONE))
     if scene.stops:  # a wheel with stops turns back
         frames += frames[-2:0:-1]

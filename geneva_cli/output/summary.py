@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 
 from geneva_cli.answer import FAILS, PASSES, WARNS, Summary, SummaryLine
 from geneva_cli.errors import clean
-from geneva_cli.output.document.values import RAISED, TIMES
+from geneva_cli.output.document.values import NO_BREAK, RAISED, TIMES
 from geneva_cli.output.layout import DIM, styled
 from geneva_cli.output.text import WIDTH
 from geneva_cli.output.window import Window, window
@@ -75,15 +75,14 @@ def _lines(lines: Iterable[SummaryLine], look: Window) -> Iterator[str]:
 
 def _wrapped(text: str, width: int, look: Window) -> list[str]:
     """A text in lines; a value is not separated from its power of ten or its unit."""
-    no_break = "\u00a0"  # a space without a line break
     text = re.sub(
         r"(?<=\d) (N m s|N m|N|kg m²|kg|rad/s²?|MPa|J|W|kW|mm|µm|deg|rpm|%)(?!\w)",
-        lambda unit: no_break + unit[1].replace(" ", no_break),
+        lambda unit: NO_BREAK + unit[1].replace(" ", NO_BREAK),
         text,
     )
-    text = _letters(no_break.join(map(clean, text.split(no_break))), look)
+    text = _letters(NO_BREAK.join(map(clean, text.split(NO_BREAK))), look)
     lines = textwrap.wrap(text, max(width, 1), break_long_words=False, break_on_hyphens=False)
-    return [line.replace(no_break, " ") for line in lines]
+    return [line.replace(NO_BREAK, " ") for line in lines]
 
 
 def _letters(text: str, look: Window) -> str:

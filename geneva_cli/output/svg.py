@@ -15,8 +15,9 @@ from geneva_cli.curves.pieces import SUFFIX, UNITS, prepared
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.output.formats import FILLS
 from geneva_cli.output.inks import CENTRE_LINES, DASHES, inks
+from geneva_cli.output.notes import notes
 from geneva_cli.output.svg_fill import filled
-from geneva_cli.output.svg_look import notes, style
+from geneva_cli.output.svg_look import noted, style
 from geneva_cli.output.svg_paths import element, number
 
 # For drawings to cut, in mm; for drawings to view, as if these were 250 mm wide
@@ -41,18 +42,28 @@ def chunks(drawing: Drawing, units: str, fill: str = "") -> Iterator[str]:
     size = max(box.x1 - box.x0, box.y1 - box.y0)
     mm = size / 250.0 if look else 1.0 / UNITS[units]
     title = clean(drawing.title).strip()
-    noted, frame = notes(look, box, title, mm, units) if look else ([], box)
+    shown = notes(look, box, title, mm, units) if look else None
+    frame = shown.box if shown else box
     margin = mm * (2.0 * MARGIN if look else MARGIN + STROKE)
     yield _head(frame, margin, title, suffix)
     if look:
         yield style(drawing.layers, frame, margin)
     if solid is not None and fill != "none":
         yield from filled(solid, fill, UNITS[units], mm)
+    yield from _layers(drawing, mm)
+    if shown:
+        yield from noted(shown, mm)
+    yield "</svg>\n"
+
+
+def _layers(drawing: Drawing, mm: float) -> Iterator[str]:
+    """Yield the shapes by their layers; ``mm`` is a millimetre of the page in the file's unit."""
     for layer, ink in inks(drawing.layers).items():
-        dashes, stroke = "", mm * STROKE * (1.6 if look else 1.0)  # wider lines to view
+        dashes, stroke = "", mm * STROKE * (1.6 if drawing.look else 1.0)  # wider lines to view
         if layer in CENTRE_LINES:
             dashes = f' stroke-dasharray="{" ".join(number(mm * d) for d in DASHES)}"'
-        if look and layer in (*CENTRE_LINES, "FRAME"):  # rollers' paths, and the lowest layer
+        # rollers' paths, and the lowest layer
+        if drawing.look and layer in (*CENTRE_LINES, "FRAME"):
             stroke *= 0.6
         yield (
             f'<g id="{escape(layer)}" stroke="{ink.rgb}" stroke-width="{number(stroke)}"{dashes}>\n'
@@ -61,8 +72,6 @@ def chunks(drawing: Drawing, units: str, fill: str = "") -> Iterator[str]:
             if shape.layer == layer:
                 yield element(shape)
         yield "</g>\n"
-    yield from noted
-    yield "</svg>\n"
 
 
 def _head(frame: Box, margin: float, title: str, suffix: str) -> str:

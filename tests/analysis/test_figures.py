@@ -55,11 +55,12 @@ def test_marks_are_the_answers_and_nothing_is_beyond_them(path):
             steps *= design.spec.output.per_radian
             assert values[-1] - values[0] == pytest.approx(steps, rel=1e-12)
         elif name in ("velocity", "acceleration", "jerk"):
-            if not curve.marks:  # rates of a speed that jumps have no bound, and are 0 between
-                assert getattr(design.peaks, name).max == math.inf and greatest == 0.0
-                continue
             (mark,) = curve.marks
             peak = getattr(design.peaks, name)
+            if mark.y is None:  # rates of a speed that jumps have no bound, and are 0 between
+                assert peak.max == math.inf and greatest == 0.0
+                assert mark.x == pytest.approx(peak.at_deg, abs=1e-9)
+                continue
             assert abs(mark.y) == peak.max
             assert math.cos(math.radians(mark.x - peak.at_deg)) == pytest.approx(1.0)
             # what is drawn reaches the peak but for what a chord may cut off
@@ -244,3 +245,12 @@ def test_thinning_keeps_near():
     assert np.abs(np.interp(x, x[kept], y[kept]) - y).max() < 1.5e-3
     assert thinned(np.array([1.0]), np.array([2.0]), 1e-3) == [0]
     assert thinned(np.array([1.0, 1.0]), np.array([2.0, 2.0]), 1e-3) == [0, 1]
+
+
+@pytest.mark.parametrize(
+    ("name", "noun"), [("linear", "rack"), ("odometer", "pinion"), ("turret", "wheel")]
+)
+def test_a_panel_names_what_moves(name, noun):
+    design = load(str(repo.DESIGNS / f"{name}.toml"))
+    labels = [panel.y.label for panel in design.figure(["velocity", "jerk"]).panels]
+    assert labels == [f"{what} of the {noun}, relative to the input" for what in ("Speed", "Jerk")]

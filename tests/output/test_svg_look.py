@@ -13,6 +13,8 @@ from typer.testing import CliRunner
 from words import Drive, Spec, Wheel
 
 from geneva_cli.app import app
+from geneva_cli.curves import helvetica
+from geneva_cli.curves.drawing import extent
 from geneva_cli.curves.mass import face
 from geneva_cli.curves.plates import plates
 from geneva_cli.design import Design, load
@@ -20,6 +22,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.output import draw
 from geneva_cli.output.formats import FILLS
 from geneva_cli.output.inks import INKS
+from geneva_cli.output.notes import LETTERS, notes
 from geneva_cli.output.strokes import DARK
 from geneva_cli.output.svg import chunks
 from geneva_cli.output.svg_look import _brighter
@@ -87,6 +90,11 @@ def test_arrows_turn_as_the_machine_does(wheel, sense):
     assert own.bulge > 0.0
     assert math.copysign(1.0, crank.bulge) == sense
     assert crank.centre == pytest.approx((100.0, 0.0), abs=1e-9)
+
+
+def extent_mm(drawing):
+    box = extent(drawing)
+    return max(box.x1 - box.x0, box.y1 - box.y0)
 
 
 def polygon(pieces):
@@ -161,3 +169,15 @@ def test_the_command(tmp_path):
         result = CliRunner().invoke(app, ["profile", str(spec), *more])
         assert result.exit_code != 0
         assert said in result.output
+
+
+@pytest.mark.parametrize(("spec", "beside"), [("linear", True), ("odometer", False)])
+def test_no_line_of_a_distance_crosses_its_text(spec, beside):
+    """A text wider than its distance stands to the right of the lines from both ends."""
+    drawn = load(str(repo.DESIGNS / f"{spec}.toml")).drawing("assembly", 0.01)
+    shown = notes(drawn.look, extent(drawn), drawn.title, extent_mm(drawn) / 250.0, "mm")
+    (x, _), text = shown.texts[0]
+    (a, _), (b, _) = (drawn.look.spans[0].start, drawn.look.spans[0].end)
+    wide = helvetica.width(text) * 0.72 * LETTERS * extent_mm(drawn) / 250.0  # of capitals
+    assert x > b if beside else a < x < x + wide < b
+    assert shown.box.x0 <= x < x + wide <= shown.box.x1

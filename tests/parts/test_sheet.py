@@ -19,7 +19,7 @@ from words import Drive, Keys, Motion, Spec, Wheel
 from geneva_cli import EllipticalGears, Linear, load
 from geneva_cli.curves import marks
 from geneva_cli.curves.board import Board
-from geneva_cli.curves.measure import bounds
+from geneva_cli.curves.measure import bounds, points
 from geneva_cli.curves.placed import in_place
 from geneva_cli.curves.shapes import Circle, Contour, Line
 from geneva_cli.curves.sheet import Label
@@ -546,3 +546,22 @@ def test_both_rollers_of_a_cam_have_bores_of_one_fit(fit_mm, bore):
     texts = [label.text for label in design.sheet(TOLERANCE).texts]
     assert sum(text.startswith(bore) for text in texts) >= 2
     assert not any("F7" in text and not text.startswith(bore) for text in texts)
+
+
+@pytest.mark.parametrize("name", ["geneva-stop", "turret", "spherical-z6"])
+def test_the_text_of_an_angle_stands_at_its_arc(name, sheets):
+    """Half a text's diagonal and 3 mm from it; an arc goes on to a text beyond its legs."""
+    _, found = sheets(name)
+    angles = [measure for measure in found.measures if measure.kind == "angular"]
+    assert angles
+    for measure in angles:
+        near = min(math.dist(measure.label.middle, p) for p in points(measure.lines[0], 200))
+        corner, _, opposite, _ = measure.label.corners
+        assert near < 0.5 * math.dist(corner, opposite) + 3.0, measure.label.text
+
+
+def test_one_radius_is_written_once():
+    """The horns of curved slots differ by rounding, at 204.9445 mm."""
+    found = load(str(repo.DESIGNS / "sine-group.toml")).sheet(0.001)
+    texts = [label.text for label in found.texts]
+    assert [text for text in texts if "R 204.94" in text] == ["12× R 204.944"]

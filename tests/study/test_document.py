@@ -23,9 +23,9 @@ from geneva_cli.design import Design, load
 from geneva_cli.document import Document, Fact, Facts, Grid, Picture, TextList
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import jsonfile, pdf_file
-from geneva_cli.output.document import html, markdown, pdf, pdf_drawing
+from geneva_cli.output.document import html, markdown, pdf, pdf_drawing, pdf_table
 from geneva_cli.output.document.html import inline
-from geneva_cli.output.document.paper import lines, wide
+from geneva_cli.output.document.paper import SOFT, lines, wide
 from geneva_cli.output.document.values import value_text
 from geneva_cli.output.letters import western
 from geneva_cli.study.document import document
@@ -270,7 +270,8 @@ def test_a_drawing_is_as_large_as_its_page_lets_it_be(wide_mm, high_mm, x, y) ->
     corners = [(0.0, 0.0), (wide_mm, 0.0), (wide_mm, high_mm), (0.0, high_mm)]
     sides = [Line(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)]
     stream = pdf_drawing.drawing(Drawing("", (closed("FRAME", sides),))).draw(250.0)
-    points = re.findall(r"^(\S+) (\S+) [ml]$", stream, re.MULTILINE)
+    shapes, _, _ = stream.partition(SOFT)  # the ink of notes
+    points = re.findall(r"^(\S+) (\S+) [ml]$", shapes, re.MULTILINE)
     xs, ys = ([float(one) for one in row] for row in zip(*points, strict=True))
     assert (min(xs), max(xs)) == x
     assert (min(ys), max(ys)) == y
@@ -393,3 +394,12 @@ def test_every_format_lists_the_same_warnings(name: str) -> None:
     told = design.report.table.to_dict()["warnings"]
     assert block.texts == told == tuple(design.warnings)
     assert sum("the wheel's own inertia" in text for text in told) == 1
+
+
+def test_a_unit_on_paper_is_not_broken() -> None:
+    """In a column of short words a cell has one text, of a sentence several."""
+    sentence = "a sentence that is long enough to be broken into lines " * 4
+    table = Grid("", ("Key", "Unit", "Meaning"), (("inertia", "kg m²", sentence),))
+    stream = "".join(item.draw(250.0) for item in pdf_table.grid(table))
+    assert stream.count(r"(kg m\262) Tj") == 1
+    assert sentence not in stream and "sentence" in stream

@@ -196,9 +196,10 @@ def _directions(parts: Outlines, engagement: Engagement, direction: float) -> It
 
 
 def _by_radius(arcs: list[Arc]) -> dict[float, list[Arc]]:
-    """Return arcs grouped by radius."""
+    """Return arcs grouped by radius; rounding does not write one radius as two."""
     groups: dict[float, list[Arc]] = {}
+    near = 5e-4  # mm: half of the last decimal that a sheet shows
     for arc in arcs:
-        same = next((r for r in groups if abs(r - arc.radius) < SAME_ON_SHEET), arc.radius)
+        same = next((r for r in groups if abs(r - arc.radius) < near), arc.radius)
         groups.setdefault(same, []).append(arc)
     return groups

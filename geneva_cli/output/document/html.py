@@ -23,10 +23,9 @@ from geneva_cli.document import (
 )
 from geneva_cli.errors import clean
 from geneva_cli.output import plot_svg, svg
-from geneva_cli.output.document.values import is_number, value_text
+from geneva_cli.output.document.values import SHORT, is_number, is_short, value_text
 from geneva_cli.output.summary import SIGNS
 
-SHORT = 12  # letters that are not broken into lines
 NUMBER = ' class="n"'
 
 
@@ -138,7 +137,7 @@ def _side(column: Row) -> str:
     """The class of a column's cells: numbers are right-aligned, short words unbroken."""
     if all(map(is_number, column)):
         return NUMBER
-    return ' class="s"' if all(len(value_text(value)) <= SHORT for value in column) else ""
+    return ' class="s"' if is_short(column) else ""
 
 
 def _list(texts: tuple[str, ...]) -> Iterator[str]:

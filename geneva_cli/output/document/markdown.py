@@ -18,7 +18,7 @@ from geneva_cli.document import (
 )
 from geneva_cli.output.document.values import is_number, value_text
 from geneva_cli.output.markdown import escaped
-from geneva_cli.output.svg_look import span_text
+from geneva_cli.output.notes import span_text
 from geneva_cli.output.ticks import mark_text, named
 
 

@@ -22,7 +22,7 @@ from geneva_cli.output.document.paper import (
     wide,
     words,
 )
-from geneva_cli.output.document.values import is_number, value_text
+from geneva_cli.output.document.values import NO_BREAK, is_number, is_short, value_text
 
 PAD = 1.3  # left and right of a cell's text
 SPACE = 0.55  # above and below it
@@ -31,8 +31,13 @@ STEP = LEADING * SMALL
 
 def grid(table: Grid) -> Iterator[Item]:
     """A table with a head, which is repeated on each page."""
-    rows = [[value_text(value) for value in row] for row in table.rows]
-    right = [all(map(is_number, column)) for column in zip(*table.rows, strict=True)]
+    columns = list(zip(*table.rows, strict=True))
+    right = [all(map(is_number, column)) for column in columns]
+    spaces = [NO_BREAK if is_short(column) else " " for column in columns]
+    rows = [
+        [value_text(value).replace(" ", space) for value, space in zip(row, spaces, strict=True)]
+        for row in table.rows
+    ]
     widths = _widths(table.heads, rows)
     head = _row(table.heads, right, widths, bold=True)
     yield from _caption(table.caption)

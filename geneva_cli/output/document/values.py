@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError, clean
@@ -11,7 +12,9 @@ from geneva_cli.table import NO_BOUND, in_digits
 if TYPE_CHECKING:
     from geneva_cli.document import Row, Value
 
-TIMES = "\u00a0×\u00a0"  # spaces at which no line is broken
+SHORT = 12  # letters that are not broken into lines
+NO_BREAK = "\u00a0"  # a space at which no line is broken
+TIMES = f"{NO_BREAK}×{NO_BREAK}"
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -32,6 +35,11 @@ def value_text(value: Value | Row, unit: str = "", digits: int = 6) -> str:
 def is_number(value: object) -> bool:
     """Return True for a value that is right-aligned in its column."""
     return value is None or (isinstance(value, (int, float)) and not isinstance(value, bool))
+
+
+def is_short(column: Iterable[Value]) -> bool:
+    """Return True for a column whose cells are not broken into lines, such as units."""
+    return all(len(value_text(value)) <= SHORT for value in column)
 
 
 def _bare(value: Value, digits: int) -> str:

@@ -1,0 +1,119 @@
+"""The layout of notes around a drawing to view: distances, arrows, scale bar and title.
+
+Each format writes it with its own pen.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.curves.drawing import Annotations, LevelDistance
+from geneva_cli.curves.measure import Box, bounds
+from geneva_cli.curves.pieces import SUFFIX, UNITS
+from geneva_cli.curves.shapes import Arc, Contour, Point
+from geneva_cli.curves.sheet import line
+from geneva_cli.output.letters import width
+from geneva_cli.table import in_decimals
+
+LETTERS = 5.0  # height of letters, mm of the page
+ARROW = 4.5, 0.9  # an arrow's length, and half its width, mm of the page
+
+
+class Notes(NamedTuple):
+    """Annotations as drawn, in the drawing's unit: lines, arrows' heads and texts by their places.
+
+    A text begins at its place, on its base line. ``box`` is around the shapes and all of these.
+    """
+
+    lines: tuple[Contour, ...]
+    scale_bar: tuple[Contour, ...]
+    heads: tuple[tuple[Point, Point, Point], ...]
+    texts: tuple[tuple[Point, str], ...]
+    box: Box
+
+
+def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> Notes:
+    """Return lines, arrows and texts around the shapes, whose box this is.
+
+    ``mm`` is a millimetre of the page in the drawing's unit; letters are 5 mm high. Distances stand
+    below the shapes; below them are the scale bar and the title.
+    """
+    lines: list[Contour] = []
+    heads: list[tuple[Point, Point, Point]] = []
+    texts: list[tuple[Point, str]] = []
+    unit, text, gap = UNITS[units], mm * LETTERS, mm * 3.0
+    left, right, low, high = box.x0, box.x1, box.y0, box.y1
+    for turn in look.turns:
+        first, last = ((x / unit, y / unit) for x, y in (turn.start, turn.end))
+        arc = Arc(first, last, turn.bulge)
+        contour = Contour("", (arc,), closed=False)
+        lines.append(contour)
+        heads.append(_head(last, _heading(arc, mm * ARROW[0]), mm))
+        around = bounds(contour)
+        left, right = min(left, around.x0), max(right, around.x1)
+        low, high = min(low, around.y0), max(high, around.y1)
+    for span in look.spans:
+        low -= gap + 1.4 * text
+        lines += _span(span, unit, low, gap)
+        (a, b), shown = _ends(span, unit), span_text(span, units)
+        heads += [_head((a, low), math.pi, mm), _head((b, low), 0.0, mm)]
+        wide = width(shown) * text
+        # a text that does not fit between the lines from the ends stands to their right
+        start = 0.5 * (a + b - wide) if wide < b - a else b + gap
+        texts.append(((start, low + 0.35 * text), shown))
+        left, right = min(left, start), max(right, start + wide)
+    tick = mm * 1.5  # half a scale bar's end mark
+    bar = round_length(0.2 * (box.x1 - box.x0 or box.y1 - box.y0))
+    y = low - gap - max(tick, 0.5 * text)
+    ends = [((x, y - tick), (x, y + tick)) for x in (left, left + bar)]
+    ruler = (*(line("", *end) for end in ends), line("", (left, y), (left + bar, y)))
+    label = f"{bar:g} {SUFFIX[units]}"
+    texts.append(((left + bar + gap, y - 0.35 * text), label))
+    right = max(right, left + bar + gap + width(label) * text)
+    low = y - max(tick, 0.5 * text)
+    if title:
+        texts.append(((left, low - 1.2 * text), title))
+        right = max(right, left + width(title) * text)
+        low -= 1.5 * text
+    return Notes(tuple(lines), ruler, tuple(heads), tuple(texts), Box(left, low, right, high))
+
+
+def _ends(span: LevelDistance, unit: float) -> tuple[float, float]:
+    a, b = sorted((span.start[0] / unit, span.end[0] / unit))
+    return a, b
+
+
+def span_text(span: LevelDistance, units: str) -> str:
+    """The name and the length, to four decimals of an inch and three of a millimetre."""
+    a, b = _ends(span, UNITS[units])
+    value = in_decimals(b - a, 4 if units == "inch" else 3)
+    return f"{span.name} = {value} {SUFFIX[units]}"
+
+
+def _span(span: LevelDistance, unit: float, low: float, gap: float) -> list[Contour]:
+    """Return a distance's line, and the lines from its ends down to it."""
+    a, b = _ends(span, unit)
+    sides = (((x / unit, y / unit), (x / unit, low - 0.4 * gap)) for x, y in (span.start, span.end))
+    return [line("", *ends) for ends in (((a, low), (b, low)), *sides)]
+
+
+def _head(tip: Point, angle: float, mm: float) -> tuple[Point, Point, Point]:
+    """Return the corners of an arrow's head in a direction."""
+    long, half, c, s = mm * ARROW[0], mm * ARROW[1], math.cos(angle), math.sin(angle)
+    x, y = tip[0] - long * c, tip[1] - long * s
+    return tip, (x - half * s, y + half * c), (x + half * s, y - half * c)
+
+
+def _heading(arc: Arc, long: float) -> float:
+    """Return the direction of an arrow at an arc's end: that of the arc under its head."""
+    (x, y), (cx, cy) = arc.end, arc.centre
+    ahead = 0.5 * math.pi - 0.5 * long / arc.radius
+    return math.atan2(y - cy, x - cx) + math.copysign(ahead, arc.bulge)
+
+
+def round_length(length: float) -> float:
+    """The number 1, 2 or 5 times a power of ten that is nearest by ratio."""
+    power = 10.0 ** math.floor(math.log10(length))
+    rounds = [float(f"{n * power:.0e}") for n in (1, 2, 5, 10)]
+    return min(rounds, key=lambda r: abs(math.log(r / length)))
