@@ -123,23 +123,23 @@ def _lines(sizes: CounterSizes) -> Iterator[tuple[Line, float]]:
     driver_side = half_angles(teeth)
     for middle in (-half, half):
         for sign in (-1.0, 1.0):
-            yield partial(_side, teeth.root, teeth.tip, driver_side, middle, sign), step
+            yield partial(_side, (teeth.root, teeth.tip), driver_side, middle, sign), step
         yield partial(_arc, teeth.tip, middle, teeth.half_angle(teeth.tip)), step
     for sign in (-1.0, 1.0):
-        yield partial(_side, teeth.root, sizes.rim, driver_side, sign * half, -sign), 2.0 * step
+        yield partial(_side, (teeth.root, sizes.rim), driver_side, sign * half, -sign), 2.0 * step
     yield partial(_rim, sizes), 2.0 * step
 
 
 def _side(
-    root: float,
-    tip: float,
+    ends: tuple[float, float],
     half_angle: HalfAngles,
     middle: float,
     sign: float,
     inputs: Array,
     at: Array,
 ) -> tuple[Array, Array]:
-    """Return points of one side of a tooth, from its root to a radius."""
+    """Return points of one side of a tooth; ``ends`` are the radii of its root and its tip."""
+    root, tip = ends
     r = root + (tip - root) * at
     return r, middle + sign * half_angle(r)
 
