@@ -13,15 +13,15 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.carried import inertia_kgm2
-from geneva_cli.analysis.contact import is_straight
 from geneva_cli.analysis.forces import LoadCase, QuantityValue, load_case
 from geneva_cli.analysis.instant import Instant
 from geneva_cli.analysis.load_functions import LoadFunctions, LoadQuantity, load_batch
+from geneva_cli.analysis.peak_search import PeakArray
 from geneva_cli.analysis.quantities import FORCE, SQUARED, STRESS, TORQUE
 from geneva_cli.kinematics.engagement import Engagement, Peak
 from geneva_cli.kinematics.pitch_curve import retraces
 from geneva_cli.loads.cycle import cycle_of
-from geneva_cli.loads.summaries import load_peaks, search_loads
+from geneva_cli.loads.summaries import load_peaks, search_loads, shown_deg
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import parameter
@@ -54,20 +54,24 @@ def slope_squared(i: Instant[Jet]) -> QuantityValue[Jet]:
     return QuantityValue(slope * slope)
 
 
-@lru_cache(maxsize=16)
-def greatest_pressure(mechanism: Mechanism) -> Peak[float]:
-    """The greatest pressure angle, degrees, and its input angle.
+def greatest_pressure(mechanism: Mechanism) -> PeakArray:
+    """The greatest pressure angles of m designs, degrees, and their input angles: (m,).
 
-    It is 90 at mid-motion if the pin crosses the radius there.
+    It is 90 at mid-motion if the pin crosses the radius there. It is NaN for all designs of a batch
+    of which only some cross it: they must be computed alone.
     """
     for engagement in mechanism.engagements:
-        if not is_straight(engagement) and not retraces(engagement):
-            return Peak(90.0, mechanism.shown_deg(engagement.mid_deg))
+        crosses = np.logical_not(retraces(engagement)) & engagement.slot.curved
+        middle = np.zeros((1, mechanism.designs))
+        if np.all(crosses):
+            return PeakArray(90.0 + middle[0], shown_deg(mechanism, engagement, middle)[0])
+        if np.any(crosses):
+            return PeakArray(np.nan + middle[0], np.nan + middle[0])
     own: dict[str, LoadQuantity] = {"slope": slope_squared}
     case = load_case(mechanism)._replace(inertia_Nm=0.0, hertz=None, efficiency=1.0).frictionless
     peak = load_peaks(mechanism, tuple(own), own, case)["slope"]
-    angle = np.degrees(np.arctan(np.sqrt(peak.max))).item()
-    return Peak(angle, peak.at_deg.item() if angle else 0.0)  # 0 throughout a radial slot
+    angle = np.degrees(np.arctan(np.sqrt(peak.max)))
+    return PeakArray(angle, np.where(angle > 0.0, peak.at_deg, 0.0))  # 0 throughout a radial slot
 
 
 @lru_cache(maxsize=16)

@@ -19,6 +19,7 @@ number wheels are in a plane without a rim, and have the whole teeth.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -157,20 +158,25 @@ def _touching_circle(pinion: RoundTeeth, L: float) -> float:
     return min(least, L - pinion.root - 0.1 * rack.module)
 
 
-def half_angles(teeth: RoundTeeth, r: Array) -> Array:
-    """Return the angles between middle and side of a tooth at radii: flank, and fillet below it.
+def half_angles(teeth: RoundTeeth) -> Callable[[Array], Array]:
+    """Return the angle between middle and side of a tooth as a function of radii up to the tip.
 
-    A thousand chords of a fillet, which is about a module long, miss it by 1e-7 modules.
+    It is the flank's, and the fillet's below it. A thousand chords of a fillet, which is about a
+    module long, miss it by 1e-7 modules.
     """
     rack = teeth.rack
     u = np.linspace(-rack.end, -rack.corner[0], 1001)
     points, _ = fillet(circle(teeth.radius), rack, 0.0, 1)(u)
     below, side = np.hypot(*points.T), np.arctan2(points[:, 1], points[:, 0])
     start, ascending = below[0], below[::-1]
-    cosine = np.minimum(teeth.base / np.maximum(r, max(start, teeth.base)), 1.0)
-    at = np.arccos(cosine)
-    on_flank = rack.half / teeth.radius + involute(rack.angle) - (np.tan(at) - at)
-    return np.where(r >= start, on_flank, np.interp(r, ascending, side[::-1]))
+
+    def at_radii(r: Array) -> Array:
+        cosine = np.minimum(teeth.base / np.maximum(r, max(start, teeth.base)), 1.0)
+        at = np.arccos(cosine)
+        on_flank = rack.half / teeth.radius + involute(rack.angle) - (np.tan(at) - at)
+        return np.where(r >= start, on_flank, np.interp(r, ascending, side[::-1]))
+
+    return at_radii
 
 
 def driver_teeth(sizes: CounterSizes, write: Writer) -> Contour:
@@ -191,18 +197,25 @@ def driver_rim(sizes: CounterSizes, write: Writer) -> Contour:
     return closed("CRANK", [*pieces, about(ORIGIN, sizes.rim, start, math.tau - 2.0 * start)])
 
 
-def pinion_teeth(sizes: CounterSizes, wide: bool, write: Writer) -> Contour:
-    """Return the pinion in the plane of its wide teeth alone, or in that of all teeth."""
-    return closed("WHEEL", _all_round(sizes.pinion, write, 0.0, 2 if wide else 1))
+def pinion_teeth(sizes: CounterSizes, write: Writer) -> tuple[Contour, Contour]:
+    """Return the pinion in the plane of all its teeth, and in that of its wide teeth alone."""
+    tooth = sizes.pinion.one(write)
+    every, wide = (closed("WHEEL", _all_round(sizes.pinion, tooth, 0.0, each)) for each in (1, 2))
+    return every, wide
 
 
 def number_teeth(sizes: CounterSizes, write: Writer) -> Contour:
     """Return the gear of the number wheel, whose space is about the x axis, as the driver's."""
-    return closed("CRANK", _all_round(sizes.number, write, sizes.half_space))
+    return closed("CRANK", _all_round(sizes.number, sizes.number.one(write), sizes.half_space))
 
 
-def _all_round(teeth: RoundTeeth, write: Writer, first: float, each: int = 1) -> list[Segment]:
-    """Return the outline of a gear from its first tooth on, with every ``each``-th tooth."""
-    tooth = [*teeth.one(write), teeth.between((each - 1) * teeth.step)]
+def _all_round(
+    teeth: RoundTeeth, tooth: list[Segment], first: float, each: int = 1
+) -> list[Segment]:
+    """Return the outline of a gear from its first tooth on, with every ``each``-th tooth.
+
+    ``tooth`` is a tooth about the x axis.
+    """
+    pieces = [*tooth, teeth.between((each - 1) * teeth.step)]
     turns = [first + k * teeth.step for k in range(0, round(math.tau / teeth.step), each)]
-    return [piece for turn in turns for piece in turned_pieces(tooth, turn)]
+    return [piece for turn in turns for piece in turned_pieces(pieces, turn)]

@@ -19,6 +19,7 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.outlines.counter import CounterSizes, counter_sizes, half_angles
 
+HalfAngles: TypeAlias = Callable[[Array], Array]  # of teeth, by radii
 # radii and directions about the driver's axis, for inputs, of points at fractions of a line
 Line: TypeAlias = Callable[[Array, Array], tuple[Array, Array]]
 
@@ -53,9 +54,10 @@ def counter_play(mechanism: Mechanism) -> CounterPlay:
     stretches = (-begin, -half), (-half, 0.0)
     before, moving = (np.linspace(a, b, 1 + math.ceil((b - a) / 0.5)) for a, b in stretches)
     places = np.concatenate((before[:-1], moving))
-    inputs, pinion = places * DEGREE, np.maximum(places, -half) * ratio * DEGREE
+    angles = np.column_stack((places, np.maximum(places, -half) * ratio)) * DEGREE
+    pinion_side = half_angles(sizes.pinion)
     ends = [
-        _least(partial(_free, sizes, line, (pinion[:, None], sense)), inputs[:, None])
+        _least(partial(_free, sizes, line, (pinion_side, sense)), angles)
         for line in _lines(sizes)
         for sense in (1.0, -1.0)
     ]
@@ -63,21 +65,25 @@ def counter_play(mechanism: Mechanism) -> CounterPlay:
     return CounterPlay(places, ahead, behind)
 
 
-def _least(free: Callable[[Array, Array], Array], inputs: Array) -> Array:
-    """Return the least value along a line, for inputs (n, 1).
+def _least(free: Callable[[Array, Array], Array], angles: Array) -> Array:
+    """Return the least value along a line, for angles (n, 2) of input and pinion.
 
     A line has at most a few minima, which 200 steps tell apart. The least is then searched between
     the neighbours of the best sample, in steps a tenth as long each time. The error at an end of
-    the reachable part is 1e-9 of the line, and at a minimum inside it the square of that.
+    the reachable part is 1e-9 of the line, and at a minimum inside it the square of that. Angles at which no sample
+    is within reach are left out of the search.
     """
-    at = np.broadcast_to(np.linspace(0.0, 1.0, 201), (len(inputs), 201))
-    fine, rows = np.linspace(0.0, 1.0, 21), np.arange(len(inputs))
-    best = np.full(len(inputs), np.inf)
+    at, fine = np.linspace(0.0, 1.0, 201), np.linspace(0.0, 1.0, 21)
+    best, within = np.full(len(angles), np.inf), np.arange(len(angles))
     for _ in range(8):
-        values = free(inputs, at)
-        k = values.argmin(axis=1)
-        best = np.minimum(best, values[rows, k])
-        low, high = at[rows, np.maximum(k - 1, 0)], at[rows, np.minimum(k + 1, at.shape[1] - 1)]
+        values = free(angles[within], at)
+        k, rows = values.argmin(axis=1), np.arange(len(within))
+        best[within] = np.minimum(best[within], values[rows, k])
+        near = np.isfinite(best[within])
+        steps, rows = np.broadcast_to(at, values.shape), rows[near]
+        within, k = within[near], k[near]
+        before, after = np.maximum(k - 1, 0), np.minimum(k + 1, steps.shape[1] - 1)
+        low, high = steps[rows, before], steps[rows, after]
         at = low[:, None] + (high - low)[:, None] * fine
     return best
 
@@ -85,45 +91,57 @@ def _least(free: Callable[[Array, Array], Array], inputs: Array) -> Array:
 def _free(
     sizes: CounterSizes,
     driver: tuple[Line, float],
-    pinion: tuple[Array, float],
-    inputs: Array,
+    pinion: tuple[HalfAngles, float],
+    angles: Array,
     at: Array,
 ) -> Array:
     """Return how far the pinion can turn, radians, for points of a line of the driver.
 
-    ``driver`` has also the pitch of the pinion's teeth there. ``pinion`` has its angles, and the
-    sense in which it turns, 1 for ahead. Points that the pinion does not reach have infinity.
+    ``driver`` has also the pitch of the pinion's teeth there. ``pinion`` has the half angles of its
+    teeth at radii, and the sense in which it turns, 1 for ahead. Points that the pinion does not
+    reach have infinity.
     """
-    (line, pitch), (turned, sense) = driver, pinion
+    (line, pitch), (pinion_side, sense) = driver, pinion
+    inputs, turned = angles[:, :1], angles[:, 1:]
     r, side = line(inputs, at)
     direction = math.pi - (inputs + side)
     x, y = sizes.distance + r * np.cos(direction), r * np.sin(direction)
     away = np.hypot(x, y)
+    near = away <= sizes.pinion.tip
+    turned = np.broadcast_to(turned, near.shape)[near]
     # from a tooth's middle
-    after = np.mod(np.arctan2(y, x) - turned + 0.5 * pitch, pitch) - 0.5 * pitch
-    spare = np.where(sense * after > 0.0, 0.0, pitch) + sense * after
-    spare = spare - half_angles(sizes.pinion, np.minimum(away, sizes.pinion.tip))
-    return np.where(away <= sizes.pinion.tip, spare, np.inf)
+    after = np.mod(np.arctan2(y[near], x[near]) - turned + 0.5 * pitch, pitch) - 0.5 * pitch
+    ahead = np.where(sense * after > 0.0, 0.0, pitch) + sense * after
+    spare = np.full(near.shape, np.inf)
+    spare[near] = ahead - pinion_side(away[near])
+    return spare
 
 
 def _lines(sizes: CounterSizes) -> Iterator[tuple[Line, float]]:
     """Yield lines of the driver's teeth, and of its rim and gap, with the pitch of the pinion."""
     teeth, half, step = sizes.driver, sizes.half_space, sizes.pinion.step
+    driver_side = half_angles(teeth)
     for middle in (-half, half):
         for sign in (-1.0, 1.0):
-            yield partial(_side, sizes, middle, sign, teeth.tip), step
+            yield partial(_side, (teeth.root, teeth.tip), driver_side, middle, sign), step
         yield partial(_arc, teeth.tip, middle, teeth.half_angle(teeth.tip)), step
     for sign in (-1.0, 1.0):
-        yield partial(_side, sizes, sign * half, -sign, sizes.rim), 2.0 * step
+        yield partial(_side, (teeth.root, sizes.rim), driver_side, sign * half, -sign), 2.0 * step
     yield partial(_rim, sizes), 2.0 * step
 
 
 def _side(
-    sizes: CounterSizes, middle: float, sign: float, tip: float, inputs: Array, at: Array
+    ends: tuple[float, float],
+    half_angle: HalfAngles,
+    middle: float,
+    sign: float,
+    inputs: Array,
+    at: Array,
 ) -> tuple[Array, Array]:
-    """Return points of one side of a tooth, from its root to a radius."""
-    r = sizes.driver.root + (tip - sizes.driver.root) * at
-    return r, middle + sign * half_angles(sizes.driver, r)
+    """Return points of one side of a tooth; ``ends`` are the radii of its root and its tip."""
+    root, tip = ends
+    r = root + (tip - root) * at
+    return r, middle + sign * half_angle(r)
 
 
 def _arc(

@@ -67,11 +67,10 @@ class CounterParts(EdgedParts):
     @cached_property
     def pinions(self) -> tuple[Member, ...]:
         """The pinions, from the lowest up; each has a wide tooth between the driver's two."""
-        tall, write = self.heights, self._write
+        tall = self.heights
         # the bore's shape is below a tooth, where the wall is thickest
         hole = (bore(self.mechanism, self.sizes, "wheel").shape("BORE", math.pi),)
-        all_teeth = pinion_teeth(self.sizes, False, write)
-        wide_teeth = pinion_teeth(self.sizes, True, write)
+        all_teeth, wide_teeth = pinion_teeth(self.sizes, self._write)
         members = []
         for k in range(tall.pinions):
             low = k * tall.pitch

@@ -19,6 +19,7 @@ from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads import loads
 from geneva_cli.loads.cycle import Cycle
+from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.verdict.cycle_warnings import load_warnings
@@ -108,6 +109,24 @@ def test_against_a_dense_grid(spec):
         most = float(np.max(np.abs(values)))
         assert found >= most * (1.0 - 1e-12), quantity
         assert found <= most * 1.002 or math.isinf(found), quantity
+
+
+def test_the_pressure_angles_of_a_batch():
+    """Those of each design alone, to some roundings. Where only some pins cross the radius at
+    mid-motion, and have 90 degrees there, none is known."""
+    matched = curved("modified-trapezoid", "matched")
+    wide = np.array([-4.0, 0.0, 5.0])
+    batch = many(matched, {"motion.alpha0_deg": wide}).machine
+    alone = [build(matched.with_("motion.alpha0_deg", one)) for one in wide.tolist()]
+    each = np.hstack([loads.greatest_pressure(one) for one in alone])
+    assert np.array(loads.greatest_pressure(batch)) == pytest.approx(each, rel=1e-13)
+    assert len(set(each[0])) == 3 and each[0].max() < 90.0
+    ratio = alone[1].ratio
+    spec = curved("modified-trapezoid", ratio)
+    crossing = many(spec, {"motion.ratio": np.array([0.9, 0.8]) * ratio}).machine
+    assert np.array(loads.greatest_pressure(crossing)).tolist() == [[90.0, 90.0], [0.0, 0.0]]
+    mixed = many(spec, {"motion.ratio": np.array([1.0, 0.8]) * ratio}).machine
+    assert np.isnan(loads.greatest_pressure(mixed)).all()
 
 
 def test_place_and_value_of_a_peak_with_friction():

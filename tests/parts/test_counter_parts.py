@@ -54,8 +54,8 @@ def write(curve, a, b):
 def planes(sizes):
     """The driver's and the pinion's outline in each of both planes, and points on them."""
     pairs = (
-        (driver_rim(sizes, write), pinion_teeth(sizes, True, write)),
-        (driver_teeth(sizes, write), pinion_teeth(sizes, False, write)),
+        (driver_rim(sizes, write), pinion_teeth(sizes, write)[1]),
+        (driver_teeth(sizes, write), pinion_teeth(sizes, write)[0]),
     )
     outlines = [[Polyarc([one]) for one in pair] for pair in pairs]
     return [
@@ -176,7 +176,7 @@ def test_the_number_wheel_meshes_with_the_pinion(z, teeth):
     overlap. Turned on by a thousandth of a radian, in either sense, some do."""
     sizes = counter_sizes(machine(z, teeth))
     wheel, pinion = (
-        Polyarc([c]) for c in (number_teeth(sizes, write), pinion_teeth(sizes, False, write))
+        Polyarc([c]) for c in (number_teeth(sizes, write), pinion_teeth(sizes, write)[0])
     )
     points = wheel.samples(1e-5 * L, 2e-3 * L).view(complex)[:, 0]
     for part in np.linspace(0.0, 1.0, 20):

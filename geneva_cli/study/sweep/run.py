@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import itertools
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
@@ -113,9 +114,10 @@ class Sweep(NamedTuple):
         draws_parts = any(group.makes_parts for group in self.pick.groups)
         if not draws_parts:
             return 64
-        # parts are slow: several tasks for each process, each as large as a batch can be
+        # parts are slow: at most eight tasks for several processes, or tasks as large as a batch
+        # can be
         start, stop = self.span
-        return min(KEPT, max(1, (stop - start) // 8))
+        return min(KEPT, max(1, math.ceil((stop - start) / 8)))
 
     @property
     def is_batched(self) -> bool:

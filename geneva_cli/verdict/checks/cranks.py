@@ -56,10 +56,14 @@ def _least(edge: tuple[Array, Array], one: Member, other: Member) -> tuple[float
     # in each interval of the direction of the other's axis, from its middle to both ends
     gap, quarter = np.full(count, -math.inf), count // 4
     wrapped = np.concatenate((taken[-quarter:], taken, taken[:quarter]))
-    for off in range(-quarter, quarter + 1):
-        least = abs(between) * math.cos((abs(off) + 0.5) * step)
-        start = quarter + off
-        np.maximum(gap, least - wrapped[start : start + count], out=gap)
+    spread = float(np.ptp(taken))
+    for off in range(quarter + 1):
+        least = abs(between) * math.cos((off + 0.5) * step)
+        # what is taken varies by the spread: no direction so far off gives a greater gap
+        if least < abs(between) * math.cos(0.5 * step) - spread:
+            break
+        for start in (quarter - off, quarter + off):
+            np.maximum(gap, least - wrapped[start : start + count], out=gap)
     i = int(np.argmin(gap))
     seen = math.atan2(between.imag, between.real) - one.turn  # at input angle 0
     # rounded far below the step of the directions
@@ -70,9 +74,16 @@ def _support(edge: tuple[Array, Array], around: Array) -> Array:
     """Return how far a crank reaches from its axis in directions of its own frame, mm."""
     points, reach = edge
     out = []
-    for some in np.split(around, len(around) // 100):  # so many stay in the cache
-        along = np.outer(np.cos(some), points.real) + np.outer(np.sin(some), points.imag)
-        out.append((along + reach).max(axis=1))
+    for some in np.split(around, len(around) // 100):
+        middle = np.exp(1j * some[len(some) // 2])
+        ahead = (points * middle.conjugate()).real + reach
+        i = ahead.argmax()
+        # turning by an angle brings a point ahead of the i-th by their distance times its chord
+        chord = np.abs(np.exp(1j * some[[0, -1]]) - middle).max()
+        may_lead = ahead[i] - ahead <= chord * np.abs(points - points[i]) + 1e-9  # mm: rounding
+        x, y = points.real[may_lead], points.imag[may_lead]
+        along = np.outer(np.cos(some), x) + np.outer(np.sin(some), y)
+        out.append((along + reach[may_lead]).max(axis=1))
     return np.concatenate(out)
 
 

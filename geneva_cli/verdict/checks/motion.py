@@ -48,12 +48,17 @@ def limited_pressure(name: str, mechanism: Mechanism) -> Check | None:
 
 
 def _greatest_pressure(name: str, mechanism: Mechanism, limit: float) -> Check:
-    from geneva_cli.loads import loads
+    from geneva_cli.verdict.quantities.designs import number_of, single
+    from geneva_cli.verdict.quantities.loads import pressure
 
-    peak = loads.greatest_pressure(mechanism)
+    peak = single(mechanism).columns(pressure)
+    most, at_deg = peak["max_deg"], peak["at_deg"]
+    assert most is not None  # every machine with slots has both
+    assert at_deg is not None
+    value = number_of(most, 0)
     # At 90 degrees nothing turns the wheel, whatever the limit.
-    passes = keeps(peak.max, "at most", limit) and peak.max < 90.0
-    return Check(name, peak.max, "at most", limit, passes, at_deg=peak.at_deg)
+    passes = keeps(value, "at most", limit) and value < 90.0
+    return Check(name, value, "at most", limit, passes, at_deg=number_of(at_deg, 0))
 
 
 def undercut_depth(name: str, mechanism: Mechanism) -> Check | None:

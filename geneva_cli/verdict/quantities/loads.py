@@ -7,7 +7,7 @@ import numpy as np
 from geneva_cli.analysis.peak_search import worst_peaks
 from geneva_cli.analysis.positive_drive import positive_drives
 from geneva_cli.analysis.quantities import REPORTED_PEAKS, sources
-from geneva_cli.loads.loads import kinetic_power_W
+from geneva_cli.loads.loads import greatest_pressure, kinetic_power_W
 from geneva_cli.loads.summaries import load_peaks, load_summaries
 from geneva_cli.numerics.arrays import Number, parameter
 from geneva_cli.verdict.quantities.designs import Columns, Designs
@@ -31,6 +31,12 @@ def greatest(of: Designs) -> Columns:
         kinetic = np.ravel(kinetic_power_W(of.machine, parameter(power[:, None])))
         out["kinetic_power_W"] = np.where(np.ravel(of.load_case.inertia_Nm) > 0.0, kinetic, np.nan)
     return out
+
+
+def pressure(of: Designs) -> Columns:
+    """The greatest pressure angle and its input angle."""
+    peak = greatest_pressure(of.machine)
+    return {"max_deg": peak.max, "at_deg": peak.at_deg}
 
 
 def summaries(of: Designs) -> Columns:

@@ -7,11 +7,11 @@ from contextlib import suppress
 
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads import loads
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import scalar
-from geneva_cli.verdict.quantities.designs import Values
-from geneva_cli.verdict.quantities.groups import ECHOED, INPUTS, own_names
+from geneva_cli.verdict.quantities.designs import Values, single
+from geneva_cli.verdict.quantities.groups import ECHOED, INPUTS, only, own_names
+from geneva_cli.verdict.quantities.loads import pressure
 
 
 def sizes(model: PartsModel) -> Values:
@@ -39,7 +39,9 @@ def _flat_sizes(model: PartsModel) -> Values:
         "sizes.clearances_from": spec.size.allowances.source,
         **_cut_radii(model),
         "sizes.pressure_angle_max_deg": (
-            loads.greatest_pressure(mechanism).max if mechanism.engagements[0].slot.curved else None
+            only(single(mechanism).columns(pressure)["max_deg"])
+            if mechanism.engagements[0].slot.curved
+            else None
         ),
         "sizes.rollers_max": None if toothed else mechanism.rollers_max,
     }
