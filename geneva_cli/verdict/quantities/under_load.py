@@ -107,9 +107,11 @@ class UnderLoad:
 
     def horn(self, width: float) -> HornStress:
         """The greatest stress in the horns under the roller, for a width of its contact."""
-        from geneva_cli.loads.strength.horn import horn_stresses
+        from geneva_cli.loads.strength.horn import horn_stresses, single_horn_stresses
         from geneva_cli.loads.strength.horn_search import HornStress
 
+        if self.flat_horns is not None and self.designs.single:
+            return single_horn_stresses(self.machine, *self.flat_horns).over(width)
         if self.flat_horns is not None:
             return horn_stresses(self.machine, *self.flat_horns, width)
         from geneva_cli.loads.strength.sphere_horn import sphere_horn
