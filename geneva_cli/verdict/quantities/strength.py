@@ -112,18 +112,32 @@ def _known(row: Number | None) -> Array:
 
 def wheel_shaft(of: Designs) -> Columns:
     """The wheel's shaft."""
-    ends = _drawn(of, shafts.wheel_shaft(of.spec.shaft), "wheel")
-    held = under_load(of).held
-    if held and of.machine.frame:
-        held = held._replace(force_N=held.force_N + np.ravel(centrifugal_N(of.machine)))
-    return _shaft(of, ends, shafts.wheel_forces(of.machine), held)
+    return _shaft(of, *of.once(_shafts)[0])
 
 
 def crank_shaft(of: Designs) -> Columns:
     """The crank's shaft."""
-    ends = _drawn(of, shafts.crank_shaft(of.spec.shaft), "crank")
-    held = under_load(of).held  # whose force passes through the crank's axis
-    return _shaft(of, ends, shafts.crank_forces(of.spec), held and held.without_torque)
+    return _shaft(of, *of.once(_shafts)[1])
+
+
+def _shafts(of: Designs) -> list[tuple[shafts.ShaftDimensions, shafts.ShaftStress | None]]:
+    """The dimensions of the shafts of wheel and crank, and their stresses under load."""
+    wheel_held = crank_held = under_load(of).held
+    if wheel_held and of.machine.frame:
+        force = wheel_held.force_N + np.ravel(centrifugal_N(of.machine))
+        wheel_held = wheel_held._replace(force_N=force)
+    if crank_held:  # the force passes through the crank's axis
+        crank_held = crank_held.without_torque
+    table = of.spec.shaft
+    wheel, crank = (
+        _drawn(of, shafts.wheel_shaft(table), "wheel"),
+        _drawn(of, shafts.crank_shaft(table), "crank"),
+    )
+    both = (
+        shafts.LoadedShaft(wheel, shafts.wheel_forces(of.machine), wheel_held),
+        shafts.LoadedShaft(crank, shafts.crank_forces(of.spec), crank_held),
+    )
+    return list(zip((wheel, crank), shafts.shafts_under_load(of.machine, both), strict=True))
 
 
 def _drawn(of: Designs, ends: shafts.ShaftDimensions, part: str) -> shafts.ShaftDimensions:
@@ -151,15 +165,9 @@ def _number(of: Designs, values: Number) -> float:
     return every.item() if of.single else parameter(every[:, None])
 
 
-def _shaft(
-    of: Designs,
-    ends: shafts.ShaftDimensions,
-    on: shafts.ShaftForces,
-    held: shafts.Held | None = None,
-) -> Columns:
-    """A shaft under its load, and under what it is ``held`` with in the dwell."""
+def _shaft(of: Designs, ends: shafts.ShaftDimensions, turned: shafts.ShaftStress | None) -> Columns:
+    """The columns of a shaft under its load."""
     out: dict[str, Number | None] = {"diameter_mm": ends.diameter_mm}
-    turned = under_load(of).shaft(ends, on, held)
     if turned is None:
         return out
     moment = np.asarray(turned.moment_Nm) * of.loaded

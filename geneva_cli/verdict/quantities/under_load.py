@@ -194,15 +194,6 @@ class UnderLoad:
         force = lock.held_force_N(torque[:, None], sizes.lock) if sizes else 0.0 * torque
         return shafts.Held(np.nan_to_num(np.ravel(force)), torque)
 
-    def shaft(
-        self,
-        ends: shafts.ShaftDimensions,
-        loaded: shafts.ShaftForces,
-        held: shafts.Held | None = None,
-    ) -> shafts.ShaftStress | None:
-        """A shaft under its cycle; None without an overhang or a load."""
-        return shafts.shafts_under_load(self.machine, ends, loaded, held)
-
 
 def under_load(of: Designs) -> UnderLoad:
     """The designs under their loads."""
