@@ -11,9 +11,8 @@ import numpy as np
 from geneva_cli.analysis import pin as pins
 from geneva_cli.analysis.quantities import FORCE, PV
 from geneva_cli.layout.sizes import Layout, sized
-from geneva_cli.layout.sphere_sizes import sized_ball
 from geneva_cli.loads.cycle import cycle_of
-from geneva_cli.loads.strength import lock, roller, shafts
+from geneva_cli.loads.strength import lock, shafts
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.machine.materials import roller_material
 from geneva_cli.numerics.arrays import Array, Number, library, parameter
@@ -32,7 +31,6 @@ if TYPE_CHECKING:
     from geneva_cli.loads.strength.horn_search import HornStress
     from geneva_cli.loads.strength.lock import LockUnderTorque
     from geneva_cli.loads.strength.part_loads import PartLoads
-    from geneva_cli.loads.strength.roller import SlotPassage
     from geneva_cli.verdict.quantities.designs import Designs
 
 
@@ -70,17 +68,6 @@ class UnderLoad:
         return load_peaks(self.machine, [name])[name].max * self.loaded
 
     @cached_property
-    def passages(self) -> Sequence[SlotPassage]:
-        """The passage of each engagement of a period."""
-        return roller.passages(self.machine)
-
-    @cached_property
-    def roller_passages(self) -> Sequence[SlotPassage]:
-        """The passages of each roller; an engagement has two if one starts and one stops it."""
-        paired = any(one.paired for one in self.machine.engagements)
-        return roller.by_roller(self.machine) if paired else self.passages
-
-    @cached_property
     def lock_sizes(self) -> LockSizes | None:
         """The sizes of horn and lock, (m, 1); None if no design has a lock."""
         if self.designs.are_built:
@@ -90,6 +77,8 @@ class UnderLoad:
     @cached_property
     def balls(self) -> Sequence[Ball | None]:
         """Sizes of each design on a sphere; None for a design without parts there."""
+        from geneva_cli.layout.sphere_sizes import sized_ball  # which flat machines need not
+
         return [sized_ball(one) for one in self.designs.each]
 
     @cached_property
