@@ -81,11 +81,14 @@ def sizes(
     usual, space = _usual(assembly, known or roller_paths(assembly))
     out = usual
     if assembly.full.spec.is_loaded:
-        # without a load none is needed
-        from geneva_cli.layout.first_sizes import first_sizes
-        from geneva_cli.layout.load_sizes import load_sizes
+        from geneva_cli.layout.load_sizes import load_sizes  # without a load none is needed
 
-        out = load_sizes(assembly, usual, space, loads, first_sizes(assembly.full, sized))
+        first = None
+        if assembly.full.spec.drive.IN_SERIES:
+            from geneva_cli.layout.first_sizes import first_sizes
+
+            first = first_sizes(assembly.full, sized)
+        out = load_sizes(assembly, usual, space, loads, first)
     _refuse(assembly, out)
     _refuse_hubs(assembly.mechanism.spec.size, out)
     return out
