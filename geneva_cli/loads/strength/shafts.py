@@ -256,22 +256,22 @@ def shafts_under_load(
     """Shafts of m designs under the forces and torques of a cycle; infinite without a bound.
 
     They are searched together, as most of the work is common to them. What is held loads a shaft
-    in the dwell, from the first motion's end on. None if no design has an overhang or a load.
+    in the dwell, from the first motion's end on. A shaft of which no design has an overhang or a
+    load has None.
     """
-    known = [one.dimensions.overhang_mm is not None for one in shafts]
-    if not (any(known) and mechanism.spec.is_loaded):
+    if not mechanism.spec.is_loaded:
         return [None] * len(shafts)
+    known = [i for i, one in enumerate(shafts) if one.dimensions.overhang_mm is not None]
     own = dict[str, LoadQuantity]()
-    for i in np.flatnonzero(known):
+    for i in known:
         own[f"moment {i}"] = shafts[i].moment(mechanism.spec.shaft)
         own[f"torque {i}"] = Torque(shafts[i].forces)
-    peaks = load_peaks(mechanism, tuple(own), own)
-    return [
-        _shaft_under_load(mechanism, one, peaks[f"moment {i}"], peaks[f"torque {i}"])
-        if known[i]
-        else None
-        for i, one in enumerate(shafts)
-    ]
+    peaks = load_peaks(mechanism, tuple(own), own) if own else {}
+    out: list[ShaftStress | None] = [None] * len(shafts)
+    for i in known:
+        both, turned = peaks[f"moment {i}"], peaks[f"torque {i}"]
+        out[i] = _shaft_under_load(mechanism, shafts[i], both, turned)
+    return out
 
 
 def _shaft_under_load(
