@@ -12,14 +12,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import NamedTuple, cast
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.carried import inertia_kgm2, resisting_torque_Nm
-from geneva_cli.analysis.peak_search import landmarks
+from geneva_cli.analysis.peak_search import braking, landmarks
 from geneva_cli.kinematics.engagement import Engagement, WheelMotion
-from geneva_cli.machine.many import designs_in, taken
+from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.arrays import Mask, Whole, blocks, choose, joined, larger
@@ -206,14 +206,3 @@ def lasting_drag_Nm(mechanism: Mechanism) -> float:
     for engagement in mechanism.engagements[1:]:
         most = larger(most, braking(engagement))
     return larger(inertia * w * w * most - resisting_torque_Nm(mechanism.spec), 0.0)
-
-
-def braking(engagement: Engagement) -> float:
-    """Greatest -psi2 of a motion; (m, 1) for m designs."""
-    motion = engagement.motion
-    m = designs_in(motion)
-    which, _, value = landmarks(motion, "acceleration", m)
-    most = np.full(m, -np.inf)
-    np.maximum.at(most, which, -value)
-    one = m == 1 and isinstance(motion.entry_deg, float)
-    return float(most[0]) if one else cast("float", most[:, None])

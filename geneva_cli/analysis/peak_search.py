@@ -15,11 +15,11 @@ array([1.   , 0.625,   nan])
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias, cast
 
 import numpy as np
 
-from geneva_cli.kinematics.engagement import Peak, WheelMotion
+from geneva_cli.kinematics.engagement import Engagement, Peak, WheelMotion
 from geneva_cli.machine.many import designs_in, selection, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
@@ -196,3 +196,14 @@ def worst_peaks(
             here = PeakArray(peak.max, np.ravel(mechanism.shown_deg(at_deg)))
             best[name] = greater(best[name], here) if name in best else here
     return best
+
+
+def braking(engagement: Engagement) -> float:
+    """Greatest -psi2 of a motion; (m, 1) for m designs."""
+    motion = engagement.motion
+    m = designs_in(motion)
+    which, _, value = landmarks(motion, "acceleration", m)
+    most = np.full(m, -np.inf)
+    np.maximum.at(most, which, -value)
+    one = m == 1 and isinstance(motion.entry_deg, float)
+    return float(most[0]) if one else cast("float", most[:, None])

@@ -26,6 +26,7 @@ from geneva_cli.layout.sphere_stressed import sphere_stressed
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.loads.strength.shafts import (
+    LoadedShaft,
     ShaftDimensions,
     crank_forces,
     shafts_under_load,
@@ -174,6 +175,6 @@ def _hub_fits(spec: Spec, ball: Ball) -> bool:
 @lru_cache(maxsize=64)
 def _moment_Nm(mechanism: Mechanism, forces: ShaftForces, overhang_mm: float) -> float:
     """Return the greatest equivalent torque of a shaft; it needs a search of the whole cycle."""
-    ends = ShaftDimensions(None, overhang_mm, None, None)
-    each = [shafts_under_load(way, ends, forces) for way in every_way(mechanism)]
+    shaft = LoadedShaft(ShaftDimensions(None, overhang_mm, None, None), forces)
+    each = [one for way in every_way(mechanism) for one in shafts_under_load(way, [shaft])]
     return max(array(one.moment_Nm).item() if one else 0.0 for one in each)

@@ -70,8 +70,8 @@ def _least(free: Callable[[Array, Array], Array], angles: Array) -> Array:
 
     A line has at most a few minima, which 200 steps tell apart. The least is then searched between
     the neighbours of the best sample, in steps a tenth as long each time. The error at an end of
-    the reachable part is 1e-9 of the line, and at a minimum inside it the square of that. Angles at which no sample
-    is within reach are left out of the search.
+    the reachable part is 1e-9 of the line, and at a minimum inside it the square of that. Angles at
+    which no sample is within reach are left out of the search.
     """
     at, fine = np.linspace(0.0, 1.0, 201), np.linspace(0.0, 1.0, 21)
     best, within = np.full(len(angles), np.inf), np.arange(len(angles))

@@ -38,7 +38,7 @@ from geneva_cli.layout.plain_sizes import FirstSizes, Sizes, drawn_thicknesses
 from geneva_cli.layout.roller_paths import roller_reaches
 from geneva_cli.layout.stressed import stressed
 from geneva_cli.loads.strength import lock
-from geneva_cli.loads.strength.horn import horn_stresses
+from geneva_cli.loads.strength.horn import single_horn_stresses
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.materials import wheel_material
@@ -107,7 +107,7 @@ def _wheel_thickness(assembly: Assembly, sizes: Sizes, by: Lock | None) -> float
     held = lock.loaded_locks(machine, sizes.half_width, by, 1.0)
     per_mm = [held.horn_stress_MPa] if held else []
     for way in every_way(machine):
-        per_mm.append(horn_stresses(way, sizes.half_width, sizes.recess, 1.0).stress_MPa)
+        per_mm.append(single_horn_stresses(way, sizes.half_width, sizes.recess).stress_MPa)
     most = float(np.nanmax(np.hstack([np.ravel(0.0), *map(np.ravel, per_mm)])))
     allowed = wheel_material(machine.spec).allowed_MPa
     trials = rounded_from(usual, 2.0 * usual)  # a thicker wheel bends its pins more than its horns

@@ -63,11 +63,14 @@ def sizes(
     if assembly.full.spec.is_loaded:
         # without a load none is needed
         from geneva_cli.outlines.cut_lock import cut_lock
-        from geneva_cli.outlines.first_sizes import first_sizes
         from geneva_cli.outlines.load_sizes import load_sizes
 
+        first = None
+        if assembly.full.spec.drive.IN_SERIES:
+            from geneva_cli.outlines.first_sizes import first_sizes
+
+            first = first_sizes(assembly.full, sized)
         by = cut_lock(assembly, usual) if usual.lock else None  # no load changes it
-        first = first_sizes(assembly.full, sized)
         out = load_sizes(assembly, usual, space, by, loads, first)
     refuse_sizes(assembly, out)
     return out

@@ -9,6 +9,7 @@ without a bore is one piece with its shaft, which ends at the link's faces.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from typing import TYPE_CHECKING
 
 from geneva_cli.curves.plates import Member, Plate, Stack, between
 from geneva_cli.curves.shapes import Point
@@ -17,9 +18,11 @@ from geneva_cli.layout.bores import RoundBore
 from geneva_cli.layout.link_positions import same
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.link_axes import LinkAxis
 from geneva_cli.parts.links import Links, placed_holes
 from geneva_cli.parts.shaft import Ends, Seat, Shaft, seat_of, shaft_ends
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.link_axes import LinkAxis
 
 
 def link_shafts(

@@ -26,7 +26,6 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.parts.link_axes import LinkAxis
 from geneva_cli.parts.link_sizes import (
     SLOT_MARGIN,
     LinkSizes,
@@ -39,6 +38,7 @@ from geneva_cli.parts.link_sizes import (
 if TYPE_CHECKING:
     from geneva_cli.layout.gear_mesh import GearMesh
     from geneva_cli.parts.gear_blanks import Gear
+    from geneva_cli.parts.link_axes import LinkAxis
 
 SHAFT = Joint.SHAFT
 

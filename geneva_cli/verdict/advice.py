@@ -22,8 +22,7 @@ from geneva_cli.numerics.latest import counted
 from geneva_cli.numerics.roots import Falsi
 from geneva_cli.verdict.checks import checks, checks_at_rest, single_check
 from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
-from geneva_cli.verdict.checks.registry import SPHERE, STATIC, turn_checks
-from geneva_cli.verdict.failures import JAMS
+from geneva_cli.verdict.checks.registry import JAMS, SPHERE, STATIC, turn_checks
 
 if TYPE_CHECKING:
     from geneva_cli.drawings.model import PartsModel

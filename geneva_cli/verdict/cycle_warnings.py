@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 
 from geneva_cli.analysis.arrival import arrival
-from geneva_cli.analysis.change_of_sides import braking
+from geneva_cli.analysis.peak_search import braking
 from geneva_cli.analysis.quantities import FORCE, STRESS
 from geneva_cli.errors import Notice
 from geneva_cli.loads import loads

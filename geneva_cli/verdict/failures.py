@@ -6,12 +6,10 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.table import in_digits
 from geneva_cli.verdict.checks.check import Check
+from geneva_cli.verdict.checks.registry import JAMS
 
 if TYPE_CHECKING:
     from geneva_cli.drawings.model import PartsModel
-
-# A roller that does not find its slot, or meets the rim next to it, jams.
-JAMS = ("hand_over_play_deg", "hand_over_play_mm", "hand_over_pressure_deg")
 
 
 def failures(rows: list[Check], model: PartsModel) -> tuple[str, list[str]]:

@@ -75,9 +75,10 @@ class Strength:
 
     def _stoutness(self) -> tuple[float, float]:
         """The thickness of the horns at their mouth over the recess's radius, and that, mm."""
-        sizes, (ball,) = self.load.flat_horns, self.load.balls
+        sizes = self.load.flat_horns
         if sizes is not None:
             return float(horn.stoutness(self.mechanism, *sizes)[0]), sizes[1]
+        (ball,) = self.load.balls
         assert ball is not None  # without a lock there is no stress
         from geneva_cli.loads.strength.sphere_horn import sphere_stoutness
 

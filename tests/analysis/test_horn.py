@@ -12,7 +12,13 @@ from plane_stress import horn as in_plane_stress
 from words import Motion, Spec, Wheel
 
 from geneva_cli import load as read
-from geneva_cli.loads.strength.horn import horn_stresses, horns, product, stoutness
+from geneva_cli.loads.strength.horn import (
+    horn_stresses,
+    horns,
+    product,
+    single_horn_stresses,
+    stoutness,
+)
 from geneva_cli.machine.mechanism import build
 from geneva_cli.outlines.sizes import sized
 from geneva_cli.spec.tables import Load, Size
@@ -166,3 +172,13 @@ def test_a_curved_slot_has_horns_too():
     found = horn_stresses(build(spec), 5.0, 35.0, 10.0).single
     assert found.stress_MPa > 0.0
     assert found.thickness_mm < 35.0
+
+
+def test_sizes_and_checks_share_one_search():
+    """The wheel's thickness and the stress that is printed come from one search of the horns."""
+    # a load of its own, so that no other test has sized this wheel
+    design = read(str(repo.DESIGNS / "internal-z6.toml"), ["load.inertia_kgm2=0.0517"])
+    single_horn_stresses.cache_clear()
+    stress = {check.name: check.value for check in design.checks}["horn_stress_MPa"]
+    known = single_horn_stresses.cache_info()
+    assert stress > 0.0 and known.misses == 1 and known.hits >= 1

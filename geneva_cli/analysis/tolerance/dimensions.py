@@ -1,4 +1,4 @@
-"""The dimensions that deviate: sizes and distribution of deviations, and random machines.
+"""The dimensions that deviate: the sizes of their deviations, and corners.
 
 Deviations are in millimetres and radians. They are jets. So one formula gives the values of a
 million machines at once (order 0), or the exact slope by one dimension (order 1).
@@ -6,7 +6,6 @@ million machines at once (order 0), or the exact slope by one dimension (order 1
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from itertools import product
 from typing import NamedTuple
 
@@ -15,8 +14,7 @@ import numpy as np
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import all_true
-from geneva_cli.numerics.jet import Array, Jet, Number
-from geneva_cli.numerics.sobol import Sobol
+from geneva_cli.numerics.jet import Jet, Number
 
 
 class Deviations(NamedTuple):
@@ -67,33 +65,3 @@ def corners(sizes: list[float]) -> Deviations:
     """
     ends = [(0.0,) if all_true(size == 0.0) else (-size, size) for size in sizes]
     return deviations([np.array(column) for column in zip(*product(*ends), strict=True)])
-
-
-class Draws(NamedTuple):
-    """Quasi-random machines: Sobol's sequence, scrambled by the seed."""
-
-    sizes: tuple[float, ...]
-    normal: bool
-    seed: int
-
-    def blocks(self, samples: int, size: int) -> Iterator[Deviations]:
-        """Deviations of ``samples`` machines, in blocks of ``size``, a power of two."""
-        deviate = [i for i, size in enumerate(self.sizes) if size]
-        sequence = Sobol.scrambled(len(deviate), self.seed)
-        for start in range(0, samples, size):
-            count = min(size, samples - start)
-            quantiles = sequence.points(start, 1 << (count - 1).bit_length())[:, :count]
-            columns: list[Number] = [0.0] * len(self.sizes)
-            for i, quantile in zip(deviate, quantiles, strict=True):
-                columns[i] = self._spread(quantile) * self.sizes[i]
-            yield deviations(columns)
-
-    def _spread(self, quantile: Array) -> Array:
-        """Deviations over the tolerance for quantiles of the distribution."""
-        if not self.normal:
-            return 2.0 * quantile - 1.0
-        from scipy.special import ndtri
-
-        # The plus or minus is three standard deviations; a quantile of 0 would be infinite.
-        out: Array = ndtri(np.maximum(quantile, 2.0**-53)) / 3.0
-        return out

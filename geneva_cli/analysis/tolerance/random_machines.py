@@ -10,7 +10,8 @@ import numpy as np
 
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.sphere_locking import SphereLock
-from geneva_cli.analysis.tolerance.dimensions import Deviations, Draws, deviations, slope_of
+from geneva_cli.analysis.tolerance.dimensions import Deviations, deviations, slope_of
+from geneva_cli.analysis.tolerance.draws import Draws
 from geneva_cli.analysis.tolerance.entry_jump import EntryJumpFunction
 from geneva_cli.analysis.tolerance.motion_error import MotionError
 from geneva_cli.numerics.jet import Array, Jet, Number

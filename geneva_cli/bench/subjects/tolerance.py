@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.locking import Lock
-from geneva_cli.analysis.tolerance.dimensions import Draws
+from geneva_cli.analysis.tolerance.draws import Draws
 from geneva_cli.analysis.tolerance.entry_jump import entry_jumps
 from geneva_cli.analysis.tolerance.motion_error import motion_errors
 from geneva_cli.analysis.tolerance.random_machines import random_machines

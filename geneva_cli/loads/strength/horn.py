@@ -21,6 +21,7 @@ higher if h < R/6, and 5 % lower to 7 % higher at R/2.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -179,9 +180,18 @@ def horn_stresses(
 
     NaN for a recess of 0, or without a load.
     """
-    every = (mechanism, half_width_mm, recess_mm, width_mm)
+    every = (mechanism, half_width_mm, recess_mm, 1.0)
     m = mechanism.designs
     if m == 1:
-        return greatest_stress(horns, *every)
+        return greatest_stress(horns, *every).over(width_mm)
     # the stresses of 16 designs stay in the cache
-    return joined([greatest_stress(horns, *taken(every, b)) for b in blocks(m, 16)])
+    each = [greatest_stress(horns, *taken(every, block)) for block in blocks(m, 16)]
+    return joined(each).over(width_mm)
+
+
+@lru_cache(maxsize=16)
+def single_horn_stresses(
+    mechanism: Mechanism, half_width_mm: float, recess_mm: float
+) -> HornStress:
+    """Greatest bending stress of one design for 1 mm of width, cached for its sizes and checks."""
+    return horn_stresses(mechanism, half_width_mm, recess_mm, 1.0)

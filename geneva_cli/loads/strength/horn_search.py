@@ -34,6 +34,10 @@ class HornStress(NamedTuple):
     inwards_mm: float  # of the section, from the mouth
     thickness_mm: float
 
+    def over(self, width_mm: float) -> HornStress:
+        """The result for a width of the contact, (m, 1) or a number, from that for 1 mm."""
+        return self._replace(stress_MPa=parameter(self.stress_MPa / np.ravel(width_mm)))
+
     @property
     def single(self) -> HornStress | None:
         """The stress of a single design as numbers; None without a horn or a load."""

@@ -29,7 +29,7 @@ The roller is taken to be thin: its cone presses on the wall beside u.
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -236,24 +236,53 @@ class Held(NamedTuple):
         return self._replace(torque_Nm=0.0 * self.torque_Nm)
 
 
-def shafts_under_load(
-    mechanism: Mechanism, ends: ShaftDimensions, loaded: ShaftForces, held: Held | None = None
-) -> ShaftStress | None:
-    """Shafts of m designs under the force and torque of a cycle; infinite without a bound.
+class LoadedShaft(NamedTuple):
+    """A shaft, the loads on it in motion, and what the lock holds in the dwell."""
 
-    ``held`` loads the shaft in the dwell, from the first motion's end on. None if no design has an
-    overhang or a load.
+    dimensions: ShaftDimensions
+    forces: ShaftForces
+    held: Held | None = None
+
+    def moment(self, table: Shaft) -> Moment:
+        """The equivalent torque in motion, for the factors of the spec's ``[shaft]``."""
+        assert self.dimensions.overhang_mm is not None
+        overhang = self.dimensions.overhang_mm / 1000.0
+        return Moment(self.forces, overhang, table.bending_factor, table.torsion_factor)
+
+
+def shafts_under_load(
+    mechanism: Mechanism, shafts: Sequence[LoadedShaft]
+) -> list[ShaftStress | None]:
+    """Shafts of m designs under the forces and torques of a cycle; infinite without a bound.
+
+    They are searched together, as most of the work is common to them. What is held loads a shaft
+    in the dwell, from the first motion's end on. A shaft of which no design has an overhang or a
+    load has None.
     """
-    if ends.overhang_mm is None or not mechanism.spec.is_loaded:
-        return None
-    table = mechanism.spec.shaft
-    factors = table.bending_factor, table.torsion_factor
-    moment = Moment(loaded, ends.overhang_mm / 1000.0, *factors)
-    own: dict[str, LoadQuantity] = {"moment": moment, "torque": Torque(loaded)}
-    both, turned = load_peaks(mechanism, tuple(own), own).values()
+    if not mechanism.spec.is_loaded:
+        return [None] * len(shafts)
+    known = [i for i, one in enumerate(shafts) if one.dimensions.overhang_mm is not None]
+    own = dict[str, LoadQuantity]()
+    for i in known:
+        own[f"moment {i}"] = shafts[i].moment(mechanism.spec.shaft)
+        own[f"torque {i}"] = Torque(shafts[i].forces)
+    peaks = load_peaks(mechanism, tuple(own), own) if own else {}
+    out: list[ShaftStress | None] = [None] * len(shafts)
+    for i in known:
+        both, turned = peaks[f"moment {i}"], peaks[f"torque {i}"]
+        out[i] = _shaft_under_load(mechanism, shafts[i], both, turned)
+    return out
+
+
+def _shaft_under_load(
+    mechanism: Mechanism, shaft: LoadedShaft, both: PeakArray, turned: PeakArray
+) -> ShaftStress:
+    """Results from the greatest squares of moment and torque in motion."""
+    ends, _, held = shaft
     if held:
-        bent = np.ravel(factors[0]) * held.force_N * np.ravel(moment.overhang)
-        square = bent**2 + (np.ravel(factors[1]) * held.torque_Nm) ** 2
+        moment = shaft.moment(mechanism.spec.shaft)
+        bent = np.ravel(moment.bending) * held.force_N * np.ravel(moment.overhang)
+        square = bent**2 + (np.ravel(moment.torsion) * held.torque_Nm) ** 2
         first = mechanism.under_load.engagements[0]
         exit_deg = np.ravel(mechanism.shown_deg(first.mid_deg + first.exit_deg))
         both = greater(both, PeakArray(square, np.broadcast_to(exit_deg, square.shape)))

@@ -143,6 +143,8 @@ TURNING: Checks = {
     "motion_play_deg": "play:motion",
     "motion_play_mm": "play:motion",
 }
+# Those that fail where a roller does not find its slot, or meets the rim next to it, and jams.
+JAMS = ("hand_over_play_deg", "hand_over_play_mm", "hand_over_pressure_deg")
 # Of flat parts at every angle of the turn, made for a design's own answer.
 PROOFS: Checks = {"gap_proved_mm": "proved:least_gap"}
 

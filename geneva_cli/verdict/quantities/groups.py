@@ -313,14 +313,14 @@ REPORT = (
     _group(
         "life",
         "slot_travel_m roller_turns_per_motion equivalent_force_N friction_work_J",
-        batch="strength:wear",
+        batch="life:wear",
     ),
-    _group("life", "pv_max_W_m2", batch="strength:pressure_speed"),
-    _group("life", "pin_stress_MPa horn_stress_MPa", batch="strength:bending"),
+    _group("life", "pv_max_W_m2", batch="life:pressure_speed"),
+    _group("life", "pin_stress_MPa horn_stress_MPa", batch="life:bending"),
     _group(
         "life",
         "roller_life_turns roller_life_motions roller_life_h slot_wear_mm_per_million",
-        batch="strength:wear",
+        batch="life:wear",
     ),
     _group("strength", "", "report.loads:needs"),
     _group("", "", "report.both_ways:both_ways"),

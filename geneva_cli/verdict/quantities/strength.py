@@ -1,4 +1,4 @@
-"""Strength and life of designs: pin, horn, lock, shafts, arm, keys, roller, slot, and a guide."""
+"""Strength of designs: pin, horn, lock, shafts, arm, keys, and a guide."""
 
 from __future__ import annotations
 
@@ -11,9 +11,8 @@ from geneva_cli.analysis import pin as pins
 from geneva_cli.analysis.unbalance import centrifugal_N
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.strength import arm as arms
-from geneva_cli.loads.strength import roller, shafts
+from geneva_cli.loads.strength import shafts
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress, shear_allowed_MPa
-from geneva_cli.loads.strength.wear import wears_mm
 from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
@@ -112,18 +111,32 @@ def _known(row: Number | None) -> Array:
 
 def wheel_shaft(of: Designs) -> Columns:
     """The wheel's shaft."""
-    ends = _drawn(of, shafts.wheel_shaft(of.spec.shaft), "wheel")
-    held = under_load(of).held
-    if held and of.machine.frame:
-        held = held._replace(force_N=held.force_N + np.ravel(centrifugal_N(of.machine)))
-    return _shaft(of, ends, shafts.wheel_forces(of.machine), held)
+    return _shaft(of, *of.once(_shafts)[0])
 
 
 def crank_shaft(of: Designs) -> Columns:
     """The crank's shaft."""
-    ends = _drawn(of, shafts.crank_shaft(of.spec.shaft), "crank")
-    held = under_load(of).held  # whose force passes through the crank's axis
-    return _shaft(of, ends, shafts.crank_forces(of.spec), held and held.without_torque)
+    return _shaft(of, *of.once(_shafts)[1])
+
+
+def _shafts(of: Designs) -> list[tuple[shafts.ShaftDimensions, shafts.ShaftStress | None]]:
+    """The dimensions of the shafts of wheel and crank, and their stresses under load."""
+    wheel_held = crank_held = under_load(of).held
+    if wheel_held and of.machine.frame:
+        force = wheel_held.force_N + np.ravel(centrifugal_N(of.machine))
+        wheel_held = wheel_held._replace(force_N=force)
+    if crank_held:  # the force passes through the crank's axis
+        crank_held = crank_held.without_torque
+    table = of.spec.shaft
+    wheel, crank = (
+        _drawn(of, shafts.wheel_shaft(table), "wheel"),
+        _drawn(of, shafts.crank_shaft(table), "crank"),
+    )
+    both = (
+        shafts.LoadedShaft(wheel, shafts.wheel_forces(of.machine), wheel_held),
+        shafts.LoadedShaft(crank, shafts.crank_forces(of.spec), crank_held),
+    )
+    return list(zip((wheel, crank), shafts.shafts_under_load(of.machine, both), strict=True))
 
 
 def _drawn(of: Designs, ends: shafts.ShaftDimensions, part: str) -> shafts.ShaftDimensions:
@@ -151,15 +164,9 @@ def _number(of: Designs, values: Number) -> float:
     return every.item() if of.single else parameter(every[:, None])
 
 
-def _shaft(
-    of: Designs,
-    ends: shafts.ShaftDimensions,
-    on: shafts.ShaftForces,
-    held: shafts.Held | None = None,
-) -> Columns:
-    """A shaft under its load, and under what it is ``held`` with in the dwell."""
+def _shaft(of: Designs, ends: shafts.ShaftDimensions, turned: shafts.ShaftStress | None) -> Columns:
+    """The columns of a shaft under its load."""
     out: dict[str, Number | None] = {"diameter_mm": ends.diameter_mm}
-    turned = under_load(of).shaft(ends, on, held)
     if turned is None:
         return out
     moment = np.asarray(turned.moment_Nm) * of.loaded
@@ -231,47 +238,6 @@ def _key(of: Designs, key: KeyDimensions | None, torque: str) -> Columns:
         "margin": margin(pressure, _known(allowed)),
         "least_length_mm": _known(stress.least_length_mm),
     }
-
-
-def pressure_speed(of: Designs) -> Columns:
-    """The greatest contact pressure times sliding speed; it needs a face width."""
-    return {} if of.spec.size.face_width_mm is None else {"pv_max_W_m2": under_load(of).pv_W_m2}
-
-
-def bending(of: Designs) -> Columns:
-    """The stresses of pin and horn."""
-    parts = {"pin_stress_MPa": pin, "horn_stress_MPa": horn}
-    return {name: of.once(part).get("stress_MPa") for name, part in parts.items()}
-
-
-def wear(of: Designs) -> Columns:
-    """The roller as a bearing, the work of friction, and the slot's walls."""
-    load, friction = under_load(of), np.ravel(of.load_case.friction)
-    passages, lasts = load.passages, roller.lives(of.machine, load.roller_passages)
-    force = np.ravel(lasts.equivalent_force_N)
-    with np.errstate(invalid="ignore"):  # without friction, of a force without a bound
-        work = friction * sum(passage.work for passage in passages) / len(passages)
-    under: dict[str, Number | None] = {
-        "roller_turns_per_motion": lasts.turns_per_motion,
-        "equivalent_force_N": force,
-        "friction_work_J": np.where(friction > 0.0, work, np.inf),
-        "roller_life_turns": lasts.turns,
-        "roller_life_motions": lasts.motions,
-        "roller_life_h": lasts.hours,
-        # a roller that turns on its pin does not rub in the slot
-        "slot_wear_mm_per_million": (
-            wears_mm(of.machine, [passage.rubbing_N for passage in passages])
-            if of.spec.load.rubs_in_slot
-            else None
-        ),
-    }
-    bound = np.where(np.isfinite(force), of.loaded, np.inf * of.loaded)
-    out: dict[str, Number | None] = {
-        name: np.where(np.isfinite(bound), value, bound)
-        for name, value in under.items()
-        if value is not None
-    }
-    return out | {"slot_travel_m": sum(passage.travel_m for passage in passages) / len(passages)}
 
 
 def guide(of: Designs) -> Columns:

@@ -10,9 +10,8 @@ import numpy as np
 
 from geneva_cli.analysis import pin as pins
 from geneva_cli.analysis.quantities import FORCE, PV
-from geneva_cli.layout.sphere_sizes import sized_ball
 from geneva_cli.loads.cycle import cycle_of
-from geneva_cli.loads.strength import lock, roller, shafts
+from geneva_cli.loads.strength import lock, shafts
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.machine.materials import roller_material
 from geneva_cli.numerics.arrays import Array, Number, library, parameter
@@ -32,7 +31,6 @@ if TYPE_CHECKING:
     from geneva_cli.loads.strength.horn_search import HornStress
     from geneva_cli.loads.strength.lock import LockUnderTorque
     from geneva_cli.loads.strength.part_loads import PartLoads
-    from geneva_cli.loads.strength.roller import SlotPassage
     from geneva_cli.verdict.quantities.designs import Designs
 
 
@@ -70,17 +68,6 @@ class UnderLoad:
         return load_peaks(self.machine, [name])[name].max * self.loaded
 
     @cached_property
-    def passages(self) -> Sequence[SlotPassage]:
-        """The passage of each engagement of a period."""
-        return roller.passages(self.machine)
-
-    @cached_property
-    def roller_passages(self) -> Sequence[SlotPassage]:
-        """The passages of each roller; an engagement has two if one starts and one stops it."""
-        paired = any(one.paired for one in self.machine.engagements)
-        return roller.by_roller(self.machine) if paired else self.passages
-
-    @cached_property
     def lock_sizes(self) -> LockSizes | None:
         """The sizes of horn and lock, (m, 1); None if no design has a lock."""
         if self.designs.are_built:
@@ -90,6 +77,8 @@ class UnderLoad:
     @cached_property
     def balls(self) -> Sequence[Ball | None]:
         """Sizes of each design on a sphere; None for a design without parts there."""
+        from geneva_cli.layout.sphere_sizes import sized_ball  # which flat machines need not
+
         return [sized_ball(one) for one in self.designs.each]
 
     @cached_property
@@ -107,9 +96,11 @@ class UnderLoad:
 
     def horn(self, width: float) -> HornStress:
         """The greatest stress in the horns under the roller, for a width of its contact."""
-        from geneva_cli.loads.strength.horn import horn_stresses
+        from geneva_cli.loads.strength.horn import horn_stresses, single_horn_stresses
         from geneva_cli.loads.strength.horn_search import HornStress
 
+        if self.flat_horns is not None and self.designs.single:
+            return single_horn_stresses(self.machine, *self.flat_horns).over(width)
         if self.flat_horns is not None:
             return horn_stresses(self.machine, *self.flat_horns, width)
         from geneva_cli.loads.strength.sphere_horn import sphere_horn
@@ -191,15 +182,6 @@ class UnderLoad:
         sizes = self.lock_sizes  # without a disc something else holds the wheel, by a couple
         force = lock.held_force_N(torque[:, None], sizes.lock) if sizes else 0.0 * torque
         return shafts.Held(np.nan_to_num(np.ravel(force)), torque)
-
-    def shaft(
-        self,
-        ends: shafts.ShaftDimensions,
-        loaded: shafts.ShaftForces,
-        held: shafts.Held | None = None,
-    ) -> shafts.ShaftStress | None:
-        """A shaft under its cycle; None without an overhang or a load."""
-        return shafts.shafts_under_load(self.machine, ends, loaded, held)
 
 
 def under_load(of: Designs) -> UnderLoad:

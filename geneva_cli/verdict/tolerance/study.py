@@ -13,11 +13,11 @@ from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.sphere_locking import SphereLock
 from geneva_cli.analysis.tolerance.dimensions import (
     Deviations,
-    Draws,
     corners,
     tolerances,
     without_effect,
 )
+from geneva_cli.analysis.tolerance.draws import Draws
 from geneva_cli.analysis.tolerance.entry_jump import entry_jumps
 from geneva_cli.analysis.tolerance.motion_error import WorstErrors, motion_errors
 from geneva_cli.analysis.tolerance.random_machines import (
