@@ -43,7 +43,8 @@ def stations(model: PartsModel) -> Values:
     if len(mechanism.engagements) == 1:
         return {"stations": None}
     each = [
-        _timing(mechanism, i) | _peaks(mechanism, placed_peaks(mechanism, s))
+        {f"timing.{name}": value for name, value in _timing(mechanism, i).items()}
+        | _peaks(mechanism, placed_peaks(mechanism, s))
         for i, s in enumerate(mechanism.engagements)
     ]
     return {"stations": rows_table(tuple(each[0]), [tuple(e.values()) for e in each])}
@@ -51,7 +52,7 @@ def stations(model: PartsModel) -> Values:
 
 def _timing(mechanism: Mechanism, i: int) -> Numbers:
     timing = timings(mechanism)[i]
-    values: Numbers = {f"timing.{k}": v for k, v in timing._asdict().items()}
+    values: Numbers = timing._asdict()
     # Krasniqi's (15) and (16): t = phi/omega is shortest at the highest speed that the limits on
     # force, torque and stress allow. That is n itself without limits, and none if no speed keeps
     # them. The work coefficient of one roller is k_r = phi/(2 pi - phi).
@@ -59,8 +60,8 @@ def _timing(mechanism: Mechanism, i: int) -> Numbers:
     fastest = loads.fastest_rpm(mechanism)
     if fastest is not None and math.isinf(fastest):
         fastest = mechanism.spec.drive.n_rpm
-    values["timing.shortest_motion_s"] = motion / (6.0 * fastest) if fastest else None
-    values["timing.k_r"] = motion / (360.0 - motion) if motion < 360.0 else None
+    values["shortest_motion_s"] = motion / (6.0 * fastest) if fastest else None
+    values["k_r"] = motion / (360.0 - motion) if motion < 360.0 else None
     return values
 
 
