@@ -50,6 +50,15 @@ RATES = {
 }
 
 
+# The loads of a cycle: those whose ``max`` is the greatest size, which a report shows, and others.
+SIZED = "pin_force_N contact_stress_MPa input_torque_Nm rack_force_N"
+SIGNED = (
+    "omega_rad_s alpha_rad_s2 wheel_torque_Nm sliding_m_s power_W wheel_bearing_N crank_bearing_N "
+    "pv_W_m2 rack_speed_m_s rack_acceleration_m_s2 guide_force_N "
+    "wheel_near_bearing_N wheel_far_bearing_N crank_near_bearing_N crank_far_bearing_N"
+)
+
+
 class QuantityGroup(NamedTuple):
     """Quantities that are computed together.
 
@@ -328,12 +337,9 @@ REPORT = (
 STUDY = (
     QuantityGroup(
         "loads",
-        _product(
-            "omega_rad_s alpha_rad_s2 wheel_torque_Nm pin_force_N contact_stress_MPa sliding_m_s "
-            "input_torque_Nm power_W wheel_bearing_N crank_bearing_N pv_W_m2 "
-            "rack_speed_m_s rack_acceleration_m_s2 rack_force_N guide_force_N "
-            "wheel_near_bearing_N wheel_far_bearing_N crank_near_bearing_N crank_far_bearing_N",
-            "min min_at_deg mean rms",
+        (
+            *_product(f"{SIZED} {SIGNED}", "min min_at_deg mean rms"),
+            *_product(SIGNED, "max max_at_deg"),
         ),
         "quantities.single:cycle",
         "loads:summaries",

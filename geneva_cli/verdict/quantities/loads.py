@@ -8,7 +8,7 @@ from geneva_cli.analysis.peak_search import worst_peaks
 from geneva_cli.analysis.positive_drive import positive_drives
 from geneva_cli.analysis.quantities import REPORTED_PEAKS, sources
 from geneva_cli.loads.loads import kinetic_power_W
-from geneva_cli.loads.summaries import load_peaks, load_summaries
+from geneva_cli.loads.summaries import LoadSummary, load_peaks, load_summaries
 from geneva_cli.numerics.arrays import Number, parameter
 from geneva_cli.verdict.quantities.designs import Columns, Designs
 
@@ -33,13 +33,18 @@ def greatest(of: Designs) -> Columns:
     return out
 
 
+def summary_ends(load: str) -> tuple[str, ...]:
+    """The values of a load's summary that are quantities: not its ``max`` if that is a size."""
+    return LoadSummary._fields[2:] if load in REPORTED_PEAKS else LoadSummary._fields
+
+
 def summaries(of: Designs) -> Columns:
-    """Least values, means and root mean squares of the loads that all these designs have."""
+    """Greatest and least values, means and rms of the loads that all these designs have."""
     known = sources(of.machine)
     ends: dict[str, list[str]] = {}
     for name in of.requested("loads"):
         load, _, end = name.rpartition(".")
-        if end not in ("max", "at_deg") and load in known:
+        if load in known and end in summary_ends(load):
             ends.setdefault(load, []).append(end)
     if not ends:
         return {}

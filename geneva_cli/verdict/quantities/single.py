@@ -10,6 +10,7 @@ from geneva_cli.loads.sizing import WHEEL_INERTIA, sizing
 from geneva_cli.loads.summary import summaries
 from geneva_cli.verdict.checks import Check, checks, proofs
 from geneva_cli.verdict.checks.registry import checks_before_turn, checks_of_turn
+from geneva_cli.verdict.quantities.loads import summary_ends
 
 if TYPE_CHECKING:
     from geneva_cli.drawings.model import PartsModel
@@ -52,10 +53,11 @@ def proved(model: PartsModel) -> Values:
 
 
 def cycle(model: PartsModel) -> Values:
-    """Least values, means and root mean squares of the loads."""
-    names = ("min", "min_at_deg", "mean", "rms")
-    loads = {load: one._asdict() for load, one in summaries(cycle_of(model.mechanism)).items()}
-    return {f"{load}.{n}": one[n] for load, one in loads.items() for n in names}
+    """Greatest and least values of the loads with their signs, means and root mean squares."""
+    values: Values = {}
+    for load, one in summaries(cycle_of(model.mechanism)).items():
+        values |= {f"{load}.{end}": getattr(one, end) for end in summary_ends(load)}
+    return values
 
 
 def motor_sizing(model: PartsModel) -> Values:
