@@ -109,6 +109,14 @@ def test_of_designs_without_a_load_each_is_asked():
     assert [row[3:] for row in alone] == [[None, None, pytest.approx(Am), None]] * 2
 
 
+def test_a_rack_has_no_errors_of_tolerances():
+    """Issue: NumPy warned of numbers that no wheel has: a slot across the rack has no angle."""
+    picks = ["tolerance.motion_play.worst_deg", "tolerance.entry_jump.worst"]
+    together, alone, _ = rows("linear.toml", ["size.center_distance_mm=97,100"], picks)
+    assert together == alone
+    assert [row[1:] for row in alone] == [[None, None, None]] * 2
+
+
 def test_where_a_torque_alone_resists():
     """No sign ever changes; a flywheel needs a speed variation, and a drag what coasts."""
     picks = ["loads.pin_force_N.max", "sizing.motor_torque_rms_Nm", "sizing.energy_fluctuation_J"]
