@@ -166,11 +166,11 @@ REPORT = (
     ),
     _group(
         "timing",
-        "motion_deg dwell_deg index_deg k tau motion_s dwell_s cycle_s index_mm "
-        "shortest_motion_s k_r",
-        "report.stations:timing",
-        "motion:timing",
-    )._replace(one_by_one=("shortest_motion_s", "k_r")),
+        "motion_deg dwell_deg index_deg k tau motion_s dwell_s cycle_s index_mm",
+        batch="motion:timing",
+    ),
+    _group("timing", "shortest_motion_s", "report.stations:shortest_motion"),
+    _group("timing", "k_r", batch="motion:timing"),
     QuantityGroup(
         "",
         (

@@ -39,22 +39,25 @@ def summary_ends(load: str) -> tuple[str, ...]:
 
 
 def summaries(of: Designs) -> Columns:
-    """Greatest and least values, means and rms of the loads that all these designs have."""
+    """Greatest and least values, means and rms of loads; None for loads that no design has."""
     known = sources(of.machine)
     ends: dict[str, list[str]] = {}
     for name in of.requested("loads"):
         load, _, end = name.rpartition(".")
-        if load in known and end in summary_ends(load):
+        if end in summary_ends(load):
             ends.setdefault(load, []).append(end)
-    if not ends:
-        return {}
-    out: dict[str, Number | None] = {}
-    sums = {end for some in ends.values() for end in some} & {"mean", "rms"}
-    for load, one in load_summaries(of.machine, list(ends), sums).items():
-        values = one._asdict()
-        out |= {f"{load}.{end}": values[end] for end in ends[load]}
+    out: dict[str, Number | None] = {
+        f"{load}.{end}": None for load, own in ends.items() if load not in known for end in own
+    }
+    requested = {load: own for load, own in ends.items() if load in known}
+    if not requested:
+        return out
+    sums = {end for own in requested.values() for end in own} & {"mean", "rms"}
     loaded = np.isfinite(of.loaded)
-    return {n: np.where(loaded, v, np.nan) for n, v in out.items() if v is not None}
+    for load, one in load_summaries(of.machine, list(requested), sums).items():
+        values = one._asdict()
+        out |= {f"{load}.{end}": np.where(loaded, values[end], np.nan) for end in requested[load]}
+    return out
 
 
 def sizing(of: Designs) -> Columns:
