@@ -161,11 +161,11 @@ def every_key(spec):
 
 
 def quantities(mechanism):
-    """The quantities of a single design, and the peaks of its loads."""
+    """The quantities of a single design, and the greatest sizes of its loads."""
     every = summaries(cycle_of(mechanism)).items() if mechanism.spec.is_loaded else ()
     bounded = {load: one for load, one in every if None not in (one.max, one.min)}
-    peaks = {f"loads.{load}.max": max(one.max, -one.min) for load, one in bounded.items()}
-    return peaks | values(PartsModel(mechanism), SHOWN)
+    sizes = {f"loads.{load}.size": max(one.max, -one.min) for load, one in bounded.items()}
+    return sizes | values(PartsModel(mechanism), SHOWN)
 
 
 def off(spec, varied):
@@ -205,7 +205,7 @@ def _agrees(name, value, single, times):
     if own.endswith("at_deg"):
         return abs(value - alone) <= PLACE or _is_level(single, group, own)
     near = UNITS * (FOURFOLD if group in ROOTS else times)
-    if own == "min" and single.get(f"{group}.max") is None:
+    if own in ("min", "max") and single.get(f"{group}.size", single.get(f"{group}.max")) is None:
         # beside a place without a bound: p v of a matched slot varies by 42 units in the last place
         # from one double to the next about its least value
         near = UNITS * FOURFOLD
@@ -225,8 +225,8 @@ def _size(name, single):
         # a root of a path length: its relative rounding grows as the root becomes smaller
         return abs(single[name] / single[f"{group}.jump"]) if single[name] else 0.0
     if own == "drag_Nm":  # a difference of two loads
-        return single.get("loads.wheel_torque_Nm.max") or 0.0
-    peak = single.get(f"{group}.max")
+        return single.get("loads.wheel_torque_Nm.size") or 0.0
+    peak = single.get(f"{group}.size") or single.get(f"{group}.max")
     return UNBOUNDED if peak is None and group.endswith("_N") else peak or 0.0
 
 

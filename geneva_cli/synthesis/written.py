@@ -5,14 +5,14 @@ from __future__ import annotations
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.target import Target
-from geneva_cli.synthesis.built import Built, built
-from geneva_cli.synthesis.rows import Candidate
+from geneva_cli.synthesis.built import built
+from geneva_cli.synthesis.rows import MachineRow
 from geneva_cli.synthesis.search import Ranking
 from geneva_cli.synthesis.table import fixed, other, with_result
 
 
-def chosen(ranking: Ranking, number: int, buildable: bool = False) -> tuple[Built, str]:
-    """The spec of row ``number`` and its text with comments, as ``turned`` shows it.
+def chosen(ranking: Ranking, number: int, buildable: bool = False) -> tuple[MachineRow, str]:
+    """Row ``number``, and the text of its spec with comments, as ``turned`` shows it.
 
     The parts are turned through a whole turn, unless they are known to be impossible. Raises
     GenevaError if there is no such row.
@@ -24,16 +24,16 @@ def chosen(ranking: Ranking, number: int, buildable: bool = False) -> tuple[Buil
         row = with_result(row, built(row.spec, fixed(ranking.target)))
     if row.is_impossible and (buildable or row.is_replacement):
         row = other(ranking, row) or row
-    machine = Built(row.spec, row.trouble)
-    return machine, commented(ranking.target, number, row.candidate, machine)
+    return row, commented(ranking.target, number, row)
 
 
-def commented(target: Target, number: int, row: Candidate, machine: Built) -> str:
+def commented(target: Target, number: int, machine: MachineRow) -> str:
     """The text of a spec from synthesis, with comments."""
-    return "\n".join([*_heading(target, number, row, machine), *spec_lines(machine.spec)]) + "\n"
+    return "\n".join([*_heading(target, number, machine), *spec_lines(machine.spec)]) + "\n"
 
 
-def _heading(target: Target, number: int, row: Candidate, machine: Built) -> list[str]:
+def _heading(target: Target, number: int, machine: MachineRow) -> list[str]:
+    row = machine.candidate
     z = f"{row.z} slots, {row.gearing}"
     slots = f"{row.drive}, {row.law}" if row.law else row.drive
     names = ("velocity_max", "acceleration_max", "acceleration_entry", "jerk_max", "power_max")

@@ -22,7 +22,7 @@ from geneva_cli.numerics.latest import counted
 from geneva_cli.numerics.roots import Falsi
 from geneva_cli.verdict.checks import checks, checks_at_rest, single_check
 from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
-from geneva_cli.verdict.checks.registry import JAMS, SPHERE, STATIC, turn_checks
+from geneva_cli.verdict.checks.registry import SPHERE, STATIC, checks_of_turn, turn_checks
 
 if TYPE_CHECKING:
     from geneva_cli.drawings.model import PartsModel
@@ -53,11 +53,6 @@ APART = (
 # checks that a few positions can decide
 GAPS = ("gap_mm", "idle_roller_mm")
 NEAR = (*GAPS, "hand_over_play_deg", "hand_over_play_mm")
-# Checks that only a whole turn can answer.
-TURNED = (
-    *(*JAMS, *GAPS, "dwell_hold", "full_turn"),
-    *("dwell_play_deg", "dwell_play_mm", "motion_play_deg", "motion_play_mm"),
-)
 
 
 class OutOfWork(Exception):
@@ -164,7 +159,7 @@ class _Search:
         self.reserve = kept * adviser.work
         self.mechanism, self.parts = adviser.mechanism, adviser.parts
         self.wanted = sorted(wanted, key=_needs_parts)  # the quick ones first
-        self.turned = any(c.name in TURNED for c in wanted)
+        self.turned = any(c.name in checks_of_turn() for c in wanted)
         self.may_fail = {c.name for c in adviser.failing} - {c.name for c in wanted}
         now = list(self._margins(self.mechanism))
         self.units = [max(abs(left), 1e-300) for left in now]
@@ -326,7 +321,9 @@ def _left(model: PartsModel, check: Check) -> float:
                 return gap_about(parts, check.at_deg) + parts.contact
             output = parts.assembly.full.output
             return output.from_deg(finds_slot(parts) - play_about(parts, check.at_deg))
-        row = None if check.name in TURNED else single_check(model.mechanism, check.name, model)
+        if check.name in checks_of_turn():
+            return math.inf
+        row = single_check(model.mechanism, check.name, model)
         return row.spare if row else math.inf
     except GenevaError:
         return -math.inf

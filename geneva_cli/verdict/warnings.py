@@ -43,22 +43,15 @@ def warnings(model: PartsModel) -> list[Notice]:
 def one_way_warnings(model: PartsModel) -> list[Notice]:
     """Warnings about a machine in its own direction, in the order of ``warnings``."""
     mechanism = model.mechanism
-    of_strength = _of_strength(mechanism) if mechanism.spec.is_loaded else []
+    is_loaded = mechanism.spec.is_loaded
     return [
         *motion_warnings(mechanism),
-        *under_load(mechanism),
-        *of_strength,
-        *turn_warnings(model),
-        *process_warnings(model),
-    ]
-
-
-def under_load(mechanism: Mechanism) -> list[Notice]:
-    """Warnings about the loads of a machine, about unlikely numbers, and about what it carries."""
-    return [
-        *(_of_loads(mechanism) if mechanism.spec.is_loaded else ()),
+        *(_of_loads(mechanism) if is_loaded else ()),
         *unlikely_warnings(mechanism),
         *carried_warnings(mechanism, known_wheel_body(mechanism)),
+        *(_of_strength(mechanism) if is_loaded else ()),
+        *turn_warnings(model),
+        *process_warnings(model),
     ]
 
 

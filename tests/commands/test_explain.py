@@ -108,8 +108,8 @@ def quantities() -> set[str]:
     model = load(str(repo.DESIGNS / "turret.toml")).parts_model
     quick = [group for group in groups.GROUPS if not group.makes_parts]
     out = {*groups.values(quick, model)}
-    parts = (groups.own_names(table) for table in ("parts", "carousel", "stop", "tolerance"))
-    out |= {*chain.from_iterable(parts), "tolerance.warnings"}
+    parts = [group for group in groups.GROUPS if group.makes_parts and group.table != "checks"]
+    out |= {*chain.from_iterable(group.names for group in parts), "tolerance.warnings"}
     out |= {f"parts_list.{kind}" for kind in parts_list.KINDS} | {"checks.passes", "checks.failed"}
     out |= {"passes", "checks_failed", "not_proved", "warnings", "spec", "title"}  # the report's
     of_loads = {f"{q}.{s}" for q in summary.SHOWN_QUANTITIES for s in summary.LoadSummary._fields}

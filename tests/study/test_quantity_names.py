@@ -3,13 +3,16 @@
 import csv
 import io
 import json
+import math
 
 import pytest
 import repo
 from typer.testing import CliRunner
 
 from geneva_cli import GenevaError, load
+from geneva_cli.analysis.quantities import REPORTED_PEAKS
 from geneva_cli.app import app
+from geneva_cli.study.batches import numbers
 from geneva_cli.study.fields import pick
 from geneva_cli.study.survey import NAMES as TABLE
 from geneva_cli.synthesis.rows import Candidate
@@ -45,10 +48,36 @@ def test_every_group_has_the_names_that_are_listed(name):
         if group.table == "parts_list":
             continue  # tables alone
         values = group.values(proof)
-        same = [one for one in GROUPS if one.alone == group.alone] if group.alone else [group]
-        assert {*values} - LISTS == {name for one in same for name in one.names}
+        assert {*values} - LISTS == {*group.names}
         assert not [n for n in group.names if isinstance(values[n], (tuple, Table))]
         assert {n for n, value in values.items() if isinstance(value, str)} <= WORDS
+
+
+@pytest.mark.parametrize("name", ["turret", "linear"])
+def test_what_loads_shows_is_a_quantity(name):
+    """Issue: sweeps refused loads.power_W.max, which `geneva loads` shows.
+
+    A batch computes them as a single design does. Where a report has the size, ``max`` is one.
+    """
+    design = load(str(repo.DESIGNS / f"{name}.toml"))
+    shown = {
+        f"loads.{of}.{end}": value
+        for of, one in design.loads.items()
+        for end, value in one._asdict().items()
+        if not (of in REPORTED_PEAKS and end in ("max", "max_at_deg"))
+    }
+    assert "loads.power_W.max_at_deg" in shown
+    alone = pick([*shown]).of(design.mechanism)
+    assert dict(zip(shown, alone, strict=True)) == shown
+    (together,) = numbers([design.spec], [*shown])
+    for value, (key, own) in zip(together, shown.items(), strict=True):
+        if own is None:  # a wheel has no loads of a rack, nor a rack those of a wheel
+            assert value == math.inf, key
+            continue
+        # sums to 1e-12 of a load's size, places to 1e-6 degrees, as a peak is flat
+        size = max(abs(shown.get(f"{key.rpartition('.')[0]}.{end}", own)) for end in ("min", "max"))
+        near = 1e-6 if key.endswith("deg") else 1e-12 * max(size, abs(own))
+        assert value == pytest.approx(own, rel=0.0, abs=near), key
 
 
 @pytest.mark.parametrize("name", ["parts.horn_mm", "checks.horn_mm"])
@@ -137,4 +166,6 @@ def test_keys_and_checks_give_way():
     assert whole_name("branches_apart_mm") == "checks.branches_apart_mm"
     assert whole_name("checks.acceleration_max") == "checks.acceleration_max"
     assert whole_name("pin_force_N_max") == whole_name("pin_force_N.max") == "loads.pin_force_N.max"
+    assert whole_name("power_W.max") == "loads.power_W.max"
+    assert whole_name("crank_bearing_N.rms") == "loads.crank_bearing_N.rms"
     assert all(whole_name(name) == name for name in group_of())

@@ -22,11 +22,10 @@ from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.mechanism import build
 from geneva_cli.output.terminal import chunks
 from geneva_cli.output.window import Window
-from geneva_cli.synthesis.built import Built
 from geneva_cli.synthesis.families import closed
 from geneva_cli.synthesis.parts_data import parts_data
 from geneva_cli.synthesis.reading import read_target
-from geneva_cli.synthesis.rows import NEAR_DEG, _groove_failure
+from geneva_cli.synthesis.rows import NEAR_DEG, MachineRow, _groove_failure
 from geneva_cli.synthesis.search import search
 from geneva_cli.synthesis.shown import for_people, for_terminal
 from geneva_cli.synthesis.table import NAMES, synthesis_table, turned
@@ -66,7 +65,7 @@ def costs(candidate):
 def written(target, found, number):
     """A row as a spec, without turning its parts."""
     spec, candidate, *_ = found[number - 1]
-    return commented(target, number, candidate, Built(spec, ""))
+    return commented(target, number, MachineRow(spec, candidate))
 
 
 def run(*words):

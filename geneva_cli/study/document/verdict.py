@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 from geneva_cli.design import Design
 from geneva_cli.document import BAD, Block, Grid, Heading, Prose, Row, TextList
-from geneva_cli.loads.summary import missing
 from geneva_cli.machine.spec import Spec
 from geneva_cli.manual.explained import entries
 from geneva_cli.study.document.facts import RemainingValues, capital, section
@@ -70,10 +69,9 @@ def warnings(left: RemainingValues) -> Iterator[Block]:
 def remarks(design: Design, left: RemainingValues) -> Iterator[Block]:
     """Unknown values with the keys that they need, and sources."""
     known = design.strength.missing(OF_LIFE)  # the report lists these, and more, itself
-    unknown: dict[str, None] = dict.fromkeys(missing(design.cycle))
     notes: tuple[str, ...] = design.loads_page.to_dict().get("not_known", ())
-    unknown |= dict.fromkeys(text for text in notes if text not in known)
-    unknown |= dict.fromkeys(left.one("strength.needs"))
+    needs = (text for text in notes if text not in known)
+    unknown = dict.fromkeys((*needs, *left.one("strength.needs")))
     yield from section("Other answers", list(left.rest()))
     texts = [TextList(tuple(unknown))] if unknown else []
     yield from section("What is not known, and the key that would give it", texts)

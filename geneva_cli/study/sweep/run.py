@@ -160,7 +160,10 @@ class Sweep(NamedTuple):
 
     def machine(self, values: Sequence[Value]) -> Mechanism:
         """The machine with these values. Raises GenevaError if it cannot be built."""
-        return _machine(self.text, self.plan, values)
+        text = with_values(self.text, self.plan.axes, values)
+        spec = text.spec()
+        with text.located():
+            return build(spec)
 
 
 def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
@@ -168,22 +171,23 @@ def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
 
     Raises GenevaError for an unknown quantity, and if no design of a sample can be built.
     """
-    picked = pick(picks)
-    _refuse_hopeless(text, plan)
     varied = [a.key for a in plan.axes]  # these have their columns already: no name may occur twice
-    return Sweep(text, plan, Pick(tuple(name for name in picked.names if name not in varied)))
+    names = tuple(name for name in pick(picks).names if name not in varied)
+    run = Sweep(text, plan, Pick(names))
+    _refuse_hopeless(run)
+    return run
 
 
-def _refuse_hopeless(text: Text, plan: SweepPlan) -> None:
+def _refuse_hopeless(run: Sweep) -> None:
     """Raise GenevaError if neither the middle design nor any of a sample can be built.
 
     The middle design comes first: most ranges have one that can be built.
     """
-    most = 1000  # designs of the sample
+    plan, most = run.plan, 1000  # designs of the sample
     reasons = []
     for values in itertools.chain([plan.middle()], plan.sample(most)):
         try:
-            _machine(text, plan, values)
+            run.machine(values)
             return
         except GenevaError as error:
             reasons.append(str(error))
@@ -201,13 +205,6 @@ def with_values(text: Text, axes: Sequence[VariedKey], values: Sequence[Value]) 
     """The spec with the values of the varied keys set over its own."""
     changes = tuple(_changed(a.key, v) for a, v in zip(axes, values, strict=True))
     return text._replace(set_keys=(*text.set_keys, *changes))
-
-
-def _machine(text: Text, plan: SweepPlan, values: Sequence[Value]) -> Mechanism:
-    text = with_values(text, plan.axes, values)
-    spec = text.spec()
-    with text.located():
-        return build(spec)
 
 
 def _changed(key: str, value: Value) -> Setting:

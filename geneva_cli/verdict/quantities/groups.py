@@ -50,13 +50,23 @@ RATES = {
 }
 
 
+# The loads of a cycle: those whose ``max`` is the greatest size, which a report shows, and others.
+SIZED = "pin_force_N contact_stress_MPa input_torque_Nm rack_force_N"
+SIGNED = (
+    "omega_rad_s alpha_rad_s2 wheel_torque_Nm sliding_m_s power_W wheel_bearing_N crank_bearing_N "
+    "pv_W_m2 rack_speed_m_s rack_acceleration_m_s2 guide_force_N "
+    "wheel_near_bearing_N wheel_far_bearing_N crank_near_bearing_N crank_far_bearing_N"
+)
+
+
 class QuantityGroup(NamedTuple):
     """Quantities that are computed together.
 
     ``alone`` computes them for the machine of a PartsModel and ``batch`` for Designs, each as
-    module:function of this folder, imported at its first use. Without ``alone`` a single design is
-    a batch of one, and no design has the values that ``batch`` leaves out. Groups may have
-    one function. ``alone`` may also return lists and tables.
+    module:function of this folder, imported at its first use. Both return values by the names in
+    ``own``, and no design has those that they leave out. Without ``alone`` a single design is a
+    batch of one. Groups may have one function for batches. ``alone`` may also return lists and
+    tables.
     """
 
     table: str  # beginning of the whole names; empty if several tables are one group
@@ -79,14 +89,16 @@ class QuantityGroup(NamedTuple):
 
     def values(self, model: PartsModel) -> Values:
         """The values of a single design; None for those that it lacks."""
+        every: Values = {self._whole(name): None for name in self.own}
         computed: Values
         if self.alone:
             computed = load_named(f"verdict.{self.alone}")(model)
-            return computed
-        from geneva_cli.verdict.quantities.designs import single
+        else:
+            from geneva_cli.verdict.quantities.designs import single
 
-        columns = self.columns(single(model.mechanism))
-        return {self._whole(name): only(columns[name]) for name in self.own}
+            columns = self.columns(single(model.mechanism))
+            computed = {name: only(columns[name]) for name in self.own}
+        return every | {self._whole(name): value for name, value in computed.items()}
 
     def columns(self, of: Designs) -> Columns:
         """The values of a batch by the names without the table; None for values that no design has.
@@ -107,24 +119,20 @@ def only(column: Number | None) -> float | None:
     return value if value is not None and math.isfinite(value) else None
 
 
-def own_names(table: str, alone: str = "") -> tuple[str, ...]:
-    """The whole names of a table's quantities, or only those that the function ``alone`` computes.
+def own_names(table: str) -> tuple[str, ...]:
+    """The names of a table's quantities, without the table.
 
     >>> own_names("strength.pin")[:2]
-    ('strength.pin.diameter_mm', 'strength.pin.bending_MPa')
+    ('diameter_mm', 'bending_MPa')
     """
-    groups = (one for one in GROUPS if one.table == table and alone in ("", one.alone))
-    return tuple(name for group in groups for name in group.names)
+    return tuple(name for group in GROUPS if group.table == table for name in group.own)
 
 
 def values(groups: Iterable[QuantityGroup], model: PartsModel) -> Values:
     """The values of several groups of a single design, in order."""
     out: Values = {}
-    called = set()
     for group in groups:
-        if group.alone not in called:
-            out |= group.values(model)
-        called |= {group.alone} - {""}
+        out |= group.values(model)
     return out
 
 
@@ -158,11 +166,11 @@ REPORT = (
     ),
     _group(
         "timing",
-        "motion_deg dwell_deg index_deg index_mm k tau motion_s dwell_s cycle_s "
-        "shortest_motion_s k_r",
-        "report.stations:timing",
-        "motion:timing",
-    )._replace(one_by_one=("shortest_motion_s", "k_r")),
+        "motion_deg dwell_deg index_deg k tau motion_s dwell_s cycle_s index_mm",
+        batch="motion:timing",
+    ),
+    _group("timing", "shortest_motion_s", "report.stations:shortest_motion"),
+    _group("timing", "k_r", batch="motion:timing"),
     QuantityGroup(
         "",
         (
@@ -329,12 +337,9 @@ REPORT = (
 STUDY = (
     QuantityGroup(
         "loads",
-        _product(
-            "omega_rad_s alpha_rad_s2 wheel_torque_Nm pin_force_N contact_stress_MPa sliding_m_s "
-            "input_torque_Nm power_W wheel_bearing_N crank_bearing_N pv_W_m2 "
-            "rack_speed_m_s rack_acceleration_m_s2 rack_force_N guide_force_N "
-            "wheel_near_bearing_N wheel_far_bearing_N crank_near_bearing_N crank_far_bearing_N",
-            "min min_at_deg mean rms",
+        (
+            *_product(f"{SIZED} {SIGNED}", "min min_at_deg mean rms"),
+            *_product(SIGNED, "max max_at_deg"),
         ),
         "quantities.single:cycle",
         "loads:summaries",

@@ -8,7 +8,7 @@ from geneva_cli.analysis.peak_search import worst_peaks
 from geneva_cli.analysis.positive_drive import positive_drives
 from geneva_cli.analysis.quantities import REPORTED_PEAKS, sources
 from geneva_cli.loads.loads import greatest_pressure, kinetic_power_W
-from geneva_cli.loads.summaries import load_peaks, load_summaries
+from geneva_cli.loads.summaries import LoadSummary, load_peaks, load_summaries
 from geneva_cli.numerics.arrays import Number, parameter
 from geneva_cli.verdict.quantities.designs import Columns, Designs
 
@@ -39,23 +39,31 @@ def pressure(of: Designs) -> Columns:
     return {"max_deg": peak.max, "at_deg": peak.at_deg}
 
 
+def summary_ends(load: str) -> tuple[str, ...]:
+    """The values of a load's summary that are quantities: not its ``max`` if that is a size."""
+    return LoadSummary._fields[2:] if load in REPORTED_PEAKS else LoadSummary._fields
+
+
 def summaries(of: Designs) -> Columns:
-    """Least values, means and root mean squares of the loads that all these designs have."""
+    """Greatest and least values, means and rms of loads; None for loads that no design has."""
     known = sources(of.machine)
     ends: dict[str, list[str]] = {}
     for name in of.requested("loads"):
         load, _, end = name.rpartition(".")
-        if end not in ("max", "at_deg") and load in known:
+        if end in summary_ends(load):
             ends.setdefault(load, []).append(end)
-    if not ends:
-        return {}
-    out: dict[str, Number | None] = {}
-    sums = {end for some in ends.values() for end in some} & {"mean", "rms"}
-    for load, one in load_summaries(of.machine, list(ends), sums).items():
-        values = one._asdict()
-        out |= {f"{load}.{end}": values[end] for end in ends[load]}
+    out: dict[str, Number | None] = {
+        f"{load}.{end}": None for load, own in ends.items() if load not in known for end in own
+    }
+    requested = {load: own for load, own in ends.items() if load in known}
+    if not requested:
+        return out
+    sums = {end for own in requested.values() for end in own} & {"mean", "rms"}
     loaded = np.isfinite(of.loaded)
-    return {n: np.where(loaded, v, np.nan) for n, v in out.items() if v is not None}
+    for load, one in load_summaries(of.machine, list(requested), sums).items():
+        values = one._asdict()
+        out |= {f"{load}.{end}": np.where(loaded, values[end], np.nan) for end in requested[load]}
+    return out
 
 
 def sizing(of: Designs) -> Columns:

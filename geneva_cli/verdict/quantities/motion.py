@@ -22,9 +22,27 @@ from geneva_cli.verdict.quantities.groups import RATES
 
 
 def timing(of: Designs) -> Columns:
-    """The timing of machines whose engagements are alike; empty for others."""
-    first, *others = timings(of.machine)
-    return {} if others else first._asdict()
+    """The timing that is equal in all engagements; infinite for values that differ.
+
+    The work coefficient k_r of one roller is phi/(2 pi - phi), for a motion phi.
+    """
+    each = timings(of.machine)
+    out = {name: _shared([getattr(one, name) for one in each]) for name in each[0]._fields}
+    motion = out["motion_deg"]
+    assert motion is not None  # every engagement has one
+    rest = np.where(motion < 360.0, 360.0 - motion, np.nan)
+    return out | {"k_r": np.where(rest > 0.0, motion / rest, np.inf)}
+
+
+def _shared(values: Sequence[Number | None]) -> Array | None:
+    """A value that is equal in all engagements, infinite where it differs; None if one lacks it."""
+    known = [value for value in values if value is not None]
+    if len(known) < len(values):
+        return None
+    first, *others = np.broadcast_arrays(*map(np.ravel, known))
+    # Rounding makes a value differ between engagements by up to 1e-12 of it.
+    equal = [np.isclose(other, first, rtol=1e-12, atol=0.0) for other in others]
+    return np.where(np.all(equal, axis=0), first, np.inf)
 
 
 def peaks(of: Designs) -> Columns:

@@ -88,8 +88,18 @@ def _readings(typed: str) -> Iterator[list[str]]:
     quantities = [name for name in others if not name.startswith(CHECKS)]
     yield [name for name in quantities if _spelled(name) == typed]
     for names in (quantities, others):
+        names = [name for name in names if not _is_repeated(name)]
         yield [name for name in names if name.endswith(f".{typed}")]
         yield [name for name in names if typed in {_spelled(end) for end in _ends(name)}]
+
+
+def _is_repeated(name: str) -> bool:
+    """True for a value of the report's cycle that is among the loads under the same name.
+
+    The greatest input torque is not: among the loads it is a size.
+    """
+    table, _, own = name.partition(".")
+    return table == "cycle" and f"loads.{own}" in group_of() and own != "input_torque_Nm.max"
 
 
 def _spelled(name: str) -> str:

@@ -9,7 +9,8 @@ from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.sizing import WHEEL_INERTIA, sizing
 from geneva_cli.loads.summary import summaries
 from geneva_cli.verdict.checks import Check, checks, proofs
-from geneva_cli.verdict.checks.registry import PROOFS, checks_before_turn, checks_of_turn
+from geneva_cli.verdict.checks.registry import checks_before_turn, checks_of_turn
+from geneva_cli.verdict.quantities.loads import summary_ends
 
 if TYPE_CHECKING:
     from geneva_cli.drawings.model import PartsModel
@@ -30,37 +31,36 @@ def machine(model: PartsModel) -> Values:
 
 
 def values_before_turn(model: PartsModel) -> Values:
-    """The value of each check but those of the turn, None for those that do not apply."""
+    """The value of each check but those of the turn."""
     return _values(checks_before_turn(), checks(model.mechanism, model, turned=False))
 
 
 def check_values(model: PartsModel) -> Values:
-    """The value of each check of the turn, None without it, and whether all checks pass."""
+    """The value of each check of the turn, and whether all checks pass."""
     rows = checks(model.mechanism, model)
     values = _values(checks_of_turn(), rows)
     failed = [c.name for c in rows if c.passes is False]
-    return values | {"checks.passes": not failed, "checks.failed": " ".join(failed) or None}
+    return values | {"passes": not failed, "failed": " ".join(failed) or None}
 
 
 def _values(names: Sequence[str], rows: Sequence[Check]) -> Values:
-    by_name = {c.name: c.value for c in rows}
-    return {f"checks.{name}": by_name.get(name) for name in names}
+    return {c.name: c.value for c in rows if c.name in names}
 
 
 def proved(model: PartsModel) -> Values:
-    """The gap that is proved, None without a proof."""
-    values: Values = {f"checks.{name}": None for name in PROOFS}
-    return values | {f"checks.{c.name}": c.value for c in proofs(model)}
+    """The gap that is proved."""
+    return {c.name: c.value for c in proofs(model)}
 
 
 def cycle(model: PartsModel) -> Values:
-    """Least values, means and root mean squares of the loads."""
-    names = ("min", "min_at_deg", "mean", "rms")
-    loads = {load: one._asdict() for load, one in summaries(cycle_of(model.mechanism)).items()}
-    return {f"loads.{load}.{n}": one[n] for load, one in loads.items() for n in names}
+    """Greatest and least values of the loads with their signs, means and root mean squares."""
+    values: Values = {}
+    for load, one in summaries(cycle_of(model.mechanism)).items():
+        values |= {f"{load}.{end}": getattr(one, end) for end in summary_ends(load)}
+    return values
 
 
 def motor_sizing(model: PartsModel) -> Values:
     """Motor, flywheel and the makers' form, without the wheel's own inertia."""
     values, _ = sizing(cycle_of(model.mechanism))
-    return {f"sizing.{name}": value for name, value in values.items() if name != WHEEL_INERTIA}
+    return {name: value for name, value in values.items() if name != WHEEL_INERTIA}

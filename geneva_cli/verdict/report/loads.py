@@ -28,11 +28,11 @@ def greatest_loads(model: PartsModel) -> Values:
     for name, source in REPORTED_PEAKS.items():
         peak = loads.greatest(mechanism, source) if loaded and source in known else None
         bounded = peak is not None and math.isfinite(peak.max)
-        values[f"loads.{name}.max"] = peak.max if peak and bounded else None
-        values[f"loads.{name}.at_deg"] = peak.at_deg if peak else None
+        values[f"{name}.max"] = peak.max if peak and bounded else None
+        values[f"{name}.at_deg"] = peak.at_deg if peak else None
     power = worst(mechanism).power.max if inertia_kgm2(mechanism.spec) else math.inf
     kinetic = None if math.isinf(power) else loads.kinetic_power_W(mechanism, power)
-    return values | {"loads.kinetic_power_W": kinetic}
+    return values | {"kinetic_power_W": kinetic}
 
 
 def cycle(model: PartsModel) -> Values:
@@ -42,14 +42,14 @@ def cycle(model: PartsModel) -> Values:
     values: Values = {}
     for name in ("input_torque_Nm", "power_W", "crank_bearing_N"):
         numbers = rows[name]._asdict()
-        values |= {f"cycle.{name}.{key}": numbers[key] for key in ("max", "min", "mean", "rms")}
-    values["cycle.reversals_deg"] = tuple(reversals_deg(of)) if of.is_loaded else None
+        values |= {f"{name}.{key}": numbers[key] for key in ("max", "min", "mean", "rms")}
+    values["reversals_deg"] = tuple(reversals_deg(of)) if of.is_loaded else None
     return values
 
 
 def needs(model: PartsModel) -> Values:
     """The keys that unknown values of strength and life need: a line for each set of keys."""
-    return {"strength.needs": tuple(strength(model.mechanism).missing(tuple(REASONS)))}
+    return {"needs": tuple(strength(model.mechanism).missing(tuple(REASONS)))}
 
 
 def slot(model: PartsModel) -> Values:
@@ -57,7 +57,7 @@ def slot(model: PartsModel) -> Values:
     from geneva_cli.analysis.positive_drive import positive_drives
 
     drive = positive_drives(model.mechanism)
-    return {"slot.positively_driven": not drive.loose_deg if drive else None}
+    return {"positively_driven": not drive.loose_deg if drive else None}
 
 
 def vibration(model: PartsModel) -> Values:
@@ -67,9 +67,9 @@ def vibration(model: PartsModel) -> Values:
     Bands, stations and warnings are those of ``geneva vibration``.
     """
     mechanism = model.mechanism
-    out: Values = dict.fromkeys((*own_names("vibration"), "vibration.speeds_to_avoid_rpm"))
+    none: Values = {"speeds_to_avoid_rpm": None}
     if mechanism.spec.shaft.stiffness_Nm_rad is None:
-        return out
+        return none
     # only for elastic shafts: the modules of vibration take a twentieth of a short report
     from geneva_cli.analysis.vibration.answers import values
     from geneva_cli.analysis.vibration.oscillator import required_oscillator
@@ -77,20 +77,18 @@ def vibration(model: PartsModel) -> Values:
     try:
         results = values(mechanism, required_oscillator(mechanism))
     except GenevaError as error:
-        return out | {"vibration.none": str(error)}
-    named = ((f"vibration.{name}", value) for name, value in results.items())
-    return out | {name: value for name, value in named if name in out}
+        return none | {"none": str(error)}
+    return {name: results[name] for name in results if name in (*own_names("vibration"), *none)}
 
 
 def tolerances(model: PartsModel) -> Values:
     """The first lines of ``geneva tolerance``, and its warnings; None without tolerances."""
-    mechanism, names = model.mechanism, (*own_names("tolerance"), "tolerance.warnings")
-    tolerance = mechanism.spec.tolerance
+    mechanism, tolerance = model.mechanism, model.mechanism.spec.tolerance
     if tolerance == Tolerance(distribution=tolerance.distribution):
-        return dict.fromkeys(names)
+        return {"warnings": None}
     from geneva_cli.verdict.tolerance.tables import tolerance_table
 
     # micrometres need a radius
     L = mechanism.center_distance_mm
     answers = tolerance_table(mechanism, model, SAMPLES, 0, L).to_dict()
-    return {name: answers[name.removeprefix("tolerance.")] for name in names}
+    return {name: answers[name] for name in (*own_names("tolerance"), "warnings")}

@@ -11,33 +11,30 @@ from geneva_cli.outlines.stop import wheel_stop
 from geneva_cli.table import Reading, rows_table
 from geneva_cli.verdict.checks.cranks import reach_mm
 from geneva_cli.verdict.quantities.designs import Values
-from geneva_cli.verdict.quantities.groups import own_names
 
 
 def parts(model: PartsModel) -> Values:
-    """Sizes of the parts; None without parts, with the reason in ``parts.none``.
+    """Sizes of the parts, or the reason in ``none`` why there are none.
 
     A sphere has the horn; its other sizes are angles, in the list of parts.
     """
-    values: Values = dict.fromkeys(own_names("parts", "report.parts:parts"))
-    return values | (_or_reason(model, _sizes) if model.mechanism.spec.has_parts else {})
+    return _or_reason(model, _sizes) if model.mechanism.spec.has_parts else {}
 
 
 def turned(model: PartsModel) -> Values:
-    """Results of the parts' whole turn; None without it, with the reason in ``parts.none``."""
-    values: Values = dict.fromkeys(own_names("parts", "report.parts:turned"))
-    return values | (_or_reason(model, _turned) if model.mechanism.spec.is_turned else {})
+    """Results of the parts' whole turn, or the reason in ``none`` why there is no turn."""
+    return _or_reason(model, _turned) if model.mechanism.spec.is_turned else {}
 
 
 def _or_reason(model: PartsModel, compute: Callable[[PartsModel], Values]) -> Values:
     try:
         return compute(model)
     except GenevaError as error:
-        return {"parts.none": str(error)}
+        return {"none": str(error)}
 
 
 def _sizes(model: PartsModel) -> Values:
-    horn: Values = {"parts.horn_mm": model.built.horn_mm}
+    horn: Values = {"horn_mm": model.built.horn_mm}
     return horn | (cut_sizes(model) if model.mechanism.spec.is_flat else {})
 
 
@@ -45,10 +42,10 @@ def _turned(model: PartsModel) -> Values:
     parts, turn, output = model.parts, model.turn, model.mechanism.output
     gap = turn.smallest
     # the lock's play, in the unit of what the machine gives out
-    play = {f"parts.dwell_play_{output.unit}": output.from_deg(turn.dwell.deg)}
+    play = {f"dwell_play_{output.unit}": output.from_deg(turn.dwell.deg)}
     return {
-        "parts.smallest_gap_mm": gap.mm if abs(gap.mm) > parts.contact else 0.0,
-        "parts.smallest_gap_at_deg": gap.at_deg,
+        "smallest_gap_mm": gap.mm if abs(gap.mm) > parts.contact else 0.0,
+        "smallest_gap_at_deg": gap.at_deg,
         **(play if parts.crank else {}),
     }
 
@@ -58,44 +55,42 @@ def cut_sizes(model: PartsModel) -> Values:
     outlines, size = model.outlines, model.outlines.sizes
     locked = bool(outlines.crank)
     return {
-        "parts.rim_radius_mm": size.rim,
-        "parts.slot_end_radius_mm": size.slot_end,
-        "parts.lock_radius_mm": size.lock,
-        "parts.recess_radius_mm": size.recess if locked else None,
-        "parts.relief": outlines.relief if locked else None,
-        "parts.wheel_bore_mm": 2.0 * size.wheel_bore,
-        "parts.crank_bore_mm": 2.0 * size.crank_bore,
+        "rim_radius_mm": size.rim,
+        "slot_end_radius_mm": size.slot_end,
+        "lock_radius_mm": size.lock,
+        "recess_radius_mm": size.recess if locked else None,
+        "relief": outlines.relief if locked else None,
+        "wheel_bore_mm": 2.0 * size.wheel_bore,
+        "crank_bore_mm": 2.0 * size.crank_bore,
     }
 
 
 def envelope(model: PartsModel) -> Values:
-    """Radius about the fixed axis that the wheels sweep; None without a carrier or parts."""
-    values: Values = {"carousel.envelope_mm": None}
+    """Radius about the fixed axis that the wheels sweep, on a carrier."""
     spec = model.mechanism.spec
     if not (spec.drive.wheels_on_carrier and spec.is_flat):
-        return values
+        return {}
     try:
         outlines = model.outlines
     except GenevaError:  # ``parts.none`` gives the reason
-        return values
-    return {"carousel.envelope_mm": model.mechanism.center_distance_mm + reach_mm(outlines)}
+        return {}
+    return {"envelope_mm": model.mechanism.center_distance_mm + reach_mm(outlines)}
 
 
 def stop(model: PartsModel) -> Values:
-    """The stops of a crank; None without a convex face, or without parts."""
-    values: Values = dict.fromkeys(own_names("stop", "report.parts:stop"))
+    """The stops of a crank, where the wheel has a convex face."""
     if not (model.mechanism.spec.wheel.stopped and model.mechanism.spec.is_flat):
-        return values
+        return {}
     try:
         outlines = model.outlines
     except GenevaError:  # ``parts.none`` gives the reason
-        return values
+        return {}
     stops = wheel_stop(outlines)
     assert stops is not None  # the wheel has a convex face
     from geneva_cli.loads.strength.lock import stop_contact
 
     contact = stop_contact(model.mechanism, stops.lever_mm, outlines.sizes.rim)
-    named = {
+    return {
         "turns": stops.turns,
         "first_deg": stops.first_deg,
         "last_deg": stops.last_deg,
@@ -103,7 +98,6 @@ def stop(model: PartsModel) -> Values:
         "lever_mm": stops.lever_mm,
         **contact._asdict(),
     }
-    return {f"stop.{name}": value for name, value in named.items()}
 
 
 def parts_list_tables(model: PartsModel) -> Values:
@@ -113,5 +107,5 @@ def parts_list_tables(model: PartsModel) -> Values:
     for kind, names in KINDS.items():
         own = [[row[name] for name in names] for row in rows if row["row"] == kind]
         table = rows_table(names, own, mixed=True).replaced(reading=Reading(FIRST))
-        values[f"parts_list.{kind}"] = table if own else None
+        values[kind] = table if own else None
     return values

@@ -10,7 +10,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import scalar
 from geneva_cli.verdict.quantities.designs import Values, single
-from geneva_cli.verdict.quantities.groups import ECHOED, INPUTS, only, own_names
+from geneva_cli.verdict.quantities.groups import ECHOED, only
 from geneva_cli.verdict.quantities.loads import pressure
 
 
@@ -19,10 +19,9 @@ def sizes(model: PartsModel) -> Values:
 
     The rim is None if the spec's sizes leave no wheel; the slots too if no wheel is drawn.
     """
-    own = (
-        _sphere_sizes(model.mechanism) if model.mechanism.spec.wheel.SHELLS else _flat_sizes(model)
-    )
-    return {**dict.fromkeys(own_names("sizes")), **own}
+    if model.mechanism.spec.wheel.SHELLS:
+        return _sphere_sizes(model.mechanism)
+    return _flat_sizes(model)
 
 
 def _flat_sizes(model: PartsModel) -> Values:
@@ -31,19 +30,19 @@ def _flat_sizes(model: PartsModel) -> Values:
     L, r = mechanism.center_distance_mm, mechanism.roller_radius_mm
     toothed, clear = spec.wheel.toothed, spec.size.allowances.slot_clearance_mm
     return {
-        "sizes.center_distance_mm": L,
-        "sizes.crank_radius_mm": mechanism.ratio * L,
-        "sizes.ratio": mechanism.ratio,
-        "sizes.roller_radius_mm": None if toothed else r,
-        "sizes.slot_width_mm": None if toothed else 2.0 * (r + clear),
-        "sizes.clearances_from": spec.size.allowances.source,
+        "center_distance_mm": L,
+        "crank_radius_mm": mechanism.ratio * L,
+        "ratio": mechanism.ratio,
+        "roller_radius_mm": None if toothed else r,
+        "slot_width_mm": None if toothed else 2.0 * (r + clear),
+        "clearances_from": spec.size.allowances.source,
         **_cut_radii(model),
-        "sizes.pressure_angle_max_deg": (
+        "pressure_angle_max_deg": (
             only(single(mechanism).columns(pressure)["max_deg"])
             if mechanism.engagements[0].slot.curved
             else None
         ),
-        "sizes.rollers_max": None if toothed else mechanism.rollers_max,
+        "rollers_max": None if toothed else mechanism.rollers_max,
     }
 
 
@@ -64,10 +63,10 @@ def _cut_radii(model: PartsModel) -> Values:
         with suppress(GenevaError):  # ``parts.none`` gives the reason
             rim = machine_sizes(model.mechanism)[1].rim
     return {
-        "sizes.slot_mouth_radius_mm": mouth,
-        "sizes.slot_bottom_radius_mm": bottom,
-        "sizes.wheel_radius_mm": None if inside else rim,
-        "sizes.rim_radius_mm": rim if inside else None,
+        "slot_mouth_radius_mm": mouth,
+        "slot_bottom_radius_mm": bottom,
+        "wheel_radius_mm": None if inside else rim,
+        "rim_radius_mm": rim if inside else None,
     }
 
 
@@ -76,14 +75,14 @@ def _sphere_sizes(mechanism: Mechanism) -> Values:
     engagement, L = mechanism.engagements[0], mechanism.center_distance_mm
     mouth, bottom = (engagement.slot(x, 0)[0].c[0] for x in (engagement.entry_deg, 0.0))
     return {
-        **{f"sizes.{key}": value for key, value in mechanism.spec.wheel.own_sizes.items()},
-        "sizes.sphere_radius_mm": L,
-        "sizes.crank_arm_mm": mechanism.ratio * L,
-        "sizes.roller_radius_mm": mechanism.roller_radius_mm,
-        "sizes.clearances_from": mechanism.spec.size.allowances.source,
-        "sizes.slot_mouth_polar_deg": math.degrees(mouth),
-        "sizes.slot_bottom_polar_deg": math.degrees(bottom),
-        "sizes.rollers_max": mechanism.rollers_max,
+        **mechanism.spec.wheel.own_sizes,
+        "sphere_radius_mm": L,
+        "crank_arm_mm": mechanism.ratio * L,
+        "roller_radius_mm": mechanism.roller_radius_mm,
+        "clearances_from": mechanism.spec.size.allowances.source,
+        "slot_mouth_polar_deg": math.degrees(mouth),
+        "slot_bottom_polar_deg": math.degrees(bottom),
+        "rollers_max": mechanism.rollers_max,
     }
 
 
@@ -97,5 +96,5 @@ def inputs(model: PartsModel) -> Values:
     values: Values = {}
     for table, names in ECHOED.items():
         keys = spec.table(table) | known.get(table, {})
-        values |= {f"{INPUTS}{table}.{key}": keys[key] for key in names}
+        values |= {f"{table}.{key}": keys[key] for key in names}
     return values

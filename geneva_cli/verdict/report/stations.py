@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 from geneva_cli.analysis.peaks import Peaks, placed_peaks, worst
 from geneva_cli.analysis.timing import timings
@@ -16,20 +15,24 @@ from geneva_cli.verdict.quantities.designs import Numbers, Values
 from geneva_cli.verdict.quantities.motion import peak_values
 
 
-def timing(model: PartsModel) -> Values:
-    """The timing that is equal in all engagements; None for values that differ."""
-    mechanism = model.mechanism
-    each = [_timing(mechanism, i) for i in range(len(mechanism.engagements))]
-    return {name: _shared([one[name] for one in each]) for name in each[0]}
+def shortest_motion(model: PartsModel) -> Values:
+    """The time of the fastest motion, if it is equal in all engagements."""
+    each = [engagement.motion_deg for engagement in model.mechanism.engagements]
+    # Rounding makes a motion differ between engagements by up to 1e-12 of it.
+    if not math.isclose(min(each), max(each), rel_tol=1e-12):
+        return {}
+    return {"shortest_motion_s": _shortest_s(model.mechanism, each[0])}
 
 
-def _shared(values: Sequence[float | None]) -> float | None:
-    """The value that is equal in all engagements, apart from rounding; None if they differ."""
-    known = [value for value in values if value is not None]
-    # Rounding makes a value differ between engagements by up to 1e-12 of it.
-    if len(known) < len(values) or not math.isclose(min(known), max(known), rel_tol=1e-12):
-        return None
-    return known[0]
+def _shortest_s(mechanism: Mechanism, motion_deg: float) -> float | None:
+    """The time of a motion at the highest speed that the limits on loads allow.
+
+    Krasniqi's (15) and (16). Without limits it is that at n; None if no speed keeps them.
+    """
+    fastest = loads.fastest_rpm(mechanism)
+    if fastest is not None and math.isinf(fastest):
+        fastest = mechanism.spec.drive.n_rpm
+    return motion_deg / (6.0 * fastest) if fastest else None
 
 
 def peaks(model: PartsModel) -> Values:
@@ -43,7 +46,8 @@ def stations(model: PartsModel) -> Values:
     if len(mechanism.engagements) == 1:
         return {"stations": None}
     each = [
-        _timing(mechanism, i) | _peaks(mechanism, placed_peaks(mechanism, s))
+        {f"timing.{name}": value for name, value in _timing(mechanism, i).items()}
+        | _peaks(mechanism, placed_peaks(mechanism, s))
         for i, s in enumerate(mechanism.engagements)
     ]
     return {"stations": rows_table(tuple(each[0]), [tuple(e.values()) for e in each])}
@@ -51,16 +55,10 @@ def stations(model: PartsModel) -> Values:
 
 def _timing(mechanism: Mechanism, i: int) -> Numbers:
     timing = timings(mechanism)[i]
-    values: Numbers = {f"timing.{k}": v for k, v in timing._asdict().items()}
-    # Krasniqi's (15) and (16): t = phi/omega is shortest at the highest speed that the limits on
-    # force, torque and stress allow. That is n itself without limits, and none if no speed keeps
-    # them. The work coefficient of one roller is k_r = phi/(2 pi - phi).
-    motion = mechanism.engagements[i].motion_deg
-    fastest = loads.fastest_rpm(mechanism)
-    if fastest is not None and math.isinf(fastest):
-        fastest = mechanism.spec.drive.n_rpm
-    values["timing.shortest_motion_s"] = motion / (6.0 * fastest) if fastest else None
-    values["timing.k_r"] = motion / (360.0 - motion) if motion < 360.0 else None
+    values: Numbers = timing._asdict()
+    motion = timing.motion_deg
+    values["shortest_motion_s"] = _shortest_s(mechanism, motion)
+    values["k_r"] = motion / (360.0 - motion) if motion < 360.0 else None
     return values
 
 
