@@ -19,6 +19,7 @@ from geneva_cli import load, study
 from geneva_cli.collisions import full_turn
 from geneva_cli.machine.mechanism import build
 from geneva_cli.outlines import outlines as outline
+from geneva_cli.outlines import sizes as own_sizes
 from geneva_cli.outlines.walls import chain as walls_chain
 from geneva_cli.outlines.walls import curved as curved_walls
 from geneva_cli.synthesis.families import four_bar_search
@@ -147,6 +148,7 @@ def made_once():
     """
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(outline, "drawn", OUTLINES)
+        patch.setattr(own_sizes, "drawn", OUTLINES)
         patch.setattr(full_turn, "full_turn", TURNED)
         patch.setattr(proved, "certificate", PROVED)
         patch.setattr(curved_walls, "chain", CHAIN)

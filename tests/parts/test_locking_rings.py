@@ -11,15 +11,16 @@ from geneva_cli.kinematics.wheels.internal import Internal
 from geneva_cli.machine.drives.cam import Cam
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.outlines import locking_rings, outlines
+from geneva_cli.outlines import locking_rings
 from geneva_cli.outlines.locking_rings import polar_points, towards
+from geneva_cli.outlines.sizes import outlines
 
 
 @pytest.mark.parametrize(("z", "alpha0"), [(12, -30.0), (8, -30.0), (6, 0.0)])
 def test_a_sector_is_the_widest_of_all_that_clear_the_wheel(monkeypatch, z, alpha0):
     """Every fiftieth of its width is tried, not only those that the halving meets."""
     spec = Spec(Internal(z), Cam(), motion=Motion(ModifiedSine(), alpha0_deg=alpha0))
-    own, tried = outlines.outlines(build(spec)).crank, []
+    own, tried = outlines(build(spec)).crank, []
 
     def widest_of_all(whole, clears):
         fits = [half for k in range(40) if clears(half := (1.0 - 0.02 * k) * whole)]
@@ -27,7 +28,7 @@ def test_a_sector_is_the_widest_of_all_that_clear_the_wheel(monkeypatch, z, alph
         return max(fits)
 
     monkeypatch.setattr(locking_rings, "widest", widest_of_all)
-    assert outlines.outlines(build(spec)).crank == own
+    assert outlines(build(spec)).crank == own
     assert tried
     # narrower ones clear it too
     assert all(

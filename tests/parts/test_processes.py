@@ -307,8 +307,8 @@ def test_a_process_is_its_keys(process: str) -> None:
     where = assembly(named.mechanism)
     assert sizes(where) == sizes(assembly(Design(External(6), size=spelled).mechanism))
     page = report_sizes(named.parts_model) | inputs(named.parts_model)
-    assert page["sizes.clearances_from"] == source
-    assert {key: page[f"inputs.size.{key}"] for key in keys} == keys
+    assert page["clearances_from"] == source
+    assert {key: page[f"size.{key}"] for key in keys} == keys
 
 
 def test_a_key_that_is_given_wins() -> None:

@@ -53,15 +53,15 @@ def test_printed_sizes_are_those_of_the_outlines(model):
     low, high = min(far(found.wheel)), max(far(found.wheel))
     inside = found.assembly.sign < 0.0
     rim, end = (low, high) if inside else (high, low)
-    printed = [size[f"sizes.{key}_radius_mm"] for key in ("wheel", "rim")]
+    printed = [size[f"{key}_radius_mm"] for key in ("wheel", "rim")]
     assert printed[not inside] is None
-    assert printed[inside] == part["parts.rim_radius_mm"] == pytest.approx(rim, abs=CLOSE)
-    assert part["parts.slot_end_radius_mm"] == pytest.approx(end, abs=CLOSE)
+    assert printed[inside] == part["rim_radius_mm"] == pytest.approx(rim, abs=CLOSE)
+    assert part["slot_end_radius_mm"] == pytest.approx(end, abs=CLOSE)
     # half a slot's width beyond the roller's centre, and the gap behind it
-    beyond = abs(size["sizes.slot_bottom_radius_mm"] - end) - 0.5 * size["sizes.slot_width_mm"]
+    beyond = abs(size["slot_bottom_radius_mm"] - end) - 0.5 * size["slot_width_mm"]
     assert -CLOSE <= beyond <= found.sizes.slot_bottom + CLOSE
     reach = max((r for contour in found.crank for r in far(contour)), default=0.0)
-    assert part["parts.lock_radius_mm"] == pytest.approx(reach, abs=CLOSE)
+    assert part["lock_radius_mm"] == pytest.approx(reach, abs=CLOSE)
 
 
 @pytest.mark.sampled(4)
@@ -72,10 +72,10 @@ def test_printed_bores_and_rollers_are_those_drawn(model):
         wheel_circles(found.assembly, found.sizes),
         outlines_of(model.flat.crank_without_arm.part),
     )
-    assert part["parts.wheel_bore_mm"] == about_axis(circles, "BORE")
-    assert part["parts.crank_bore_mm"] == about_axis(shapes, "BORE")
+    assert part["wheel_bore_mm"] == about_axis(circles, "BORE")
+    assert part["crank_bore_mm"] == about_axis(shapes, "BORE")
     rollers = [s for s in shapes if s.layer == "ROLLER"]
     if rollers:  # and their pins
-        assert max(s.radius for s in rollers) == size["sizes.roller_radius_mm"]
+        assert max(s.radius for s in rollers) == size["roller_radius_mm"]
         radius = math.hypot(*rollers[0].centre)
-        assert size["sizes.crank_radius_mm"] == pytest.approx(radius, rel=1e-12)
+        assert size["crank_radius_mm"] == pytest.approx(radius, rel=1e-12)
