@@ -79,6 +79,8 @@ def require_faces(plate: Plate) -> None:
     except GenevaError as error:
         raise _no_edge(edge, str(error)) from None
     wall = plate_wall(plate)
+    if wall <= 0.0:
+        raise _no_edge(edge, f"holes of the {plate.name} leave no wall to round or chamfer")
     if wall <= 2.0 * edge.size:
         says = f"the {plate.name} has a wall of {wall:.4g} mm; it must be below {0.5 * wall:.4g}"
         raise _no_edge(edge, says)

@@ -178,6 +178,9 @@ def test_a_chamfer_wider_than_half_a_wall_fails():
     assert volume(washer._replace(edge=Edge(1.99))) < volume(washer)
     with pytest.raises(GenevaError, match=r"the washer has a wall of 4 mm; it must be below 2"):
         volume(washer._replace(edge=Edge(2.0)))
+    burst = washer._replace(holes=(Circle("", (0.0, 5.0), 5.0),), edge=Edge(0.1))
+    with pytest.raises(GenevaError, match=r"0\.1: holes of the washer leave no wall to round"):
+        volume(burst)  # its hole breaks through by 1 mm; no chamfer is below that
     wide = Design(External(6), size=Size(edge_chamfer_mm=1.5))
     (failed,) = [check for check in wide.checks if check.passes is False]
     assert failed.name == "parts" and "edge_chamfer_mm = 1.5: the arm has a wall" in failed.why
