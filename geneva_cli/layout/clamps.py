@@ -13,7 +13,7 @@ from geneva_cli.curves.measure import turned
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import ORIGIN, Circle, Contour, Line, about, closed
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.screws import SCREWS, Screw, screw
+from geneva_cli.layout.screws import SCREWS, Screw, change_for_hub, screw
 from geneva_cli.layout.written import length
 from geneva_cli.spec.tables import Size
 
@@ -122,9 +122,10 @@ def with_clamp(size: Size, part: str, hub: Plate | None, direction: float) -> Pl
         return hub
     bore = hub.holes[0] if hub and hub.holes else None
     if hub is None or not isinstance(bore, Circle) or not isinstance(hub.outline, Circle):
+        shape = f"{part}_keyway" if values[f"{part}_keyway"] else f"{part}_bore"
+        change = f"remove {shape}" if bore else change_for_hub(size, part)
         raise GenevaError(
-            f"{key}: a clamp needs a hub with a round bore; set {part}_hub_mm and {part}_bore_mm, "
-            f"without {part}_keyway, or remove it",
+            f"{key}: a clamp needs a hub with a round bore; {change}, or leave out {key}",
             ("size", key),
         )
     if values[f"{part}_screw_mm"] is not None:

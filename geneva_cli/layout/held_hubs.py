@@ -9,7 +9,7 @@ from geneva_cli.curves.plates import Plate
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bores import around
 from geneva_cli.layout.clamps import clamp_note, with_clamp
-from geneva_cli.layout.screws import screw
+from geneva_cli.layout.screws import SCREWS, change_for_hub, screw
 from geneva_cli.spec.tables import Size
 
 
@@ -40,20 +40,22 @@ def _with_set_screw(size: Size, part: str, hub: Plate | None, direction: float) 
         return hub
     if hub is None or not hub.holes:
         raise GenevaError(
-            f"{key}: a set screw needs a hub with a bore; set {part}_hub_mm and {part}_bore_mm, or "
-            "remove it",
+            f"{key}: a set screw needs a hub with a bore; {change_for_hub(size, part)}, or leave "
+            f"out {key}",
             ("size", key),
         )
+    core = screw(key, thread).core
     inner, outer = max(around(hole) for hole in hub.holes), around(hub.outline)
     wall = outer - inner
     most = min(wall, 0.5 * hub.thickness)
     if thread > most:
+        fitting = [one.thread for one in SCREWS if one.thread <= most]
+        held = f"up to {fitting[-1]:g}" if fitting else "of no size: the hub must be larger"
         raise GenevaError(
             f"{key} = {thread:g}: the hub is {hub.thickness:.6g} mm long and its wall {wall:.6g} "
-            f"mm thick, which holds a set screw up to {most:.6g}",
+            f"mm thick, which holds a set screw {held}",
             ("size", key),
         )
-    core = screw(key, thread).core
     turn = direction + (0.5 * math.pi if vars(size)[f"{part}_keyway"] else 0.0)
     amid = 0.5 * (inner + outer)
     at = amid * math.cos(turn), amid * math.sin(turn)

@@ -6,6 +6,7 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.spec.tables import Size
 
 
 class Screw(NamedTuple):
@@ -61,3 +62,22 @@ def screw(key: str, thread: float) -> Screw:
     raise GenevaError(
         f"{key} = {thread:g}: there is no such metric screw; use {nearest:g}", ("size", key)
     )
+
+
+def change_for_hub(size: Size, part: str) -> str:
+    """Return the change of the spec that gives a part, "wheel" or "crank", a hub with a bore.
+
+    >>> change_for_hub(Size(crank_hub_mm=20.0), "crank")
+    'set crank_bore_mm'
+    >>> change_for_hub(Size(crank_hub_mm=20.0, crank_bore_mm=10.0), "crank")
+    'set a greater crank_hub_length_mm'
+    """
+    values = vars(size)
+    hub, bore, length = (f"{part}_{name}_mm" for name in ("hub", "bore", "hub_length"))
+    missing = [hub] if values[hub] is None and values[length] is None else []
+    missing += [bore] if values[bore] is None else []
+    if missing:
+        return f"set {' and '.join(missing)}"
+    if values[hub] is not None and values[hub] <= values[bore]:
+        return f"set {hub} above {bore}"
+    return f"set a greater {length}"  # the hub does not reach past what it stands on

@@ -282,9 +282,16 @@ def test_set_screws_are_noted():
     ("size", "said"),
     [
         ({"wheel_screw_mm": 4.0}, "wheel_screw_mm: a set screw needs a hub with a bore"),
-        ({**HUBS, "wheel_screw_mm": 5.1}, "its wall 5 mm thick, which holds a set screw up to 5"),
+        ({**HUBS, "wheel_screw_mm": 6.0}, "its wall 5 mm thick, which holds a set screw up to 5"),
+        ({**HUBS, "wheel_screw_mm": 5.1}, "there is no such metric screw; use 5"),
+        ({**HUBS, "wheel_hub_mm": 25.0, "wheel_screw_mm": 5.0}, "a set screw up to 4"),  # wall 4.5
+        ({**HUBS, "wheel_hub_mm": 18.0, "wheel_screw_mm": 2.0}, "of no size: the hub must be"),
         ({**HUBS, "wheel_hub_length_mm": 6.0, "wheel_screw_mm": 4.0}, "a set screw up to 3"),
         ({**HUBS, "crank_screw_mm": 6.0}, "crank_screw_mm = 6: the hub is 10 mm long"),
+        (
+            {**HUBS, "crank_hub_length_mm": 9.0, "crank_screw_mm": 2.0},  # as high as the disc
+            "needs a hub with a bore; set a greater crank_hub_length_mm, or",
+        ),
     ],
 )
 @pytest.mark.usefixtures("no_advice")

@@ -125,8 +125,9 @@ def test_sheet_and_list_name_the_screw():
     ("size", "said"),
     [
         ({"wheel_hub_mm": 30.0}, "wheel_clamp_mm = 5: the hub, 30 mm in diameter and 12 mm long"),
-        ({"wheel_keyway": "DIN 6885-1"}, "a clamp needs a hub with a round bore"),
-        ({"wheel_hub_mm": 0.0}, "a clamp needs a hub with a round bore"),
+        ({"wheel_keyway": "DIN 6885-1"}, "a hub with a round bore; remove wheel_keyway"),
+        ({"wheel_bore": "hex"}, "a hub with a round bore; remove wheel_bore"),
+        ({"wheel_hub_mm": 0.0}, "a round bore; set wheel_hub_mm above wheel_bore_mm"),
         ({"wheel_screw_mm": 3.0}, "remove one of wheel_clamp_mm and wheel_screw_mm"),
         ({"wheel_clamp_mm": 4.5}, "there is no such metric screw"),
     ],
