@@ -48,9 +48,8 @@ def filled(every: Plates, fill: str, mm: float) -> Iterator[str]:
 
 def tints(layers: tuple[Layer, ...], paper: Paper) -> dict[Layer, str]:
     """The tint of each layer on a page."""
-    return {
-        layer: mixed(ink.rgb, opacity(layer), paper.page) for layer, ink in inks(layers).items()
-    }
+    inked = inks(layers)
+    return {layer: mixed(inked[layer].rgb, opacity(layer), paper.page) for layer in layers}
 
 
 def opacity(layer: Layer) -> float:
