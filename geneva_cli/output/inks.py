@@ -34,6 +34,12 @@ CENTRE_LINES = {"PITCH"}  # layers of lines that are not cut
 DASHES = (8.0, 1.5, 1.5, 1.5)  # mm: dash, gap, dash, gap of a centre line
 
 
+def mixed(rgb: str, fraction: float, page: str) -> str:
+    """Return a fraction of a colour on a page's colour, all as hexadecimal RGB."""
+    pairs = [(int(rgb[i : i + 2], 16), int(page[i : i + 2], 16)) for i in (1, 3, 5)]
+    return "#" + "".join(f"{round(on + fraction * (own - on)):02x}" for own, on in pairs)
+
+
 def inks(layers: tuple[str, ...]) -> dict[str, Ink]:
     """The ink of each layer; layers without one of their own get the others in turn."""
     unknown = [layer for layer in layers if layer not in INKS]

@@ -7,21 +7,19 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
 
 from geneva_cli.curves.measure import at
 from geneva_cli.curves.shapes import Circle, Line, Point, Shape
 from geneva_cli.errors import GenevaError
-from geneva_cli.output.inks import INKS
+from geneva_cli.output.placed_shapes import PAGE, placed_shapes
 from geneva_cli.progress import tracked
-from geneva_cli.scene import Bar, Scene, body_pose, place_at, pose, value_at
+from geneva_cli.scene import Scene, value_at
 
 WIDE = 400  # px
 FRAMES = 60  # pictures of a turn
 FINER = 3  # times: lines become smooth when they are drawn larger and reduced
-LINK, GREY = "#a56752", "#5c6670"
 
 
 def gif_bytes(scene: Scene) -> bytes:
@@ -40,7 +38,7 @@ def gif_bytes(scene: Scene) -> bytes:
     octree = Image.Quantize.FASTOCTREE
     frames: list[Image.Image] = []
     for i in tracked(range(FRAMES), "pictures", FRAMES):
-        image = Image.new("RGB", (FINER * WIDE, FINER * high), "#ffffff")
+        image = Image.new("RGB", (FINER * WIDE, FINER * high), PAGE)
         _draw(ImageDraw.Draw(image, "RGBA"), scene, scene.turn_deg * i / FRAMES, margin, scale)
         small = image.resize((WIDE, high), Image.Resampling.LANCZOS)
         # one palette for all frames; by the median cut it has no colour of a few pixels, as rollers
@@ -68,35 +66,11 @@ def _draw(pen: Any, scene: Scene, t: float, margin: float, scale: float) -> None
             (p,) = _placed([(p[0] - x, p[1] - y)], x, y, turned_by)
         return (p[0] - x0 + margin) * scale, (y1 + margin - p[1]) * scale
 
-    for body in scene.bodies:
-        at_t = body_pose(body, t)
-        for shape in body.shapes:
-            _outline(pen, shape, [on_paper(p) for p in _placed(_points(shape), *at_t)])
-    for bar in scene.bars:
-        _link(pen, bar, t, on_paper, scale)
-    for place in scene.rollers:
-        centre = on_paper(place_at(place, t))
-        _ring(pen, centre, scene.roller_radius * scale, INKS["ROLLER"].rgb, "50")
-
-
-def _link(pen: Any, bar: Bar, t: float, on_paper: Callable[[Point], Point], scale: float) -> None:
-    joints = [on_paper(place_at(place, t)) for place in bar.joints]
-    if bar.radius:
-        _ring(pen, joints[0], bar.radius * scale, GREY)
-    elif bar.plates:
-        _plates(pen, bar, t, on_paper)
-    elif len(joints) > 1:
-        pen.line([*joints, joints[0]], fill=LINK, width=4 * FINER)
-
-
-def _plates(pen: Any, bar: Bar, t: float, on_paper: Callable[[Point], Point]) -> None:
-    """Draw a link and its blocks with their outlines."""
-    for plate in bar.plates:
-        at = pose(bar, plate, t)
-        for i, shape in enumerate(plate.shapes):
-            points = [on_paper(p) for p in _placed(_points(shape), *at)]
-            pen.polygon(points, fill="#ffffff" if i else f"{LINK}40")
-            pen.line([*points, points[0]], fill=LINK, width=2 * FINER)
+    for shape, pose, ink, fill, wide in placed_shapes(scene, t):
+        points = [on_paper(p) for p in _placed(_points(shape), *pose)]
+        if fill:
+            pen.polygon(points, fill=fill)
+        pen.line(points, fill=ink, width=(4 if wide else 2) * FINER)
 
 
 @lru_cache(maxsize=256)  # an outline is needed in every frame
@@ -117,18 +91,3 @@ def _points(shape: Shape) -> list[Point]:
 def _placed(points: list[Point], x: float, y: float, angle: float) -> list[Point]:
     c, s = math.cos(angle), math.sin(angle)
     return [(x + c * u - s * v, y + s * u + c * v) for u, v in points]
-
-
-def _outline(pen: Any, shape: Shape, points: list[Point]) -> None:
-    layer, closed = shape.layer, isinstance(shape, Circle) or shape.closed
-    ink = INKS[layer].rgb if layer in INKS else GREY
-    if layer in ("BORE", "HOLLOW"):
-        pen.polygon(points, fill="#ffffff")
-    elif closed and layer not in ("PITCH", "GROOVE"):
-        pen.polygon(points, fill=f"{ink}30")
-    pen.line(points, fill=INKS["WHEEL"].rgb if layer == "HOLLOW" else ink, width=2 * FINER)
-
-
-def _ring(pen: Any, centre: Point, r: float, ink: str, opaque: str = "") -> None:
-    (x, y), fill = centre, f"{ink}{opaque}" if opaque else None
-    pen.ellipse((x - r, y - r, x + r, y + r), outline=ink, fill=fill, width=2 * FINER)

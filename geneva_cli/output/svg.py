@@ -16,7 +16,7 @@ from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.output.formats import FILLS
 from geneva_cli.output.inks import CENTRE_LINES, DASHES, inks
 from geneva_cli.output.notes import notes
-from geneva_cli.output.svg_fill import filled
+from geneva_cli.output.svg_fill import filled, rings
 from geneva_cli.output.svg_look import noted, style
 from geneva_cli.output.svg_paths import element, number
 
@@ -46,10 +46,12 @@ def chunks(drawing: Drawing, units: str, fill: str = "") -> Iterator[str]:
     frame = shown.box if shown else box
     margin = mm * (2.0 * MARGIN if look else MARGIN + STROKE)
     yield _head(frame, margin, title, suffix)
+    plates = rings(solid, UNITS[units]) if solid is not None and fill != "none" else []
     if look:
-        yield style(drawing.layers, frame, margin)
-    if solid is not None and fill != "none":
-        yield from filled(solid, fill, UNITS[units], mm)
+        tinted = [layer for layer, _ in plates if fill == "tint"]
+        yield style(drawing.layers, tuple(tinted), frame, margin)
+    if plates:
+        yield from filled(plates, fill, mm)
     yield from _layers(drawing, mm)
     if shown:
         yield from noted(shown, mm)

@@ -1,23 +1,26 @@
 """Plates of an SVG, filled with a light tint of their layer's colour, or hatched.
 
-The lowest plates come first, so that the upper ones cover them; bores stay open.
+The lowest plates come first, so that the tints of the upper ones cover them; bores stay open.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TypeAlias
 
 from geneva_cli.curves.measure import mapped
 from geneva_cli.curves.placed import in_place
 from geneva_cli.curves.plates import Member, Part
 from geneva_cli.curves.shapes import Contour, Layer, Shape, as_contour
-from geneva_cli.output.inks import INKS, inks
+from geneva_cli.output.inks import INKS, inks, mixed
+from geneva_cli.output.strokes import LIGHT, Paper
 from geneva_cli.output.svg_paths import number, path
 
+Plates: TypeAlias = list[tuple[Layer, tuple[Contour, ...]]]  # layers, outlines with their holes
 
-def filled(solid: Part, fill: str, unit: float, mm: float) -> Iterator[str]:
-    """All plates; ``unit`` is the file's unit in mm, ``mm`` a millimetre of lines in that unit."""
-    every = rings(solid, unit)
+
+def filled(every: Plates, fill: str, mm: float) -> Iterator[str]:
+    """The plates of ``rings``; ``mm`` is a millimetre of lines in the file's unit."""
     here = dict.fromkeys(layer for layer, _ in every)
     layers = tuple(sorted(here, key=[*INKS, *here].index))  # the wheel's hatch first
     turns_deg = (45, 135, 75, 105, 15, 165)  # the layers' hatches have these in turn
@@ -32,14 +35,21 @@ def filled(solid: Part, fill: str, unit: float, mm: float) -> Iterator[str]:
                 f' stroke-width="{number(mm * 0.25)}"/></pattern>\n'
             )
         yield "</defs>\n"
+    tint = tints(layers, LIGHT)
     yield '<g id="FILL" stroke="none" fill-rule="evenodd">\n'
     for layer, contours in every:
         if fill == "hatch":
             how = f'fill="url(#hatch-{layer})"'
         else:
-            how = f'fill="{inks(layers)[layer].rgb}" fill-opacity="{opacity(layer)}"'
+            how = f'class="{layer}" fill="{tint[layer]}"'
         yield f'<path {how} d="{" ".join(map(path, contours))}"/>\n'
     yield "</g>\n"
+
+
+def tints(layers: tuple[Layer, ...], paper: Paper) -> dict[Layer, str]:
+    """The tint of each layer on a page."""
+    inked = inks(layers)
+    return {layer: mixed(inked[layer].rgb, opacity(layer), paper.page) for layer in layers}
 
 
 def opacity(layer: Layer) -> float:
@@ -47,11 +57,11 @@ def opacity(layer: Layer) -> float:
     return 0.55 if layer == "ROLLER" else 0.16
 
 
-def rings(solid: Part, unit: float = 1.0) -> list[tuple[Layer, tuple[Contour, ...]]]:
+def rings(solid: Part, unit: float = 1.0) -> Plates:
     """The outline and holes of each plate, with its layer; the lowest plate first.
 
-    Of plates of one shape above each other, such as a counter's wheels, only the highest is there:
-    their tints would add up.
+    Of plates of one shape above each other, such as a counter's wheels, only the highest is there,
+    which covers the others. ``unit`` is the file's unit in mm.
     """
     placed = (plate for _, plate in in_place([Member(solid)]))
     every = sorted(placed, key=lambda plate: (plate.high, plate.low))

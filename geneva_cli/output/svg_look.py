@@ -6,17 +6,25 @@ from collections.abc import Iterator
 from html import escape
 
 from geneva_cli.curves.measure import Box
-from geneva_cli.output.inks import inks
+from geneva_cli.curves.shapes import Layer
+from geneva_cli.output.inks import inks, mixed
 from geneva_cli.output.notes import LETTERS, Notes
 from geneva_cli.output.strokes import DARK, LIGHT
+from geneva_cli.output.svg_fill import tints
 from geneva_cli.output.svg_paths import element, number, path, place, point
 
 
-def style(layers: tuple[str, ...], frame: Box, margin: float) -> str:
-    """The page behind the drawing, and its colours; programs without CSS show the light one."""
+def style(layers: tuple[str, ...], plates: tuple[Layer, ...], frame: Box, margin: float) -> str:
+    """The page behind the drawing, and its colours; programs without CSS show the light one.
+
+    ``plates`` are the layers of its filled plates.
+    """
     dark = "".join(
-        f"g[id='{layer}'] {{ stroke: {_brighter(ink.rgb)} }}\n"
+        f"g[id='{layer}'] {{ stroke: {brighter(ink.rgb)} }}\n"
         for layer, ink in inks(layers).items()
+    )
+    dark += "".join(
+        f"path[class='{layer}'] {{ fill: {tint} }}\n" for layer, tint in tints(plates, DARK).items()
     )
     x, y = number(frame.x0 - margin), number(-frame.y1 - margin)
     wide, high = frame.x1 - frame.x0 + 2.0 * margin, frame.y1 - frame.y0 + 2.0 * margin
@@ -46,7 +54,6 @@ def noted(shown: Notes, mm: float) -> Iterator[str]:
     yield "</g>\n"
 
 
-def _brighter(rgb: str) -> str:
+def brighter(rgb: str) -> str:
     """An ink for a dark page: 0.45 of the step to white is added."""
-    parts = (int(rgb[i : i + 2], 16) for i in (1, 3, 5))
-    return "#" + "".join(f"{round(p + 0.45 * (255 - p)):02x}" for p in parts)
+    return mixed(rgb, 0.55, "#ffffff")

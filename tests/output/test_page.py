@@ -263,13 +263,29 @@ def test_a_still_picture_is_the_scene_on_its_way(name, tmp_path):
     animate(found, str(file))
     root = ElementTree.parse(file).getroot()
     t = 0.12 * found.turn_deg
-    turned = re.search(r"rotate\(([^)]*)\)", root[1].get("transform"))[1]
+    groups = root.findall("{http://www.w3.org/2000/svg}g")
+    turned = re.search(r"rotate\(([^)]*)\)", groups[0].get("transform"))[1]
     angle = value_at(found.bodies[0].angle, t)
     assert float(turned) == pytest.approx(-np.degrees(angle), rel=1e-5)  # six digits
-    drawn = [(float(c.get("cx")), -float(c.get("cy"))) for c in root if c.tag.endswith("circle")]
+    ink = INKS["ROLLER"].rgb
+    places = [g.get("transform") for g in groups if g.get("stroke") == ink]
+    drawn = [
+        (float(x), -float(y)) for p in places for x, y in re.findall(r"translate\((\S+) (\S+)\)", p)
+    ]
     for x, y in found.rollers:
         place = value_at(x, t), value_at(y, t)
         assert min(np.hypot(a - place[0], b - place[1]) for a, b in drawn) < 1e-2
+
+
+def test_holes_of_a_still_picture_have_the_colour_of_the_page():
+    """The opening of an internal wheel, and each bore; the page is behind all."""
+    found = scene(design_of("internal-z6"))
+    root = ElementTree.fromstring("".join(still_svg.chunks(found)))
+    pages = [one for one in root if one.get("class") == "page"]
+    assert {one.get("fill") for one in pages} == {"#ffffff"}
+    holes = [s for b in found.bodies for s in b.shapes if s.layer in ("BORE", "HOLLOW")]
+    assert any(s.layer == "HOLLOW" for s in holes)
+    assert not found.bars and len(pages) == 1 + len(holes)
 
 
 def test_the_same_scene_gives_the_same_bytes_and_titles_are_no_markup():

@@ -23,9 +23,9 @@ from geneva_cli.output import draw
 from geneva_cli.output.formats import FILLS
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.notes import LETTERS, notes
-from geneva_cli.output.strokes import DARK
+from geneva_cli.output.strokes import DARK, LIGHT
 from geneva_cli.output.svg import chunks
-from geneva_cli.output.svg_look import _brighter
+from geneva_cli.output.svg_look import brighter
 from geneva_cli.spec.tables import Size
 
 NAME = "{http://www.w3.org/2000/svg}"
@@ -109,7 +109,7 @@ def test_a_fill_is_what_the_plates_are(assembly):
     solid = sorted(plates(assembly.solid), key=lambda p: (p.high, p.low))
     assert len(paths) == len(solid)
     for path, plate in zip(paths, solid, strict=True):
-        assert path.get("fill") == INKS[plate.layer].rgb
+        assert path.get("class") == plate.layer
         rings = re.findall(r"M [^M]*", path.get("d"))
         outer, *holes = (polygon(svg_path(ring.strip())) for ring in rings)
         area = outer.area - sum(hole.area for hole in holes)
@@ -121,16 +121,37 @@ def test_a_fill_is_what_the_plates_are(assembly):
 def test_wheels_in_a_row_are_filled_once():
     """One tint for all gears, one for all pairs of teeth and one for all rims; two for pinions."""
     counter = load(str(repo.DESIGNS / "odometer.toml")).drawing("assembly", 0.01)
-    fills = [path.get("fill") for path in groups(root(counter))["FILL"]]
-    counts = {layer: fills.count(INKS[layer].rgb) for layer in ("CRANK", "WHEEL", "FRAME")}
+    fills = [path.get("class") for path in groups(root(counter))["FILL"]]
+    counts = {layer: fills.count(layer) for layer in ("CRANK", "WHEEL", "FRAME")}
     assert counts == {"CRANK": 3, "WHEEL": 2, "FRAME": 1}
 
 
 def test_the_floor_of_a_groove_is_filled():
     """A cam's base has the outline of the ring on it, and is seen through the groove."""
     cam = load(str(repo.DESIGNS / "cam-geneva.toml")).drawing("assembly", 0.01)
-    fills = [path.get("fill") for path in groups(root(cam))["FILL"]]
-    assert fills.count(INKS["FRAME"].rgb) == 4  # of frame, base, ring and island
+    fills = [path.get("class") for path in groups(root(cam))["FILL"]]
+    assert fills.count("FRAME") == 4  # of frame, base, ring and island
+
+
+def test_an_upper_plate_covers_the_lower_ones(assembly):
+    """Tints are opaque: Pillow mixes each ink with the light page, and with the dark one."""
+    from PIL import Image, ImageColor
+
+    def on(page, layer):
+        part = 0.55 if layer == "ROLLER" else 0.16
+        return Image.blend(*(Image.new("RGB", (1, 1), c) for c in (page, INKS[layer].rgb)), part)
+
+    svg = root(assembly)
+    text = "".join(chunks(assembly, "mm"))
+    rules = dict(re.findall(r"path\[class='(.*)'\] { fill: (.*) }", text))
+    paths = list(groups(svg)["FILL"])
+    assert rules.keys() == {path.get("class") for path in paths}
+    for path in paths:
+        assert not any("opacity" in name for name in path.attrib)
+        for page, fill in ((LIGHT.page, path.get("fill")), (DARK.page, rules[path.get("class")])):
+            shown = ImageColor.getrgb(fill)
+            mixed = on(page, path.get("class")).getpixel((0, 0))
+            assert shown == pytest.approx(mixed, abs=1)  # Pillow cuts off what others round
 
 
 def test_fills(assembly):
@@ -156,7 +177,7 @@ def test_inks_in_the_dark():
     """A contrast above 4.5 to the dark page, as WCAG 2 asks of small text."""
     page = luminance(DARK.page) + 0.05
     for ink in INKS.values():
-        assert (luminance(_brighter(ink.rgb)) + 0.05) / page > 4.5
+        assert (luminance(brighter(ink.rgb)) + 0.05) / page > 4.5
 
 
 def test_the_command(tmp_path):

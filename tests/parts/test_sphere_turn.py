@@ -9,7 +9,6 @@ from scipy.spatial import cKDTree
 from geneva_cli import Crank, Design, External, Size, Spherical
 from geneva_cli.collisions.gaps import NEAR
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.drawings.sphere.shaft_gap import shaft_gap
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.sphere_sizes import ball
 from geneva_cli.parts.sphere.crank import at_mid_motion, sectors
@@ -18,6 +17,7 @@ from geneva_cli.parts.sphere.shells import shells
 from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.verdict.checks import all_pass, checks
 from geneva_cli.verdict.checks.registry import standing_checks
+from geneva_cli.verdict.sphere_shaft_gap import shaft_gap
 
 CLEAR = {"slot_clearance_mm": 0.05, "lock_clearance_mm": 0.04}
 

@@ -20,14 +20,13 @@ from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.mesh.polygons import (
-    Triangle,
     arc_chords,
     between,
     require_few,
     rounded_point,
     triangles,
 )
-from geneva_cli.output.mesh.surface import Surface, surface
+from geneva_cli.output.mesh.surface import Fans, Surface
 from geneva_cli.output.solid_part import plate_contours
 
 
@@ -78,13 +77,12 @@ def plate_mesh(plate: Plate, tolerance: float) -> Surface:
 
 
 class _PlateMesh:
-    """The corners, each once, and the triangles of one plate."""
+    """One plate while it is meshed."""
 
     def __init__(self, plate: Plate, contours: list[Contour], tolerance: float) -> None:
         self.plate, self.contours, self.tolerance = plate, contours, tolerance
         self.bores = [self._bore(hole) for hole in plate.cross]
-        self.corners: dict[tuple[float, float, float], int] = {}
-        self.triangles: list[Triangle] = []
+        self.fans = Fans()
         taken = plate.edge.size
         self.low, self.high = plate.low + taken, plate.high - taken  # of walls
         count = 0
@@ -111,10 +109,10 @@ class _PlateMesh:
         flat = [point for face in faces for point in face]
         for a, b, c in triangles(faces, self.plate.name):
             for z, face in ((self.plate.low, (c, b, a)), (self.plate.high, (a, b, c))):
-                self._face([(*flat[number], z) for number in face])
+                self.fans.add([(*flat[number], z) for number in face])
         for bore in self.bores:
             self._hole(bore)
-        return surface(list(self.corners), self.triangles)
+        return self.fans.surface()
 
     def _inset(self, loop: list[Corner]) -> list[Point]:
         """Return the corners of a face; around it are the strips of its edge, if it has one."""
@@ -125,8 +123,8 @@ class _PlateMesh:
         for i, (outer, inner) in enumerate(pairwise(rings)):
             for k in range(len(loop)):
                 a, b, c, d = outer[k - 1], outer[k], inner[k], inner[k - 1]
-                self._face([(*a, high[i]), (*b, high[i]), (*c, high[i + 1]), (*d, high[i + 1])])
-                self._face([(*d, low[i + 1]), (*c, low[i + 1]), (*b, low[i]), (*a, low[i])])
+                self.fans.add([(*a, high[i]), (*b, high[i]), (*c, high[i + 1]), (*d, high[i + 1])])
+                self.fans.add([(*d, low[i + 1]), (*c, low[i + 1]), (*b, low[i]), (*a, low[i])])
         face = rings[-1]
         return [one for k, one in enumerate(face) if one != face[k - 1]]
 
@@ -215,14 +213,14 @@ class _PlateMesh:
                 (low, low, end.heights[0], start.heights[0]),
                 (start.heights[-1], end.heights[-1], high, high),
             ):
-                self._face([(*start.at, z0), (*end.at, z1), (*end.at, z2), (*start.at, z3)])
+                self.fans.add([(*start.at, z0), (*end.at, z1), (*end.at, z2), (*start.at, z3)])
             return
         right = [(*end.at, z) for z in (low, *end.heights, high)]
         left = [(*start.at, z) for z in (high, *start.heights, low)]
         around = [*right, *left]
         # a fan from a corner between two others on one line leaves no flat triangle
         apex = 1 if end.heights else len(right) + 1 if start.heights else 0
-        self._face([*around[apex:], *around[:apex]])
+        self.fans.add([*around[apex:], *around[:apex]])
 
     def _hole(self, bore: Bore) -> None:
         """Add the hole's own wall, whose outer side is towards its axis."""
@@ -236,10 +234,4 @@ class _PlateMesh:
             rings.append([*below, *above])
         entry, exit_ = rings
         for k in range(len(entry)):
-            self._face([entry[k - 1], exit_[k - 1], exit_[k], entry[k]])
-
-    def _face(self, points: list[tuple[float, float, float]]) -> None:
-        """Add a fan of triangles from the first of some points."""
-        first, *rest = (self.corners.setdefault(point, len(self.corners)) for point in points)
-        fan = [(first, a, b) for a, b in zip(rest, rest[1:], strict=False)]
-        self.triangles += [one for one in fan if len(set(one)) == 3]
+            self.fans.add([entry[k - 1], exit_[k - 1], exit_[k], entry[k]])

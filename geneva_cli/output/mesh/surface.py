@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -29,6 +30,24 @@ class Surface(NamedTuple):
 def surface(corners: Sequence[Vector], triangles: Sequence[Triangle]) -> Surface:
     """Return the surface of corners, which are rounded, and triangles."""
     return Surface(rounded(np.array(corners)), np.array(triangles, dtype=np.int64))
+
+
+class Fans:
+    """A surface while it is built: its corners, each once, and its triangles."""
+
+    def __init__(self) -> None:
+        self.corners: dict[Vector, int] = {}
+        self.triangles: list[Triangle] = []
+
+    def add(self, points: Sequence[Vector]) -> None:
+        """Add a fan of triangles from the first of some points, without those of no area."""
+        first, *rest = (self.corners.setdefault(point, len(self.corners)) for point in points)
+        fan = [(first, a, b) for a, b in pairwise(rest)]
+        self.triangles += [one for one in fan if len(set(one)) == 3]
+
+    def surface(self) -> Surface:
+        """Return the surface."""
+        return surface(list(self.corners), self.triangles)
 
 
 def rounded(corners: Array) -> Array:

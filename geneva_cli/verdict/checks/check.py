@@ -10,7 +10,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.tolerances import keeps
 
 if TYPE_CHECKING:
-    from geneva_cli.drawings.shaft_gap import ShaftGap
+    from geneva_cli.verdict.shaft_gap import ShaftGap
 
 # The reason why a failing check has no advice.
 NONE = "no single change that was tried passes all checks"

@@ -64,7 +64,7 @@ def passing_parts(name: str, parts: FlatParts) -> Check | None:
     own = sizes["shafts"] == "turned" or any(sizes[key] is not None for key in keys)
     if not (spec.drive.IN_SERIES or own):
         return None
-    from geneva_cli.drawings.shaft_gap import shaft_gap  # which few machines need
+    from geneva_cli.verdict.shaft_gap import shaft_gap  # which few machines need
 
     return gap(name, lambda: shaft_gap(parts), parts.outlines.assembly.L)
 
@@ -73,7 +73,7 @@ def passing_gears(name: str, parts: FlatParts) -> Check | None:
     """The gap between shafts and noncircular gears, at their pitch curves' farthest places."""
     if parts.mechanism.spec.gears is None:
         return None
-    from geneva_cli.drawings.shaft_gap import gear_gap
+    from geneva_cli.verdict.shaft_gap import gear_gap
 
     return gap(name, lambda: gear_gap(parts), parts.outlines.assembly.L)
 
@@ -82,14 +82,14 @@ def passing_rack(name: str, parts: RackParts) -> Check | None:
     """The least gap between shafts and a rack, of a crank's shaft that ends above the arm."""
     if not parts.mechanism.spec.has_parts:
         return None  # without a frame there are no shafts
-    from geneva_cli.drawings.shaft_gap import rack_shaft_gap
+    from geneva_cli.verdict.shaft_gap import rack_shaft_gap
 
     return gap(name, lambda: rack_shaft_gap(parts), parts.mechanism.center_distance_mm)
 
 
 def passing_rack_gears(name: str, parts: RackParts) -> Check | None:
     """The least gap of gears before a rack's crank to its guide and to shafts."""
-    from geneva_cli.drawings.shaft_gap import rack_gear_gap
+    from geneva_cli.verdict.shaft_gap import rack_gear_gap
 
     return gap(name, lambda: rack_gear_gap(parts), parts.mechanism.center_distance_mm)
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 
 from geneva_cli.curves.round_holes import RoundHole
-from geneva_cli.drawings.sphere.shaft_gap import shaft_gap
 from geneva_cli.layout.arm_sizes import refuse_thin_hub
 from geneva_cli.layout.bores import reach_or_bore
 from geneva_cli.outlines.sphere_wheel import POLE
 from geneva_cli.parts.sphere.dial import dial_wall
 from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.verdict.checks.check import Check, at_least, compared, gap
+from geneva_cli.verdict.sphere_shaft_gap import shaft_gap
 
 
 def between_slots(name: str, parts: SphereParts) -> Check:

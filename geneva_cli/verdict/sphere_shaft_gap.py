@@ -14,11 +14,11 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.curves.plates import Plate, plates, steps_of
-from geneva_cli.drawings.shaft_gap import ShaftGap, ring_gap
 from geneva_cli.layout.bores import around
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.sphere.sphere_parts import SphereParts
+from geneva_cli.verdict.shaft_gap import ShaftGap, ring_gap
 
 
 class Sweep(NamedTuple):
