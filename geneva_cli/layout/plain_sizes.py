@@ -43,6 +43,24 @@ class Sizes(NamedTuple):
         """Thickness of the horn between slot and recess, thinnest at the mouth."""
         return self.arm - self.half_width - self.recess
 
+    @property
+    def outline(self) -> Sizes:
+        """The sizes of the outlines of wheel and crank: 0 for those that a load may change."""
+        return self._replace(
+            wheel_bore=0.0,
+            wheel_reach=0.0,
+            wheel_hub=0.0,
+            crank_bore=0.0,
+            crank_reach=0.0,
+            crank_hub=0.0,
+            pin=0.0,
+            arm_bore=0.0,
+            wheel_thickness=0.0,
+            lock_thickness=0.0,
+            arm_thickness=0.0,
+            link_thickness=0.0,
+        )
+
 
 class FirstSizes(NamedTuple):
     """What a load needs of the first wheel's parts, mm."""

@@ -87,6 +87,10 @@ class Enclosed:
         """Number of the piece between ``cuts`` that holds it."""
         raise NotImplementedError
 
+    def pieces(self, cuts: Sequence[float]) -> int | Whole:
+        """Number of the piece that holds it; of several enclosures an array of each one's own."""
+        return self.piece(cuts)
+
     def rising(self, f: Callable[[Number], Number]) -> Number:
         """Enclosure of the values of a function that rises: between those at both ends."""
         raise NotImplementedError
@@ -108,6 +112,11 @@ def piece_of(x: Number, cuts: Sequence[float]) -> int:
     1
     """
     return x.piece(cuts) if isinstance(x, Enclosed) else bisect_left(cuts, cast(float, x))
+
+
+def pieces_of(x: Number, cuts: Sequence[float]) -> int | Whole:
+    """Number of the piece that holds x, as ``piece_of``; of several enclosures an array."""
+    return x.pieces(cuts) if isinstance(x, Enclosed) else bisect_left(cuts, cast(float, x))
 
 
 def narrowed(value: Number, f: Callable[[Number], Number], x: Number) -> Number:

@@ -15,7 +15,16 @@ from typing import TYPE_CHECKING, ClassVar, NoReturn, TypeAlias, cast
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array, Enclosed, Library, Mask, Number, Truth, Undecided
+from geneva_cli.numerics.arrays import (
+    Array,
+    Enclosed,
+    Library,
+    Mask,
+    Number,
+    Truth,
+    Undecided,
+    Whole,
+)
 
 if TYPE_CHECKING:
     Bound: TypeAlias = Array | float
@@ -53,9 +62,22 @@ class Interval(Enclosed):
 
         Raises Undecided if one reaches over a cut by more than ``REACH``.
         """
-        index = np.searchsorted(cuts, 0.5 * (self.low + self.high))
+        return int(_answer(np.where(self._over(cuts), math.nan, self._pieces(cuts))))
+
+    def pieces(self, cuts: Sequence[float]) -> Whole:
+        """Number of the piece that holds the middle of each; raises Undecided as ``piece``."""
+        over = self._over(cuts)
+        if np.any(over):
+            raise Undecided("intervals over an end of a piece", np.where(over, math.nan, 0.0))
+        return self._pieces(cuts)
+
+    def _pieces(self, cuts: Sequence[float]) -> Whole:
+        return np.asarray(np.searchsorted(cuts, 0.5 * (self.low + self.high)))
+
+    def _over(self, cuts: Sequence[float]) -> Mask:
+        """True for those that reach over a cut by more than ``REACH``."""
         inside = [np.minimum(cut - self.low, self.high - cut) > self.REACH for cut in cuts]
-        return int(_answer(np.where(np.any(inside, axis=0), math.nan, index)))
+        return np.asarray(np.any(inside, axis=0))
 
     def rising(self, f: Callable[[Number], Number]) -> Number:
         """Intervals of the values of a function that rises: from the lower ends to the upper."""

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import SINGLE, Array, N, piece_of
+from geneva_cli.numerics.arrays import SINGLE, Array, N, pieces_of
 
 SPLINE_DEGREE = 5
 
@@ -33,12 +33,11 @@ class PiecewisePolynomial:
         self._columns = list(rows.T.copy())
 
     def __call__(self, x: N, order: int) -> list[N]:
-        """Taylor coefficients 0 to ``order`` at a number or an array of numbers."""
-        if isinstance(x, SINGLE):
-            cuts, origins, rows = self._scalars
-            i = piece_of(x, cuts)
-            return taylor(x - origins[i], rows[i], order)
-        index = self.cuts.searchsorted(x)
+        """Taylor coefficients 0 to ``order`` at a number, an array or enclosures of numbers."""
+        cuts, origins, rows = self._scalars
+        index = pieces_of(x, cuts) if isinstance(x, SINGLE) else self.cuts.searchsorted(x)
+        if isinstance(index, int):
+            return taylor(x - origins[index], rows[index], order)
         return taylor(x - self.origins[index], [c[index] for c in self._columns], order)
 
     @property

@@ -86,9 +86,16 @@ class Outlines(NamedTuple):
         return abs(float(Polyarc(self.crank).signed(np.zeros((1, 2)))[0]))
 
 
-@lru_cache(maxsize=KEPT)  # a sweep cuts the locks of its designs first, and then turns the parts
 def drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
-    """Return the cached outlines of an assembly with known sizes."""
+    """Return the outlines of an assembly with known sizes.
+
+    They are cached without what a load changes: a lock is cut before the parts are sized for it.
+    """
+    return _drawn(assembly, sizes.outline)._replace(sizes=sizes)
+
+
+@lru_cache(maxsize=KEPT)  # a sweep cuts the locks of its designs first, and then turns the parts
+def _drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
     kinds, L = assembly.kinds, assembly.L
     walls = turned_walls(assembly, sizes)
     close = (CURVED if any(engagement.slot.curved for engagement in kinds) else SAME_LENGTH) * L

@@ -12,6 +12,7 @@ from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Undecided, library, narrowed, piece_of
 from geneva_cli.numerics.intervals import Interval, size_of
 from geneva_cli.numerics.jet import Jet, sin_cos, sqrt
+from geneva_cli.numerics.spline import at_rest
 
 ONE_OF = {
     "sin": mpmath.sin,
@@ -108,6 +109,7 @@ def test_intervals_together_are_those_of_each_alone():
     [
         (lambda x: x < 1.0, [1.0, math.nan, 0.0]),
         (lambda x: x.piece([0.25, 1.0]), [1.0, math.nan, 2.0]),
+        (lambda x: x.pieces([0.25, 1.0]), [0.0, math.nan, 0.0]),
         (lambda x: library(x).floor(x), [0.0, math.nan, 1.0]),
     ],
 )
@@ -116,6 +118,17 @@ def test_each_interval_has_its_own_answer(ask, answers):
     with pytest.raises(Undecided) as refused:
         ask(x)
     np.testing.assert_equal(refused.value.answers, answers)
+
+
+def test_intervals_in_several_pieces_of_a_spline_are_evaluated_together():
+    """Each has the bounds that it has alone, where the spline is one polynomial."""
+    x = [0.0, 0.2, 0.5, 0.7, 1.0]
+    spline = at_rest(x, [u**4 * (35.0 - u * (84.0 - u * (70.0 - 20.0 * u))) for u in x])
+    ends = np.array([[0.0, 0.2, 0.55, 0.71], [0.1, 0.5, 0.7, 0.99]])
+    together = spline(Interval(*ends), 3)
+    for k, (low, high) in enumerate(ends.T.tolist()):
+        for whole, alone in zip(together, spline(Interval(low, high), 3), strict=True):
+            assert (whole.low[k], whole.high[k]) == (alone.low, alone.high)
 
 
 def test_peaks_of_the_sine_are_inside():

@@ -3,15 +3,17 @@
 The parts are compared with their hand calculation, and the sheet's dimensions with the same one.
 """
 
+import copy
 import math
 
 import numpy as np
 import pytest
 import repo
 from drawing_witness import vertices
+from scipy.spatial import KDTree
 from words import Drive, Keys, Motion, Spec, Wheel
 
-from geneva_cli import Counter, Design, EllipticalGears, External, Linear, load
+from geneva_cli import Counter, Design, EllipticalGears, External, Internal, Linear, load
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.moments import moments
 from geneva_cli.curves.plates import plates, solids
@@ -568,6 +570,22 @@ def test_a_relief_is_as_wide_as_the_wheel_reaches(wheel, passed):
         assert wide[one.motion].half == pytest.approx(reach, abs=math.radians(0.02))
     cut = [arc.sweep for arc in cut_arcs(parts.crank, sizes.lock, 0.0, 1e-6)]
     assert lock_of(assembly, sizes).half == pytest.approx(0.5 * min(map(abs, cut)), rel=1e-12)
+
+
+def test_half_of_a_symmetric_motion_shows_where_the_wheel_reaches():
+    """Each point that the wheel reaches in the whole motion, or its mirror image, is in the half.
+
+    The crank's only roller is at direction 0 at mid-motion, so that x is the axis of the mirror.
+    """
+    gaps = outlines(Design(Internal(5), size=Size(100.0, 10.0)).mechanism).gaps
+    x, y = gaps.swept(0, 1.0)
+    whole = copy.copy(gaps)
+    whole.pitch = 0.0  # as of a wheel whose slots differ
+    every_x, every_y = whole.swept(0, 1.0)
+    assert 1.9 * len(x) < len(every_x) < 2.0 * len(x)
+    half = KDTree(np.column_stack((x, np.abs(y))))
+    away, _ = half.query(np.column_stack((every_x, np.abs(every_y))))
+    assert away.max() < 1e-10  # rounding of angles, times 100 mm
 
 
 @pytest.mark.parametrize("direction", [0.0, 2.0])

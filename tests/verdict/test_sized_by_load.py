@@ -6,6 +6,7 @@ principal stresses, by numerical integration over a section, from the series of 
 
 import math
 import random
+from functools import partial
 
 import mpmath
 import numpy as np
@@ -28,9 +29,11 @@ from geneva_cli.loads.strength.part_loads import part_loads
 from geneva_cli.machine.materials import wheel_material
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.outlines.crank import crank_contours
 from geneva_cli.outlines.cut_lock import cut_arcs, cut_lock
-from geneva_cli.outlines.outlines import drawn
+from geneva_cli.outlines.outlines import SWEPT_DEG, drawn
 from geneva_cli.outlines.sizes import sized
+from geneva_cli.outlines.wheel import turned_walls, wheel_contour
 from geneva_cli.spec.tables import Load, Shaft, Size, WheelMaterial
 from geneva_cli.verdict.quantities.designs import Designs
 from geneva_cli.verdict.quantities.strength import arm, crank_key, crank_shaft, pin, wheel_shaft
@@ -348,6 +351,21 @@ def test_sizes_are_for_the_lock_as_it_is_cut(wheel, clearance):
     cut = [abs(arc.sweep) for arc in cut_arcs(parts.crank, lock.lock, 0.0, 1e-6)]
     assert lock.half == pytest.approx(0.5 * min(cut), abs=1e-12)
     assert cut_lock(*flat) == lock
+
+
+def test_the_sizes_that_a_load_changes_leave_the_outlines():
+    """The crank of an internal wheel is cut once: for the lock, then for the loaded parts."""
+    size = Size(center_distance_mm=100.0, roller_radius_mm=16.0)
+    load = Load(torque_Nm=40.0, dwell_torque_Nm=100.0)
+    where, sizes = sized(build(Spec(Internal(5), size=size, load=load)))
+    usual = sized(build(Spec(Internal(5), size=size)))[1]
+    assert sizes.arm_bore > usual.arm_bore
+    parts = drawn(where, sizes)
+    assert parts.gaps is drawn(where, usual).gaps
+    # cut anew, for all sizes
+    assert wheel_contour(where, sizes, turned_walls(where, sizes)) == parts.wheel
+    swept = partial(parts.gaps.swept, step_deg=SWEPT_DEG)
+    assert crank_contours(where, sizes, parts.relief, swept) == parts.crank
 
 
 @pytest.mark.parametrize(("roller_mm", "z"), [(12.0, 3), (16.0, 4), (16.0, 5)])
