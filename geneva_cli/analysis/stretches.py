@@ -7,7 +7,6 @@ and of the input's torque.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple
@@ -16,13 +15,18 @@ import numpy as np
 
 from geneva_cli.analysis.contact import NEAR_CUSP, contact
 from geneva_cli.analysis.forces import NEGLIGIBLE, LoadCase, wheel_torque
+from geneva_cli.analysis.peak_search import motion_peaks
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import Mask
 from geneva_cli.numerics.extrema import smooth_pieces
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.roots import root
 from geneva_cli.numerics.search import Stretches
+
+# The greatest fraction of the step between two adjacent angles: the loads then keep six digits.
+FEWEST_DIGITS = 1e-10
 
 
 def spans_of(engagement: Engagement, n: int) -> list[tuple[Array, Array]]:
@@ -121,17 +125,28 @@ def refuse_noise(integrals: Sequence[Array | None]) -> None:
         )
 
 
-def refuse_rounding(engagement: Engagement, fastest: float) -> None:
-    """Raise GenevaError for a motion that is too fast for the digits of its angles.
+def refuse_rounding(engagements: Sequence[Engagement]) -> None:
+    """Raise GenevaError for a design that is too fast for the digits of its angles."""
+    for engagement in engagements:
+        (fastest,), (fraction,) = _digits(engagement)
+        if fraction > FEWEST_DIGITS:
+            raise GenevaError(
+                f"the wheel moves {fastest:.2g} times as fast as the input. The last digit of the "
+                f"input angle is {fraction:.1g} of its step, so the loads would be rounding. Make "
+                "the drive more even (elliptical gears: an eccentricity up to 0.999999)",
+                ("drive", "kind"),
+            )
 
-    ``fastest`` is its greatest velocity.
-    """
-    furthest = max(abs(engagement.entry_deg), abs(engagement.exit_deg))
-    fraction = fastest * math.ulp(furthest) * DEGREE / (2.0 * engagement.half_step)
-    if fraction > 1e-10:  # a step between two adjacent angles: the loads keep six digits
-        raise GenevaError(
-            f"the wheel moves {fastest:.2g} times as fast as the input. The last digit of the "
-            f"input angle is {fraction:.1g} of its step, so the loads would be rounding. Make the "
-            "drive more even (elliptical gears: an eccentricity up to 0.999999)",
-            ("drive", "kind"),
-        )
+
+def too_fast(engagements: Sequence[Engagement]) -> Mask:
+    """True for designs whose motion is too fast for the digits of its angles: (m,) or (1,)."""
+    fractions = [_digits(engagement)[1] for engagement in engagements]
+    return np.asarray(np.max(np.broadcast_arrays(*fractions), axis=0) > FEWEST_DIGITS)
+
+
+def _digits(engagement: Engagement) -> tuple[Array, Array]:
+    """The greatest velocity, and the step between two adjacent angles there over the whole step."""
+    fastest = motion_peaks(engagement.motion, ["velocity"])["velocity"].max
+    furthest = np.fmax(np.abs(engagement.entry_deg), np.abs(engagement.exit_deg))
+    step = np.ravel(np.spacing(furthest) * DEGREE / (2.0 * np.asarray(engagement.half_step)))
+    return fastest, fastest * step

@@ -25,7 +25,7 @@ class Motion(SpecTable):
     ratio: Annotated[
         float | str | None,
         Words(Range(0.0, 1.0, "()"), ("matched",)),
-        'ratio R/L of curved slots, or "matched" for a finite pressure angle',
+        'R/L of curved slots, or "matched" for a finite pressure angle',
     ] = None
 
     def __post_init__(self) -> None:

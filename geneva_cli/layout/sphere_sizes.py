@@ -180,7 +180,7 @@ def _refuse(ball: Ball) -> None:
     if ball.opened() + ball.corner() > (1.0 - 1e-3) * ball.half_step:
         raise PartDoesNotFit(
             "no horn is left between slot and recess at the rim: reduce lock_radius_mm",
-            ("size", "roller_radius_mm"),
+            ("size", "lock_radius_mm"),
         )
 
 

@@ -134,13 +134,11 @@ class Cycle:
     @cached_property
     def _searches(self) -> list[tuple[LoadFunctions, SearchResult]]:
         """For each engagement, the search for the extremes of known quantities, and its cuts."""
+        refuse_rounding(self.mechanism.engagements)
         names, out = [*known_quantities(self.mechanism), KINETIC], []
         for engagement in self.mechanism.engagements:
             load = LoadFunctions(load_batch(engagement, self.case, names), ("slides", "feeds"))
-            result = search_loads(load, 1)
-            fastest = result.most[names.index("omega_rad_s"), 0] / self.case.speed_rad_s
-            refuse_rounding(engagement, fastest)
-            out.append((load, result))
+            out.append((load, search_loads(load, 1)))
         return out
 
     @cached_property

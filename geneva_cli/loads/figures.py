@@ -174,6 +174,8 @@ def _panel(name: str, drawn: Mapping[str, MachineCurves], noun: str) -> Panel:
             bounds += machine_curves.bounds.get(name, ())
     axis = AXIS_BY_NAME[name]
     label = axis.label.replace("wheel", noun).replace("Wheel", noun.capitalize())
+    if noun == "rack":  # its motion by the input's angle is its travel over the crank radius R
+        label = label.replace("relative to the input", "derivative of its travel over R")
     return Panel(
         axis._replace(label=label), tuple(curves), (min(bounds), max(bounds)) if bounds else None
     )

@@ -217,7 +217,11 @@ def refuse_input(path: str, old: os.stat_result, inputs: Iterable[str]) -> None:
 
 def _advice(error: OSError, path: str) -> str:
     if error.errno == errno.ENOENT:
-        return f"; make the folder {os.path.dirname(os.path.realpath(path))} first"
+        folder = os.path.dirname(os.path.realpath(path))
+        made = os.path.isdir(folder)  # a folder of the system may take no new files
+        return (
+            f"; the folder {folder} takes no files" if made else f"; make the folder {folder} first"
+        )
     if error.errno == errno.EISDIR:
         return "; give a file's name"
     return ""

@@ -23,6 +23,8 @@ from geneva_cli.verdict.quantities.names import group_of, in_batch
 if TYPE_CHECKING:
     from geneva_cli.study.sweep.values import Value
 
+OF_LOADS = ("loads", "sizing", "strength", "life")  # tables of quantities that follow from loads
+
 Batch: TypeAlias = tuple[list[int], Mechanism]  # the numbers of some designs, and their machine
 
 
@@ -192,4 +194,6 @@ def known_columns(machine: Mechanism, names: Sequence[str]) -> dict[str, Number]
         if own in own_columns:
             value = own_columns[own]
             out[name] = np.inf if value is None else value
+            if group.table in OF_LOADS and designs.too_fast.any():
+                out[name] = np.where(designs.too_fast, np.nan, np.ravel(out[name]))
     return out

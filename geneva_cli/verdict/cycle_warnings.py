@@ -141,7 +141,7 @@ def _on_an_edge(cycle: Cycle) -> Iterator[Notice]:
         return
     yield Notice(
         "sharp-wall",
-        f"contact stress without bound at {stress.max_at_deg:.4g}°: the roller bears on an "
+        f"the contact stress has no bound at {stress.max_at_deg:.4g}°: the roller bears on an "
         "edge there, where the undercut of the wall begins. A smaller roller bears on less of "
         'it; straight slots have none (kind = "cam" drives any law)',
     )

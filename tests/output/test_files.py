@@ -122,6 +122,7 @@ def test_format_overrides_the_extension():
 
 def test_folder_missing():
     clean_failure(geneva(*SHORT, "-o", "gone/peaks.csv"), "gone", "No such file", "make the folder")
+    clean_failure(geneva(*SHORT, "-o", "/proc/peaks.csv"), "the folder /proc takes no files")
 
 
 def test_output_is_a_folder():

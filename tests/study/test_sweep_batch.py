@@ -3,11 +3,13 @@
 import math
 import os
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from geneva_cli.app import app
 from geneva_cli.specfile.reader import read
+from geneva_cli.study.batches import batch_machines, known_columns
 from geneva_cli.study.sweep.plan import plan
 from geneva_cli.study.sweep.run import Sweep, sweep
 from geneva_cli.study.sweep.values import axis
@@ -156,3 +158,33 @@ def test_a_row_is_the_same_alone_and_among_thousands(tmp_path, monkeypatch):
         return CliRunner().invoke(app, [*call, "--format", "csv"]).stdout.splitlines()[-1]
 
     assert last("0..0.8:0.0001") == last("0..0.8:0.002")
+
+
+@pytest.mark.parametrize(
+    ("table", "picked"),
+    [
+        ("loads", "loads.pin_force_N.max"),
+        ("sizing", "sizing.energy_fluctuation_J"),
+        ("strength", "strength.crank_shaft.stress_MPa"),
+        ("life", "life.slot_travel_m"),
+    ],
+)
+def test_what_is_too_fast_for_loads_is_refused_in_a_batch_too(table, picked):
+    """As `loads` and `check` refuse it, whatever is picked; the slower design has its loads."""
+    names = [name for group in GROUPS if group.table == table for name in group.batched]
+    found = sweep(
+        read(os.path.join(DESIGNS, "elliptical-gears.toml")),
+        plan([axis("drive.eccentricity=0.999,0.9999999,0.99999999")], None, 5),
+        picks=[picked],
+    )
+    designs = found.plan.rows(0, 3)
+    slow = found.known(designs).keys()
+    errors = [row[-1] for row in found.rows_of(designs)]
+    assert set(slow) <= {0}
+    assert errors[0] is None
+    assert all("so the loads would be rounding" in error for error in errors[1:])
+    specs = [found.machine(design).spec for design in designs[:2]]
+    ((_, machine),) = batch_machines(specs)
+    columns = [np.broadcast_to(x, 2) for x in known_columns(machine, names).values()]
+    assert all(math.isnan(fast) for _, fast in columns)
+    assert math.isfinite(known_columns(machine, [picked])[picked][0])

@@ -16,14 +16,14 @@ from geneva_cli.study.fields import pick
 from geneva_cli.study.summary.titles import summary_of
 from geneva_cli.verdict.headline import bare, measured
 
-NO_BOUND = "without bound: see the warnings"
+NO_BOUND = "no bound: see the warnings"
 
 
 def of_loads(design: Design) -> Answer:
     """The answer of ``geneva loads``: some lines, and the powers with the definition of each."""
     first = summary_of(design, load_lines(design), design.warnings)
     powers = tuple(_powers(design))
-    summaries = (first, Summary("Powers of this machine", powers)) if powers else (first,)
+    summaries = (first, Summary("Required power", powers)) if powers else (first,)
     return Answer(summaries, design.loads_page, design.loads_table)
 
 
@@ -150,7 +150,7 @@ def _powers(design: Design) -> Iterator[SummaryLine]:
         (inertia, "greatest that the inertia alone takes from the input"),
     ]
     if motor:
-        text = "at the motor by the makers' form, with service factor and all losses"
+        text = "at the motor by the cam-indexer formula, with service factor and all losses"
         powers.append((motor.form_W, text))
     if motor and design.spec.motor.gear_efficiency < 1.0:
         text = "greatest at the motor over the exact cycle, with the reducer's losses"

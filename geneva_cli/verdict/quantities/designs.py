@@ -17,7 +17,7 @@ from geneva_cli.spec.load_limits import LIMITED, limits_by_key
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.forces import LoadCase
-    from geneva_cli.numerics.arrays import Array, Number
+    from geneva_cli.numerics.arrays import Array, Mask, Number
     from geneva_cli.table import Table
 
 T = TypeVar("T")
@@ -81,9 +81,28 @@ class Designs:
 
     @cached_property
     def loaded(self) -> Array:
-        """1 if something resists the wheel, else NaN."""
-        loaded = self.load_case.inertia_Nm + self.load_case.resists_Nm > 0.0
-        return np.ravel(np.where(loaded, 1.0, np.nan))
+        """1 if something resists the wheel and its loads keep their digits, else NaN."""
+        return np.where(self._resisted & ~self.too_fast, 1.0, np.nan)
+
+    @cached_property
+    def _resisted(self) -> Mask:
+        return np.asarray(np.ravel(self.load_case.inertia_Nm + self.load_case.resists_Nm > 0.0))
+
+    @cached_property
+    def too_fast(self) -> Mask:
+        """True for loaded designs of a batch whose loads would be rounding.
+
+        Raises GenevaError for a single design of that kind.
+        """
+        from geneva_cli.analysis.stretches import refuse_rounding, too_fast
+
+        resisted = self._resisted
+        if not resisted.any():
+            return resisted
+        if self.single:
+            refuse_rounding(self.machine.engagements)
+            return ~resisted
+        return np.logical_and(resisted, too_fast(self.machine.engagements))
 
 
 class BatchMember(Designs):

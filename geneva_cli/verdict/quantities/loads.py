@@ -29,7 +29,8 @@ def greatest(of: Designs) -> Columns:
     if "kinetic_power_W" in requested:
         power = worst_peaks(of.machine, ["power"])["power"].max
         kinetic = np.ravel(kinetic_power_W(of.machine, parameter(power[:, None])))
-        out["kinetic_power_W"] = np.where(np.ravel(of.load_case.inertia_Nm) > 0.0, kinetic, np.nan)
+        moved = np.ravel(of.load_case.inertia_Nm) > 0.0
+        out["kinetic_power_W"] = np.where(moved, kinetic, np.nan) * of.loaded
     return out
 
 

@@ -93,6 +93,11 @@ def _readings(typed: str) -> Iterator[list[str]]:
         yield [name for name in names if typed in {_spelled(end) for end in _ends(name)}]
 
 
+def _is_ambiguous(end: str) -> bool:
+    """Return True if the end of a name may be several quantities."""
+    return end not in group_of() and len(next(filter(None, _readings(end)), [])) > 1
+
+
 def _is_repeated(name: str) -> bool:
     """True for a value of the report's cycle that is among the loads under the same name.
 
@@ -132,6 +137,7 @@ def _nearest(typed: str) -> str:
     own = [name for name in known if not name.startswith(INPUTS)]
     own.sort(key=lambda name: name.startswith(CHECKS))  # a check gives way to a quantity
     ends = [end for name in own for end in (name, *_ends(name))]
+    ends = [end for end in dict.fromkeys(ends) if not _is_ambiguous(end)]
     begun = [end for end in ends if end.startswith(typed)] if len(typed) > 2 else []
     if begun:  # the shortest name; of its values the first, which is the greatest
         best = min(begun, key=lambda end: len(end.partition(".")[0]))
