@@ -119,9 +119,7 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
         design: _drawn(cycle, [n for n in shown if n in has[design]], window)
         for design, cycle in cycles.items()
     }
-    nouns = {machine.output.noun for machine in machines}
-    noun = nouns.pop() if len(nouns) == 1 else "wheel"
-    panels = tuple(_panel(name, drawn, noun) for name in shown)
+    panels = tuple(_panel(_axis(name, machines), drawn) for name in shown)
     axis, rests = Axis("input_deg", "Input angle", "deg"), tuple(_rests(machines, window))
     left = []
     for design, cycle in cycles.items():
@@ -161,8 +159,19 @@ def _why(cycle: Cycle, name: str) -> str:
     return f'gearing = "{cycle.mechanism.spec.wheel.NAME}" has another quantity instead'
 
 
-def _panel(name: str, drawn: Mapping[str, MachineCurves], noun: str) -> Panel:
-    """The curves of a quantity; ``noun`` is the part that moves, as its label says."""
+def _axis(name: str, machines: Sequence[Mechanism]) -> Axis:
+    """The axis of a quantity; its label names the part that moves, if it is the same in all."""
+    axis, output = AXIS_BY_NAME[name], machines[0].output
+    if any(machine.output.noun != output.noun for machine in machines):
+        return axis
+    label = axis.label.replace("wheel, relative to the input", f"wheel, {output.invariants}")
+    label = label.replace("wheel", output.noun).replace("Wheel", output.noun.capitalize())
+    return axis._replace(label=label)
+
+
+def _panel(axis: Axis, drawn: Mapping[str, MachineCurves]) -> Panel:
+    """The curves of a quantity."""
+    name = axis.name
     curves: list[Curve] = []
     bounds: list[float] = []
     for number, (design, machine_curves) in enumerate(drawn.items()):
@@ -172,13 +181,7 @@ def _panel(name: str, drawn: Mapping[str, MachineCurves], noun: str) -> Panel:
                 marks = tuple(sorted(marks, key=_size, reverse=True)[:1])
             curves.append(Curve(number, design, tuple(machine_curves.pieces[name]), marks))
             bounds += machine_curves.bounds.get(name, ())
-    axis = AXIS_BY_NAME[name]
-    label = axis.label.replace("wheel", noun).replace("Wheel", noun.capitalize())
-    if noun == "rack":  # its motion by the input's angle is its travel over the crank radius R
-        label = label.replace("relative to the input", "derivative of its travel over R")
-    return Panel(
-        axis._replace(label=label), tuple(curves), (min(bounds), max(bounds)) if bounds else None
-    )
+    return Panel(axis, tuple(curves), (min(bounds), max(bounds)) if bounds else None)
 
 
 def _size(mark: Mark) -> float:

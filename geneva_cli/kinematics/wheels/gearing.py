@@ -47,6 +47,7 @@ class Output(NamedTuple):
     load_keys: str  # what sets a load
     loads: dict[str, tuple[str, float]]
     lacks: tuple[str, ...] = ()
+    invariants: str = "relative to the input"  # what velocity, acceleration and jerk are
 
     @property
     def turns(self) -> bool:

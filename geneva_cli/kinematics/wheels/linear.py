@@ -70,6 +70,7 @@ class Linear(Gearing):
             load_keys="mass_kg or force_N in [load]",
             loads=loads,
             lacks=lacks,
+            invariants="derivative of its travel over R",
         )
 
     @property

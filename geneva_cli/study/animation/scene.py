@@ -133,11 +133,7 @@ def _remark(design: Design, bars: tuple[Bar, ...], teeth: DrawnTeeth) -> str:
 
 def _figure(design: Design) -> Figure:
     loads = ("pin_force_N", "input_torque_Nm") if design.cycle.is_loaded else ()
-    figure, noun = design.figure(("velocity", "acceleration", *loads)), design.spec.output.noun
-    axes = (panel.y for panel in figure.panels)
-    named = [axis._replace(label=axis.label.replace("the wheel", f"the {noun}")) for axis in axes]
-    panels = tuple(p._replace(y=y) for p, y in zip(figure.panels, named, strict=True))
-    return figure._replace(panels=panels)
+    return design.figure(("velocity", "acceleration", *loads))
 
 
 def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:

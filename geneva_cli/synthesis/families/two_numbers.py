@@ -84,8 +84,9 @@ class _TwoNumberSearch:
         self.wheels = [w for w, span in zip(wheels, spans, strict=True) if span]
         self.motions = [span for span in spans if span]
         self.bounds = target.known_bounds
-        self.sign, self.least = target.known_sort or Objective(1.0, target.peak)
-        self.nearest = target.any_motion and not target.sort
+        sort = target.known_sort
+        self.nearest = target.any_motion and not sort
+        self.sign, self.least = sort or Objective(1.0, target.peak)
 
     def machines(self) -> Iterator[Spec]:
         """The best machine of each wheel that has one."""
