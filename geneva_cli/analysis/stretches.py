@@ -8,6 +8,7 @@ and of the input's torque.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -125,7 +126,8 @@ def refuse_noise(integrals: Sequence[Array | None]) -> None:
         )
 
 
-def refuse_rounding(engagements: Sequence[Engagement]) -> None:
+@lru_cache(maxsize=16)  # the cycle, the strength and the checks of a design need the same answer
+def refuse_rounding(engagements: tuple[Engagement, ...]) -> None:
     """Raise GenevaError for a design that is too fast for the digits of its angles."""
     for engagement in engagements:
         (fastest,), (fraction,) = _digits(engagement)
