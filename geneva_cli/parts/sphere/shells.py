@@ -44,10 +44,9 @@ def fitted(mechanism: Mechanism, advice: bool = True) -> tuple[Ball, list[Region
 
 
 def _fits(mechanism: Mechanism, roller_mm: float) -> bool:
-    spec = mechanism.spec
-    size = spec.size.replace(roller_radius_mm=roller_mm)
+    spec = mechanism.spec.with_("size.roller_radius_mm", roller_mm)
     try:
-        _sizes_and_sectors(mechanism._replace(spec=spec.replace(size=size)))
+        _sizes_and_sectors(mechanism._replace(spec=spec))
     except GenevaError:
         return False
     return True
