@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.verdict.quantities.groups import CHECKS, GROUPS, INPUTS, RATES, QuantityGroup
+from geneva_cli.verdict.quantities.groups import CHECKS, GROUPS, INPUTS, RATES, SIZED, QuantityGroup
 
 # Quantities whose values are words, which have no order.
 WORDS = frozenset(
@@ -101,10 +101,12 @@ def _is_ambiguous(end: str) -> bool:
 def _is_repeated(name: str) -> bool:
     """True for a value of the report's cycle that is among the loads under the same name.
 
-    The greatest input torque is not: among the loads it is a size.
+    A ``max`` that is a size among the loads is not.
     """
     table, _, own = name.partition(".")
-    return table == "cycle" and f"loads.{own}" in group_of() and own != "input_torque_Nm.max"
+    load, _, end = own.partition(".")
+    is_size = end == "max" and load in SIZED.split()
+    return table == "cycle" and f"loads.{own}" in group_of() and not is_size
 
 
 def _spelled(name: str) -> str:

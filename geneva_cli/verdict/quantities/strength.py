@@ -127,11 +127,8 @@ def _shafts(of: Designs) -> list[tuple[shafts.ShaftDimensions, shafts.ShaftStres
         wheel_held = wheel_held._replace(force_N=force)
     if crank_held:  # the force passes through the crank's axis
         crank_held = crank_held.without_torque
-    table = of.spec.shaft
-    wheel, crank = (
-        _drawn(of, shafts.wheel_shaft(table), "wheel"),
-        _drawn(of, shafts.crank_shaft(table), "crank"),
-    )
+    wheel = _drawn(of, shafts.wheel_shaft(of.spec.shaft), "wheel")
+    crank = _drawn(of, shafts.crank_shaft(of.spec.shaft), "crank")
     both = (
         shafts.LoadedShaft(wheel, shafts.wheel_forces(of.machine), wheel_held),
         shafts.LoadedShaft(crank, shafts.crank_forces(of.spec), crank_held),
