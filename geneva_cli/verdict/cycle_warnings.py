@@ -1,4 +1,4 @@
-"""Warnings about a cycle: where the wheel drives the motor or lags, and unbounded loads."""
+"""Warnings about a cycle: a wheel that drives the motor, lags or is unbalanced; unbounded loads."""
 
 from __future__ import annotations
 
@@ -6,13 +6,16 @@ import math
 from collections.abc import Iterator, Mapping
 
 from geneva_cli.analysis.arrival import arrival
+from geneva_cli.analysis.carried import weight_kg
 from geneva_cli.analysis.peak_search import braking
+from geneva_cli.analysis.peaks import worst
 from geneva_cli.analysis.quantities import FORCE, STRESS
 from geneva_cli.errors import Notice
 from geneva_cli.loads import loads
 from geneva_cli.loads.cycle import Cycle, cycle_of
 from geneva_cli.loads.summaries import LoadSummary
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.load_limits import limits_by_key, load_limits
 
@@ -20,8 +23,12 @@ from geneva_cli.spec.load_limits import limits_by_key, load_limits
 def cycle_warnings(
     cycle: Cycle, summaries: Mapping[str, LoadSummary[float | None]]
 ) -> list[Notice]:
-    """Warnings about a wheel that drives the motor or lags, for the summaries of its loads."""
-    return [*_back_driven(cycle, summaries), *_lags(cycle.mechanism)]
+    """Warnings about a wheel that drives the motor, lags or is not balanced."""
+    return [
+        *_back_driven(cycle, summaries),
+        *_lags(cycle.mechanism),
+        *_unbalanced(cycle, summaries),
+    ]
 
 
 def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
@@ -89,6 +96,36 @@ def _lags(mechanism: Mechanism) -> Iterator[Notice]:
         f"Once the gears let go the wheel lags, by up to {lag:.4g}° at {at_deg:.4g}°, "
         f"and the roller strikes it at {struck:.4g}°. Less torque, more inertia or more "
         "speed reduces the lag",
+    )
+
+
+def _unbalanced(
+    cycle: Cycle, summaries: Mapping[str, LoadSummary[float | None]]
+) -> Iterator[Notice]:
+    """A warning about single bodies off the wheel's axis, whose force its shaft bears.
+
+    On a carrier the loads count that force; behind gears another shaft bears it.
+    """
+    spec = cycle.mechanism.spec
+    bodies = [one for one in spec.mass if one.count < 2 and one.radius_mm]
+    if not bodies or cycle.case.frame or spec.support.gear_ratio != 1.0:
+        return
+    peaks = worst(cycle.mechanism)
+    # at most: the peaks need not coincide, nor the bodies stand on one side
+    most = omega(spec.drive.n_rpm) ** 2 * math.hypot(
+        peaks.velocity.max**2, peaks.acceleration.max
+    )
+    force = most * sum(weight_kg(one) * one.radius_mm * 1e-3 for one in bodies)
+    bearing = summaries["wheel_bearing_N"].max
+    if bearing is None or force < 0.01 * bearing:
+        return
+    names = " and ".join(one.name or one.shape for one in bodies)
+    stand = "stands" if len(bodies) == 1 else "stand"
+    yield Notice(
+        "unbalanced",
+        f"{names} {stand} off the wheel's axis. While the wheel moves, bearing and shaft hold up "
+        f"to {force:.4g} N for that, which is not counted: balance it with another body "
+        "(count = 2)",
     )
 
 

@@ -7,6 +7,7 @@ import repo
 from drawing_witness import vertices
 
 from geneva_cli import (
+    Crank,
     Design,
     External,
     Internal,
@@ -111,6 +112,42 @@ def test_a_weight_to_one_side_of_a_horizontal_axis():
     assert not told(spec.with_("support.axis", "vertical"), None)
     four = Mass("point", mass_kg=2.0, radius_mm=100.0, count=4)
     assert not told(Spec(External(6), mass=(four,), support=spec.support), None)
+
+
+def test_the_force_of_a_body_off_the_axis():
+    """At most m e w² hypot(v², a), at least the greatest along the motion, by differences of it."""
+    arm = Mass("point", mass_kg=2.0, radius_mm=100.0, name="arm")
+
+    def design(*masses, gear_ratio=1.0):
+        drive, support = Crank(n_rpm=120.0), Support(gear_ratio=gear_ratio)
+        return Design(External(6), drive, mass=masses, support=support)
+
+    def unbalanced(design):
+        return [text for text in map(str, design.warnings) if "off the wheel's axis" in text]
+
+    (said,) = unbalanced(design(arm))
+    assert said.startswith("arm stands off the wheel's axis.")
+    most = float(said.partition("hold up to ")[2].split()[0])
+    w = 4.0 * math.pi
+    step, half = 1e-4, math.radians(60.0)  # of the crank, from mid-motion
+
+    def psi(t):  # the direction of the roller from the wheel's axis: r = L/2
+        return math.atan2(0.5 * math.sin(t), 1.0 - 0.5 * math.cos(t))
+
+    forces = []
+    for i in range(-1000, 1001):
+        t = half * i / 1000
+        v = (psi(t + step) - psi(t - step)) / (2 * step)
+        a = (psi(t + step) - 2 * psi(t) + psi(t - step)) / step**2
+        forces.append(2.0 * 0.1 * w * w * math.hypot(v * v, a))
+    # v <= 1 and a <= 1.3496 (theory): together at most a quarter above both at once
+    assert max(forces) < most < 1.25 * max(forces)
+    assert most == pytest.approx(2.0 * 0.1 * w * w * math.hypot(1.0, 1.3496), rel=1e-3)  # 4 digits
+
+    assert not unbalanced(design(Mass("point", mass_kg=2.0, radius_mm=100.0, count=2)))
+    assert not unbalanced(design(arm, gear_ratio=2.0))
+    heavy = Mass("disc", mass_kg=1000.0, diameter_mm=1000.0)  # its pin force is far greater
+    assert not unbalanced(design(arm, heavy))
 
 
 @pytest.mark.parametrize(
