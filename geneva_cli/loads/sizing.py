@@ -1,4 +1,4 @@
-"""Sizing of motor and flywheel: the form of index-drive makers, and the exact cycle.
+"""Sizing of motor and flywheel: the cam-indexer formula, and the exact cycle.
 
 >>> import numpy as np
 >>> from geneva_cli import External, Load
@@ -26,7 +26,7 @@ from geneva_cli.analysis.peak_search import motion_peaks
 from geneva_cli.analysis.quantities import TORQUE
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.loads.fluctuation import fluctuations, flywheel_kgm2
-from geneva_cli.loads.makers_form import MakersForm, ShaftLoad, makers_form
+from geneva_cli.loads.indexer_formula import IndexerFormula, ShaftLoad, indexer_formula
 from geneva_cli.loads.summaries import LoadSummary, load_summaries
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
@@ -36,11 +36,11 @@ if TYPE_CHECKING:
     from geneva_cli.loads.cycle import Cycle
     from geneva_cli.spec.tables import Motor
 
-Peaks: TypeAlias = "tuple[float, ...]"  # of one engagement, in the order of ``FORM_PEAKS``
+Peaks: TypeAlias = "tuple[float, ...]"  # of one engagement, in the order of ``FORMULA_PEAKS``
 CARRIED = ("inertia_kgm2", "motor_rpm")
 CAM_FACTORS = ("acceleration_rad_s2", "Am", "Vm", "Qm")
 KNOWN_UNLOADED = (*CARRIED, *CAM_FACTORS)  # known without a load
-MAKERS_FORM = (
+INDEXER_FORMULA = (
     *("inertia_torque_Nm", "friction_torque_Nm", "total_torque_Nm", "design_torque_Nm"),
     *("input_torque_Nm", "power_W"),
 )
@@ -51,13 +51,13 @@ CYCLE_SUMS = (
     "motor_torque_rms_Nm",
 )
 EXTREMES = ("motor_torque_max_Nm", "input_torque_ratio")
-FORM_PEAKS = ("velocity", "acceleration", "power")  # of each motion, for the makers' form
+FORMULA_PEAKS = ("velocity", "acceleration", "power")  # of each motion, for the cam-indexer formula
 ROTOR = ("inertia_ratio", "coasting_speed_share")
 # all but the wheel's own inertia, which follows from its outline
-SIZING_NAMES = (*CARRIED, *CAM_FACTORS, *MAKERS_FORM, *CYCLE_SUMS, *EXTREMES, *ROTOR)
+SIZING_NAMES = (*CARRIED, *CAM_FACTORS, *INDEXER_FORMULA, *CYCLE_SUMS, *EXTREMES, *ROTOR)
 WHEEL_INERTIA = "wheel_inertia_kgm2"  # known from the parts, not from ``sizing``
-# In the order shown: the inertia at the wheel's shaft, and the wheel's own; the makers' form, for
-# the engagement with the greatest torque at the input; the exact cycle.
+# In the order shown: the inertia at the wheel's shaft, and the wheel's own; the cam-indexer
+# formula, for the engagement with the greatest torque at the input; the exact cycle.
 SHOWN_SIZING = (
     *(
         "inertia_kgm2",
@@ -123,12 +123,12 @@ def sizings(
     if names & set(CARRIED):
         rpm = spec.drive.n_rpm * spec.motor.gear_ratio
         values |= {"inertia_kgm2": _some(inertia_kgm2(spec)), "motor_rpm": rpm}
-    formed = bool(names & {*CAM_FACTORS, *MAKERS_FORM, "input_torque_ratio"})
+    by_formula = bool(names & {*CAM_FACTORS, *INDEXER_FORMULA, "input_torque_ratio"})
     if peaks is None:
-        sought = FORM_PEAKS if formed else FORM_PEAKS[:1] if names & set(ROTOR) else ()
+        sought = FORMULA_PEAKS if by_formula else FORMULA_PEAKS[:1] if names & set(ROTOR) else ()
         peaks = [_peaks(engagement, sought) for engagement in mechanism.engagements]
-    if formed:
-        values |= _form(mechanism, peaks)
+    if by_formula:
+        values |= _by_formula(mechanism, peaks)
     if names & {*CYCLE_SUMS, *EXTREMES}:
         if torque is None:
             means = ("mean", "rms") if names & set(CYCLE_SUMS) else ()
@@ -153,33 +153,33 @@ def _peaks(engagement: Engagement, names: Sequence[str]) -> Peaks:
     return tuple(parameter(peaks[name].max[:, None]) for name in names)
 
 
-def _form(mechanism: Mechanism, peaks: Sequence[Peaks]) -> dict[str, Number]:
-    """The makers' form, for the engagement with the greatest torque at the input."""
+def _by_formula(mechanism: Mechanism, peaks: Sequence[Peaks]) -> dict[str, Number]:
+    """The cam-indexer formula, for the engagement with the greatest torque at the input."""
     spec, w = mechanism.spec, load_case(mechanism).speed_rad_s
-    form, factors = greatest_form(mechanism, peaks)
+    line, factors = greatest_formula(mechanism, peaks)
     return {
-        "acceleration_rad_s2": form.alpha,
+        "acceleration_rad_s2": line.alpha,
         **factors._asdict(),
-        "inertia_torque_Nm": _some(form.Ti),
+        "inertia_torque_Nm": _some(line.Ti),
         "friction_torque_Nm": _some(support_torque_Nm(spec)),
-        "total_torque_Nm": form.Tt,
-        "design_torque_Nm": form.Te,
-        "input_torque_Nm": form.Tc,
-        "power_W": w * form.Tc / (spec.load.efficiency * spec.motor.gear_efficiency),
+        "total_torque_Nm": line.Tt,
+        "design_torque_Nm": line.Te,
+        "input_torque_Nm": line.Tc,
+        "power_W": w * line.Tc / (spec.load.efficiency * spec.motor.gear_efficiency),
     }
 
 
 def _exact(
-    mechanism: Mechanism, torque: LoadSummary[Array], form_torque: Number | None
+    mechanism: Mechanism, torque: LoadSummary[Array], formula_torque: Number | None
 ) -> dict[str, Number]:
     """Motor and flywheel from the exact cycle; NaN if the torque is unbounded."""
     motor, w = mechanism.spec.motor, load_case(mechanism).speed_rad_s
     bounded = np.isfinite(torque.max) & np.isfinite(torque.min)
     most, least = (np.where(bounded, x, np.nan)[:, None] for x in (torque.max, torque.min))
     out: dict[str, Number] = {"motor_torque_max_Nm": greatest_motor_torque_Nm(motor, most, least)}
-    if form_torque is not None:
+    if formula_torque is not None:
         size = np.maximum(most, -least)
-        out["input_torque_ratio"] = form_torque / _some(size)
+        out["input_torque_ratio"] = formula_torque / _some(size)
     if torque.mean is None or torque.rms is None:
         return out
     square = np.where(bounded, torque.rms, np.nan) ** 2
@@ -209,10 +209,12 @@ def _rotor(mechanism: Mechanism, velocities: Sequence[float]) -> dict[str, Numbe
     return {name: np.where(known, x, np.nan) for name, x in zip(ROTOR, ratio, strict=True)}
 
 
-def greatest_form(mechanism: Mechanism, peaks: Sequence[Peaks]) -> tuple[MakersForm, CamFactors]:
-    """The makers' form with the greatest torque at the input, and its motion's factors.
+def greatest_formula(
+    mechanism: Mechanism, peaks: Sequence[Peaks]
+) -> tuple[IndexerFormula, CamFactors]:
+    """The cam-indexer formula with the greatest torque at the input, and its motion's factors.
 
-    ``peaks`` are each engagement's ``FORM_PEAKS``, as invariants.
+    ``peaks`` are each engagement's ``FORMULA_PEAKS``, as invariants.
     """
     spec = mechanism.spec
     load = ShaftLoad(
@@ -228,8 +230,8 @@ def greatest_form(mechanism: Mechanism, peaks: Sequence[Peaks]) -> tuple[MakersF
         velocity, acceleration, power = peak
         with np.errstate(invalid="ignore"):  # of a motion without a greatest acceleration
             factors = cam_factors(velocity, acceleration, power, motion, step)
-            form = makers_form(factors, step, motion, spec.drive.n_rpm, load)
-        every.append((form, factors))
+            line = indexer_formula(factors, step, motion, spec.drive.n_rpm, load)
+        every.append((line, factors))
     best, *others = every
     for other in others:
         (one, _), (two, _) = best, other

@@ -112,9 +112,7 @@ def _unbalanced(
         return
     peaks = worst(cycle.mechanism)
     # at most: the peaks need not coincide, nor the bodies stand on one side
-    most = omega(spec.drive.n_rpm) ** 2 * math.hypot(
-        peaks.velocity.max**2, peaks.acceleration.max
-    )
+    most = omega(spec.drive.n_rpm) ** 2 * math.hypot(peaks.velocity.max**2, peaks.acceleration.max)
     force = most * sum(weight_kg(one) * one.radius_mm * 1e-3 for one in bodies)
     bearing = summaries["wheel_bearing_N"].max
     if bearing is None or force < 0.01 * bearing:

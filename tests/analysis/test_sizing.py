@@ -11,7 +11,7 @@ import repo
 
 from geneva_cli import Design, External, Load, Mass, Motor, Support, load
 from geneva_cli.analysis.cam_factors import CamFactors
-from geneva_cli.loads import makers_form as makers
+from geneva_cli.loads import indexer_formula
 from geneva_cli.loads.fluctuation import flywheel_kgm2
 from geneva_cli.loads.sizing import sizing
 from geneva_cli.numerics.angles import omega
@@ -38,8 +38,8 @@ PARTS = Mass("point", mass_kg=0.25, count=6, radius_mm=100.0)
 def turret(Am, Vm, Qm):
     g = 9.807  # the maker's
     friction = 0.15 * (11.026 + 18.0 + 1.5) * g * 0.1
-    carried = makers.ShaftLoad(0.124 + 0.18 + 0.015, friction, 0.0, 2.0)
-    return makers.makers_form(CamFactors(Am, Vm, Qm), 60.0, 270.0, 80.0, carried)
+    carried = indexer_formula.ShaftLoad(0.124 + 0.18 + 0.015, friction, 0.0, 2.0)
+    return indexer_formula.indexer_formula(CamFactors(Am, Vm, Qm), 60.0, 270.0, 80.0, carried)
 
 
 def test_the_published_indexer():

@@ -217,7 +217,7 @@ def test_losses_count_where_the_input_drives():
     assert lossy.cycle.states(x).input_torque_Nm == pytest.approx(expected, rel=1e-12)
 
 
-def test_the_makers_form_covers_the_exact_torque():
+def test_the_indexer_formula_covers_the_exact_torque():
     for wheel in WHEELS:
         design = Design(wheel, Carousel(), load=Load(inertia_kgm2=0.05, torque_Nm=0.2))
         assert sizing(design.cycle)[0]["input_torque_ratio"] >= 1.0

@@ -7,7 +7,7 @@ from typing import Any
 
 from geneva_cli.answer import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.design import Design
-from geneva_cli.loads.makers_form import RecommendedMotor, recommended_motor
+from geneva_cli.loads.indexer_formula import RecommendedMotor, recommended_motor
 from geneva_cli.loads.summaries import LoadSummary
 from geneva_cli.loads.summary import no_load
 from geneva_cli.machine.both_ways import every_way
@@ -131,8 +131,8 @@ def _geared(motor: RecommendedMotor, gear_ratio: float) -> str:
 
 
 def _why(motor: RecommendedMotor, service_factor: float) -> str:
-    """The reason for the power: the makers' form or the exact cycle."""
-    if motor.form_W >= motor.peak_W:
+    """The reason for the power: the cam-indexer formula or the exact cycle."""
+    if motor.formula_W >= motor.peak_W:
         return f"with service factor {measured(service_factor)} and all losses"
     return "at most over the exact cycle"
 
@@ -151,7 +151,7 @@ def _powers(design: Design) -> Iterator[SummaryLine]:
     ]
     if motor:
         text = "at the motor by the cam-indexer formula, with service factor and all losses"
-        powers.append((motor.form_W, text))
+        powers.append((motor.formula_W, text))
     if motor and design.spec.motor.gear_efficiency < 1.0:
         text = "greatest at the motor over the exact cycle, with the reducer's losses"
         powers.append((motor.peak_W, text))

@@ -68,7 +68,7 @@ def summaries(of: Designs) -> Columns:
 
 
 def sizing(of: Designs) -> Columns:
-    """Motor, flywheel and the makers' form; None for values that need keys that no design has."""
+    """Motor, flywheel and the cam-indexer formula; None for values that need keys none has."""
     from geneva_cli.loads.sizing import sizings
 
     requested = of.requested("sizing")

@@ -61,6 +61,6 @@ def cycle(model: PartsModel) -> Values:
 
 
 def motor_sizing(model: PartsModel) -> Values:
-    """Motor, flywheel and the makers' form, without the wheel's own inertia."""
+    """Motor, flywheel and the cam-indexer formula, without the wheel's own inertia."""
     values, _ = sizing(cycle_of(model.mechanism))
     return {name: value for name, value in values.items() if name != WHEEL_INERTIA}

@@ -1,7 +1,7 @@
-"""Sizing by the form of index-drive makers, for any cam curve; the standard motor that is enough.
+"""Sizing by the formula of cam-indexer makers, for any cam curve; the standard motor.
 
-The form assumes the greatest torque on the wheel during the whole motion, and the curve's factor Qm
-for its transfer to the input. The exact cycle is in ``cycle``.
+The formula assumes the greatest torque on the wheel during the whole motion, and the curve's
+factor Qm for its transfer to the input. The exact cycle is in ``cycle``.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ class ShaftLoad(NamedTuple):
     frame: float = 0.0  # turns of the wheel's frame in one turn of the input
 
 
-class MakersForm(NamedTuple):
-    """The lines of the form: rad/s², N m at the wheel, and Tc at the input.
+class IndexerFormula(NamedTuple):
+    """The lines of the formula: rad/s², N m at the wheel, and Tc at the input.
 
     Ti = J alpha, Tt = Ti + Tf + Tw, Te = fc Tt, Tc = step/motion Qm Te. A carrier that turns the
     wheel's frame also takes fc Ti, which need not be greatest where the rest is.
@@ -38,16 +38,16 @@ class MakersForm(NamedTuple):
     Tc: float
 
 
-def makers_form(
+def indexer_formula(
     factors: CamFactors, step_deg: float, motion_deg: float, n_rpm: float, load: ShaftLoad
-) -> MakersForm:
-    """The form for a wheel's step in an input angle at a speed: alpha = Am step / t2².
+) -> IndexerFormula:
+    """The formula for a wheel's step in an input angle at a speed: alpha = Am step / t2².
 
     A maker's example: six stops in 270 degrees at 80 rpm, modified trapezoid.
 
     >>> turret = ShaftLoad(inertia=0.319, friction=4.49, work=0.0, service_factor=2.0)
-    >>> form = makers_form(CamFactors(4.89, 2.0, 1.655), 60.0, 270.0, 80.0, turret)
-    >>> round(form.alpha, 3), round(form.Ti, 2), round(form.Tc, 2)
+    >>> found = indexer_formula(CamFactors(4.89, 2.0, 1.655), 60.0, 270.0, 80.0, turret)
+    >>> round(found.alpha, 3), round(found.Ti, 2), round(found.Tc, 2)
     (16.184, 5.16, 7.1)
     """
     t2 = motion_deg / (6.0 * n_rpm)
@@ -56,7 +56,7 @@ def makers_form(
     Tt = Ti + load.friction + load.work
     Te = load.service_factor * Tt
     carried = abs(load.frame) * load.service_factor * Ti
-    return MakersForm(alpha, Ti, Tt, Te, step_deg / motion_deg * factors.Qm * Te + carried)
+    return IndexerFormula(alpha, Ti, Tt, Te, step_deg / motion_deg * factors.Qm * Te + carried)
 
 
 # Rated outputs of motors, kW, by IEC 60072-1; 3 and 4 kW, common in catalogues, by EN 50347.
@@ -69,10 +69,10 @@ RATED_kW = (
 class RecommendedMotor(NamedTuple):
     """A motor: the power needed from it, and the standard power that is enough."""
 
-    form_W: float  # by the makers' form, with the service factor and both efficiencies
+    formula_W: float  # by the cam-indexer formula, with the service factor and both efficiencies
     peak_W: float  # greatest over the exact cycle, behind the reducer, without the service factor
     rpm: float
-    input_torque_Nm: float  # by the makers' form, with the service factor
+    input_torque_Nm: float  # by the cam-indexer formula, with the service factor
 
     @property
     def needed_W(self) -> float:
@@ -81,7 +81,7 @@ class RecommendedMotor(NamedTuple):
         >>> RecommendedMotor(118.3, 88.5, 1400.0, 22.8).needed_W
         118.3
         """
-        return max(self.form_W, self.peak_W)
+        return max(self.formula_W, self.peak_W)
 
     @property
     def rated_kW(self) -> float | None:
@@ -96,7 +96,7 @@ class RecommendedMotor(NamedTuple):
 def recommended_motor(sizing: Mapping[str, float | None]) -> RecommendedMotor | None:
     """The motor for the values of ``sizing``; None without a load, or for an unbounded one."""
     names = ("power_W", "motor_torque_max_Nm", "motor_rpm", "input_torque_Nm")
-    form, torque, rpm, with_factor = (sizing[name] for name in names)
-    if form is None or torque is None or rpm is None or with_factor is None:
+    formula_W, torque, rpm, with_factor = (sizing[name] for name in names)
+    if formula_W is None or torque is None or rpm is None or with_factor is None:
         return None
-    return RecommendedMotor(form, torque * rpm * math.tau / 60.0, rpm, with_factor)
+    return RecommendedMotor(formula_W, torque * rpm * math.tau / 60.0, rpm, with_factor)
