@@ -143,8 +143,8 @@ def with_clamp(size: Size, part: str, hub: Plate | None, direction: float) -> Pl
     if not clamp.fits or hub.thickness < clamp.screw.head:
         fitting = [s.thread for s in SCREWS if clamp._replace(screw=s).fits]
         fitting = [one for one in fitting if hub.thickness >= screw(key, one).head]
-        too_small = "hub" if clamp._replace(screw=SCREWS[0]).slit < 2.0 * clamp.bore else "bore"
-        most = f"up to {fitting[-1]:g}" if fitting else f"of no size: the {too_small} must be larger"
+        small = "hub" if clamp._replace(screw=SCREWS[0]).slit < 2.0 * clamp.bore else "bore"
+        most = f"up to {fitting[-1]:g}" if fitting else f"of no size: the {small} must be larger"
         raise GenevaError(
             f"{key} = {values[key]:g}: the hub, {2.0 * hub.outline.radius:.6g} mm in diameter and "
             f"{hub.thickness:.6g} mm long, holds a clamp screw {most}",
