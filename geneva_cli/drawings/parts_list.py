@@ -11,6 +11,7 @@ sphere inwards from the wheel's outer face.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.curves.mass import MM, solid_properties
@@ -83,7 +84,12 @@ def _parts(model: PartsModel) -> Iterator[Row | Missing]:
 
         def rows(build: Callable[[], PartsOfMachine] = build) -> Iterator[Row]:
             parts = build()
-            yield from part_rows(spec, built_of(parts.by_name(), missing), parts.outside_mm)
+            kinds = alike(built_of(parts.by_name(), missing))
+            # a part whose walls are too thin for its edges has no mass
+            named = (
+                (kind[-1].name, partial(part_rows, spec, kind, parts.outside_mm)) for kind in kinds
+            )
+            yield from built_of(named, missing)
 
         yield from or_missing(name, rows)
     yield from missing

@@ -56,10 +56,14 @@ class Clamp(NamedTuple):
 
     @property
     def fits(self) -> bool:
-        """True if half of the thread is left as a wall, and its whole width is screwed in."""
+        """True if the slit is narrower than the bore, and the hub has material for the screw.
+
+        Half of the thread is left as a wall, and its whole width is screwed in.
+        """
         far = self.axis + 0.5 * self.screw.core
         screwed_in = math.sqrt(max(self.hub**2 - far * far, 0.0)) - 0.5 * self.slit
-        return self.wall >= 0.5 * self.screw.thread and screwed_in >= self.screw.thread
+        narrow = self.slit < 2.0 * self.bore
+        return narrow and self.wall >= 0.5 * self.screw.thread and screwed_in >= self.screw.thread
 
     @property
     def force_N(self) -> float:
@@ -139,7 +143,8 @@ def with_clamp(size: Size, part: str, hub: Plate | None, direction: float) -> Pl
     if not clamp.fits or hub.thickness < clamp.screw.head:
         fitting = [s.thread for s in SCREWS if clamp._replace(screw=s).fits]
         fitting = [one for one in fitting if hub.thickness >= screw(key, one).head]
-        most = f"up to {fitting[-1]:g}" if fitting else "of no size: the hub must be larger"
+        small = "hub" if clamp._replace(screw=SCREWS[0]).slit < 2.0 * clamp.bore else "bore"
+        most = f"up to {fitting[-1]:g}" if fitting else f"of no size: the {small} must be larger"
         raise GenevaError(
             f"{key} = {values[key]:g}: the hub, {2.0 * hub.outline.radius:.6g} mm in diameter and "
             f"{hub.thickness:.6g} mm long, holds a clamp screw {most}",

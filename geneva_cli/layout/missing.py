@@ -31,10 +31,12 @@ def or_missing(name: str, listed: Callable[[], Iterable[T]]) -> Iterator[T | Mis
     yield from rows
 
 
-def built_of(parts: Iterable[NamedParts], missing: list[Missing]) -> Iterator[Part]:
-    """Yield the parts that can be built; add the others to ``missing``, once for each reason."""
+def built_of(
+    named: Iterable[tuple[str, Callable[[], Iterable[T]]]], missing: list[Missing]
+) -> Iterator[T]:
+    """Yield what can be built; add the others to ``missing``, once for each reason."""
     failed: dict[str, list[str]] = {}
-    for name, build in parts:
+    for name, build in named:
         try:
             some = list(build())
         except GenevaError as error:

@@ -50,9 +50,9 @@ def pins(links: Iterable[Link], sizes: LinkSizes, near: float) -> Iterator[Membe
         spans = [sizes.span(plane) for plane in one.planes]
         origin = (0.0, 0.0)
         hole = Circle("LINK", origin, sizes.pin)
-        pin = hole._replace(radius=sizes.pin - 0.5 * sizes.shaft_fit)
+        pin = Circle("ROLLER", origin, sizes.pin - 0.5 * sizes.shaft_fit)
         name = " and ".join(one.names)
-        yield Member(Plate(f"pin of {name}", "LINK", pin, (), spans[-1][0], spans[0][1]), where)
+        yield Member(Plate(f"pin of {name}", "ROLLER", pin, (), spans[-1][0], spans[0][1]), where)
         for (high, _), (_, low) in zip(spans, spans[1:], strict=False):
             if high > low:
                 ring = Circle("LINK", origin, sizes.ring)

@@ -57,15 +57,20 @@ def link_shafts(
 def carried(bars: Links, axis: LinkAxis, others: Iterable[Member], L: float) -> Iterator[Seat]:
     """Yield the links and gears on an axis, with or without a bore.
 
-    ``others`` are plates that turn with a link: the locking disc on a first crank.
+    ``others`` are plates that turn with a link: a first wheel, whose gear is no part then, and the
+    locking disc on a first crank.
     """
     yield from (seat_of(plate) for plate in bars.plates if plate.name in axis.names)
+    on_axis = [
+        seat_of(member.part)
+        for member in others
+        if any(same(hole.centre, axis.at, L) for hole in placed_holes(member))
+    ]
+    yield from on_axis
+    names = {*axis.names} - {seat.part for seat in on_axis}
     for gear in bars.gears:
-        if gear.name in axis.names and not gear.teeth.inside:
+        if gear.name in names and not gear.teeth.inside:
             yield seat_of(gear.plate)
-    for member in others:
-        if any(same(hole.centre, axis.at, L) for hole in placed_holes(member)):
-            yield seat_of(member.part)
 
 
 def outside_links(shafts: Iterable[Member], bars: Links, L: float) -> Iterator[Member]:

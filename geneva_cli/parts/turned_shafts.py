@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import NamedTuple
 
+from geneva_cli.curves.pieces import SHORTEST_MM
 from geneva_cli.curves.plates import Member, Plate, Stack
 from geneva_cli.curves.shapes import ORIGIN, Circle, Shape
 from geneva_cli.errors import GenevaError
@@ -80,11 +81,11 @@ def _above(shaft: Shaft, own: Bore, free: float | None) -> Iterator[Step]:
     first = shaft.seats[0].low if shaft.seats else shaft.high
     top = first if free is None else min(first, free)
     yield Step("shoulder", _circle(shoulder_mm(shaft)), top)
-    if top < first:
+    if first - top > SHORTEST_MM:
         yield Step("shaft", below, first)
     for seat, after in pairwise(shaft.seats):
         yield Step(f"seat of {seat.part}", below, seat.high)
-        if seat.high < after.low:
+        if after.low - seat.high > SHORTEST_MM:  # faces that touch may differ by rounding
             yield Step("shaft", below, after.low)
     if shaft.seats:
         yield from _on_part(own, shaft.seats[-1], section, shaft.ends_here)

@@ -125,6 +125,9 @@ def test_sheet_and_list_name_the_screw():
     ("size", "said"),
     [
         ({"wheel_hub_mm": 30.0}, "wheel_clamp_mm = 5: the hub, 30 mm in diameter and 12 mm long"),
+        ({"wheel_hub_mm": 18.0}, "holds a clamp screw of no size: the hub must be larger"),
+        ({"wheel_bore_mm": 1.25}, "holds a clamp screw up to 4"),  # the slit of M5 is as wide
+        ({"wheel_bore_mm": 0.4}, "holds a clamp screw of no size: the bore must be larger"),
         ({"wheel_keyway": "DIN 6885-1"}, "a hub with a round bore; remove wheel_keyway"),
         ({"wheel_bore": "hex"}, "a hub with a round bore; remove wheel_bore"),
         ({"wheel_hub_mm": 0.0}, "a round bore; set wheel_hub_mm above wheel_bore_mm"),

@@ -18,6 +18,7 @@ from geneva_cli.curves.hole_walls import plate_wall
 from geneva_cli.curves.mass import mass_properties
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.design import Design
+from geneva_cli.drawings.single_parts import single_parts
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint
 from geneva_cli.layout.link_positions import links_at
@@ -168,6 +169,18 @@ def test_rows_of_the_list(made):
     spans = sorted({(p.low, p.high) for p in links.plates})
     assert all(a[1] <= b[0] + 1e-9 for a, b in zip(spans, spans[1:], strict=False))
     assert spans[-1][1] <= 0.0
+
+
+@pytest.mark.parametrize("name", ["side-crank-z6", "four-bar-z4", "slider-crank"])
+def test_pins_are_turned_from_the_rollers_material(name):
+    """Those between links as that of the roller: no plate is as thick as a pin is long."""
+    design = load(str(repo.DESIGNS / f"{name}.toml"))
+    parts, _ = single_parts(design.parts_model, 0.1, "arcs")
+    pins = {one.name for one in parts if one.name.startswith("pin")}
+    assert pins > {"pin"}
+    assert not pins & {one.name for one in parts if one.is_cut}
+    rows = {row["name"]: row for row in design.part_table("parts").to_rows()}
+    assert {rows[pin]["material"] for pin in pins} == {"material.roller"}
 
 
 def four_bar(**size):

@@ -498,6 +498,23 @@ def test_what_cannot_be_built_is_listed_with_the_reason(name, key, value, why, m
         design.drawing("assembly")
 
 
+@pytest.mark.usefixtures("no_advice")
+def test_a_part_without_walls_for_its_edges_leaves_the_others_listed():
+    """The locking disc has 8.256 mm beside its bore, and a chamfer of 6 mm takes 4.128 at most."""
+    (turret,) = (str(path) for path in DESIGNS if path.stem == "turret")
+    whole, chamfered = (
+        load(turret, keys).part_table("parts").to_rows()
+        for keys in ([], ["size.edge_chamfer_mm=6"])
+    )
+    names, left = (
+        [row["name"] for row in rows if row["row"] == "part"] for rows in (whole, chamfered)
+    )
+    rows = [row for row in chamfered if row["row"] == "missing"]
+    unbuilt = {name: row["why"] for row in rows for name in row["name"].split(", ")}
+    assert "the locking disc has a wall of 8.256 mm" in unbuilt["locking disc"]
+    assert "wheel" in left and sorted([*left, *unbuilt]) == sorted(names)
+
+
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda path: path.stem)
 def test_nothing_is_missing_from_a_machine_that_is_built(path):

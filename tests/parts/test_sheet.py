@@ -13,7 +13,14 @@ import shapely
 from drawing_witness import vertices
 from shapely import affinity
 from shapely.geometry import LineString, Polygon
-from sheet_witness import assert_as_listed, assert_measured, beyond, crossings, overlaps
+from sheet_witness import (
+    assert_as_listed,
+    assert_measured,
+    beyond,
+    crossings,
+    number,
+    overlaps,
+)
 from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli import EllipticalGears, Linear, load
@@ -21,7 +28,7 @@ from geneva_cli.curves import marks
 from geneva_cli.curves.board import Board
 from geneva_cli.curves.measure import bounds, points
 from geneva_cli.curves.placed import in_place
-from geneva_cli.curves.shapes import Circle, Contour, Line
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Line
 from geneva_cli.curves.sheet import Label
 from geneva_cli.curves.sphere import place
 from geneva_cli.design import Design
@@ -565,3 +572,14 @@ def test_one_radius_is_written_once():
     found = load(str(repo.DESIGNS / "sine-group.toml")).sheet(0.001)
     texts = [label.text for label in found.texts]
     assert [text for text in texts if "R 204.94" in text] == ["12× R 204.944"]
+
+
+@pytest.mark.parametrize("name", ["three-rollers-z4", "two-cranks", "turret"])
+def test_reliefs_of_one_size_are_counted(name, sheets):
+    """As many as the outline of the disc has arcs about other points than its axis."""
+    design, found = sheets(name)
+    (outline,) = design.drawing("crank", TOLERANCE).shapes[:1]
+    arcs = [piece for piece in outline.segments if isinstance(piece, Arc)]
+    reliefs = [arc for arc in arcs if math.hypot(*arc.centre) > 1.0]
+    count = f"{len(reliefs)}× " if len(reliefs) > 1 else ""
+    assert f"{count}R {number(reliefs[0].radius)}" in [label.text for label in found.texts]

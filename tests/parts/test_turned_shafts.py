@@ -301,10 +301,31 @@ def test_shafts_of_every_kind(kind, tmp_path):
         for low, high in heights:
             ends = [s for s in solid.plates if s.low < high - 1e-9 and s.high > low + 1e-9]
             assert {s.outline.radius for s in ends} == {bored}
+        assert (
+            min(s.thickness for s in solid.plates) >= DIN_471[0].width - 1e-9
+        )  # every file has it
         (shoulder,) = [s for s in solid.plates if s.name == "shoulder"]
         assert shoulder.outline.radius >= 1.25 * bored - 1e-9
         least = min([low for low, _ in heights], default=free)
         assert shoulder.high == pytest.approx(least) or shoulder.high == pytest.approx(free)
+
+
+@pytest.mark.parametrize(
+    ("kind", "keys"),
+    [
+        ("geneva-pair", ["size.link_bore_mm=5"]),  # the first wheel is a gear among the links
+        ("epicyclic", ["size.pin_gap_mm=1.69", "size.arm_bore_mm=9.66"]),  # faces 4e-15 mm apart
+    ],
+)
+def test_no_step_is_shorter_than_the_end_beyond_a_circlip(kind, keys, tmp_path):
+    """Parts that touch have one face; no file has a step of no length."""
+    spec = tmp_path / f"{kind}.toml"
+    spec.write_text(template(kind))
+    turned = every(load(str(spec), ["size.shafts=turned", *keys]))
+    steps = [step for one in turned if isinstance(one, Stack) for step in one.plates]
+    assert steps
+    # to rounding of heights of some 40 mm
+    assert min(step.thickness for step in steps) >= DIN_471[0].edge - 1e-12
 
 
 def members(some):

@@ -45,21 +45,22 @@ def draw_disc(view: View, parts: FlatParts) -> None:
     ]
     _gaps(view, sizes.lock, locking)  # first, as their legs have no other place
     view.of_arcs(locking, sized.lock(view.fits, mechanism, sizes.lock), whole=True)
-    seen: set[tuple[str, str]] = set()
-    for arc in arcs:
-        if arc in locking:
-            continue
-        middle = at(arc, 0.5)
-        far = math.hypot(*middle)
-        shown = sized.plain(arc.radius, "R "), length(far)
-        if shown in seen:
-            continue
-        seen.add(shown)
-        view.of_arcs([arc], shown[0])
-        if math.hypot(*arc.centre) > SAME_ON_SHEET and far > SAME_ON_SHEET:
-            turn = math.atan2(middle[1], middle[0])
-            view.linear((0.0, 0.0), middle, turn, shown[1], near=True)
+    _reliefs(view, [arc for arc in arcs if arc not in locking])
     bolted(view, screwed)
+
+
+def _reliefs(view: View, arcs: list[Arc]) -> None:
+    """Draw the radii of arcs, and how far those of reliefs are from the axis."""
+    alike: dict[tuple[str, str], list[Arc]] = {}
+    for arc in arcs:
+        far = length(math.hypot(*at(arc, 0.5)))
+        alike.setdefault((sized.plain(arc.radius, "R "), far), []).append(arc)
+    for (radius, far), some in alike.items():
+        view.of_arcs(some, times(len(some), radius))
+        arc, middle = some[0], at(some[0], 0.5)
+        if math.hypot(*arc.centre) > SAME_ON_SHEET and math.hypot(*middle) > SAME_ON_SHEET:
+            turn = math.atan2(middle[1], middle[0])
+            view.linear((0.0, 0.0), middle, turn, times(len(some), far), near=True)
 
 
 def _gaps(view: View, lock: float, locking: list[Arc]) -> None:
