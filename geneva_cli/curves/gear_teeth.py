@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
+from geneva_cli.curves.measure import mirrored
 from geneva_cli.curves.shapes import ORIGIN, Point, Segment, about
 from geneva_cli.numerics.arrays import Array
 
@@ -197,16 +198,11 @@ class RoundTeeth(NamedTuple):
         """Return both sides of a tooth about the x axis: before its tip, and after it."""
         rack, pitch = self.rack, circle(self.radius)
         first, last, end = rack.corner[0], rack.end, self.roll(self.tangent(self.tip))
-        return (
-            [
-                *write(fillet(pitch, rack, 0.0, -1), first, last),
-                *write(flank(pitch, rack, 0.0, -1), -last, -end),
-            ],
-            [
-                *write(flank(pitch, rack, 0.0, 1), end, last),
-                *write(fillet(pitch, rack, 0.0, 1), -last, -first),
-            ],
-        )
+        before = [
+            *write(fillet(pitch, rack, 0.0, -1), first, last),
+            *write(flank(pitch, rack, 0.0, -1), -last, -end),
+        ]
+        return before, mirrored(before)
 
     def _tooth(self, write: Writer) -> list[Segment]:
         (before, after), top = self.sides(write), self.half_angle(self.tip)
@@ -219,13 +215,11 @@ class RoundTeeth(NamedTuple):
         (x, y), radius, centre, touch = corner
         begin = self.half_angle(self.base) - touch / self.base + 0.5 * math.pi
         inner, outer = self.roll(self.tangent(self.opening)), self.roll(touch)
-        return [
+        before = [
             *write(flank(pitch, rack, 0.0, -1), -inner, -outer),
             about((x, -y), radius, -begin, begin - centre),
-            about(ORIGIN, self.tip, -centre, 2.0 * centre),
-            about((x, y), radius, centre, begin - centre),
-            *write(flank(pitch, rack, 0.0, 1), outer, inner),
         ]
+        return [*before, about(ORIGIN, self.tip, -centre, 2.0 * centre), *mirrored(before)]
 
     @property
     def space_corner(self) -> SpaceCorner | None:

@@ -7,7 +7,7 @@ bulge. The centre of a nearly straight arc is far away and inaccurate.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple, TypeVar
 
 from geneva_cli.curves.shapes import (
@@ -191,6 +191,22 @@ def turned(shape: S, radians: float, centre: Point = (0.0, 0.0)) -> S:
 def turned_pieces(pieces: Iterable[Segment], radians: float) -> tuple[Segment, ...]:
     """Rotate pieces of an outline about the origin, counterclockwise."""
     return turned(Contour("", tuple(pieces), closed=False), radians).segments
+
+
+def mirrored(pieces: Sequence[Segment]) -> list[Segment]:
+    """Mirror pieces of an outline in the x axis, and run them backwards."""
+    return [_mirrored(piece) for piece in reversed(pieces)]
+
+
+def _mirrored(segment: Segment) -> Segment:
+    start, end = _over(segment.end), _over(segment.start)
+    if isinstance(segment, Cubic):
+        return Cubic(start, _over(segment.second), _over(segment.first), end)
+    return segment._replace(start=start, end=end)  # an arc's bulge changes its sign twice
+
+
+def _over(p: Point) -> Point:
+    return p[0], -p[1]
 
 
 def _mapped(segment: Segment, point: Callable[[Point], Point]) -> Segment:

@@ -6,7 +6,8 @@ import itertools
 import math
 
 from geneva_cli.curves import fit
-from geneva_cli.curves.shapes import Contour, Cubic, Point, Segment, about, joined
+from geneva_cli.curves.measure import mirrored
+from geneva_cli.curves.shapes import Contour, Segment, about, joined
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
@@ -39,7 +40,7 @@ def curved_walls(
         both = other < i and engagement.mirrored
         # walls count as mirror images within 1e-10 of the centre distance
         if both and _mirrors(pieces[other], piece, 1e-10 * assembly.L):
-            runs.append([mirrored(segment) for segment in reversed(runs[other])])
+            runs.append(mirrored(runs[other]))
         else:
             runs.append(_segments(piece, half, curves))
     return Contour("WHEEL", joined(itertools.chain(*runs)), closed=False)
@@ -51,18 +52,6 @@ def _mirrors(one: WallPiece, other: WallPiece, near: float) -> bool:
     back = points_at(other.wall, other.end, other.start, 0.5 * (other.start + other.end))
     pairs = zip(there, back, strict=True)
     return all(math.hypot(v - x, w + y) <= near for (x, y), (v, w) in pairs)
-
-
-def mirrored(segment: Segment) -> Segment:
-    """Return a segment's mirror image in the slot's axis, run backwards."""
-    start, end = _over(segment.end), _over(segment.start)
-    if isinstance(segment, Cubic):
-        return Cubic(start, _over(segment.second), _over(segment.first), end)
-    return segment._replace(start=start, end=end)  # an arc's bulge changes its sign twice
-
-
-def _over(p: Point) -> Point:
-    return p[0], -p[1]
 
 
 def _segments(piece: WallPiece, tolerance: float, curves: str) -> list[Segment]:
