@@ -195,7 +195,7 @@ def _write_best(plan: "SweepRequest", spec: str, output: str) -> None:
     from geneva_cli.study.sweep.outcome import Outcome
 
     outcome = Outcome(plan)
-    lines = best_spec(plan, outcome.counted(_tracked(plan, 0)))
+    lines = best_spec(outcome, _tracked(plan, 0))
     show_text("\n".join(lines) + "\n", output, plan.inputs)
     for note in outcome.refused():
         print(f"{spec}: {note}", file=sys.stderr)

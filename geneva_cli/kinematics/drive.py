@@ -91,14 +91,20 @@ class Drive(SpecTable, kw_only=True):
     IN_SERIES: ClassVar[bool] = False
     # key of [drive] that its link reactions need; empty if none
     LENGTH: ClassVar[str] = ""
-    n_rpm: Annotated[float, SPEED, "constant speed of the input shaft"] = 60.0
-    rollers: Annotated[int, Range(1, Z_MAX), "number of rollers on the crank, m"] = 1
+    n_rpm: Annotated[
+        float,
+        SPEED,
+        "constant speed of the input shaft; to turn it the other way: both_ways, --reverse",
+    ] = 60.0
+    rollers: Annotated[int, Range(1, Z_MAX), "number of rollers (pins) on the crank, m"] = 1
     roller_angles_deg: Annotated[
         tuple[float, ...] | None,
         Range(0.0, 360.0, "[)"),
         "angles of the rollers on the crank, if not evenly spaced or with equal dwells",
     ] = None
-    both_ways: Annotated[bool, None, "the input shaft turns either way"] = False
+    both_ways: Annotated[
+        bool, None, "the input shaft turns in either direction, forwards or in reverse"
+    ] = False
 
     @property
     def turns(self) -> int:

@@ -574,12 +574,20 @@ class Tolerance(SpecTable):
     TABLE: ClassVar[str] = "tolerance"
 
     center_distance_mm: Annotated[float, NOT_NEGATIVE, "± of the centre distance L"] = 0.0
-    crank_radius_mm: Annotated[float, NOT_NEGATIVE, "± of the crank radius R"] = 0.0
-    roller_diameter_mm: Annotated[float, NOT_NEGATIVE, "± of the roller diameter"] = 0.0
-    slot_width_mm: Annotated[float, NOT_NEGATIVE, "± of the slot width"] = 0.0
+    crank_radius_mm: Annotated[
+        float, NOT_NEGATIVE, "± of the crank radius R, which follows from center_distance_mm"
+    ] = 0.0
+    roller_diameter_mm: Annotated[
+        float, NOT_NEGATIVE, "± of the roller diameter, twice roller_radius_mm"
+    ] = 0.0
+    slot_width_mm: Annotated[
+        float, NOT_NEGATIVE, "± of the slot width, which follows from roller_radius_mm"
+    ] = 0.0
     slot_angle_deg: Annotated[float, NOT_NEGATIVE, "± of each slot's direction"] = 0.0
     lock_radius_mm: Annotated[float, NOT_NEGATIVE, "± of the locking disc's radius"] = 0.0
-    recess_radius_mm: Annotated[float, NOT_NEGATIVE, "± of the wheel's recess radius"] = 0.0
+    recess_radius_mm: Annotated[
+        float, NOT_NEGATIVE, "± of the wheel's recess radius, which follows from lock_radius_mm"
+    ] = 0.0
     distribution: Annotated[
         str, OneOf(("uniform", "normal")), "within ±; normal: ± is three standard deviations"
     ] = "uniform"

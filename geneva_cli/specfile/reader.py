@@ -111,6 +111,8 @@ def _reason(message: str, line: str) -> str:
     """What is wrong with a line that is not TOML, and what is right instead."""
     if re.search(r"overwrite|twice|Duplicate", message):
         return "this key or table is set above already; keep one of the two"
+    if message == r"Illegal character '\n'":
+        return "a text ends without its quotation mark; write one behind its last letter"
     reason = cut(message[:1].lower() + message[1:], 200)
     if message == "Invalid statement" or message.startswith("Expected '=' after a key"):
         return f'{reason}; write [table], or KEY = VALUE as in z = 6, or a comment behind "#"'

@@ -49,7 +49,8 @@ def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> li
 
     A turned row says yes, with sizes that pass, or no. Others say maybe, or no if that is known
     without turning. A row that fails may be replaced, under its number, by the best machine of its
-    family that passes: if it is itself a replacement, or if only passing rows are requested.
+    family that passes: if it is itself a replacement, or if only passing rows are requested. The
+    replacement keeps the number, and stands where its own quantities belong.
     """
     every = [Numbered(i, row) for i, row in enumerate(ranking.rows, 1)]
     maybe = [one for one in every if one.row.candidate.parts == MAYBE]
@@ -80,6 +81,7 @@ def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> li
         shown = [one for one in shown if one.row.candidate.parts == YES]
     else:
         shown = [one for one in shown if one.no not in again or one.no in others]
+    shown.sort(key=lambda one: ranking.rank(one.row))  # a replacement is worse than the row it had
     return shown[:count] if buildable else shown
 
 

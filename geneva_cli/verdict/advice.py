@@ -71,7 +71,7 @@ def judged(
     if not failing:
         return rows
     # the search needs neither values nor limits, and finds its cache whatever they are
-    bare = tuple(Check(c.name, None, c.must_be, None, False, at_deg=c.at_deg) for c in failing)
+    bare = tuple(c._replace(value=None, limit=None) for c in failing)
     change, why, own_changes = _remedies(mechanism, bare, parts)
     own = iter(own_changes)
     return [_advised(c, change, why, next(own)) if c.passes is False else c for c in rows]
@@ -139,7 +139,7 @@ class Adviser:
 
         seen = set()
         for check in wanted:
-            for change in remedies(check.name, self.mechanism):
+            for change in remedies(check, self.mechanism):
                 now = value_now(self.mechanism, change.table, change.key)
                 if now is None:
                     continue
@@ -193,16 +193,16 @@ class _Search:
                 continue
             if not (isinstance(now, float) and isinstance(bad, float) and isinstance(good, float)):
                 if self._holds(change, good):
-                    return line(change.key, good)
+                    return line(change, good)
                 bad, short = good, left
                 continue
             if short < 0.0:
                 edge = self._edge(change, now, Falsi(good, left, bad, short))
                 bad = rounded(edge, good, now)
                 if self._holds(change, bad):
-                    return line(change.key, bad)
+                    return line(change, bad)
             if bad != good and self._holds(change, good):
-                return line(change.key, self._halved(change, now, good, bad))
+                return line(change, self._halved(change, now, good, bad))
             bad, short = good, left
         return ""
 
@@ -357,8 +357,12 @@ def changed(spec: Spec, table: str, key: str, value: Value) -> Spec | None:
         return None
 
 
-def line(key: str, value: Value) -> str:
-    """A change as a line of the spec."""
+def line(change: Change, value: Value) -> str:
+    """A change as a line of the spec; a key that an earlier table has too stands with its table."""
+    from geneva_cli.specfile.keys import tables_with
+
+    first = next(iter(tables_with(change.key)))
+    key = change.key if change.table == first else f"{change.table}.{change.key}"
     if value is None:
         return f"leaving out {key}"
     return f'{key} = "{value}"' if isinstance(value, str) else f"{key} = {value:.12g}"

@@ -25,16 +25,21 @@ from geneva_cli.verdict.changes import (
     sized,
     towards,
 )
+from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION
 
 
-def remedies(check: str, mechanism: Mechanism) -> Iterator[Change]:
+def remedies(check: Check, mechanism: Mechanism) -> Iterator[Change]:
     """Changes of the spec that may make a failing check pass, the likeliest first."""
-    if check in REMEDIES:
-        if check in ("crank_shaft_mm", "crank_hub_mm", "wheel_shaft_mm"):
-            yield from _hub(mechanism, check.partition("_")[0])
+    name = check.name
+    own = {} if name in MOTION or name in LIMITS else _own_sizes(mechanism)
+    # a size that the reason names, such as "wheel_bore_mm = 30: it must be below 20"
+    yield from (change for key, changes in own.items() if key in check.why for change in changes)
+    if name in REMEDIES:
+        if name in ("crank_shaft_mm", "crank_hub_mm", "wheel_shaft_mm"):
+            yield from _hub(mechanism, name.partition("_")[0])
         has_law = mechanism.spec.motion is not None
-        yield from (change for change in REMEDIES[check] if has_law or change not in _MOTION)
+        yield from (change for change in REMEDIES[name] if has_law or change not in _MOTION)
     else:
         if mechanism.engagements[0].overtaking > 0.0:
             yield set_to("drive", "gear_ratio", "shockless")
@@ -45,8 +50,8 @@ def remedies(check: str, mechanism: Mechanism) -> Iterator[Change]:
             scaled("size", "roller_radius_mm", 0.4),
             towards("wheel", "offset_mm", 0.0, SIZE_STEPS),
         )
-    if check not in MOTION and check not in LIMITS:
-        yield from _own_sizes(mechanism)
+    for changes in own.values():
+        yield from changes
 
 
 def _hub(mechanism: Mechanism, part: str) -> Iterator[Change]:
@@ -56,20 +61,22 @@ def _hub(mechanism: Mechanism, part: str) -> Iterator[Change]:
         yield towards("size", f"{part}_hub_mm", bore, SIZE_STEPS)
 
 
-def _own_sizes(mechanism: Mechanism) -> Iterator[Change]:
-    """Smaller values, larger values and the default of each size that the spec sets."""
+def _own_sizes(mechanism: Mechanism) -> dict[str, tuple[Change, ...]]:
+    """Smaller values, larger values and the default of each size that the spec sets, by its key."""
     usual = Size().as_dict()
     # Requirements on the machine's size, process and walls, which no advice reduces.
     required = ("center_distance_mm", "face_width_mm", "process", "wall_min_mm")
+    own: dict[str, tuple[Change, ...]] = {}
     for key, value in mechanism.spec.size.as_dict().items():
         if value == usual[key] or key in required:
             continue
         if isinstance(value, int):
-            yield fewer("size", key, 0)
+            own[key] = (fewer("size", key, 0),)
         elif isinstance(value, float):
-            yield from sized("size", key)
+            own[key] = sized("size", key)
         else:
-            yield left_out("size", key)
+            own[key] = (left_out("size", key),)
+    return own
 
 
 def _defaults(mechanism: Mechanism) -> Iterator[Change]:
@@ -108,10 +115,11 @@ def _sine(now: float) -> list[Value]:
 _SLOTS = Change("wheel", "z", lambda z: list(range(z + 1, Z_USUAL + 1)))
 _MOTION = (increased("motion", "alpha0_deg", -180.0), increased("motion", "alpha0_deg", 180.0))
 _MILDER = (
-    towards("drive", "A", 0.99),
-    towards("drive", "A", -0.99),
-    towards("drive", "eccentricity", 0.99),
-    towards("drive", "eccentricity", 0.0),
+    *(
+        towards(table, key, end)
+        for table in ("drive", "drive.before")
+        for key, end in (("A", 0.99), ("A", -0.99), ("eccentricity", 0.99), ("eccentricity", 0.0))
+    ),
     *_MOTION,
     _SLOTS,
 )
@@ -150,6 +158,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         scaled("size", "roller_radius_mm", 3.0),
         set_to("size", "pin_held", "fixed"),
         scaled("size", "face_width_mm", 0.1),
+        left_out("size", "pin_mm"),
         *_LESS_LOAD,
     ),
     "horn_stress_MPa": (_WIDER_FACE, scaled("size", "lock_radius_mm", 0.5), *_LESS_LOAD),
@@ -160,18 +169,22 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         scaled("shaft", "wheel_diameter_mm", 5.0),
         scaled("shaft", "wheel_overhang_mm", 0.1),
         scaled("size", "wheel_bore_mm", 5.0),
+        left_out("size", "wheel_bore_mm"),
         *_LESS_LOAD,
     ),
     "crank_shaft_stress_MPa": (
         scaled("shaft", "crank_diameter_mm", 5.0),
         scaled("shaft", "crank_overhang_mm", 0.1),
         scaled("size", "arm_bore_mm", 5.0),
+        left_out("size", "arm_bore_mm"),
+        left_out("size", "crank_bore_mm"),
         *_LESS_LOAD,
     ),
     "arm_stress_MPa": (
         scaled("size", "arm_thickness_mm", 10.0),
         scaled("size", "arm_eye_mm", 3.0),
         scaled("size", "arm_hub_mm", 3.0),
+        left_out("size", "arm_thickness_mm"),
         *_LESS_LOAD,
     ),
     # a first wheel is as thick as its crank, which is a link

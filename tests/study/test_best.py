@@ -14,6 +14,7 @@ from geneva_cli import GenevaError, load
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.study.sweep.best import best_spec
 from geneva_cli.study.sweep.best_search import SweepSearch
+from geneva_cli.study.sweep.outcome import Outcome
 from geneva_cli.study.sweep.places import BestPlaces, closer
 from geneva_cli.study.sweep.request import request
 
@@ -23,7 +24,7 @@ SPEC = os.path.join(os.path.dirname(__file__), *[os.pardir] * 2, "designs", "sid
 def best(tmp_path, *vary, **asked):
     """The lines of the winning spec, and the design read back from it."""
     found = request(SPEC, vary, random=asked.pop("random", 32), jobs=1, **asked)
-    lines = best_spec(found, found.blocks())
+    lines = best_spec(Outcome(found), found.blocks())
     path = tmp_path / "best.toml"
     path.write_text("\n".join(lines))
     return lines, load(str(path))
@@ -141,7 +142,7 @@ def test_the_greatest_and_the_words(tmp_path):
 
 def test_a_title_with_quotation_marks_survives(tmp_path):
     found = request(SPEC, ["wheel.z=4,5"], ['title=a "b" c'], best="min:jerk.max", jobs=1)
-    assert tomli.loads("\n".join(best_spec(found, found.blocks())))["title"] == (
+    assert tomli.loads("\n".join(best_spec(Outcome(found), found.blocks())))["title"] == (
         'Least jerk.max, varied from: a "b" c'
     )
 
@@ -209,5 +210,5 @@ def test_bounds_that_contradict_each_other_are_told_with_what_comes_nearest(tmp_
 def test_what_has_no_best(asked, said):
     with pytest.raises(GenevaError) as error:
         found = request(SPEC, ["drive.A=0,0.5"], jobs=1, **asked)
-        best_spec(found, found.blocks())
+        best_spec(Outcome(found), found.blocks())
     assert said in str(error.value)

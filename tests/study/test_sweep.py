@@ -267,6 +267,16 @@ def test_the_best_of_some_says_what_was_left_out():
     assert 'did you mean "internal"?' in found.stderr
 
 
+def test_the_note_of_the_best_counts_the_designs_of_its_file(tmp_path):
+    """A sample of 16 and the spec's own design are 17; of rollers up to 90 mm some do not fit."""
+    spec = tmp_path / "spec.toml"
+    spec.write_text("[wheel]\nz = 6\n[size]\nroller_radius_mm = 8\n")
+    words = ("--vary", "size.roller_radius_mm=5..90", "--random", "16", "--best", "min:jerk.max")
+    found = geneva("sweep", str(spec), *words)
+    assert "# The least jerk.max of 17 designs" in found.stdout
+    assert re.search(r"\d of 17 designs cannot be built", found.stderr), found.stderr
+
+
 def interrupted(x):
     os.kill(os.getpid(), signal.SIGINT)
     return x

@@ -14,6 +14,7 @@ from geneva_cli.kinematics.registry import STANDARD_LAWS
 from geneva_cli.machine.many import alone, many, may_vary, taken
 from geneva_cli.machine.spec import Spec
 from geneva_cli.study.sweep.best import best_spec
+from geneva_cli.study.sweep.outcome import Outcome
 from geneva_cli.study.sweep.request import request
 
 DESIGNS = os.path.join(os.path.dirname(__file__), os.pardir, os.pardir, "designs")
@@ -93,7 +94,7 @@ def test_the_best_of_a_ratio_that_has_a_bound_at_one_number():
     """A cloud comes near the 1/2 of the spec, and never to it: its own design is tried too."""
     path = os.path.join(DESIGNS, "sine-group.toml")
     asked = request(path, ["motion.ratio=0.4..0.7"], best="min:loads.pin_force_N.max", random=64)
-    lines = best_spec(asked, asked.blocks())
+    lines = best_spec(Outcome(asked), asked.blocks())
     assert "of 65 designs, 1 of them within the bounds: 4202.7525." in lines[0]
     single = load(path).loads["pin_force_N"]
     assert max(single.max, -single.min) == pytest.approx(4202.7525, rel=1e-8)

@@ -22,6 +22,8 @@ from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.mechanism import build
 from geneva_cli.output.terminal import chunks
 from geneva_cli.output.window import Window
+from geneva_cli.synthesis import table as rows_shown
+from geneva_cli.synthesis.built import Built
 from geneva_cli.synthesis.families import closed
 from geneva_cli.synthesis.parts_data import parts_data
 from geneva_cli.synthesis.reading import read_target
@@ -666,6 +668,25 @@ def test_rows_are_turned_in_their_order():
     only = turned(found, 1, buildable=True)
     assert [one.row.candidate.parts for one in only] == ["yes"]
     assert all(one.row.candidate[:10] == found.rows[one.no - 1].candidate[:10] for one in only)
+
+
+def test_a_replacement_stands_where_its_own_peak_belongs(monkeypatch):
+    """The first row fails, and the machine in its place has twice the greatest peak: it is last."""
+    _, found = searched(motion_deg="105", z="8", external=True, rollers=1)
+    first, gentle = found.rows[0], max(row.candidate.peak for row in found.rows)
+    peaks = {"acceleration_max": 2.0 * gentle, "acceleration_max_rad_s2": None, "parts": "yes"}
+    harsh = first._replace(candidate=first.candidate._replace(**peaks))
+
+    def half_built(spec, fixed):
+        return Built(spec, "gap_mm" if spec == first.spec else "")
+
+    monkeypatch.setattr(rows_shown, "built", half_built)
+    monkeypatch.setattr(rows_shown, "_others", lambda ranking, failing: {1: harsh})
+    monkeypatch.setattr(rows_shown, "mapped", lambda work, each, *rest: map(work, each))
+    shown = turned(found, buildable=True)
+    assert [one.no for one in shown][-1] == 1 and len(shown) > 1
+    # of one row fewer, the harsh machine is the one that is left out
+    assert 1 not in [one.no for one in turned(found, len(shown) - 1, buildable=True)]
 
 
 def test_a_written_row_is_cut(tmp_path):

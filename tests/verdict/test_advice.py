@@ -20,6 +20,7 @@ from geneva_cli.verdict import advice
 from geneva_cli.verdict.advice import judged, rounded
 from geneva_cli.verdict.checks import Check, all_pass, checks
 from geneva_cli.verdict.checks.check import NONE, STOPPED
+from geneva_cli.verdict.remedies import remedies
 
 DESIGNS = repo.DESIGNS
 CURVED = "[wheel]\nz = 6\n[motion]\nlaw = 'cycloidal'\nratio = 'matched'\n"
@@ -76,6 +77,9 @@ PARTS = {
     "clearance": "[wheel]\nz = 5\n[size]\nlock_clearance_mm = 12\n",
     "arc": "[wheel]\nz = 24\n[size]\nrelief = 'arc'\nroller_radius_mm = 2\n",
     "four-bar": FOUR_BAR,
+    "bore-by-load": (DESIGNS / "press-straight.toml")
+    .read_text()
+    .replace("face_width_mm = 30", "face_width_mm = 30\narm_bore_mm = 7"),
 }
 ALL = MOTIONS | PARTS
 # A gear-Geneva without a jump has nothing to turn down.
@@ -323,3 +327,42 @@ def test_rounding_leaves_what_fails(good: float, far: float) -> None:
     shown = rounded(good, far, bad)
     assert (shown - good) * (good - bad) >= 0.0
     assert abs(shown - good) <= 0.02 * abs(good - bad)
+
+
+def test_a_key_of_several_tables_is_named_with_its_table(tmp_path: Path) -> None:
+    """The first table that has the key needs no name: a reader looks for L in [size]."""
+    text = (DESIGNS / "tolerances.toml").read_text()
+    shaken = text.replace("center_distance_mm = 0.015", "center_distance_mm = 2")
+    (shock,) = [c for c in judged(read(tmp_path, shaken), parts=False) if c.passes is False]
+    key, value = shock.nearest.split(" = ")
+    assert key == "tolerance.center_distance_mm"
+    mended = load(str(tmp_path / "spec.toml")).spec.with_(key, float(value))
+    assert all_pass(checks(build(mended), parts=False))
+
+
+def test_the_drive_before_is_changed_where_it_is_milder(tmp_path: Path) -> None:
+    """A planet without a jump has one motion; the ellipses before it turn it more slowly."""
+    text = (DESIGNS / "behind-gears.toml").read_text()
+    mechanism = read(tmp_path, text + "[limits]\nvelocity_max = 2.1\n")
+    (peak,) = [c for c in judged(mechanism, parts=False) if c.passes is False]
+    key, value = peak.nearest.split(" = ")
+    assert key == "drive.before.eccentricity"
+    # the planet's peak is at mid-motion, and there the gears leave (1 - e)/(1 + e) of its speed
+    e = float(value)
+    planet = Design.of(load(str(DESIGNS / "epicyclic-z4.toml")).spec).peaks.velocity.max
+    assert (1.0 - e) / (1.0 + e) * planet <= 2.1
+    least = (planet - 2.1) / (planet + 2.1)
+    assert e - least <= 0.01 * (e - 0.2) + 5e-4  # to a hundredth of the change, in 3 digits
+
+
+def test_the_key_that_a_reason_names_is_tried_first(tmp_path: Path) -> None:
+    """A keyway without a table for its bore: before, five smaller rollers came first."""
+    mechanism = read(
+        tmp_path,
+        "[wheel]\nz = 6\n[size]\nroller_radius_mm = 4\nwheel_keyway = 'DIN 6885-1'\n"
+        "wheel_bore_mm = 5\n",
+    )
+    (parts,) = [c for c in checks(mechanism) if c.passes is False]
+    first = next(remedies(parts, mechanism))
+    assert (parts.name, first.key) == ("parts", "wheel_bore_mm")
+    assert "wheel_bore_mm" in parts.why and "roller_radius_mm" not in parts.why

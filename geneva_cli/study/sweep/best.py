@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import chain
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
@@ -10,26 +11,28 @@ from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.fields import Cell
 from geneva_cli.study.sweep.best_search import Row, SweepSearch
 from geneva_cli.study.sweep.constraints import Nearness, is_number
+from geneva_cli.study.sweep.outcome import Outcome, Rows
 from geneva_cli.study.sweep.places import BestPlaces, closer
 from geneva_cli.study.sweep.request import SweepRequest
 
 
-def best_spec(request: SweepRequest, row_blocks: Iterable[Sequence[Row]]) -> list[str]:
+def best_spec(outcome: Outcome, row_blocks: Iterable[Rows]) -> list[str]:
     """Return the lines of a spec of the best design of a sweep; its rows are not kept.
 
-    The spec's own design is tried too, if its values are among those varied. The keys that vary in
-    a span are refined: first by clouds of designs that shrink about the best places, then by an
-    optimiser from the best of these. Raises GenevaError if no design keeps the bounds; the message
-    says how near the designs come.
+    The spec's own design is tried too, if its values are among those varied. ``outcome`` counts the
+    rows and the spec's own design. The keys that vary in a span are refined: first by clouds of
+    designs that shrink about the best places, then by an optimiser from the best of these. Raises
+    GenevaError if no design keeps the bounds; the message says how near the designs come.
     """
+    request = outcome.request
     sweep = request.sweep
     search = SweepSearch(sweep, request.objectives[0], request.constraints)
-    tally = Tally(search)
-    for rows in row_blocks:
-        tally.add(rows)
     # a random sample comes near the spec's own design, but does not contain it
-    if search.free and sweep.own_values is not None:
-        tally.add([sweep.row(sweep.own_values)])
+    own = sweep.own_values if search.free else None
+    own_design = [] if own is None else [[sweep.row(own)]]
+    tally = Tally(search)
+    for rows in outcome.counted(chain(row_blocks, own_design)):
+        tally.add(rows)
     places = closer(search, tally.places.best()) if search.free else tally.places.best()
     starts = [row for row in places if search.keeps(row)][:3]  # the best of them suffice
     if not starts:
