@@ -74,10 +74,10 @@ class Outlines(NamedTuple):
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
         from geneva_cli.curves.extents import farthest
-        from geneva_cli.outlines.bounds import AXIS, FlatPairs
+        from geneva_cli.outlines.bounds import FlatPairs
 
-        outside, wheel = self.assembly.sign > 0.0, self.gaps.wheel
-        rim = float(farthest(wheel, AXIS).max() if outside else wheel.signed(AXIS)[0])
+        outside, wheel, axis = self.assembly.sign > 0.0, self.gaps.wheel, np.zeros((1, 2))
+        rim = float(farthest(wheel, 0.0, 0.0).max() if outside else wheel.signed(axis)[0])
         return FlatPairs(self.gaps, self.crank, target, rim)
 
     @property
