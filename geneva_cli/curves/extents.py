@@ -9,15 +9,15 @@ import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Arc, Contour, Line, Segment, about
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, Number
 
 
-def farthest(outline: Polyarc, points: Array) -> Array:
-    """Return the distance from each point, (n, 2), to the farthest point of each piece, (n, k).
+def farthest(outline: Polyarc, x: Number, y: Number) -> Array:
+    """Return the distance from points to the farthest point of each piece.
 
-    It is at an end of the piece, or where an arc lies opposite the point as seen from its centre.
+    x and y broadcast with the pieces. The farthest point is at an end of the piece, or where an arc
+    lies opposite the point as seen from its centre.
     """
-    x, y = points[:, :1], points[:, 1:]
     vx, vy = outline.cx - x, outline.cy - y
     away = np.hypot(vx, vy)
     opposite = outline.arc & (vx * outline.mx + vy * outline.my >= away * outline.cos_half)
@@ -25,13 +25,19 @@ def farthest(outline: Polyarc, points: Array) -> Array:
     return np.where(opposite, away + outline.radius, np.maximum(start, end))
 
 
-def from_segments(outline: Polyarc, start: Array, end: Array) -> Array:
+def from_segments(outline: Polyarc, start: Array, end: Array, reach: float) -> Array:
     """Return the least distance of segments that cross no piece from the outline, (n,).
 
-    ``start`` and ``end`` are (n, 2). The distance is at an end of the segment, at a corner of the
-    outline, or where the line from an arc's centre meets the segment at a right angle.
+    ``start`` and ``end`` are (n, 2). Distances above ``reach`` are returned as ``reach``. The
+    distance is at an end of the segment, at a corner of the outline, or where the line from an
+    arc's centre meets the segment at a right angle.
     """
-    (x, y), (dx, dy) = (column[:, :, None] for column in (start.T, (end - start).T))
+    # only pieces that may lie within reach of a segment are compared with it
+    (x, y), half = 0.5 * (start + end).T, 0.5 * np.hypot(*(end - start).T)
+    middle = np.hypot(outline.ox - x[:, None], outline.oy - y[:, None])
+    row, piece = np.nonzero(middle <= reach + half[:, None] + outline.size)
+    near = outline.subset(piece)
+    (x, y), (dx, dy), (ex, ey) = start[row].T, (end - start)[row].T, end[row].T
     square = np.maximum(dx * dx + dy * dy, 1e-300)
 
     def nearest(px: Array, py: Array) -> tuple[Array, Array]:
@@ -41,20 +47,14 @@ def from_segments(outline: Polyarc, start: Array, end: Array) -> Array:
 
     def away(px: Array, py: Array) -> Array:
         fx, fy = nearest(px, py)
-        return np.hypot(fx - px, fy - py).min(axis=1)
+        return np.hypot(fx - px, fy - py)
 
-    corners, last = away(outline.x0, outline.y0), away(outline.x1, outline.y1)
-    arcs = outline.distances(*nearest(outline.cx, outline.cy)).distance.min(axis=1)
-    ends = np.minimum(np.abs(outline.signed(start)), np.abs(outline.signed(end)))
-    return np.minimum.reduce((ends, corners, last, arcs))
-
-
-def near_segments(outline: Polyarc, start: Array, end: Array, reach: float) -> Polyarc:
-    """Return the pieces that may lie within ``reach`` of a segment; all pieces if none do."""
-    (x, y), half = 0.5 * (start + end).T, 0.5 * np.hypot(*(end - start).T)
-    away = np.hypot(outline.ox - x[:, None], outline.oy - y[:, None])
-    near = (away <= reach + half[:, None] + outline.size).any(axis=0)
-    return outline.subset(np.flatnonzero(near)) if near.any() else outline
+    places = (x, y), (ex, ey), nearest(near.cx, near.cy)
+    from_places = [near.distances(*place).distance for place in places]
+    corners = away(near.x0, near.y0), away(near.x1, near.y1)
+    out = np.full(len(start), reach)
+    np.minimum.at(out, row, np.minimum.reduce((*from_places, *corners)))
+    return out
 
 
 def short_pieces(contours: Iterable[Contour], step: float) -> Polyarc:

@@ -19,14 +19,12 @@ import numpy as np
 from geneva_cli.collisions.gaps import Gaps
 from geneva_cli.collisions.pairs import Bounds, Intervals, Pair, Pose, Window, raised
 from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.extents import farthest, from_segments, near_segments, short_pieces
+from geneva_cli.curves.extents import farthest, from_segments, short_pieces
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.plane_motion import turned_points
 from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.outlines.travel import Travel, path_travel, slot_travel
-
-AXIS = np.zeros((1, 2))
 
 
 class FlatPairs:
@@ -70,7 +68,7 @@ class FlatPairs:
     @cached_property
     def disc(self) -> float:
         """The greatest distance of the crank from its axis, mm."""
-        return float(farthest(self.pieces, AXIS).max())
+        return float(farthest(self.pieces, 0.0, 0.0).max())
 
     @property
     def apart(self) -> float:
@@ -135,8 +133,7 @@ class Roller:
         least = np.full(len(gap), -math.inf)
         if short.any():
             start, end, reach = start[short], end[short], radius + self.gaps.near
-            wheel = near_segments(self.gaps.wheel, start, end, reach)
-            free = np.minimum(from_segments(wheel, start, end), reach)
+            free = from_segments(self.gaps.wheel, start, end, reach)
             least[short] = free - aside[short] - radius
         return least
 
@@ -212,6 +209,10 @@ class Lock:
     def __init__(self, reach: FlatPairs, window: Window) -> None:
         self.reach, self.window = reach, window
         self.pieces, self.disc = reach.pieces, reach.disc
+        # the middles of the recesses at both ends of the window, in the wheel's frame
+        turn = reach.gaps.assembly.wheel(np.array((window.start, window.end)))
+        self.recesses = reach.moves.into(np.array(((reach.L, 0.0), (reach.L, 0.0))), turn)
+        self.free = reach.gaps.wheel.signed(self.recesses)
 
     def __call__(self, on: Intervals) -> Bounds:
         """Return the better of two bounds: from the gap, and from the recess's circle."""
@@ -229,17 +230,16 @@ class Lock:
 
     def _in_recess(self, on: Intervals) -> Array:
         """Return how far the crank stays within the circle of the nearer recess, mm."""
-        gaps, moves, L = self.reach.gaps, self.reach.moves, self.reach.L
+        moves, L = self.reach.moves, self.reach.L
         wheel, crank, _ = on.at_middle
-        start, end = self.window.start, self.window.end
-        nearer = np.where(on.middle - start < end - on.middle, start, end)
-        axis = np.repeat([[L, 0.0]], len(wheel), axis=0)
-        middle = moves.into(axis, gaps.assembly.wheel(nearer))
-        free = gaps.wheel.signed(middle)
-        offset = turned_points(moves.into(middle, -wheel) - axis, -crank)
-        far = np.where(self._within_rim(crank, on), farthest(self.pieces, offset), 0.0)
+        nearer = (on.middle - self.window.start >= self.window.end - on.middle).astype(int)
+        middle = moves.into(self.recesses[nearer], -wheel)
+        offset = turned_points(middle - (L, 0.0), -crank)
+        row, piece = np.nonzero(self._within_rim(crank, on))
+        far = np.zeros(len(wheel))
+        np.maximum.at(far, row, farthest(self.pieces.subset(piece), *offset[row].T))
         moved = moves.lever(L) * on.wheel + np.hypot(*offset.T) * on.crank
-        return free - far.max(axis=1) - moved
+        return self.free[nearer] - far - moved
 
     def _within_rim(self, crank: Array, on: Intervals) -> Mask:
         """Return a mask (n, k) of the pieces of the crank that may come within the wheel's rim."""

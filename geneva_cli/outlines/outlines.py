@@ -74,10 +74,10 @@ class Outlines(NamedTuple):
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
         from geneva_cli.curves.extents import farthest
-        from geneva_cli.outlines.bounds import AXIS, FlatPairs
+        from geneva_cli.outlines.bounds import FlatPairs
 
-        outside, wheel = self.assembly.sign > 0.0, self.gaps.wheel
-        rim = float(farthest(wheel, AXIS).max() if outside else wheel.signed(AXIS)[0])
+        outside, wheel, axis = self.assembly.sign > 0.0, self.gaps.wheel, np.zeros((1, 2))
+        rim = float(farthest(wheel, 0.0, 0.0).max() if outside else wheel.signed(axis)[0])
         return FlatPairs(self.gaps, self.crank, target, rim)
 
     @property
@@ -143,10 +143,8 @@ def _overlap(gaps: Gaps, close: float) -> float:
     Gaps wider than ``close`` count as ``close``.
     """
     least = 0.0
-    for engagement, behind in gaps.assembly.motions:
-        count = 2 + int(engagement.motion_deg / SWEPT_DEG)
-        at = np.linspace(engagement.entry_deg, engagement.exit_deg, count)
-        at = behind + at + 0.3 * SWEPT_DEG
+    for i in range(len(gaps.assembly.motions)):
+        at = gaps.along(i, SWEPT_DEG) + 0.3 * SWEPT_DEG
         # without the rollers, which lock nothing
         pose = Pose(gaps.assembly.wheel(at), gaps.assembly.crank(at), np.empty((len(at), 0, 2)))
         least = min(least, float(gaps.locking(pose, near=close).min()))

@@ -319,6 +319,16 @@ def test_scripts_of_the_start_print_the_row():
         assert numbers == pytest.approx([6, 120, 240, 0.5, 1 / 3, 1.0], rel=1e-15)
 
 
+def test_a_start_stands_beside_the_libraries_that_it_needs():
+    """Below the time of their import no run can be."""
+    limits = {task.name: task.methods[-1] for task in bench_start.subject(False).tasks}
+    assert limits["geneva peaks -"].name == "the limit: import typer"
+    assert limits["geneva check -"].name == "the limit: import typer, numpy"
+    dxf = limits["geneva profile - --part wheel --format dxf"]
+    assert dxf.name == "the limit: import typer, numpy, ezdxf"
+    dxf.run()  # it raises an error if the run fails
+
+
 def test_unknown_subject():
     found = invoke("peak")
     assert found.exit_code == 2

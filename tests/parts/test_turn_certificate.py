@@ -21,7 +21,7 @@ from geneva_cli.collisions import certificate as halving
 from geneva_cli.collisions.certificate import certificate
 from geneva_cli.collisions.full_turn import full_turn
 from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.extents import farthest, from_segments, near_segments, short_pieces
+from geneva_cli.curves.extents import farthest, from_segments, short_pieces
 from geneva_cli.curves.shapes import Line, about, closed
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
@@ -142,7 +142,7 @@ def test_nearest_and_farthest_distances_against_dense_points(name):
     size = float(np.abs(dense).max())
     points = rng.uniform(-size, size, (40, 2))
     away = np.hypot(*(dense[None] - points[:, None]).transpose(2, 0, 1))
-    far = farthest(wheel, points).max(axis=1)
+    far = farthest(wheel, points[:, :1], points[:, 1:]).max(axis=1)
     assert (away.max(axis=1) <= far + ROUNDING).all()
     assert (away.max(axis=1) >= far - 0.05).all()
     # short segments that cross no piece
@@ -151,11 +151,12 @@ def test_nearest_and_farthest_distances_against_dense_points(name):
     start, end = points[clear], ends[clear]
     at = start[:, None] + (end - start)[:, None] * np.linspace(0.0, 1.0, 201)[:, None]
     least = np.array([np.abs(wheel.signed(row)).min() for row in at])
-    from_all = from_segments(wheel, start, end)
+    from_all = from_segments(wheel, start, end, math.inf)
     assert np.allclose(from_all, least, atol=0.01)  # 0.014 mm of travel between two points
     assert (from_all <= least + ROUNDING).all()
-    near = near_segments(wheel, start, end, float(least.min()) + 1.0)
-    assert from_segments(near, start, end).min() == from_all.min()
+    # 1 mm above the least some pieces are left out, and most distances are above the reach
+    reach = float(least.min()) + 1.0
+    assert (from_segments(wheel, start, end, reach) == np.minimum(from_all, reach)).all()
 
 
 def test_short_pieces_are_the_same_outline():

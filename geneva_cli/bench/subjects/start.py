@@ -28,22 +28,27 @@ SCRIPTS = {
     "def table(z: int = 6): row(z)\n"
     "app()\n",
 }
+MODULES = {"ezdxf": "geneva_cli.output.ezdxf_alone"}  # without fonts and queries
 
 
 def subject(quick: bool) -> Subject:
     """Bare Python, what runs cannot do without, and a row of the table; then each command."""
     methods = [Method(f"python -c '{c}'", None, WholeRun(c).run) for c in ("pass", "import numpy")]
-    # the program searches rarely for garbage, and ends without Python's cleaning up
-    alone = "import gc, os; gc.set_threshold(250_000); os.environ['OPENBLAS_NUM_THREADS'] = '1'; "
-    for name, modules in (("Typer", "typer"), ("Typer and NumPy", "typer, numpy")):
-        run = WholeRun(f"{alone}import {modules}; os._exit(0)").run
-        methods.append(Method(f"the limit: {name}, as the program imports", None, run))
-    tasks = [task("python", methods)]
+    tasks = [task("python", [*methods, _limit("typer"), _limit("typer", "numpy")])]
     tasks.append(_table())
     if not quick:
         tasks += [_command(words) for words in _without_a_spec()]
         tasks += [_design(words) for words in _with_a_spec()]
     return Subject("Start-up of whole runs", "none", tasks, seconds=2.0)
+
+
+def _limit(*libraries: str) -> Method:
+    """A run that imports what it cannot do without, as the program imports it, and no more."""
+    # the program searches rarely for garbage, and ends without Python's cleaning up
+    alone = "import gc, os; gc.set_threshold(250_000); os.environ['OPENBLAS_NUM_THREADS'] = '1'"
+    modules = [MODULES.get(name, name) for name in libraries]
+    code = f"{alone}; import {', '.join(modules)}; os._exit(0)"
+    return Method(f"the limit: import {', '.join(libraries)}", None, WholeRun(code).run)
 
 
 def _without_a_spec() -> tuple[str, ...]:
@@ -111,10 +116,14 @@ def _command(words: str) -> Task:
 
 
 def _design(words: str) -> Task:
-    """A command on the templates of two wheels."""
+    """A command on the templates of two wheels, and the libraries that no run does without."""
     kinds = {"external": "straight slots", "curved": "curved slots"}
     methods = [
         Method(f"ours, {slots}", None, geneva(*words.split(), text=template(kind)).run, True)
         for kind, slots in kinds.items()
     ]
+    # the peaks of straight slots are closed forms of floats
+    libraries = ["typer"] if words.startswith("peaks") else ["typer", "numpy"]
+    libraries += ["ezdxf"] if words.endswith("dxf") else []
+    methods.append(_limit(*libraries))
     return task(f"geneva {words}", methods)

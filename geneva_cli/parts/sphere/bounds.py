@@ -10,12 +10,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.collisions.pairs import Bounds, Intervals, Pair, Pose, Window, raised
 from geneva_cli.curves.sphere import Region
+from geneva_cli.curves.sphere_arcs import SphereArcs
 from geneva_cli.curves.sphere_extents import Circle, FromCircle, farthest, short_arcs
 from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.outlines.sphere_wheel import POLE, QUARTER
@@ -24,7 +26,7 @@ from geneva_cli.parts.sphere.stops import about, polar
 if TYPE_CHECKING:
     from geneva_cli.parts.sphere.gaps import BallGaps
 
-STEP = math.radians(1.0)  # of the sectors' arcs: pieces that are tested for being in the wheel
+STEP = math.radians(1.0)  # greatest turn of a piece of the crank
 
 
 class SpherePairs:
@@ -45,6 +47,11 @@ class SpherePairs:
     def driving(self, roller: int, span: tuple[float, float]) -> Pair:
         """Return a roller and the wheel, while it is in its slot between two input angles."""
         return DrivingRoller(self, roller, span)
+
+    @cached_property
+    def pieces(self) -> SphereArcs:
+        """The crank in arcs of a degree, each of which is tested for being in the wheel."""
+        return short_arcs(self.crank, STEP)
 
     @property
     def apart(self) -> float:
@@ -146,7 +153,11 @@ class Lock:
     def __init__(self, pairs: SpherePairs, window: Window) -> None:
         self.pairs, self.window = pairs, window
         self.ball, self.gaps = pairs.ball, pairs.gaps
-        self.pieces = short_arcs(pairs.crank, STEP)
+        self.pieces = pairs.pieces
+        # the middles of the recesses at both ends of the window, in the wheel's frame
+        turn = self.gaps.assembly.wheel(np.array((window.start, window.end)))
+        self.recesses = about(np.tile(self.gaps.crank_frame[2], (2, 1)), -turn)
+        self.free, _ = self.gaps.to_wheel(self.recesses)
 
     def __call__(self, on: Intervals) -> Bounds:
         """Return the better of two bounds: from the gap, and from the recess's cap."""
@@ -169,15 +180,11 @@ class Lock:
         """Return how far the sectors stay within the cap of the nearer recess, mm."""
         ball, gaps = self.ball, self.gaps
         wheel, crank, _ = on.at_middle
-        start, end = self.window.start, self.window.end
-        nearer = np.where(on.middle - start < end - on.middle, start, end)
-        axis = np.tile(gaps.crank_frame[2], (len(wheel), 1))
-        middle = about(axis, -gaps.assembly.wheel(nearer))
-        free, _ = gaps.to_wheel(middle)
-        offset = gaps.in_crank(about(middle, wheel), crank)
+        nearer = (on.middle - self.window.start >= self.window.end - on.middle).astype(int)
+        offset = gaps.in_crank(about(self.recesses[nearer], wheel), crank)
         far = np.where(self._within_rim(on, crank), farthest(self.pieces, offset), 0.0)
         moved = math.sin(ball.axes) * on.wheel + np.hypot(*offset[:, :2].T) * on.crank
-        return ball.radius_mm * (free - far.max(axis=1) - moved)
+        return ball.radius_mm * (self.free[nearer] - far.max(axis=1) - moved)
 
     def _within_rim(self, on: Intervals, crank: Array) -> Mask:
         """Return a mask (n, k) of the pieces of the sectors that may come within the rim."""
