@@ -174,24 +174,18 @@ class Gaps:
             out = np.minimum(out, _least(len(turn), owner, signed, near))
         return out
 
-    def along(self, number: int, step_deg: float) -> Array:
-        """Return the input angles at both ends of a motion and between, in equal steps.
+    def swept(self, number: int, step_deg: float) -> tuple[Array, Array]:
+        """Return the wheel's points that enter the locking disc during one motion, as x and y, mm.
 
-        They are at most ``step_deg`` degrees apart. If the second half of a crank's only motion
-        mirrors the first, only the first is returned.
+        They are in the crank's frame. The wheel is placed at steps of ``step_deg`` degrees of the
+        input. If the second half of a crank's only motion mirrors the first, only the first is
+        returned.
         """
         engagement, behind = self.assembly.motions[number]
         count = max(2, math.ceil(engagement.motion_deg / step_deg)) + 1
-        at: Array = behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count)
-        mirrored = self.pitch and engagement.mirrored and len(self.assembly.motions) == 1
-        return at[: (count + 1) // 2] if mirrored else at
-
-    def swept(self, number: int, step_deg: float) -> tuple[Array, Array]:
-        """Return the wheel's points that enter the locking disc in a motion, as x and y, mm.
-
-        They are in the crank's frame. The wheel is placed at the angles of ``along``.
-        """
-        at = self.along(number, step_deg)
+        at = behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count)
+        if self.pitch and engagement.mirrored and len(self.assembly.motions) == 1:
+            at = at[: (count + 1) // 2]
         turn, pose = self.assembly.wheel(at), self.assembly.crank(at)
         # 2^19 points of the wheel at a time fit into the cache
         step = max(1, (1 << 19) // len(self._wheel_points[0]))

@@ -143,8 +143,10 @@ def _overlap(gaps: Gaps, close: float) -> float:
     Gaps wider than ``close`` count as ``close``.
     """
     least = 0.0
-    for i in range(len(gaps.assembly.motions)):
-        at = gaps.along(i, SWEPT_DEG) + 0.3 * SWEPT_DEG
+    for engagement, behind in gaps.assembly.motions:
+        count = 2 + int(engagement.motion_deg / SWEPT_DEG)
+        at = np.linspace(engagement.entry_deg, engagement.exit_deg, count)
+        at = behind + at + 0.3 * SWEPT_DEG
         # without the rollers, which lock nothing
         pose = Pose(gaps.assembly.wheel(at), gaps.assembly.crank(at), np.empty((len(at), 0, 2)))
         least = min(least, float(gaps.locking(pose, near=close).min()))
