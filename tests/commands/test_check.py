@@ -105,7 +105,7 @@ def test_parts_that_cannot_be_built_are_named(watched: None) -> None:
     spec = str(repo.DESIGNS / "press-straight.toml")
     shown = " ".join(run(spec, "--set", "size.wheel_bore_mm=400").stdout.split())
     assert "parts wheel_bore_mm = 400: the slots reach down to 199.945 mm" in shown
-    assert "passes with roller_radius_mm = " in shown
+    assert "passes with wheel_bore_mm = " in shown
     assert shown.count("the slots reach down to") == 1  # the text; the note is the change alone
 
 
