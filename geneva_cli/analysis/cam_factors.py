@@ -1,4 +1,4 @@
-"""The factors Am, Vm and Qm of a motion, for the cam-indexer formula that expects a cam curve."""
+"""The factors Am, Vm and Qm of a motion, for the cam-indexer formula."""
 
 from __future__ import annotations
 

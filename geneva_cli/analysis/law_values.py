@@ -1,4 +1,4 @@
-"""The characteristic values of motion laws C_v, C_a, C_j and C_p, and the factors Am, Vm and Qm.
+"""The characteristic values C_v, C_a, C_j and C_p of motion laws, and their factors Am, Vm, Qm.
 
 They are for the table of laws; the peaks of machines' motions are in ``peak_search``.
 """
