@@ -114,10 +114,10 @@ class Sweep(NamedTuple):
         draws_parts = any(group.makes_parts for group in self.pick.groups)
         if not draws_parts:
             return 64
-        # parts are slow: at most eight tasks for several processes, or tasks as large as a batch
-        # can be
+        # parts are slow: eight tasks for several processes, of four designs at least, for a batch
+        # of them shares its searches, and of no more than a batch keeps
         start, stop = self.span
-        return min(KEPT, max(1, math.ceil((stop - start) / 8)))
+        return min(KEPT, max(4, math.ceil((stop - start) / 8)))
 
     @property
     def is_batched(self) -> bool:
