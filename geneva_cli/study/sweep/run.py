@@ -114,8 +114,8 @@ class Sweep(NamedTuple):
         draws_parts = any(group.makes_parts for group in self.pick.groups)
         if not draws_parts:
             return 64
-        # parts are slow: eight tasks for several processes, of four designs at least, for a batch
-        # of them shares its searches, and of no more than a batch keeps
+        # Parts are slow: eight tasks keep several processes busy. Four designs or more share the
+        # searches of their batch, which keeps the results of at most KEPT.
         start, stop = self.span
         return min(KEPT, max(4, math.ceil((stop - start) / 8)))
 
