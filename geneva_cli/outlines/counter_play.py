@@ -8,7 +8,7 @@ the driver's teeth and rim is how far the pinion is free, ahead and behind.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache, partial
 from typing import NamedTuple, TypeAlias
 
@@ -22,6 +22,9 @@ from geneva_cli.outlines.counter import CounterSizes, counter_sizes, half_angles
 HalfAngles: TypeAlias = Callable[[Array], Array]  # of teeth, by radii
 # radii and directions about the driver's axis, for inputs, of points at fractions of a line
 Line: TypeAlias = Callable[[Array, Array], tuple[Array, Array]]
+# free angles in some senses, for angles of input and pinion, at fractions of a line
+Free: TypeAlias = Callable[[Array, Array, Sequence[float]], list[Array]]
+SENSES = 1.0, -1.0  # in which the pinion turns: ahead and behind
 
 
 class CounterPlay(NamedTuple):
@@ -56,52 +59,56 @@ def counter_play(mechanism: Mechanism) -> CounterPlay:
     places = np.concatenate((before[:-1], moving))
     angles = np.column_stack((places, np.maximum(places, -half) * ratio)) * DEGREE
     pinion_side = half_angles(sizes.pinion)
-    ends = [
-        _least(partial(_free, sizes, line, (pinion_side, sense)), angles)
-        for line in _lines(sizes)
-        for sense in (1.0, -1.0)
-    ]
-    ahead, behind = (np.degrees(np.min(ends[k::2], axis=0)) for k in (0, 1))
+    ends = [_least(partial(_free, sizes, line, pinion_side), angles) for line in _lines(sizes)]
+    ahead, behind = np.degrees(np.min(ends, axis=0))
     return CounterPlay(places, ahead, behind)
 
 
-def _least(free: Callable[[Array, Array], Array], angles: Array) -> Array:
-    """Return the least value along a line, for angles (n, 2) of input and pinion.
+def _least(free: Free, angles: Array) -> tuple[Array, ...]:
+    """Return the least values along a line in each sense, for angles (n, 2) of input and pinion.
 
-    A line has at most a few minima, which 200 steps tell apart. The least is then searched between
-    the neighbours of the best sample, in steps a tenth as long each time. The error at an end of
-    the reachable part is 1e-9 of the line, and at a minimum inside it the square of that. Angles at
-    which no sample is within reach are left out of the search.
+    A line has at most a few minima, which 200 steps tell apart.
     """
-    at, fine = np.linspace(0.0, 1.0, 201), np.linspace(0.0, 1.0, 21)
-    best, within = np.full(len(angles), np.inf), np.arange(len(angles))
-    for _ in range(8):
-        values = free(angles[within], at)
-        k, rows = values.argmin(axis=1), np.arange(len(within))
-        best[within] = np.minimum(best[within], values[rows, k])
-        near = np.isfinite(best[within])
-        steps, rows = np.broadcast_to(at, values.shape), rows[near]
-        within, k = within[near], k[near]
+    at = np.linspace(0.0, 1.0, 201)
+    samples = zip(SENSES, free(angles, at, SENSES), strict=True)
+    return tuple(_refined(free, angles, at, sense, values) for sense, values in samples)
+
+
+def _refined(free: Free, angles: Array, at: Array, sense: float, values: Array) -> Array:
+    """Return the least values in one sense from samples (n, k) at fractions ``at`` of the line.
+
+    The least is searched between the neighbours of the best sample, in steps a tenth as long each
+    time. The error at an end of the reachable part is 1e-9 of the line, and at a minimum inside it
+    the square of that. Angles at which no sample is within reach are left out of the search.
+    """
+    best, fine = values.min(axis=1), np.linspace(0.0, 1.0, 21)
+    within = np.flatnonzero(np.isfinite(best))
+    values, rows = values[within], np.arange(len(within))
+    steps = np.broadcast_to(at, values.shape)
+    for _ in range(7):
+        k = values.argmin(axis=1)
         before, after = np.maximum(k - 1, 0), np.minimum(k + 1, steps.shape[1] - 1)
         low, high = steps[rows, before], steps[rows, after]
-        at = low[:, None] + (high - low)[:, None] * fine
+        steps = low[:, None] + (high - low)[:, None] * fine
+        (values,) = free(angles[within], steps, (sense,))
+        best[within] = np.minimum(best[within], values.min(axis=1))
     return best
 
 
 def _free(
     sizes: CounterSizes,
     driver: tuple[Line, float],
-    pinion: tuple[HalfAngles, float],
+    pinion_side: HalfAngles,
     angles: Array,
     at: Array,
-) -> Array:
-    """Return how far the pinion can turn, radians, for points of a line of the driver.
+    senses: Sequence[float],
+) -> list[Array]:
+    """Return how far the pinion can turn in each sense, radians, for points of the driver.
 
-    ``driver`` has also the pitch of the pinion's teeth there. ``pinion`` has the half angles of its
-    teeth at radii, and the sense in which it turns, 1 for ahead. Points that the pinion does not
-    reach have infinity.
+    ``driver`` is a line of these points, and the pitch of the pinion's teeth there. Points that the
+    pinion does not reach have infinity.
     """
-    (line, pitch), (pinion_side, sense) = driver, pinion
+    line, pitch = driver
     inputs, turned = angles[:, :1], angles[:, 1:]
     r, side = line(inputs, at)
     direction = math.pi - (inputs + side)
@@ -111,10 +118,13 @@ def _free(
     turned = np.broadcast_to(turned, near.shape)[near]
     # from a tooth's middle
     after = np.mod(np.arctan2(y[near], x[near]) - turned + 0.5 * pitch, pitch) - 0.5 * pitch
-    ahead = np.where(sense * after > 0.0, 0.0, pitch) + sense * after
-    spare = np.full(near.shape, np.inf)
-    spare[near] = ahead - pinion_side(away[near])
-    return spare
+    side, each = pinion_side(away[near]), []
+    for sense in senses:
+        ahead = np.where(sense * after > 0.0, 0.0, pitch) + sense * after
+        spare = np.full(near.shape, np.inf)
+        spare[near] = ahead - side
+        each.append(spare)
+    return each
 
 
 def _lines(sizes: CounterSizes) -> Iterator[tuple[Line, float]]:

@@ -114,10 +114,10 @@ class Sweep(NamedTuple):
         draws_parts = any(group.makes_parts for group in self.pick.groups)
         if not draws_parts:
             return 64
-        # parts are slow: at most eight tasks for several processes, or tasks as large as a batch
-        # can be
+        # Parts are slow: eight tasks keep several processes busy. Four designs or more share the
+        # searches of their batch, which keeps the results of at most KEPT.
         start, stop = self.span
-        return min(KEPT, max(1, math.ceil((stop - start) / 8)))
+        return min(KEPT, max(4, math.ceil((stop - start) / 8)))
 
     @property
     def is_batched(self) -> bool:
