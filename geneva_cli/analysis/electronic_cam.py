@@ -1,8 +1,8 @@
 """The motion as an electronic cam: points or polynomials between which a controller interpolates.
 
 The master is the input, in degrees from the first entry; the slave is the wheel, in degrees from
-its place there. Each error is that of the controller's own interpolation. It is evaluated at 32
-places of a piece, where a smooth error of one sign is met to 1 %.
+its place there. Each error is that of the controller's own interpolation. It is evaluated at 33
+places of a piece. One is the middle, where a smooth error of one sign is greatest or nearly so.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from geneva_cli.numerics.angles import distinct
 from geneva_cli.numerics.jet import Array
 from geneva_cli.table import Table
 
-INSIDE = (np.arange(32) + 0.5) / 32.0  # places in a piece where its error is evaluated
+INSIDE = (np.arange(33) + 0.5) / 33.0  # places in a piece, its middle among them
 LEAST_DEG = 1e-3  # shorter pieces are not halved: a servo's cycle is longer
 
 # widths of pieces, and the states after and before their ends -> powers of their polynomials
