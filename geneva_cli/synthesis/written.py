@@ -17,8 +17,8 @@ def chosen(
     """Row ``number``, and the text of its spec with comments, as ``turned`` shows it.
 
     The parts are turned through a whole turn, unless they are known to be impossible. A row that
-    ``turned`` shows without turning it keeps its numbers, even if its parts fail. Raises GenevaError
-    if there is no such row.
+    ``turned`` shows without turning it keeps its numbers, even if its parts fail. Raises
+    GenevaError if there is no such row.
     """
     if not 1 <= number <= len(ranking.rows):
         raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(ranking.rows)}")
