@@ -54,6 +54,16 @@ STANDARD_LAWS = tuple(
     name for name, path in LAWS.items() if path.startswith("kinematics.laws.standard:")
 )
 
+# other words for a kind, where the nearest by its letters would be another one
+_SYNONYMS = {
+    "inner": "internal",
+    "inside": "internal",
+    "outer": "external",
+    "outside": "external",
+    "rack": "linear",
+    "bevel": "spherical",
+}
+
 
 def gearing(name: str) -> type[Gearing]:
     """Class of a wheel. Raises GenevaError, naming the key, for an unknown name."""
@@ -77,6 +87,6 @@ def _load_kind(kinds: dict[str, str], name: str, key: tuple[str, str]) -> Any:
     if not isinstance(name, str) or name not in kinds:
         quoted = f'"{cut(name)}"' if isinstance(name, str) else cut(name)
         known = few(name, [f'"{kind}"' for kind in kinds])
-        hint = nearest(name, kinds) if isinstance(name, str) else ""
+        hint = nearest(_SYNONYMS.get(name, name), kinds) if isinstance(name, str) else ""
         raise GenevaError(f"{key[1]} must be one of {known}, not {quoted}{hint}", key)
     return load_named(kinds[name])

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import tomli
 
-from geneva_cli.errors import GenevaError, cut
+from geneva_cli.errors import GenevaError, cut, nearest
 
 
 class Setting(NamedTuple):
@@ -30,24 +30,34 @@ def setting(text: str, option: str = "--set") -> Setting:
     Setting(option='--set drive.A=0.6', path=('drive', 'A'), value=0.6)
     """
     key, sign, value = text.partition("=")
-    parts = key.strip().split(".")
     typed = f"{option} {cut(text.strip())}"
-    if not sign or not value.strip():
+    if not sign or not value.strip() or not all(key.strip().split(".")):
         raise GenevaError(f"{typed}: it must be KEY=VALUE, as in {option} drive.n_rpm=90")
-    if not all(parts) or (len(parts) == 1 and parts != ["title"]):
-        raise GenevaError(
-            f"{typed}: a key is written with its table, as in {option} {_whole(text)}"
-        )
+    parts = whole_key(key.strip(), typed).split(".")
     path = tuple(int(p) if i and p.isdecimal() else p for i, p in enumerate(parts))
     return Setting(typed, path, read_value(value, typed))
 
 
-def _whole(text: str) -> str:
-    """A text ``key=value`` with the first table that has the key; for another key, an example."""
-    from geneva_cli.specfile.keys import tables_with  # only for messages
+def whole_key(key: str, typed: str) -> str:
+    """Return a key with its table; without one if it is the only table that has the key.
 
-    tables = tables_with(text.partition("=")[0].strip())
-    return f"{next(iter(tables))}.{text.strip()}" if tables else "drive.n_rpm=90"
+    Raises GenevaError, which begins with ``typed``, for a key that no table or several tables have.
+
+    >>> whole_key("n_rpm", "--set n_rpm=90"), whole_key("drive.A", "--set drive.A=0.6")
+    ('drive.n_rpm', 'drive.A')
+    """
+    if key == "title" or "." in key:
+        return key
+    from geneva_cli.specfile.keys import full_names, tables_with  # loads every kind
+
+    names = [f"{table}.{key}" for table in tables_with(key)]
+    if len(names) == 1:
+        return names[0]
+    if names:
+        raise GenevaError(f"{typed}: several tables have this key; write {' or '.join(names)}")
+    known = {name.rpartition(".")[2] for name in full_names()}
+    hint = nearest(key, sorted(known))
+    raise GenevaError(f"{typed}: no table has this key{hint}; `geneva keys` lists all")
 
 
 def read_value(text: str, option: str) -> Any:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, clean, cut, few, nearest
@@ -12,6 +12,7 @@ from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.drive import Drive
 from geneva_cli.kinematics.motion import Motion
 from geneva_cli.machine.spec import BEFORE, Spec, attribute
+from geneva_cli.names import unit_end
 from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import (
     REQUIRED,
@@ -161,7 +162,7 @@ def _kind(values: dict[str, Any], kinds: _Kinds, files: _Files) -> Any:
     cls = kinds.find(name)
     of = f'{word} = "{name}"'
     _refuse_foreign(values, cls, kinds, of)
-    return cls(**_values(cls, values, files, f" for {of}", (word,)))
+    return cls(**_values(cls, values, files, f" for {of}"))
 
 
 def _before(values: Any, drives: _Kinds, files: _Files) -> Any:
@@ -204,24 +205,24 @@ def _motion(values: dict[str, Any], files: _Files) -> Motion | None:
     params = {key: values.pop(key) for key in own & set(values)}
     _refuse_foreign(values, Motion, laws, f'law = "{name}"')
     law = cls(**_values(cls, params, files, f' for law = "{name}"'))
-    return Motion(law, **_values(Motion, values, files, also=("law", *own)))
+    return Motion(law, **_values(Motion, values, files, also=fields(cls)))
 
 
 def _refuse_lawless(values: dict[str, Any], laws: _Kinds) -> None:
     """Raise GenevaError for keys of [motion] without a law, unless they have their defaults."""
-    known = {f.key: f.default for _, law in laws.all() for f in fields(law)}
-    known |= {f.key: f.default for f in fields(Motion)}
+    known = {f.key: f for _, law in laws.all() for f in fields(law)}
+    known |= {f.key: f for f in fields(Motion)}
     for key, value in values.items():
-        if key in known and value != known[key]:
+        if key in known and value != known[key].default:
             raise GenevaError(
                 f'{key} needs a law, such as law = "cycloidal": straight slots fix the motion',
                 ("motion", key),
             )
         if key not in known:
-            raise _unknown(key, "motion", ("law", *known))
+            raise _unknown(key, value, "motion", known)
 
 
-def _unknown(key: str, table: str, known: Collection[str], hint: str = "") -> GenevaError:
+def _unknown(key: str, value: object, table: str, known: Mapping[str, Field]) -> GenevaError:
     """Error for a key that a table does not have; it names the tables that have it.
 
     A single table is named with the key's meaning in it: a size in [tolerance] is a deviation.
@@ -233,7 +234,11 @@ def _unknown(key: str, table: str, known: Collection[str], hint: str = "") -> Ge
         return GenevaError(
             f"unknown key {key} in [{table}]; it belongs to {tables}{meaning}", where
         )
-    return unknown(key, table, tuple(known), hint)
+    from geneva_cli.specfile.writer import kind_tables  # only for messages
+
+    word = {of.word.key: of.word for of in kind_tables() if of.table == table}
+    known = {**word, **known}
+    return unknown(key, table, tuple(known), _hint(key, value, known.values()))
 
 
 def _meanings(key: str) -> dict[str, str]:
@@ -257,7 +262,13 @@ def _hint(typed: str, value: object, known: Iterable[Field]) -> str:
     for field in known:
         if right := with_unit(typed, value, field.key):
             return f" (another unit goes with the value: {right})"
-    by_meaning = [field for field in known if typed in re.findall(r"[\w-]+", field.meaning)]
+    end = unit_end(typed)
+    word = typed.removesuffix(end)
+    by_meaning = [
+        field
+        for field in known
+        if end in ("", unit_end(field.key)) and word in re.findall(r"[\w-]+", field.meaning)
+    ]
     if nearest(typed, [field.key for field in known]) or not by_meaning:
         return ""
     first = by_meaning[0]
@@ -297,14 +308,18 @@ def _values(
     values: dict[str, Any],
     files: _Files,
     why: str = "",
-    also: tuple[str, ...] = (),
+    also: Iterable[Field] = (),
 ) -> dict[str, Any]:
-    """Keys of a table as arguments of its class, which checks their values."""
+    """Keys of a table as arguments of its class, which checks their values.
+
+    The table has the keys ``also`` too; they are only for the message about an unknown key.
+    """
     known = {field.key: field for field in fields(cls)}
     out = {}
     for key, value in values.items():
         if key not in known:
-            raise _unknown(key, cls.TABLE, (*also, *known), _hint(key, value, known.values()))
+            known |= {field.key: field for field in also}
+            raise _unknown(key, value, cls.TABLE, known)
         field = known[key]
         rule = field.rule
         named = isinstance(rule, Csv)

@@ -16,9 +16,9 @@ from geneva_cli.spec.tables import LISTS, PLAIN
 
 # words that name a kind, each in its table
 GEARING = Field(
-    "gearing", "", (str,), OneOf(registry.GEARINGS), "external", "gearing of wheel and crank"
+    "gearing", "", (str,), OneOf(registry.GEARINGS), "external", "type of wheel and crank"
 )
-KIND = Field("kind", "", (str,), None, "crank", "kind of drive")
+KIND = Field("kind", "", (str,), None, "crank", "type of drive")
 BEFORE_KIND = KIND._replace(default=None, meaning="drive that turns the input shaft of [drive]")
 LAW = Field("law", "", (str,), None, None, "motion law of curved slots (`geneva laws`)")
 

@@ -7,14 +7,17 @@ from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.target import Target
 from geneva_cli.synthesis.built import built
 from geneva_cli.synthesis.rows import MachineRow
-from geneva_cli.synthesis.search import Ranking
+from geneva_cli.synthesis.search import TURNED, Ranking
 from geneva_cli.synthesis.table import fixed, other, with_result
 
 
-def chosen(ranking: Ranking, number: int, buildable: bool = False) -> tuple[MachineRow, str]:
+def chosen(
+    ranking: Ranking, number: int, buildable: bool = False, count: int = TURNED
+) -> tuple[MachineRow, str]:
     """Row ``number``, and the text of its spec with comments, as ``turned`` shows it.
 
-    The parts are turned through a whole turn, unless they are known to be impossible. Raises
+    The parts are turned through a whole turn, unless they are known to be impossible. A row that
+    ``turned`` shows without turning it keeps its numbers, even if its parts fail. Raises
     GenevaError if there is no such row.
     """
     if not 1 <= number <= len(ranking.rows):
@@ -22,7 +25,7 @@ def chosen(ranking: Ranking, number: int, buildable: bool = False) -> tuple[Mach
     row = ranking.rows[number - 1]
     if not row.is_impossible:
         row = with_result(row, built(row.spec, fixed(ranking.target)))
-    if row.is_impossible and (buildable or row.is_replacement):
+    if row.is_impossible and (buildable or (row.is_replacement and number <= count)):
         row = other(ranking, row) or row
     return row, commented(ranking.target, number, row)
 

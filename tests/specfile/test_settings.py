@@ -62,6 +62,11 @@ def test_a_kind_is_set_with_its_keys(spec):
     assert (spec_.drive.NAME, spec_.wheel.NAME) == ("side-crank", "internal")
 
 
+def test_a_key_of_one_table_needs_no_table(spec):
+    spec_ = load(spec, ["z=8", "n_rpm = 104", "law=cycloidal"]).spec
+    assert (spec_.wheel.z, spec_.drive.n_rpm, spec_.motion.law.NAME) == (8, 104.0, "cycloidal")
+
+
 def test_the_last_of_two_counts(spec):
     assert load(spec, ["wheel.z=8", "wheel.z=5"]).spec.wheel.z == 5
 
@@ -77,9 +82,11 @@ def test_the_last_of_two_counts(spec):
         ("whel.z=3", '--set whel.z=3: unknown table [whel] (did you mean "wheel"?)'),
         ("mass.1.count=3", "--set mass.1.count=3: the spec has 1 [[mass]], counted from 0"),
         ("mass.0.count=0", "--set mass.0.count=0: [[mass]] number 1: count = 0 must be"),
-        ("z=3", "a key is written with its table, as in --set wheel.z=3"),
-        ("center_distance_mm=509", "as in --set size.center_distance_mm=509"),
-        ("speed=3", "a key is written with its table, as in --set drive.n_rpm=90"),
+        ("center_distance_mm=509", "write size.center_distance_mm or tolerance.center_distance_mm"),
+        ("A=0.5", "--set A=0.5: several tables have this key; write drive.A or drive.before.A"),
+        ("rpm=3", '--set rpm=3: no table has this key (did you mean "n_rpm"?)'),
+        ("=3", "it must be KEY=VALUE"),
+        ("wheel.=3", "it must be KEY=VALUE"),
         ("wheel.z", "it must be KEY=VALUE"),
         ("wheel.z=", "it must be KEY=VALUE"),
         ("drive.kind=crnk", 'must be one of "crank"'),

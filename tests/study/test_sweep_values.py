@@ -55,9 +55,10 @@ def test_what_is_between_follows_from_the_key():
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("drive.A", "it must be TABLE.KEY=VALUES"),
-        ("A=1,2", "it must be TABLE.KEY=VALUES"),
-        ("drive.A=", "it must be TABLE.KEY=VALUES"),
+        ("drive.A", "it must be KEY=VALUES"),
+        ("A=1,2", "several tables have this key; write drive.A or drive.before.A"),
+        ("drive.A=", "it must be KEY=VALUES"),
+        ("drive.=1", "it must be KEY=VALUES"),
         ("drive.A=0..1:0", "a step of 0 does not lead from 0 to 1"),
         ("drive.A=0..1:-0.1", "a step of -0.1 does not lead"),
         ("drive.A=0..1:1e-12", "1e+12 values; at most 100,000,000"),

@@ -689,6 +689,16 @@ def test_a_replacement_stands_where_its_own_peak_belongs(monkeypatch):
     assert 1 not in [one.no for one in turned(found, len(shown) - 1, buildable=True)]
 
 
+def test_a_row_that_was_not_turned_is_written_with_its_own_numbers():
+    """Its parts fail: the file was once that of another machine, of 151 degrees."""
+    words = ["--dwell-s", "0.8..", "--cycle", "1.5", "--z", "8", "--check", "2"]
+    row = json.loads(run(*words, "--format", "json").stdout)["rows"][15]
+    assert row["parts"] == "maybe"
+    result = run(*words, "--write", "16")
+    assert f"It moves for {row['motion_deg']:.7g} deg" in result.stdout
+    assert "warning: its parts cannot be built" in result.stderr
+
+
 def test_a_written_row_is_cut(tmp_path):
     """Once refused for a locking disc that nobody had asked for."""
     file, wheel = tmp_path / "spec.toml", tmp_path / "wheel.dxf"

@@ -12,7 +12,7 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.spec.rules import RangeText, range_text
 from geneva_cli.spec.units import in_unit_of, unit_key
 from geneva_cli.specfile.keys import is_whole
-from geneva_cli.specfile.settings import Setting, read_value
+from geneva_cli.specfile.settings import Setting, read_value, whole_key
 
 Value: TypeAlias = float | int | str
 POINTS_MAX = 100_000_000  # rows of a sweep: some hours and some gigabytes
@@ -44,9 +44,10 @@ def axis(text: str, random: bool = False) -> VariedKey:
     """
     key, sign, values = text.partition("=")
     option = f"--vary {cut(text.strip())}"
-    if not sign or not values.strip() or "." not in key.strip().strip("."):
-        raise GenevaError(f"{option}: it must be TABLE.KEY=VALUES, as in --vary drive.A=0..0.9:0.1")
-    return _axis(key.strip(), values.strip().strip('"'), option, random)
+    if not sign or not values.strip() or not all(key.strip().split(".")):
+        raise GenevaError(f"{option}: it must be KEY=VALUES, as in --vary drive.A=0..0.9:0.1")
+    whole = whole_key(key.strip(), option)
+    return _axis(whole, values.strip().strip('"'), option, random)
 
 
 def refuse_twice(axes: Sequence[VariedKey], settings: Sequence[Setting]) -> None:
