@@ -67,10 +67,11 @@ class _SvgPen(Pen):
         self.out: list[str] = []
 
     def begin(self, name: str, frame: Frame) -> None:
+        # the last digits of a peak may differ between machines
+        x, y = (" ".join(f"{v:.12g}" for v in ends) for ends in (frame.window, frame.span))
         self.out.append(
-            f'<g id="{escape(name)}" data-x="{frame.window[0]!r} {frame.window[1]!r}"'
-            f' data-y="{frame.span[0]!r} {frame.span[1]!r}" data-frame="{_n(LEFT)} {_n(frame.top)}'
-            f' {_n(frame.wide)} {_n(frame.high)}">\n'
+            f'<g id="{escape(name)}" data-x="{x}" data-y="{y}" data-frame="{_n(LEFT)}'
+            f' {_n(frame.top)} {_n(frame.wide)} {_n(frame.high)}">\n'
         )
 
     def end(self) -> None:
