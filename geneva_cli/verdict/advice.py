@@ -358,11 +358,11 @@ def changed(spec: Spec, table: str, key: str, value: Value) -> Spec | None:
 
 
 def line(change: Change, value: Value) -> str:
-    """A change as ``--set`` takes it: a key that several tables have stands with its table."""
+    """A change as a line of the spec; a key that an earlier table has too stands with its table."""
     from geneva_cli.specfile.keys import tables_with
 
-    alone = len(tables_with(change.key)) == 1
-    key = change.key if alone else f"{change.table}.{change.key}"
+    first = next(iter(tables_with(change.key)))
+    key = change.key if change.table == first else f"{change.table}.{change.key}"
     if value is None:
         return f"leaving out {key}"
     return f'{key} = "{value}"' if isinstance(value, str) else f"{key} = {value:.12g}"
