@@ -61,7 +61,7 @@ def unbalance_kgm(spec: Spec) -> tuple[float, float]:
     """
     along = across = 0.0
     for mass in spec.mass:
-        if mass.count < 2 and mass.radius_mm:
+        if mass.to_one_side:
             moment, turn = weight_kg(mass) * mass.radius_mm * MM, math.radians(mass.angle_deg)
             along += moment * math.cos(turn)
             across += moment * math.sin(turn)

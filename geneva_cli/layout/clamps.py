@@ -55,15 +55,17 @@ class Clamp(NamedTuple):
         )
 
     @property
-    def fits(self) -> bool:
-        """True if the slit is narrower than the bore, and the hub has material for the screw.
+    def is_narrow(self) -> bool:
+        """True if the slit is narrower than the bore."""
+        return self.slit < 2.0 * self.bore
 
-        Half of the thread is left as a wall, and its whole width is screwed in.
-        """
+    @property
+    def fits(self) -> bool:
+        """True if the slit is narrow, half of the thread a wall, and its whole width screwed in."""
         far = self.axis + 0.5 * self.screw.core
         screwed_in = math.sqrt(max(self.hub**2 - far * far, 0.0)) - 0.5 * self.slit
-        narrow = self.slit < 2.0 * self.bore
-        return narrow and self.wall >= 0.5 * self.screw.thread and screwed_in >= self.screw.thread
+        walled = self.wall >= 0.5 * self.screw.thread
+        return self.is_narrow and walled and screwed_in >= self.screw.thread
 
     @property
     def force_N(self) -> float:
@@ -143,7 +145,7 @@ def with_clamp(size: Size, part: str, hub: Plate | None, direction: float) -> Pl
     if not clamp.fits or hub.thickness < clamp.screw.head:
         fitting = [s.thread for s in SCREWS if clamp._replace(screw=s).fits]
         fitting = [one for one in fitting if hub.thickness >= screw(key, one).head]
-        small = "hub" if clamp._replace(screw=SCREWS[0]).slit < 2.0 * clamp.bore else "bore"
+        small = "hub" if clamp._replace(screw=SCREWS[0]).is_narrow else "bore"
         most = f"up to {fitting[-1]:g}" if fitting else f"of no size: the {small} must be larger"
         raise GenevaError(
             f"{key} = {values[key]:g}: the hub, {2.0 * hub.outline.radius:.6g} mm in diameter and "

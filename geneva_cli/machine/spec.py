@@ -297,7 +297,7 @@ class Spec:
         >>> Spec(External(6), mass=(Mass("point", mass_kg=1.0, radius_mm=50.0),)).unbalanced
         True
         """
-        return any(one.count < 2 and one.radius_mm > 0.0 for one in self.mass)
+        return any(one.to_one_side for one in self.mass)
 
     @property
     def is_flat(self) -> bool:

@@ -388,6 +388,11 @@ class Mass(SpecTable):
         "point": (),
     }
 
+    @property
+    def to_one_side(self) -> bool:
+        """True for a single body off the axis; equal bodies are spaced evenly, and balanced."""
+        return self.count < 2 and self.radius_mm > 0.0
+
     def __post_init__(self) -> None:
         super().__post_init__()
         needed = self.SIZES[self.shape]

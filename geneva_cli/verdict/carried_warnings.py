@@ -58,8 +58,7 @@ def _unbalanced(spec: Spec) -> Iterator[Notice]:
     if spec.support.axis != "horizontal":
         return
     for mass in spec.mass:
-        # Two or more equal masses are assumed to be spaced evenly around the axis.
-        if mass.radius_mm and mass.count < 2:
+        if mass.to_one_side:
             torque = spec.support.gear_ratio * weight_kg(mass) * G * mass.radius_mm * 1e-3
             yield Notice(
                 "weight-to-one-side",

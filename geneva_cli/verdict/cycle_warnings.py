@@ -107,7 +107,7 @@ def _unbalanced(
     On a carrier the loads count that force; behind gears another shaft bears it.
     """
     spec = cycle.mechanism.spec
-    bodies = [one for one in spec.mass if one.count < 2 and one.radius_mm]
+    bodies = [one for one in spec.mass if one.to_one_side]
     if not bodies or cycle.case.frame or spec.support.gear_ratio != 1.0:
         return
     peaks = worst(cycle.mechanism)
