@@ -21,7 +21,7 @@ def main() -> None:
     # What is imported stays: searching it for garbage takes a tenth of a short run. The largest
     # import, for a DXF file, is of some 120,000 objects.
     gc.set_threshold(250_000)
-    from geneva_cli.app import main as run
+    from geneva_cli.cli.app import main as run
 
     run()
 

@@ -17,13 +17,13 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property, wraps
 from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self, TypeVar
 
+from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError, Notice, cut
-from geneva_cli.kinematics.drive import Drive
-from geneva_cli.kinematics.motion import Motion
-from geneva_cli.kinematics.wheels.gearing import Gearing
-from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.motion.drive import Drive
+from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.motion.motion import Motion
+from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec.rules import plain
 from geneva_cli.spec.schema import SHOWN_MAX, refuse_keywords, shortly
 from geneva_cli.spec.tables import (
@@ -42,17 +42,17 @@ from geneva_cli.spec.tables import (
 )
 
 if TYPE_CHECKING:
-    from geneva_cli.analysis.certificate import Certificate
-    from geneva_cli.analysis.peaks import Peaks
-    from geneva_cli.analysis.timing import Timing
-    from geneva_cli.curves.drawing import Drawing
-    from geneva_cli.curves.mass import MassProperties
-    from geneva_cli.curves.sheet import Sheet
     from geneva_cli.drawings.model import PartsModel
+    from geneva_cli.extras.certify.certificate import Certificate
     from geneva_cli.figure import Figure
+    from geneva_cli.geometry.drawing import Drawing
+    from geneva_cli.geometry.mass import MassProperties
+    from geneva_cli.geometry.sheet import Sheet
     from geneva_cli.loads.cycle import Cycle
     from geneva_cli.loads.summaries import LoadSummary
-    from geneva_cli.outlines.outlines import Outlines
+    from geneva_cli.motion.peaks import Peaks
+    from geneva_cli.motion.timing import Timing
+    from geneva_cli.parts.outlines.outlines import Outlines
     from geneva_cli.specfile.reader import Text
     from geneva_cli.table import Table
     from geneva_cli.verdict.checks import Check
@@ -250,7 +250,7 @@ class Design:
         >>> [round(d.peaks.ends.acceleration_entry, 4) for d in (offset, offset.backwards)]
         [0.5342, 0.6281]
         """
-        from geneva_cli.machine.both_ways import backwards
+        from geneva_cli.motion.both_ways import backwards
 
         both = self.spec.with_("drive.both_ways", True)
         title = ", ".join(text for text in (self.spec.title, "backwards") if text)
@@ -269,7 +269,7 @@ class Design:
         >>> size.center_distance_mm, size.wheel_thickness_mm
         (100.0, 10.0)
         """
-        from geneva_cli.outlines.sizes import built
+        from geneva_cli.parts.outlines.outline_sizes import built
 
         return built(self.mechanism)
 
@@ -280,7 +280,7 @@ class Design:
         >>> [t.index_deg for t in Design(External(6, steps_deg=(72, 48))).timings]
         [72.0, 48.0]
         """
-        from geneva_cli.analysis.timing import timings
+        from geneva_cli.motion.timing import timings
 
         return timings(self.mechanism)
 
@@ -305,7 +305,7 @@ class Design:
         >>> round(peaks.acceleration.max, 12), round(peaks.acceleration.at_deg, 9)
         (1.349637275902, -22.903061866)
         """
-        from geneva_cli.analysis.peaks import worst
+        from geneva_cli.motion.peaks import worst
 
         return worst(self.mechanism)
 
@@ -316,7 +316,7 @@ class Design:
         >>> Design(External(6)).peaks_table.to_dict()["velocity.max"]
         1.0
         """
-        from geneva_cli.analysis.peaks import peaks_table
+        from geneva_cli.motion.peaks import peaks_table
 
         return peaks_table(self.mechanism)
 
@@ -332,7 +332,7 @@ class Design:
         >>> Design(External(6)).certificate("acceleration").text
         'acceleration.max in [1.34963727590190, 1.34963727590191], at two mirrored places, proved'
         """
-        from geneva_cli.analysis.certificate import LIMIT, certificate
+        from geneva_cli.extras.certify.certificate import LIMIT, certificate
 
         limit = LIMIT if intervals is None else intervals
         return certificate(self.mechanism, quantity, limit)
@@ -349,7 +349,7 @@ class Design:
         >>> design.certified_peaks(for_people=True).to_dict()["certificate"][2]
         'jerk.max in [5.99999999999999, 6.00000000000000], unique, proved'
         """
-        from geneva_cli.analysis.certificate import with_certificates
+        from geneva_cli.extras.certify.certificate import with_certificates
 
         return with_certificates(self.peaks_table, self.mechanism, for_people)
 
@@ -363,7 +363,7 @@ class Design:
         >>> [row["proved"] for row in table.to_dict()["certificate"]]
         [True, True, True]
         """
-        from geneva_cli.analysis.certificate import load_certificates
+        from geneva_cli.extras.certify.certificate import load_certificates
         from geneva_cli.table import record_table
 
         own = {"spec": self.spec.path, "title": self.spec.title or None}
@@ -380,8 +380,8 @@ class Design:
         >>> Design(External(6)).motion(4).to_dict()["input_deg"].tolist()
         [-60.0, 60.0, 180.0, 300.0]
         """
-        from geneva_cli.analysis.electronic_cam import periods
-        from geneva_cli.analysis.motion import motion_table, turns_table
+        from geneva_cli.extras.servo.electronic_cam import periods
+        from geneva_cli.motion.motion_table import motion_table, turns_table
 
         if turns is None:
             return motion_table(self.mechanism, samples)
@@ -524,8 +524,8 @@ class Design:
         >>> round(found["residual_share"], 12)
         0.871288725706
         """
-        from geneva_cli.analysis.vibration.answers import vibration_table
-        from geneva_cli.analysis.vibration.oscillator import oscillator
+        from geneva_cli.loads.vibration.answers import vibration_table
+        from geneva_cli.loads.vibration.oscillator import oscillator
 
         return vibration_table(self.mechanism, oscillator(self.mechanism, period_ratio, damping))
 
@@ -539,8 +539,8 @@ class Design:
         >>> [round(float(n), 9) for n in table["n_rpm"]]
         [30.0, 60.0, 120.0]
         """
-        from geneva_cli.analysis.vibration.answers import spectrum
-        from geneva_cli.analysis.vibration.oscillator import required_oscillator
+        from geneva_cli.loads.vibration.answers import spectrum
+        from geneva_cli.loads.vibration.oscillator import required_oscillator
 
         shaft = required_oscillator(self.mechanism, period_ratio, damping)
         return spectrum(self.mechanism, shaft, samples)
@@ -641,8 +641,8 @@ class Design:
             picture = with_centre_marks(picture)
         if kerf_mm is None:
             return picture
-        from geneva_cli.curves.kerf import paths
         from geneva_cli.drawings.catalogue import require_cut
+        from geneva_cli.geometry.kerf import paths
 
         require_cut(part)
         return paths(picture, kerf_mm)
@@ -684,7 +684,7 @@ class Design:
         (2.0, 594.0, 420.0)
         """
         from geneva_cli.drawings.catalogue import part_sheet
-        from geneva_cli.layout.written import writing_in
+        from geneva_cli.parts.written import writing_in
 
         if curves not in CURVES:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
@@ -713,12 +713,7 @@ class Design:
         """
         from geneva_cli.drawings.catalogue import PARTS, is_sheet
         from geneva_cli.output import draw, draw_sheet, show
-        from geneva_cli.output.formats import (
-            curve_tolerance,
-            is_drawn,
-            sheet_as,
-            usual_curves,
-        )
+        from geneva_cli.output.formats import curve_tolerance, is_drawn, sheet_as, usual_curves
 
         tolerance_mm = curve_tolerance(tolerance_mm, path, "")
         stem = os.path.splitext(os.path.basename(path))[0]

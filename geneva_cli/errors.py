@@ -71,7 +71,7 @@ def refuse(where: Any, error: Callable[[], GenevaError]) -> None:
         return
     marks = _marks[0].get(None) if _marks else None
     if marks is None:
-        raise GenevaError("an array of designs is built by geneva_cli.machine.many")
+        raise GenevaError("an array of designs is built by geneva_cli.motion.many")
     marks.append(where)
 
 

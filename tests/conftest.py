@@ -16,13 +16,13 @@ from sampling import left_out, some
 from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli import load, study
-from geneva_cli.collisions import full_turn
-from geneva_cli.machine.mechanism import build
-from geneva_cli.outlines import outlines as outline
-from geneva_cli.outlines import sizes as own_sizes
-from geneva_cli.outlines.walls import chain as walls_chain
-from geneva_cli.outlines.walls import curved as curved_walls
-from geneva_cli.synthesis.families import four_bar_search
+from geneva_cli.kinds.linkages import four_bar_search
+from geneva_cli.motion.mechanism import build
+from geneva_cli.parts.outlines import outline_sizes as own_sizes
+from geneva_cli.parts.outlines import outlines as outline
+from geneva_cli.parts.outlines.walls import chain as walls_chain
+from geneva_cli.parts.outlines.walls import curved as curved_walls
+from geneva_cli.parts.turn import full_turn
 from geneva_cli.verdict import advice, motion_warnings
 from geneva_cli.verdict.checks import proved
 
@@ -191,6 +191,7 @@ def read_once():
     """
     for module in pkgutil.iter_modules(study.__path__, "geneva_cli.study."):
         importlib.import_module(module.name)
+    importlib.import_module("geneva_cli.extras.servo.against")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("geneva_cli.design.load", read)
         yield

@@ -4,11 +4,10 @@ import numpy as np
 from words import Motion, Spec, Wheel
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics import registry
-from geneva_cli.kinematics.laws.table import TableLaw
-from geneva_cli.machine import spec
-from geneva_cli.machine.many import changed
-from geneva_cli.machine.mechanism import build
+from geneva_cli.motion import registry, spec
+from geneva_cli.motion.laws.table import TableLaw
+from geneva_cli.motion.many import changed
+from geneva_cli.motion.mechanism import build
 
 
 def machine(wheel, kind="crank", motion=None, gearing="external", own=(), **keys):

@@ -17,8 +17,8 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from shapely.geometry import Polygon
 
-from geneva_cli.curves.measure import STRAIGHT, at, mapped, segment_length
-from geneva_cli.curves.shapes import Arc, Circle, Cubic, Line, closed
+from geneva_cli.geometry.measure import STRAIGHT, at, mapped, segment_length
+from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, closed
 
 FRACTIONS = (0.0, 0.07, 0.25, 0.5, 0.61, 0.83, 1.0)
 CHAIN = 1e-9  # how near ends must be to be one point; the files' last decimals are 1e-9 and 1e-12

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from geneva_cli.analysis.change_of_sides import WallImpacts, changes, impacts_of
-from geneva_cli.analysis.pin import pin_diameter_mm
-from geneva_cli.analysis.shock import FirstContacts, first_contacts
-from geneva_cli.analysis.shock_force import forces_N
-from geneva_cli.outlines.sizes import built
+from geneva_cli.loads.impacts.change_of_sides import WallImpacts, changes, impacts_of
+from geneva_cli.loads.impacts.shock import FirstContacts, first_contacts
+from geneva_cli.loads.impacts.shock_force import forces_N
+from geneva_cli.loads.strength.pin import pin_diameter_mm
+from geneva_cli.parts.outlines.outline_sizes import built
 
 
 def contact_of(engagement, crank, center=0.0):

@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.contact import contact, contact_values
-from geneva_cli.analysis.forces import load_case
-from geneva_cli.analysis.instant import bounded_loads
+from geneva_cli.loads.contact import contact, contact_values
+from geneva_cli.loads.forces import load_case
+from geneva_cli.loads.instant import bounded_loads
 from geneva_cli.numerics.arrays import Number
 
 

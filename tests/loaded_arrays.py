@@ -3,14 +3,14 @@
 import numpy as np
 from design_arrays import MACHINES, drawn
 
-from geneva_cli.analysis.contact import NEAR_CUSP, contact
-from geneva_cli.analysis.forces import load_case
-from geneva_cli.analysis.load_functions import LoadFunctions, signed_instant
-from geneva_cli.analysis.load_functions import load_batch as of
-from geneva_cli.analysis.quantities import QUANTITIES, SQUARED
+from geneva_cli.loads.contact import NEAR_CUSP, contact
+from geneva_cli.loads.cycle_quantities import QUANTITIES, SQUARED
+from geneva_cli.loads.forces import load_case
+from geneva_cli.loads.load_functions import LoadFunctions, signed_instant
+from geneva_cli.loads.load_functions import load_batch as of
 from geneva_cli.loads.summaries import LoadSummary, load_summaries
 from geneva_cli.loads.summary import plain
-from geneva_cli.machine.many import many, taken
+from geneva_cli.motion.many import many, taken
 from geneva_cli.spec.tables import Load
 
 LOAD = Load(inertia_kgm2=1.0, friction=0.1)

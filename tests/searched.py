@@ -2,8 +2,8 @@
 
 import functools
 
-from geneva_cli.synthesis.reading import read_target
-from geneva_cli.synthesis.search import search
+from geneva_cli.study.synth.reading import read_target
+from geneva_cli.study.synth.search import search
 
 
 @functools.cache

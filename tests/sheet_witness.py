@@ -10,9 +10,9 @@ from drawing_witness import vertices
 from shapely.geometry import LineString, Polygon, box
 from shapely.ops import substring, unary_union
 
-from geneva_cli.curves.shapes import Contour
-from geneva_cli.curves.sheet import FRAME
 from geneva_cli.drawings.sheet.paper import SCALES
+from geneva_cli.geometry.shapes import Contour
+from geneva_cli.geometry.sheet import FRAME
 
 CHORD = 0.02  # mm: how far the witness's polylines are from the arcs
 LEFT, MARGIN = 20.0, 10.0  # mm, of the frame (ISO 5457)

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from geneva_cli.machine.many import many
-from geneva_cli.machine.mechanism import build
+from geneva_cli.motion.many import many
+from geneva_cli.motion.mechanism import build
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.quantities.designs import Designs
 

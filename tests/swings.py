@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from geneva_cli.analysis.vibration.load_acceleration import greatest_accelerations
-from geneva_cli.analysis.vibration.oscillator import Oscillator
-from geneva_cli.analysis.vibration.swing import residual_swing
+from geneva_cli.loads.vibration.load_acceleration import greatest_accelerations
+from geneva_cli.loads.vibration.oscillator import Oscillator
+from geneva_cli.loads.vibration.swing import residual_swing
 
 
 def swing(ratios, damping):

@@ -38,9 +38,9 @@ from geneva_cli import (
     TableLaw,
     load,
 )
-from geneva_cli.app import app
-from geneva_cli.kinematics import registry
+from geneva_cli.cli.app import app
 from geneva_cli.manual import page
+from geneva_cli.motion import registry
 
 PRESS = {
     "size": Size(center_distance_mm=441.89, roller_radius_mm=20, face_width_mm=30),

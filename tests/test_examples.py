@@ -12,7 +12,7 @@ import repo
 
 import geneva_cli
 from geneva_cli import Design, Motion, Spec
-from geneva_cli.kinematics.laws.law import Law
+from geneva_cli.motion.laws.law import Law
 from geneva_cli.spec.schema import SpecTable
 
 ROOT = os.path.dirname(geneva_cli.__file__)

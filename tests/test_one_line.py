@@ -16,16 +16,16 @@ import pytest
 from typer.testing import CliRunner
 from words import Spec, Wheel
 
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 from geneva_cli.drawings.catalogue import PARTS, Part
-from geneva_cli.kinematics import registry
-from geneva_cli.kinematics.engagement import Displacement, Slot
-from geneva_cli.kinematics.laws.law import Law, from_velocity
-from geneva_cli.kinematics.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
-from geneva_cli.kinematics.wheels.gearing import Gearing, RollerPlace
-from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose
-from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
-from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.drives.transmission import LocalTransmission, Transmission
+from geneva_cli.motion import registry
+from geneva_cli.motion.engagement import Displacement, Slot
+from geneva_cli.motion.laws.law import Law, from_velocity
+from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
+from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
+from geneva_cli.motion.wheels.poses import HalfStep, PinPose
 from geneva_cli.numerics.jet import Jet, Number, sine_versine
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.output.formats import FORMATS
@@ -104,7 +104,7 @@ class Reduced(Transmission, kw_only=True):
 
 
 def test_a_drive(add: Add, run: Callable[..., Any]) -> None:
-    add(registry.DRIVES, "reduced", "machine.drives.added:Reduced", "machine.drives")
+    add(registry.DRIVES, "reduced", "drives.added:Reduced", "drives")
     text = new("reduced")
     assert 'kind = "reduced"' in text and "teeth = 3" in text
     found, plain = run("peaks", text), run("peaks", "[wheel]\nz = 6\n")
@@ -192,7 +192,7 @@ class Leaning(Gearing):
 
 
 def test_a_wheel_whose_crank_is_at_an_angle_and_offset(add: Add, run: Callable[..., Any]) -> None:
-    add(registry.GEARINGS, "leaning", "kinematics.wheels.added:Leaning", "kinematics.wheels")
+    add(registry.GEARINGS, "leaning", "motion.wheels.added:Leaning", "motion.wheels")
     text = new("leaning")
     assert 'gearing = "leaning"' in text and "lean_deg = 20.0" in text
     rows = run("motion", text)["rows"]
@@ -240,7 +240,7 @@ class Flattened(Law):
 
 
 def test_a_law_with_a_parameter(add: Add, run: Callable[..., Any]) -> None:
-    add(registry.LAWS, "flattened", "kinematics.laws.added:Flattened", "kinematics.laws")
+    add(registry.LAWS, "flattened", "motion.laws.added:Flattened", "motion.laws")
     wheel = "[wheel]\nz = 6\n[motion]\n"
     for n, same in ((2, "3-4-5"), (3, "4-5-6-7")):
         found = run("peaks", f'{wheel}law = "flattened"\nn = {n}\n')
@@ -259,7 +259,7 @@ def slots(name: str, mechanism: Mechanism) -> Check:
 
 def test_a_check(add: Add, run: Callable[..., Any]) -> None:
     """It is shown in its place, asked for by name, and advised on, for being in the list."""
-    add(checks.MOTION, "slots", "added:slots", "verdict.checks")
+    add(checks.MOTION, "slots", "verdict.checks.added:slots", "verdict.checks")
     rows = run("check", "[wheel]\nz = 6\n")["rows"]
     names = [row["check"] for row in rows]
     assert [row["limit"] for row in rows if row["check"] == "slots"] == [5.0]

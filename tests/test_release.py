@@ -7,7 +7,7 @@ from repo import ROOT
 from typer.main import get_command
 
 import geneva_cli
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 
 
 def test_the_citation_and_the_changes_name_this_version():

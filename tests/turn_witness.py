@@ -5,8 +5,8 @@ import math
 import numpy as np
 from sampling import some
 
-from geneva_cli.collisions.certificate import certificate, intervals, spans
-from geneva_cli.collisions.play import windows
+from geneva_cli.parts.turn.play import windows
+from geneva_cli.parts.turn.turn_certificate import certificate, intervals, spans
 
 TO_MM = 1e-3
 ROUNDING = 1e-9  # mm: a hundred times the rounding of a distance here

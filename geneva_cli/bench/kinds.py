@@ -10,20 +10,20 @@ import numpy as np
 
 from geneva_cli.bench.formulas import Proportions, rates, textbook
 from geneva_cli.bench.method import Method, Task
-from geneva_cli.kinematics.laws.standard import ModifiedSine, SineGroup
-from geneva_cli.kinematics.motion import Motion
-from geneva_cli.kinematics.wheels.external import External
-from geneva_cli.kinematics.wheels.internal import Internal
-from geneva_cli.kinematics.wheels.spherical import Spherical
-from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.drives.elliptical_gears import EllipticalGears
-from geneva_cli.machine.drives.epicyclic import Epicyclic
-from geneva_cli.machine.drives.four_bar import FourBar
-from geneva_cli.machine.drives.geneva_pair import GenevaPair
-from geneva_cli.machine.drives.side_crank import SideCrank
-from geneva_cli.machine.many import many
-from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.drives.crank import Crank
+from geneva_cli.drives.elliptical_gears import EllipticalGears
+from geneva_cli.drives.epicyclic import Epicyclic
+from geneva_cli.drives.side_crank import SideCrank
+from geneva_cli.kinds.linkages.four_bar import FourBar
+from geneva_cli.kinds.series.geneva_pair import GenevaPair
+from geneva_cli.motion.laws.standard import ModifiedSine, SineGroup
+from geneva_cli.motion.many import many
+from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.motion.motion import Motion
+from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.wheels.external import External
+from geneva_cli.motion.wheels.internal import Internal
+from geneva_cli.motion.wheels.spherical import Spherical
 from geneva_cli.spec.tables import Size
 
 QUICK = 100  # designs of a quick run

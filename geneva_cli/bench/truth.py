@@ -11,7 +11,7 @@ from functools import cache
 from typing import Any
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics import registry
+from geneva_cli.motion import registry
 
 
 @cache

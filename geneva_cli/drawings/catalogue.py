@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from geneva_cli.drawings.model import PartsKind, PartsModel, kind_of
 from geneva_cli.errors import GenevaError, cut, few, nearest
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.rules import Range, require_mm
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
-    from geneva_cli.curves.drawing import Drawing
-    from geneva_cli.curves.sheet import Sheet
+    from geneva_cli.geometry.drawing import Drawing
+    from geneva_cli.geometry.sheet import Sheet
     from geneva_cli.parts.parts_of_machine import PartsOfMachine
 
 
@@ -33,7 +33,7 @@ class Part(NamedTuple):
 
 PARTS = {
     "slot": Part(
-        "layout.slot_sampling:profile_table",
+        "parts.slots.slot_sampling:profile_table",
         "drawings.part_drawings:slot",
     ),
     "wheel": Part(drawing="drawings.part_drawings:wheel", cut=True),
@@ -47,8 +47,8 @@ PARTS = {
     "guide": Part(cut=True),
     "parts": Part("drawings.parts_list:parts_table", every=True),
     "assembly": Part(drawing="drawings.machine_drawing:machine"),
-    "gears": Part("layout.gear_curves:gears_table", "drawings.part_drawings:gears"),
-    "groove": Part("layout.groove:groove_table", "drawings.part_drawings:groove"),
+    "gears": Part("parts.gears.gear_curves:gears_table", "drawings.part_drawings:gears"),
+    "groove": Part("parts.slots.groove:groove_table", "drawings.part_drawings:groove"),
     "groove-plate": Part(drawing="drawings.part_drawings:groove_plate", cut=True),
     "coupon": Part(drawing="drawings.coupon:coupon", cut=True),
     "plate": Part(drawing="drawings.print_plate:plate"),

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape
+from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Shape
 
 
 def with_centre_marks(drawing: Drawing) -> Drawing:

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.plates import Group, Member, Plate
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, closed, polygon
-from geneva_cli.layout.projection import titled
+from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.plates import Group, Member, Plate
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Point, closed, polygon
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.projection import titled
 
 # mm per side: the first suit a mill, the last a laser or a printer
 CLEARANCES = (0.0, 0.02, 0.04, 0.06, 0.1, 0.15, 0.2, 0.3)

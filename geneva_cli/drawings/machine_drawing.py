@@ -11,21 +11,21 @@ from itertools import pairwise
 
 import numpy as np
 
-from geneva_cli.curves.drawing import Annotations, Drawing, LevelDistance
-from geneva_cli.curves.measure import turned
-from geneva_cli.curves.placed import placed
-from geneva_cli.curves.plates import Group, Member
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape, about
 from geneva_cli.drawings.part_drawings import pitch_lines
-from geneva_cli.kinematics.layout import Joint
-from geneva_cli.layout.link_positions import links_at
-from geneva_cli.layout.projection import once, outlines_of, shapes, titled, uncovered
-from geneva_cli.layout.roller_paths import roller_reaches
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.geometry.drawing import Annotations, Drawing, LevelDistance
+from geneva_cli.geometry.measure import turned
+from geneva_cli.geometry.placed import placed
+from geneva_cli.geometry.plates import Group, Member
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Shape, about
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.pivots import Joint
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.link_sizes import places
+from geneva_cli.parts.links.link_positions import links_at
+from geneva_cli.parts.links.link_sizes import places
+from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.projection import once, outlines_of, shapes, titled, uncovered
+from geneva_cli.parts.slots.roller_paths import roller_reaches
 
 BEYOND = 0.04  # of the centre distance: from a part to the arrow that shows how it turns
 

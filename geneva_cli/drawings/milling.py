@@ -9,18 +9,18 @@ from __future__ import annotations
 import math
 from contextlib import suppress
 
-from geneva_cli.curves.corners import TooWide
-from geneva_cli.curves.cutter import faults, freed
-from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.plates import Group, Part, Plate, plates
-from geneva_cli.curves.shapes import Arc, Contour, Layer, Line, Shape
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.least_wall import wall_min
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.geometry.corners import TooWide
+from geneva_cli.geometry.cutter import faults, freed
+from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.plates import Group, Part, Plate, plates
+from geneva_cli.geometry.shapes import Arc, Contour, Layer, Line, Shape
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import rounded_radius
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.rules import TOOL_MM, require_mm
 
 

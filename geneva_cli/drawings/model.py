@@ -12,22 +12,22 @@ from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, NoReturn, TypeAlias
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.layout import Dimension
-from geneva_cli.layout.missing import Missing, or_missing
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.pivots import Dimension
+from geneva_cli.parts.missing import Missing, or_missing
 
 if TYPE_CHECKING:
-    from geneva_cli.collisions.full_turn import FullTurn
-    from geneva_cli.collisions.machine_parts import MachineParts, WorkLimit
-    from geneva_cli.layout.stressed import Stressed
-    from geneva_cli.outlines.outlines import Outlines
-    from geneva_cli.outlines.rack_outlines import RackOutlines
-    from geneva_cli.parts.counter_parts import CounterParts
+    from geneva_cli.kinds.counter.parts import CounterParts
+    from geneva_cli.kinds.linear.outlines import RackOutlines
+    from geneva_cli.kinds.linear.parts import RackParts
+    from geneva_cli.kinds.spherical.parts import SphereParts
+    from geneva_cli.kinds.spherical.shells import Shells
     from geneva_cli.parts.flat_parts import FlatParts
+    from geneva_cli.parts.outlines.outlines import Outlines
     from geneva_cli.parts.parts_of_machine import PartsOfMachine
-    from geneva_cli.parts.rack_parts import RackParts
-    from geneva_cli.parts.sphere.shells import Shells
-    from geneva_cli.parts.sphere.sphere_parts import SphereParts
+    from geneva_cli.parts.sizes.stressed import Stressed
+    from geneva_cli.parts.turn.full_turn import FullTurn
+    from geneva_cli.parts.turn.machine_parts import MachineParts, WorkLimit
 
     NamedBuilds: TypeAlias = list[tuple[str, Callable[[], PartsOfMachine]]]
 
@@ -45,7 +45,7 @@ class PartsModel:
 
     def over(self, mechanism: Mechanism) -> PartsModel:
         """Return the model of a machine whose parts have the same outlines and positions."""
-        from geneva_cli.layout.assembly import input_of
+        from geneva_cli.parts.assembly import input_of
 
         own, to_input = self.parts, input_of(mechanism)
         model = PartsModel(mechanism, self.advice)
@@ -68,7 +68,7 @@ class PartsModel:
         return model
 
     def _has_parts_of(self, mechanism: Mechanism) -> bool:
-        from geneva_cli.outlines.sizes import machine_sizes
+        from geneva_cli.parts.outlines.outline_sizes import machine_sizes
 
         own, other = (
             (spec.wheel, spec.drive.replace(n_rpm=1.0), spec.motion, spec.size)
@@ -89,14 +89,14 @@ class PartsModel:
     @cached_property
     def outlines(self) -> Outlines:
         """The outlines; raises GenevaError where the sizes leave none."""
-        from geneva_cli.outlines.sizes import outlines
+        from geneva_cli.parts.outlines.outline_sizes import outlines
 
         return outlines(self.mechanism)
 
     @cached_property
     def shells(self) -> Shells:
         """The shells of a machine on a sphere; raises GenevaError where the sizes leave none."""
-        from geneva_cli.parts.sphere.shells import shells
+        from geneva_cli.kinds.spherical.shells import shells
 
         return shells(self.mechanism, self.advice)
 
@@ -125,7 +125,7 @@ class PartsModel:
     @property
     def turn(self) -> FullTurn:
         """The full turn; raises WorkLimit where it takes too long."""
-        from geneva_cli.collisions.machine_parts import WorkLimit
+        from geneva_cli.parts.turn.machine_parts import WorkLimit
 
         if isinstance(self._turn, WorkLimit):
             raise self._turn
@@ -133,8 +133,8 @@ class PartsModel:
 
     @cached_property
     def _turn(self) -> FullTurn | WorkLimit:
-        from geneva_cli.collisions.full_turn import full_turn
-        from geneva_cli.collisions.machine_parts import WorkLimit
+        from geneva_cli.parts.turn.full_turn import full_turn
+        from geneva_cli.parts.turn.machine_parts import WorkLimit
 
         # That it takes too long is remembered too.
         try:
@@ -200,18 +200,18 @@ class Ball(PartsKind):
     HAS_FLAT_PARTS: ClassVar[bool] = True
     TURNED: ClassVar[str] = "shells"
     LAID_FLAT: ClassVar[tuple[str, ...]] = ("wheel", "crank", "arm")
-    TABLES: ClassVar[Mapping[str, str]] = {"wheel": "layout.meridians:meridians_table"}
+    TABLES: ClassVar[Mapping[str, str]] = {"wheel": "kinds.spherical.meridians:meridians_table"}
     DRAWN: ClassVar[Mapping[str, str]] = {
-        "wheel": "drawings.sphere.drawings:wheel",
-        "crank": "drawings.sphere.drawings:crank",
-        "arm": "drawings.sphere.arm_drawing:arm",
-        "assembly": "drawings.sphere.drawings:assembly",
-        "sheet": "drawings.sphere.sheet:sheet",
+        "wheel": "kinds.spherical.drawings:wheel",
+        "crank": "kinds.spherical.drawings:crank",
+        "arm": "kinds.spherical.arm_drawing:arm",
+        "assembly": "kinds.spherical.drawings:assembly",
+        "sheet": "kinds.spherical.sheet:sheet",
     }
 
     def built(self, model: PartsModel) -> SphereParts:
         """Return the parts."""
-        from geneva_cli.parts.sphere.sphere_parts import SphereParts
+        from geneva_cli.kinds.spherical.parts import SphereParts
 
         return SphereParts(model.shells)
 
@@ -225,14 +225,14 @@ class Ball(PartsKind):
 
     def dimensions(self, model: PartsModel) -> Iterator[Dimension | Missing]:
         """Yield the dimensions of the shells."""
-        from geneva_cli.drawings.sphere.dimensions import dimensions
+        from geneva_cli.kinds.spherical.dimensions import dimensions
 
         return or_missing("dimensions of the shells", lambda: dimensions(self.built(model)))
 
     def stressed(self, mechanism: Mechanism) -> Stressed | None:
         """Return the sizes of stressed parts; None if the sizes leave no shells."""
-        from geneva_cli.layout.sphere_sizes import sized_ball
-        from geneva_cli.layout.sphere_stressed import sphere_stressed
+        from geneva_cli.kinds.spherical.sizes import sized_ball
+        from geneva_cli.kinds.spherical.stressed import sphere_stressed
 
         ball = sized_ball(mechanism)
         return sphere_stressed(mechanism.spec, ball) if ball else None
@@ -242,20 +242,20 @@ class Rack(PartsKind):
     """Plates along a line: a rack in its guide, and its crank."""
 
     DRAWN: ClassVar[Mapping[str, str]] = {
-        "slot": "drawings.rack:slot",
+        "slot": "kinds.linear.drawings:slot",
         "wheel": "drawings.part_drawings:wheel",
         "crank": "drawings.part_drawings:crank",
-        "arm": "drawings.rack:arm",
+        "arm": "kinds.linear.drawings:arm",
         "frame": "drawings.part_drawings:frame",
-        "guide": "drawings.rack:guide",
-        "assembly": "drawings.rack:assembly",
+        "guide": "kinds.linear.drawings:guide",
+        "assembly": "kinds.linear.drawings:assembly",
         "plate": "drawings.print_plate:plate",
-        "sheet": "drawings.sheet.rack:sheet",
+        "sheet": "kinds.linear.sheet:sheet",
     }
 
     def built(self, model: PartsModel) -> RackParts:
         """Return the parts."""
-        from geneva_cli.parts.rack_parts import RackParts
+        from geneva_cli.kinds.linear.parts import RackParts
 
         return RackParts(model.mechanism)
 
@@ -266,21 +266,21 @@ class Rack(PartsKind):
 
     def turned(self, model: PartsModel) -> RackOutlines:
         """Return the outlines of the rack and its crank."""
-        from geneva_cli.outlines.rack_outlines import rack_outlines
+        from geneva_cli.kinds.linear.outlines import rack_outlines
 
         return rack_outlines(model.mechanism)
 
     def dimensions(self, model: PartsModel) -> Iterator[Dimension | Missing]:
         """Yield the dimensions of the rack."""
-        from geneva_cli.outlines.rack import rack_sizes
-        from geneva_cli.parts.rack_frame import rack_dimensions
+        from geneva_cli.kinds.linear.frame import rack_dimensions
+        from geneva_cli.kinds.linear.rack import rack_sizes
 
         named = "dimensions of the rack"
         return or_missing(named, lambda: rack_dimensions(rack_sizes(model.mechanism)))
 
     def stressed(self, mechanism: Mechanism) -> Stressed:
         """Return the sizes of stressed parts."""
-        from geneva_cli.parts.rack_stressed import rack_stressed
+        from geneva_cli.kinds.linear.stressed import rack_stressed
 
         return rack_stressed(mechanism)
 
@@ -289,18 +289,18 @@ class Counter(PartsKind):
     """Gears on two parallel shafts: a driver, pinions and number wheels."""
 
     DRAWN: ClassVar[Mapping[str, str]] = {
-        "wheel": "drawings.counter:wheel",
-        "crank": "drawings.counter:crank",
-        "number-wheel": "drawings.counter:number_wheel",
+        "wheel": "kinds.counter.drawings:wheel",
+        "crank": "kinds.counter.drawings:crank",
+        "number-wheel": "kinds.counter.drawings:number_wheel",
         "frame": "drawings.part_drawings:frame",
-        "assembly": "drawings.counter:assembly",
+        "assembly": "kinds.counter.drawings:assembly",
         "plate": "drawings.print_plate:plate",
-        "sheet": "drawings.sheet.counter:sheet",
+        "sheet": "kinds.counter.sheet:sheet",
     }
 
     def built(self, model: PartsModel) -> CounterParts:
         """Return the parts."""
-        from geneva_cli.parts.counter_parts import CounterParts
+        from geneva_cli.kinds.counter.parts import CounterParts
 
         return CounterParts(model.mechanism)
 

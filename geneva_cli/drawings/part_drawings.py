@@ -12,28 +12,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.measure import bounds, turned
-from geneva_cli.curves.placed import in_place
-from geneva_cli.curves.plates import Group, Member, Plate
-from geneva_cli.curves.shapes import (
-    Arc,
-    Contour,
-    Line,
-    Segment,
-    closed,
-    joined,
-)
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.layout.projection import drawing_of, once, outlines_of, shapes, titled
+from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.measure import bounds, turned
+from geneva_cli.geometry.placed import in_place
+from geneva_cli.geometry.plates import Group, Member, Plate
+from geneva_cli.geometry.shapes import Arc, Contour, Line, Segment, closed, joined
+from geneva_cli.motion.engagement import Engagement
 from geneva_cli.parts.arm import crank_arm
+from geneva_cli.parts.crank_solids import arm_plate
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.plates import arm_plate
+from geneva_cli.parts.projection import drawing_of, once, outlines_of, shapes, titled
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.counter_parts import CounterParts
-    from geneva_cli.parts.rack_parts import RackParts
+    from geneva_cli.kinds.counter.parts import CounterParts
+    from geneva_cli.kinds.linear.parts import RackParts
 
 
 def wheel(parts: FlatParts | RackParts) -> Drawing:
@@ -113,8 +106,8 @@ def gears(parts: FlatParts | RackParts) -> Drawing:
 
     The crank's axis is the origin. Raises GenevaError for a machine without gears.
     """
-    from geneva_cli.layout.gear_curves import required_gears
-    from geneva_cli.parts.gear_pair import FINE
+    from geneva_cli.parts.gears.gear_curves import required_gears
+    from geneva_cli.parts.gears.gear_pair import FINE
 
     mechanism, name = parts.mechanism, "gears"
     round_only = mechanism.spec.drive.TOOTHED and not mechanism.spec.gears
@@ -166,8 +159,8 @@ def _pitch_line(parts: FlatParts, engagement: Engagement) -> Contour:
         mouth, end = assembly.L * np.column_stack((x.c[0], y.c[0] + 0.0 * at))
         ends = [(float(p[0]), float(p[1])) for p in (mouth, end)]
         return Contour("PITCH", (Line(*ends),), closed=False)
-    from geneva_cli.curves import fit
-    from geneva_cli.outlines.walls.path_walls import parallel
+    from geneva_cli.geometry import fit
+    from geneva_cli.parts.outlines.walls.path_walls import parallel
 
     pieces: list[Segment] = []
     for a, b in ((engagement.entry_deg, 0.0), (0.0, engagement.exit_deg)):

@@ -14,18 +14,18 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
-from geneva_cli.curves.mass import MM, solid_properties
-from geneva_cli.curves.measure import bounds_of
-from geneva_cli.curves.plates import Part, Shell, Solid
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.kinematics.layout import Dimension, Pivot
-from geneva_cli.layout.alike import alike
-from geneva_cli.layout.missing import Missing, built_of, or_missing
-from geneva_cli.layout.projection import outlines_of
-from geneva_cli.machine.materials import roller_material, wheel_material
-from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.machine.rollers import places
-from geneva_cli.machine.spec import Spec
+from geneva_cli.geometry.mass import MM, solid_properties
+from geneva_cli.geometry.measure import bounds_of
+from geneva_cli.geometry.plates import Part, Shell, Solid
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.pivots import Dimension, Pivot
+from geneva_cli.motion.rollers import places
+from geneva_cli.motion.spec import Spec
+from geneva_cli.parts.alike import alike
+from geneva_cli.parts.missing import Missing, built_of, or_missing
+from geneva_cli.parts.projection import outlines_of
+from geneva_cli.spec.materials import roller_material, wheel_material
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.spec.tables import Size
 from geneva_cli.table import Reading, Table, rows_table
@@ -132,8 +132,8 @@ def _properties(solid: Solid, density: float, outside: float | None) -> Row:
             x, y = (at if abs(at) > near else 0.0 for at in body.centroid_mm)
             row = {"centroid_x_mm": x, "centroid_y_mm": y}
     else:
-        from geneva_cli.curves.sphere import opposite
-        from geneva_cli.outlines.sphere_wheel import POLE
+        from geneva_cli.geometry.sphere import opposite
+        from geneva_cli.kinds.spherical.wheel import POLE
 
         low, high = solid.inner, solid.outer
         across = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)  # axes along which its size is measured
@@ -221,7 +221,7 @@ def _straight(mechanism: Mechanism) -> Iterator[Dimension]:
 
 def _motions(mechanism: Mechanism) -> Iterator[Dimension]:
     """Yield the step and the input angles of each engagement of a period."""
-    from geneva_cli.analysis.timing import timings
+    from geneva_cli.motion.timing import timings
 
     output = mechanism.output
     for i, one in enumerate(mechanism.engagements):

@@ -5,17 +5,17 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.measure import bounds_of
-from geneva_cli.curves.plates import Group, Member, Plate, Shell, Stack, lowered, solids
 from geneva_cli.drawings.sheet.pack import packed_apart
 from geneva_cli.drawings.sheet.view import Block
-from geneva_cli.layout.projection import outlines_of, titled
+from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.measure import bounds_of
+from geneva_cli.geometry.plates import Group, Member, Plate, Shell, Stack, lowered, solids
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.projection import outlines_of, titled
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.counter_parts import CounterParts
-    from geneva_cli.parts.rack_parts import RackParts
+    from geneva_cli.kinds.counter.parts import CounterParts
+    from geneva_cli.kinds.linear.parts import RackParts
 
 APART = 5.0  # mm between parts, and round them
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.plates import Plate, Shell, Solid
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.layout.alike import alike
-from geneva_cli.layout.missing import Missing, built_of
-from geneva_cli.layout.projection import outlines_of, titled
+from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.plates import Plate, Shell, Solid
+from geneva_cli.parts.alike import alike
+from geneva_cli.parts.missing import Missing, built_of
+from geneva_cli.parts.projection import outlines_of, titled
 
 
 class SinglePart(NamedTuple):

@@ -1,1 +1,1 @@
-"""The loads of a machine: forces, torque, contact stress and power."""
+"""The loads of a machine: forces, cycle, sizing, life; strength, vibration, tolerances."""

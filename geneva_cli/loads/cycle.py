@@ -15,25 +15,12 @@ from typing import TypeAlias
 
 import numpy as np
 
-from geneva_cli.analysis.contact import Contact, contact, contacts
-from geneva_cli.analysis.forces import LoadCase, is_loaded, load_case, wheel_torque
-from geneva_cli.analysis.instant import (
-    INSTANT_QUANTITIES,
-    Instant,
-    bounded,
-    bounded_loads,
-    values,
-)
-from geneva_cli.analysis.load_functions import LoadFunctions, load_batch
-from geneva_cli.analysis.quantities import KINETIC, known_quantities, sources
-from geneva_cli.analysis.stretches import (
-    Stretch,
-    refuse_noise,
-    refuse_rounding,
-    to_mid_motion,
-    whole,
-)
-from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.loads.contact import Contact, contact, contacts
+from geneva_cli.loads.cycle_quantities import KINETIC, known_quantities, sources
+from geneva_cli.loads.forces import LoadCase, is_loaded, load_case, wheel_torque
+from geneva_cli.loads.instant import INSTANT_QUANTITIES, Instant, bounded, bounded_loads, values
+from geneva_cli.loads.load_functions import LoadFunctions, load_batch
+from geneva_cli.loads.stretches import Stretch, refuse_noise, refuse_rounding, to_mid_motion, whole
 from geneva_cli.loads.summaries import (
     EngagementExtremes,
     LoadSummary,
@@ -42,7 +29,8 @@ from geneva_cli.loads.summaries import (
     summaries_from,
     sums_of,
 )
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Whole, array
 from geneva_cli.numerics.jet import Array
@@ -79,7 +67,7 @@ class Cycle:
         A force without a bound is infinite. It is so where friction alone holds the wheel, and at
         mid-motion of a curved slot that lies across the roller's path.
         """
-        from geneva_cli.analysis.motion import local_deg, spans
+        from geneva_cli.motion.motion_table import local_deg, spans
 
         out: dict[str, Array | None] = {
             name: np.zeros(len(input_deg)) for name in INSTANT_QUANTITIES
@@ -98,7 +86,7 @@ class Cycle:
 
     def moving(self, engagement: Engagement, input_deg: Array) -> Instant[Array]:
         """Arrays (n,) at input angles of an engagement, degrees from its own mid-motion."""
-        from geneva_cli.analysis.mid_motion import at_crossing
+        from geneva_cli.loads.mid_motion import at_crossing
 
         at = contacts(engagement, input_deg)
         moving_values = bounded_loads(self.case, at, self._drives(engagement, input_deg, at))

@@ -13,22 +13,16 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.analysis import peaks
-from geneva_cli.analysis.motion import first_entry_deg
-from geneva_cli.analysis.quantities import sources
 from geneva_cli.errors import GenevaError, Notice, cut, few, nearest
 from geneva_cli.figure import Axis, Curve, Figure, Mark, Panel, Piece
 from geneva_cli.loads import summary
 from geneva_cli.loads.cycle import Cycle
-from geneva_cli.loads.stages import (
-    MOTION_QUANTITIES,
-    Stage,
-    load_stages,
-    motion_stages,
-    pieces,
-)
+from geneva_cli.loads.cycle_quantities import sources
+from geneva_cli.loads.stages import MOTION_QUANTITIES, Stage, load_stages, motion_stages, pieces
 from geneva_cli.loads.summaries import LoadSummary
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion import peaks
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.motion_table import first_entry_deg
 from geneva_cli.numerics.tolerances import ROUNDED, SAME_INPUT_DEG
 
 MACHINES_MAX = 6  # machines in one figure that the eye can tell apart

@@ -5,8 +5,8 @@ integrated between to the last digits.
 
     >>> import numpy as np
     >>> from geneva_cli import External, Load
-    >>> from geneva_cli.machine.many import many
-    >>> from geneva_cli.machine.spec import Spec
+    >>> from geneva_cli.motion.many import many
+    >>> from geneva_cli.motion.spec import Spec
     >>> spec = Spec(External(4), load=Load(inertia_kgm2=2.0))
     >>> batch = many(spec, {"wheel.z": np.array([4, 6])}).machine
     >>> fluctuations(batch, np.zeros(2)).energy_J.round(6)  # I (w psi1max)²/2
@@ -19,20 +19,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.forces import LoadCase, QuantityValue, load_case
-from geneva_cli.analysis.instant import Instant
-from geneva_cli.analysis.load_functions import (
+from geneva_cli.loads.forces import LoadCase, QuantityValue, load_case
+from geneva_cli.loads.groups import parts
+from geneva_cli.loads.instant import Instant
+from geneva_cli.loads.load_functions import (
     LoadFunctions,
     LoadQuantity,
     SignFunctions,
     load_batch,
     signed_instant,
 )
-from geneva_cli.analysis.stretches import spans_of, to_mid_motion
-from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.loads.groups import parts
-from geneva_cli.machine.many import taken
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.loads.stretches import spans_of, to_mid_motion
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.many import taken
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Whole
 from geneva_cli.numerics.jet import Array, Jet

@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from geneva_cli.analysis.load_functions import LoadBatch
-from geneva_cli.machine.many import taken
+from geneva_cli.loads.load_functions import LoadBatch
+from geneva_cli.motion.many import taken
 from geneva_cli.numerics.arrays import Array, Number, Whole
 
 

@@ -12,17 +12,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.carried import inertia_kgm2
-from geneva_cli.analysis.forces import LoadCase, QuantityValue, load_case
-from geneva_cli.analysis.instant import Instant
-from geneva_cli.analysis.load_functions import LoadFunctions, LoadQuantity, load_batch
-from geneva_cli.analysis.peak_search import PeakArray
-from geneva_cli.analysis.quantities import FORCE, SQUARED, STRESS, TORQUE
-from geneva_cli.kinematics.engagement import Engagement, Peak
-from geneva_cli.kinematics.pitch_curve import retraces
+from geneva_cli.loads.carried import inertia_kgm2
 from geneva_cli.loads.cycle import cycle_of
+from geneva_cli.loads.cycle_quantities import FORCE, SQUARED, STRESS, TORQUE
+from geneva_cli.loads.forces import LoadCase, QuantityValue, load_case
+from geneva_cli.loads.instant import Instant
+from geneva_cli.loads.load_functions import LoadFunctions, LoadQuantity, load_batch
 from geneva_cli.loads.summaries import load_peaks, search_loads, shown_deg
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.engagement import Engagement, Peak
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.peak_search import PeakArray
+from geneva_cli.motion.pitch_curve import retraces
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.numerics.greatest import first_greatest

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from geneva_cli.analysis.contact import NEAR_CUSP
-from geneva_cli.analysis.load_functions import ContactState, LoadFunctions, signed_instant
-from geneva_cli.analysis.quantities import SQUARED, multiples, plain_values
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.loads.contact import NEAR_CUSP
+from geneva_cli.loads.cycle_quantities import SQUARED, multiples, plain_values
+from geneva_cli.loads.load_functions import ContactState, LoadFunctions, signed_instant
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Whole, array, matrix_product
 from geneva_cli.numerics.jet import Array

@@ -13,13 +13,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.contact import NEAR_CUSP, is_straight
-from geneva_cli.analysis.stretches import Stretch, smooth_ranges
 from geneva_cli.figure import Piece
-from geneva_cli.kinematics.engagement import Engagement, WheelMotion
 from geneva_cli.loads import summary
+from geneva_cli.loads.contact import NEAR_CUSP, is_straight
 from geneva_cli.loads.cycle import Cycle
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.loads.stretches import Stretch, smooth_ranges
+from geneva_cli.motion.engagement import Engagement, WheelMotion
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.sampling import ASPECT, CHORD_ERROR, places, refined, thinned
 from geneva_cli.numerics.tolerances import ROUNDED

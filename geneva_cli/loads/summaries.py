@@ -5,8 +5,8 @@ designs are searched together, one block of designs after the other.
 
     >>> import numpy as np
     >>> from geneva_cli import External, Load, SideCrank
-    >>> from geneva_cli.machine.many import many
-    >>> from geneva_cli.machine.spec import Spec
+    >>> from geneva_cli.motion.many import many
+    >>> from geneva_cli.motion.spec import Spec
     >>> spec = Spec(External(6), SideCrank(A=0.0), load=Load(inertia_kgm2=2.0, friction=0.1))
     >>> batch = many(spec, {"drive.A": np.array([0.0, 0.6])})
     >>> load_peaks(batch.machine, ["pin_force_N"])["pin_force_N"].max.round(4)
@@ -20,16 +20,7 @@ from typing import Generic, NamedTuple, TypeVar, cast
 
 import numpy as np
 
-from geneva_cli.analysis.forces import LoadCase, load_case
-from geneva_cli.analysis.load_functions import (
-    NO_MORE,
-    LoadBatch,
-    LoadFunctions,
-    LoadQuantity,
-    load_batch,
-)
-from geneva_cli.analysis.peak_search import PeakArray, greater
-from geneva_cli.analysis.quantities import (
+from geneva_cli.loads.cycle_quantities import (
     FORCE,
     NEVER_NEGATIVE,
     PRESSED,
@@ -37,11 +28,20 @@ from geneva_cli.analysis.quantities import (
     STRESS,
     outermost,
 )
-from geneva_cli.analysis.stretches import on_breaks, spans_of
-from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.loads.forces import LoadCase, load_case
 from geneva_cli.loads.groups import of_groups
+from geneva_cli.loads.load_functions import (
+    NO_MORE,
+    LoadBatch,
+    LoadFunctions,
+    LoadQuantity,
+    load_batch,
+)
 from geneva_cli.loads.means import means_from, sources_of, sums
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.loads.stretches import on_breaks, spans_of
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.peak_search import PeakArray, greater
 from geneva_cli.numerics.arrays import Number
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.search import SearchResult, search

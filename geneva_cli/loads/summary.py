@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from geneva_cli.analysis.instant import Instant
-from geneva_cli.analysis.quantities import (
+from geneva_cli.errors import Notice
+from geneva_cli.loads.cycle import Cycle
+from geneva_cli.loads.cycle_quantities import (
     PRESSED,
     PV,
     STRESS,
@@ -19,10 +20,9 @@ from geneva_cli.analysis.quantities import (
     plain_of,
     sources,
 )
-from geneva_cli.errors import Notice
-from geneva_cli.loads.cycle import Cycle
+from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.summaries import LoadSummary
-from geneva_cli.machine.spec import Spec
+from geneva_cli.motion.spec import Spec
 from geneva_cli.numerics.jet import Array
 from geneva_cli.table import Reading, Table, computed_table, record_table, rows_table
 
@@ -157,7 +157,7 @@ def cycle_table(cycle: Cycle, samples: int) -> Table:
 
     A value that is unbounded or not known is None.
     """
-    from geneva_cli.analysis.motion import check_samples
+    from geneva_cli.motion.motion_table import check_samples
 
     check_samples(samples)
     names = ("time_s", "input_deg", cycle.mechanism.output.column, *SHOWN_QUANTITIES)
@@ -165,7 +165,7 @@ def cycle_table(cycle: Cycle, samples: int) -> Table:
 
 
 def _rows(cycle: Cycle, samples: int, begin: int, end: int) -> list[Any]:
-    from geneva_cli.analysis.motion import derivatives, inputs, times_s
+    from geneva_cli.motion.motion_table import derivatives, inputs, times_s
 
     input_deg = inputs(cycle.mechanism, samples, begin, end)
     states = cycle.states(input_deg)

@@ -14,15 +14,7 @@ from collections.abc import Callable, Sequence
 from math import factorial
 from typing import TYPE_CHECKING, TypeVar, cast
 
-from geneva_cli.numerics.arrays import (
-    SINGLE,
-    Enclosed,
-    Mask,
-    Whole,
-    library,
-    piece_of,
-    size,
-)
+from geneva_cli.numerics.arrays import SINGLE, Enclosed, Mask, Whole, library, piece_of, size
 from geneva_cli.numerics.arrays import Array as Array
 from geneva_cli.numerics.arrays import Number as Number
 

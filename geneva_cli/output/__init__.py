@@ -32,11 +32,11 @@ from geneva_cli.table import Table
 
 if TYPE_CHECKING:
     from geneva_cli.answer import Answer
-    from geneva_cli.curves.drawing import Drawing
-    from geneva_cli.curves.sheet import Sheet
-    from geneva_cli.document import Document
     from geneva_cli.figure import Figure
-    from geneva_cli.scene import Scene
+    from geneva_cli.geometry.drawing import Drawing
+    from geneva_cli.geometry.sheet import Sheet
+    from geneva_cli.output.document.blocks import Document
+    from geneva_cli.output.scene import Scene
 
 
 class Choice(NamedTuple):
@@ -181,7 +181,7 @@ def draw(
     name = drawn_as(output, format)
     require_own(own, name)
     if name in FORMATS:
-        from geneva_cli.curves.pieces import pieces_table
+        from geneva_cli.geometry.pieces import pieces_table
 
         show(pieces_table(drawing, units), output, name, inputs)
         return

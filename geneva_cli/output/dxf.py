@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from geneva_cli.curves.drawing import Drawing, extent
-from geneva_cli.curves.pieces import UNITS, prepared
+from geneva_cli.geometry.drawing import Drawing, extent
+from geneva_cli.geometry.pieces import UNITS, prepared
 from geneva_cli.output.dxf_contours import draw
 from geneva_cli.output.dxf_file import USUAL, dxf_text, extents, linetype
 from geneva_cli.output.ezdxf_alone import Document, Modelspace

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.curves.measure import halved
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, Segment, Shape
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.measure import halved
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, Segment, Shape
 from geneva_cli.output.ezdxf_alone import BaseLayout
 from geneva_cli.output.splines import Piece, pieces
 

@@ -9,9 +9,9 @@ from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
-from geneva_cli.document import Block, Curves, Document, Fact, Facts, Grid
 from geneva_cli.figure import Axis, Curve, Figure, Panel
 from geneva_cli.names import UNITS, unit_end, unit_of
+from geneva_cli.output.document.blocks import Block, Curves, Document, Fact, Facts, Grid
 from geneva_cli.spec.units import ratio
 from geneva_cli.table import Table
 

@@ -10,12 +10,12 @@ import math
 from functools import lru_cache
 from typing import Any
 
-from geneva_cli.curves.measure import at
-from geneva_cli.curves.shapes import Circle, Line, Point, Shape
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.measure import at
+from geneva_cli.geometry.shapes import Circle, Line, Point, Shape
 from geneva_cli.output.placed_shapes import PAGE, placed_shapes
+from geneva_cli.output.scene import Scene, value_at
 from geneva_cli.progress import tracked
-from geneva_cli.scene import Scene, value_at
 
 WIDE = 400  # px
 FRAMES = 60  # pictures of a turn

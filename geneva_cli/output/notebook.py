@@ -6,9 +6,9 @@ import base64
 from collections.abc import Iterable
 from html import escape
 
-from geneva_cli.curves.drawing import Drawing
 from geneva_cli.errors import clean
 from geneva_cli.figure import Figure
+from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.output import plot_svg, svg
 from geneva_cli.table import Table
 

@@ -13,10 +13,10 @@ from collections.abc import Iterator, Sequence
 from itertools import chain
 from typing import NamedTuple
 
-from geneva_cli.curves import helvetica
-from geneva_cli.curves.measure import as_cubic, halved
-from geneva_cli.curves.shapes import Arc, Cubic, Point, Segment, Shape, as_contour
 from geneva_cli.errors import clean
+from geneva_cli.geometry import helvetica
+from geneva_cli.geometry.measure import as_cubic, halved
+from geneva_cli.geometry.shapes import Arc, Cubic, Point, Segment, Shape, as_contour
 from geneva_cli.table import in_decimals
 
 POINT = 72.0 / 25.4  # points per millimetre

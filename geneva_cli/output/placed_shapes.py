@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from geneva_cli.curves.shapes import Circle, Contour, Line, Shape
+from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape
 from geneva_cli.output.inks import INKS
-from geneva_cli.scene import Bar, Scene, body_pose, place_at, pose
+from geneva_cli.output.scene import Bar, Scene, body_pose, place_at, pose
 
 GREY, BROWN = "#757575", "#a56752"
 PAGE = "#ffffff"

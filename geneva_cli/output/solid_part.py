@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from geneva_cli.curves.cross_holes import drilled
-from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.hole_walls import require_faces
-from geneva_cli.curves.inset import lines_and_arcs
-from geneva_cli.curves.pieces import prepared
-from geneva_cli.curves.plates import Part, Plate, Shell
-from geneva_cli.curves.shapes import Circle, Contour, closed
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.cross_holes import drilled
+from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.hole_walls import require_faces
+from geneva_cli.geometry.inset import lines_and_arcs
+from geneva_cli.geometry.pieces import prepared
+from geneva_cli.geometry.plates import Part, Plate, Shell
+from geneva_cli.geometry.shapes import Circle, Contour, closed
 
 
 def solid_part(drawing: Drawing, units: str, format: str) -> Part:

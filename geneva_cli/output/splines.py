@@ -12,8 +12,8 @@ import math
 from collections.abc import Iterable
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.curves.measure import as_cubic
-from geneva_cli.curves.shapes import Arc, Cubic, Line, Point, Segment
+from geneva_cli.geometry.measure import as_cubic
+from geneva_cli.geometry.shapes import Arc, Cubic, Line, Point, Segment
 
 
 class Spline(NamedTuple):

@@ -8,9 +8,9 @@ from html import escape
 
 from geneva_cli.errors import clean
 from geneva_cli.output.placed_shapes import PAGE, PlacedShape, placed_shapes
+from geneva_cli.output.scene import Scene, value_at
 from geneva_cli.output.strokes import DARK
 from geneva_cli.output.svg_paths import element
-from geneva_cli.scene import Scene, value_at
 
 
 def chunks(scene: Scene) -> Iterator[str]:

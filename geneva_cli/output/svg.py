@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from html import escape
 
-from geneva_cli.curves.drawing import Drawing, extent
-from geneva_cli.curves.measure import Box
-from geneva_cli.curves.pieces import SUFFIX, UNITS, prepared
 from geneva_cli.errors import GenevaError, clean, cut
+from geneva_cli.geometry.drawing import Drawing, extent
+from geneva_cli.geometry.measure import Box
+from geneva_cli.geometry.pieces import SUFFIX, UNITS, prepared
 from geneva_cli.output.formats import FILLS
 from geneva_cli.output.inks import CENTRE_LINES, DASHES, inks
 from geneva_cli.output.notes import notes

@@ -8,10 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TypeAlias
 
-from geneva_cli.curves.measure import mapped
-from geneva_cli.curves.placed import in_place
-from geneva_cli.curves.plates import Member, Part
-from geneva_cli.curves.shapes import Contour, Layer, Shape, as_contour
+from geneva_cli.geometry.measure import mapped
+from geneva_cli.geometry.placed import in_place
+from geneva_cli.geometry.plates import Member, Part
+from geneva_cli.geometry.shapes import Contour, Layer, Shape, as_contour
 from geneva_cli.output.inks import INKS, inks, mixed
 from geneva_cli.output.strokes import LIGHT, Paper
 from geneva_cli.output.svg_paths import number, path

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from html import escape
 
-from geneva_cli.curves.measure import Box
-from geneva_cli.curves.shapes import Layer
+from geneva_cli.geometry.measure import Box
+from geneva_cli.geometry.shapes import Layer
 from geneva_cli.output.inks import inks, mixed
 from geneva_cli.output.notes import LETTERS, Notes
 from geneva_cli.output.strokes import DARK, LIGHT

@@ -6,8 +6,8 @@ programs of cutting machines ignore transforms.
 
 from __future__ import annotations
 
-from geneva_cli.curves.measure import halved
-from geneva_cli.curves.shapes import Circle, Contour, Cubic, Line, Point, Segment, Shape
+from geneva_cli.geometry.measure import halved
+from geneva_cli.geometry.shapes import Circle, Contour, Cubic, Line, Point, Segment, Shape
 
 
 def element(shape: Shape) -> str:

@@ -1,1 +1,1 @@
-"""The parts: sizes, walls, outlines, drawings, and the check that they turn."""
+"""The parts of a machine: sizes, outlines, solids, and the check that they turn."""

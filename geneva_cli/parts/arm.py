@@ -14,25 +14,25 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.hole_walls import least_wall
-from geneva_cli.curves.hull import convex_hull
-from geneva_cli.curves.shapes import Circle, Contour, Shape
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.arm_sizes import (
+from geneva_cli.geometry.distance import Polyarc
+from geneva_cli.geometry.hole_walls import least_wall
+from geneva_cli.geometry.hull import convex_hull
+from geneva_cli.geometry.shapes import Circle, Contour, Shape
+from geneva_cli.parts.outlines.crank_outline import crank_circles
+from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.outlines.reliefs import is_whole, keyway_direction, reliefs, sectors
+from geneva_cli.parts.shafts.bolt_holes import bolt_radius
+from geneva_cli.parts.shafts.bores import bore_of, has_shape
+from geneva_cli.parts.sizes.arm_sizes import (
     arm_passing,
     hub_and_eye,
     lock_bolt_directions,
     pin_hole,
     wall_of_bolts,
 )
-from geneva_cli.layout.bolt_holes import bolt_radius
-from geneva_cli.layout.bores import bore_of, has_shape
-from geneva_cli.layout.reliefs import is_whole, keyway_direction, reliefs, sectors
-from geneva_cli.layout.roller_paths import roller_centres
-from geneva_cli.machine.least_wall import eye_about
-from geneva_cli.outlines.crank import crank_circles
-from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.parts.slots.roller_paths import roller_centres
+from geneva_cli.spec.least_wall import eye_about
 
 
 class CrankArm(NamedTuple):

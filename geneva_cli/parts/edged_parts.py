@@ -7,13 +7,13 @@ from collections.abc import Iterable
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, Self
 
-from geneva_cli.curves.edges import Edge
-from geneva_cli.curves.plates import Member, Plate, edged
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.geometry.edges import Edge
+from geneva_cli.geometry.plates import Member, Plate, edged
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.parts_of_machine import PartsOfMachine
 
 if TYPE_CHECKING:
-    from geneva_cli.curves.gear_teeth import Writer
+    from geneva_cli.geometry.gear_teeth import Writer
 
 
 class FrameAndShafts(NamedTuple):
@@ -48,7 +48,7 @@ class EdgedParts(PartsOfMachine):
 
     def writer(self, fine: float) -> Writer:
         """Return a function that fits curves: within ``fine`` mm where no tolerance is set."""
-        from geneva_cli.curves import fit
+        from geneva_cli.geometry import fit
 
         if self.tolerance is None:
             return lambda curve, a, b: fit.cubics(curve, a, b, fine)

@@ -10,18 +10,18 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics import registry
-from geneva_cli.layout.projection import titled
-from geneva_cli.machine.least_wall import wall_min
-from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.outlines.first_sizes import first_spec
-from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.outlines.sizes import outlines
-from geneva_cli.parts.links import Links, drawn_links
-from geneva_cli.parts.plates import locking_plates
+from geneva_cli.geometry.plates import Member, Plate
+from geneva_cli.motion import registry
+from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.parts.crank_solids import locking_plates
+from geneva_cli.parts.links.links import Links, drawn_links
+from geneva_cli.parts.outlines.outline_sizes import outlines
+from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.projection import titled
+from geneva_cli.parts.sizes.first_sizes import first_spec
 from geneva_cli.parts.wheel import wheel_plate
+from geneva_cli.spec.least_wall import wall_min
 
 
 def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:

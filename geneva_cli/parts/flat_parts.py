@@ -12,29 +12,29 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from geneva_cli.curves.hole_walls import require_faces
-from geneva_cli.curves.plates import Group, Member, Plate, plates
-from geneva_cli.curves.shapes import Contour, Point
-from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.kinematics.layout import Dimension
-from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
-from geneva_cli.layout.roller_paths import roller_centres
-from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.outlines.sizes import outlines
-from geneva_cli.outlines.wheel import slot_walls, wheel_contour
+from geneva_cli.geometry.hole_walls import require_faces
+from geneva_cli.geometry.plates import Group, Member, Plate, plates
+from geneva_cli.geometry.shapes import Contour, Point
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.pivots import Dimension
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
+from geneva_cli.parts.crank_solids import arm_plate, locking_plates, roller_plates
 from geneva_cli.parts.edged_parts import EdgedParts, FrameAndShafts
 from geneva_cli.parts.frame import framed
-from geneva_cli.parts.link_sizes import roller_pins
-from geneva_cli.parts.links import Links, drawn_links
-from geneva_cli.parts.plates import arm_plate, locking_plates, roller_plates
-from geneva_cli.parts.shafts import crank_hub
+from geneva_cli.parts.links.link_sizes import roller_pins
+from geneva_cli.parts.links.links import Links, drawn_links
+from geneva_cli.parts.outlines.outline_sizes import outlines
+from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
+from geneva_cli.parts.shafts.hub_and_shafts import crank_hub
+from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses, pin_radius
+from geneva_cli.parts.slots.roller_paths import roller_centres
 from geneva_cli.parts.wheel import wheel_part
 
 if TYPE_CHECKING:
-    from geneva_cli.layout.missing import NamedParts
-    from geneva_cli.parts.gear_blanks import Gear
+    from geneva_cli.parts.gears.gear_blanks import Gear
+    from geneva_cli.parts.missing import NamedParts
 
 
 class FlatParts(EdgedParts):
@@ -221,7 +221,7 @@ class FlatParts(EdgedParts):
         """Gears with round pitch circles, with teeth if they have a module; no first wheel."""
         if self.first or not self.links.gears:
             return ()
-        from geneva_cli.parts.gear_pair import FINE
+        from geneva_cli.parts.gears.gear_pair import FINE
 
         write = self.writer(FINE["cubics"] * self.mechanism.center_distance_mm)
         return tuple(gear.with_teeth(write) for gear in self.links.gears)
@@ -229,7 +229,7 @@ class FlatParts(EdgedParts):
     @property
     def tooth_dimensions(self) -> tuple[Dimension, ...]:
         """Dimensions of the gears' teeth; none without teeth."""
-        from geneva_cli.parts.pair_teeth import pair_teeth
+        from geneva_cli.parts.gears.pair_teeth import pair_teeth
 
         teeth = pair_teeth(self.mechanism.spec.gears, self.mechanism.spec.size)
         meshes = (teeth, self.links.mesh)
@@ -240,7 +240,7 @@ class FlatParts(EdgedParts):
         """The noncircular gears in front of a crank, with teeth or up to their pitch curves."""
         if self.mechanism.spec.gears is None:
             return ()
-        from geneva_cli.parts.gear_pair import gear_pair
+        from geneva_cli.parts.gears.gear_pair import gear_pair
 
         return gear_pair(self.mechanism, self.drawn, self.writer)
 
@@ -248,14 +248,14 @@ class FlatParts(EdgedParts):
     def _base(self) -> Plate | None:
         if self.drawn is None or self.drawn.assembly.rollers[0][0].groove is None:
             return None
-        from geneva_cli.parts.groove_plate import groove_base
+        from geneva_cli.parts.slots.groove_plate import groove_base
 
         return groove_base(self.drawn, self.links)
 
     @cached_property
     def groove(self) -> tuple[Contour, Contour, Contour]:
         """The flanks of a cam's groove and its pitch curve; raises GenevaError without a groove."""
-        from geneva_cli.parts.groove_plate import groove_lines
+        from geneva_cli.parts.slots.groove_plate import groove_lines
 
         return groove_lines(self.outlines, self.tolerance, self.curves)
 
@@ -264,7 +264,7 @@ class FlatParts(EdgedParts):
         """The plates with a cam's groove: base, ring and island."""
         if self._base is None:
             return ()
-        from geneva_cli.parts.groove_plate import groove_stack
+        from geneva_cli.parts.slots.groove_plate import groove_stack
 
         stack = groove_stack(self._base, self.links, self.groove[:2])
         return self._edged(Member(plate, (self.outlines.assembly.L, 0.0)) for plate in stack)
@@ -290,7 +290,7 @@ class FlatParts(EdgedParts):
             for plate in plates(member.part):
                 require_faces(plate)
         if self.mechanism.spec.gears is not None:
-            from geneva_cli.parts.gear_pair import pair_with_teeth
+            from geneva_cli.parts.gears.gear_pair import pair_with_teeth
 
             pair_with_teeth(self.mechanism)
 

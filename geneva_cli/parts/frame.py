@@ -14,24 +14,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TypeAlias
 
-from geneva_cli.curves.hull import convex_hull
-from geneva_cli.curves.plates import Member, Plate, Stack
-from geneva_cli.curves.shapes import ORIGIN, Circle, Point
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.bearings import shoulder_length
-from geneva_cli.layout.link_positions import same
-from geneva_cli.layout.plain_sizes import drawn_thicknesses
-from geneva_cli.machine.least_wall import wall_min
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.geometry.hull import convex_hull
+from geneva_cli.geometry.plates import Member, Plate, Stack
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Point
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.outlines.wheel_hub import wheel_hub
-from geneva_cli.parts.all_shafts import all_shafts, passing, passing_arm
 from geneva_cli.parts.arm import has_arm
-from geneva_cli.parts.built_shafts import built_shafts
 from geneva_cli.parts.edged_parts import FrameAndShafts
-from geneva_cli.parts.link_shafts import outside_links
-from geneva_cli.parts.links import Links, placed_holes
+from geneva_cli.parts.links.link_positions import same
+from geneva_cli.parts.links.link_shafts import outside_links
+from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.mounted_plate import (
     corner_radius,
     hole_without_shaft,
@@ -39,7 +32,14 @@ from geneva_cli.parts.mounted_plate import (
     require_walls,
     shaft_hole,
 )
-from geneva_cli.parts.shaft import Seat
+from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.outlines.wheel_hub import wheel_hub
+from geneva_cli.parts.shafts.all_shafts import all_shafts, passing, passing_arm
+from geneva_cli.parts.shafts.bearings import shoulder_length
+from geneva_cli.parts.shafts.built_shafts import built_shafts
+from geneva_cli.parts.shafts.shaft import Seat
+from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses
+from geneva_cli.spec.least_wall import wall_min
 
 Screwed: TypeAlias = tuple[Circle, Plate]  # a screw's hole in the frame, and the part that it fixes
 

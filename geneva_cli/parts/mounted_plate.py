@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from itertools import combinations
 
-from geneva_cli.curves.hole_walls import apart
-from geneva_cli.curves.hull import convex_hull
-from geneva_cli.curves.plates import Member, Plate, Stack
-from geneva_cli.curves.shapes import Circle, Point
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.bearings import SERIES_60
-from geneva_cli.layout.bores import around
-from geneva_cli.layout.plain_sizes import half_or
-from geneva_cli.machine.least_wall import wall_min
+from geneva_cli.geometry.hole_walls import apart
+from geneva_cli.geometry.hull import convex_hull
+from geneva_cli.geometry.plates import Member, Plate, Stack
+from geneva_cli.geometry.shapes import Circle, Point
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
+from geneva_cli.parts.shafts.bearings import SERIES_60
+from geneva_cli.parts.shafts.bores import around
+from geneva_cli.parts.sizes.plain_sizes import half_or
+from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.tables import Size
 
 NAME = "frame"

@@ -8,10 +8,10 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
 if TYPE_CHECKING:
-    from geneva_cli.curves.plates import Member
-    from geneva_cli.layout.missing import NamedParts
-    from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.parts.gear_blanks import Gear
+    from geneva_cli.geometry.plates import Member
+    from geneva_cli.motion.mechanism import Mechanism
+    from geneva_cli.parts.gears.gear_blanks import Gear
+    from geneva_cli.parts.missing import NamedParts
 
 
 class PartsOfMachine(ABC):

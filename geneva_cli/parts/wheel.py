@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from geneva_cli.curves.plates import Group, Member, Plate
-from geneva_cli.curves.shapes import Contour
-from geneva_cli.layout.assembly import Assembly
-from geneva_cli.layout.plain_sizes import Sizes
-from geneva_cli.outlines.wheel import wheel_circles
-from geneva_cli.outlines.wheel_hub import wheel_hub
+from geneva_cli.geometry.plates import Group, Member, Plate
+from geneva_cli.geometry.shapes import Contour
+from geneva_cli.parts.assembly import Assembly
+from geneva_cli.parts.outlines.wheel_hub import wheel_hub
+from geneva_cli.parts.outlines.wheel_outline import wheel_circles
+from geneva_cli.parts.sizes.plain_sizes import Sizes
 
 
 def wheel_plate(assembly: Assembly, sizes: Sizes, contour: Contour) -> Plate:

@@ -5,16 +5,16 @@ from __future__ import annotations
 from functools import lru_cache, reduce
 from typing import TYPE_CHECKING
 
-from geneva_cli.curves.plates import plates
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.materials import wheel_material
-from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.outlines.sizes import machine_sizes
-from geneva_cli.outlines.wheel import turned_walls, wheel_contour
+from geneva_cli.geometry.plates import plates
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.parts.outlines.outline_sizes import machine_sizes
+from geneva_cli.parts.outlines.wheel_outline import turned_walls, wheel_contour
 from geneva_cli.parts.wheel import wheel_part
+from geneva_cli.spec.materials import wheel_material
 
 if TYPE_CHECKING:
-    from geneva_cli.curves.mass import MassProperties
+    from geneva_cli.geometry.mass import MassProperties
 
 
 def wheel_body(mechanism: Mechanism) -> MassProperties | None:
@@ -28,10 +28,10 @@ def wheel_body(mechanism: Mechanism) -> MassProperties | None:
     if spec.size.wheel_thickness_mm is None and spec.size.face_width_mm is None:
         return None
     if spec.wheel.SHELLS:
-        from geneva_cli.parts.sphere.sphere_parts import shell_body  # only on a sphere
+        from geneva_cli.kinds.spherical.parts import shell_body  # only on a sphere
 
         return shell_body(mechanism)
-    from geneva_cli.curves.mass import added, mass_properties
+    from geneva_cli.geometry.mass import added, mass_properties
 
     where, size = machine_sizes(mechanism)
     contour = wheel_contour(where, size, turned_walls(where, size), spec.wheel.stopped)

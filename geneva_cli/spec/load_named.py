@@ -9,7 +9,7 @@ from typing import Any
 def load_named(path: str) -> Any:
     """Class or function that ``module:name`` names in this package.
 
-    >>> load_named("machine.drives.cam:Cam").NAME
+    >>> load_named("drives.cam:Cam").NAME
     'cam'
     """
     module, _, name = path.partition(":")

@@ -6,8 +6,8 @@ from functools import cache
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.kinematics import registry
 from geneva_cli.manual.explained import Entry, entries
+from geneva_cli.motion import registry
 from geneva_cli.names import unit_of
 from geneva_cli.specfile.keys import Key, all_keys
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError, cut, few, nearest
-from geneva_cli.kinematics import registry
-from geneva_cli.kinematics.wheels.external import External
-from geneva_cli.kinematics.wheels.gearing import Gearing
-from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.spec import BEFORE
+from geneva_cli.motion import registry
+from geneva_cli.motion.spec import BEFORE
+from geneva_cli.motion.wheels.external import External
+from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec.schema import REQUIRED, Example, Field, fields
 from geneva_cli.spec.tables import LISTS
 from geneva_cli.specfile.json_schema import FILE

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from geneva_cli.kinematics import registry
-from geneva_cli.kinematics.drive import Drive
-from geneva_cli.kinematics.motion import Motion
-from geneva_cli.kinematics.wheels.gearing import Gearing
-from geneva_cli.machine.spec import BEFORE, Spec, attribute
+from geneva_cli.motion import registry
+from geneva_cli.motion.drive import Drive
+from geneva_cli.motion.motion import Motion
+from geneva_cli.motion.spec import BEFORE, Spec, attribute
+from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec.rules import OneOf
 from geneva_cli.spec.schema import Field, Points, SpecTable, fields
 from geneva_cli.spec.tables import LISTS, PLAIN

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple, TypeAlias
 
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.table import Table
 from geneva_cli.verdict.quantities.groups import MACHINE, REPORT, QuantityGroup
 from geneva_cli.verdict.quantities.groups import values as values_of

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from geneva_cli.analysis.cam_factors import CamFactors, cam_factors
-from geneva_cli.analysis.timing import Timing, timing
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.kinematics.wheels import classic
+from geneva_cli.extras.servo.cam_factors import CamFactors, cam_factors
+from geneva_cli.motion.timing import Timing, timing
+from geneva_cli.motion.wheels import classic
 from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.spec.rules import SPEED, Z_MAX, RangeText, range_text
 from geneva_cli.table import Reading, Table, rows_table
@@ -104,13 +104,13 @@ def _classic(z: int, gearing: str, sign: float, n_rpm: float, rollers: int) -> t
 
 def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> tuple[object, ...]:
     """A row from a built machine, without closed forms."""
-    from geneva_cli.analysis.peaks import peaks
-    from geneva_cli.analysis.timing import timings
-    from geneva_cli.kinematics import registry
-    from geneva_cli.machine.drives.crank import Crank
-    from geneva_cli.machine.drives.side_crank import SideCrank
-    from geneva_cli.machine.mechanism import build
-    from geneva_cli.machine.spec import Spec
+    from geneva_cli.drives.crank import Crank
+    from geneva_cli.drives.side_crank import SideCrank
+    from geneva_cli.motion import registry
+    from geneva_cli.motion.mechanism import build
+    from geneva_cli.motion.peaks import peaks
+    from geneva_cli.motion.spec import Spec
+    from geneva_cli.motion.timing import timings
 
     drive = SideCrank(A=A, n_rpm=n_rpm) if A else Crank(n_rpm=n_rpm, rollers=rollers)
     mechanism = build(Spec(registry.gearing(gearing)(z), drive))

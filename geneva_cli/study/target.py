@@ -16,10 +16,10 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics import registry
-from geneva_cli.kinematics.law_motion import MOTION_MIN
-from geneva_cli.kinematics.wheels.gearing import Gearing, Output
-from geneva_cli.machine.spec import Spec
+from geneva_cli.motion import registry
+from geneva_cli.motion.law_motion import MOTION_MIN
+from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.wheels.gearing import Gearing, Output
 from geneva_cli.spec.tables import DISTANCE_MM
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.sweep.constraints import Constraint, Objective

@@ -15,9 +15,9 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.both_ways import every_way
-from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.motion.both_ways import every_way
+from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.motion.spec import Spec
 from geneva_cli.numerics.latest import counted
 from geneva_cli.numerics.roots import Falsi
 from geneva_cli.verdict.checks import checks, checks_at_rest, single_check
@@ -268,7 +268,7 @@ class _Search:
         spec = changed(self.mechanism.spec, change.table, change.key, value)
         if spec is None:
             return False
-        from geneva_cli.collisions.machine_parts import WorkLimit
+        from geneva_cli.parts.turn.machine_parts import WorkLimit
 
         turn = self.turned or (change.table, change.key) not in APART
         try:
@@ -313,7 +313,7 @@ def _left(model: PartsModel, check: Check) -> float:
     """
     try:
         if check.at_deg is not None and check.name in NEAR:
-            from geneva_cli.collisions.glance import gap_about, play_about
+            from geneva_cli.parts.turn.glance import gap_about, play_about
             from geneva_cli.verdict.checks.play import finds_slot
 
             parts = model.parts

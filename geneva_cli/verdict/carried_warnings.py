@@ -6,16 +6,16 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from geneva_cli.analysis.carried import G, inertia_kgm2, weight_kg
-from geneva_cli.analysis.peaks import worst_of
 from geneva_cli.errors import Notice
-from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.machine.spec import Spec
+from geneva_cli.loads.carried import G, inertia_kgm2, weight_kg
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.peaks import worst_of
+from geneva_cli.motion.spec import Spec
 from geneva_cli.numerics.angles import omega
 from geneva_cli.spec.tables import Motor
 
 if TYPE_CHECKING:
-    from geneva_cli.curves.mass import MassProperties
+    from geneva_cli.geometry.mass import MassProperties
 
 
 def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> list[Notice]:

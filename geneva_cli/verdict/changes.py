@@ -6,10 +6,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.mechanism import Mechanism
 
 if TYPE_CHECKING:
-    from geneva_cli.layout.plain_sizes import Sizes
+    from geneva_cli.parts.sizes.plain_sizes import Sizes
 
 Value: TypeAlias = float | int | str | None  # None: the key is left out
 # From the present value to the last one tried: values beyond a passing one may fail.
@@ -68,8 +68,8 @@ def size_now(mechanism: Mechanism, key: str) -> float | None:
     """A size of the parts by its key; None for another key, and if no parts can be cut."""
     if key not in _SIZES:
         return None
-    from geneva_cli.layout.assembly import assembly
-    from geneva_cli.outlines.sizes import sizes
+    from geneva_cli.parts.assembly import assembly
+    from geneva_cli.parts.outlines.outline_sizes import sizes
 
     try:
         return _SIZES[key](sizes(assembly(mechanism)))

@@ -5,16 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from geneva_cli.analysis.arrival import arrival
-from geneva_cli.analysis.carried import weight_kg
-from geneva_cli.analysis.peak_search import braking
-from geneva_cli.analysis.peaks import worst
-from geneva_cli.analysis.quantities import FORCE, STRESS
 from geneva_cli.errors import Notice
 from geneva_cli.loads import loads
+from geneva_cli.loads.carried import weight_kg
 from geneva_cli.loads.cycle import Cycle, cycle_of
+from geneva_cli.loads.cycle_quantities import FORCE, STRESS
+from geneva_cli.loads.impacts.arrival import arrival
 from geneva_cli.loads.summaries import LoadSummary
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.peak_search import braking
+from geneva_cli.motion.peaks import worst
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.load_limits import limits_by_key, load_limits

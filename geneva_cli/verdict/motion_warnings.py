@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import lru_cache
 
-from geneva_cli.analysis.peaks import peak
 from geneva_cli.errors import Notice
-from geneva_cli.kinematics.engagement import WheelMotion
-from geneva_cli.kinematics.laws.law import Law
-from geneva_cli.layout.fits import loosest_mm
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.engagement import WheelMotion
+from geneva_cli.motion.laws.law import Law
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.peaks import peak
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.latest import counted
 from geneva_cli.numerics.tolerances import keeps
+from geneva_cli.parts.shafts.fits import loosest_mm
 from geneva_cli.spec.tables import Z_USUAL
 
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
@@ -55,7 +55,7 @@ def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
             "turns-back",
             f"the wheel turns back: velocity {back[0]:.4g} at {back[1]:.4g}°; {law.TURNS_BACK}",
         )
-    from geneva_cli.kinematics.pitch_curve import retraces
+    from geneva_cli.motion.pitch_curve import retraces
 
     engagement = mechanism.engagements[0]
     if engagement.slot.curved and not retraces(engagement):
@@ -122,7 +122,7 @@ def _starts_at_speed(mechanism: Mechanism) -> Iterator[Notice]:
     spec = mechanism.spec
     if not spec.wheel.JUMPS:
         return
-    from geneva_cli.analysis.impacts import start_impacts
+    from geneva_cli.loads.impacts.impacts import start_impacts
 
     impact = start_impacts(mechanism).only
     assert impact is not None  # the wheel's speed jumps
@@ -179,7 +179,7 @@ def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:
 @lru_cache(maxsize=128)
 def _law_turns_back(law: Law) -> bool:
     """Return True if a wheel turns back with a law, whatever its step and its motion angle."""
-    from geneva_cli.kinematics.law_motion import LawMotion
+    from geneva_cli.motion.law_motion import LawMotion
 
     with counted():  # the design that comes first is charged no more than the next
         return _least_velocity(LawMotion(-0.5, 0.5, 0.5, law)) is not None
@@ -187,7 +187,7 @@ def _law_turns_back(law: Law) -> bool:
 
 def _least_velocity(motion: WheelMotion) -> tuple[float, float] | None:
     """The least velocity of a motion and its place if it is below 0; else None."""
-    from geneva_cli.analysis.peak_search import landmarks
+    from geneva_cli.motion.peak_search import landmarks
 
     _, x, velocity = landmarks(motion, "velocity", 1)
     least = velocity.argmin()
@@ -212,7 +212,7 @@ def _off_the_mid_condition(mechanism: Mechanism) -> Notice:
 
 
 def _not_driven(mechanism: Mechanism) -> Iterator[Notice]:
-    from geneva_cli.analysis.positive_drive import positive_drives
+    from geneva_cli.loads.positive_drive import positive_drives
 
     drive = positive_drives(mechanism)
     if drive is None or not drive.loose_deg:
@@ -229,7 +229,7 @@ def _not_driven(mechanism: Mechanism) -> Iterator[Notice]:
 
 
 def _undercut(mechanism: Mechanism) -> Iterator[Notice]:
-    from geneva_cli.analysis.undercut import undercut
+    from geneva_cli.motion.undercut import undercut
 
     place = undercut(mechanism)
     if place is None or place.depth_mm < SHOWN_UNDERCUT:

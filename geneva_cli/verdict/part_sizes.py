@@ -11,17 +11,17 @@ from typing import NamedTuple, cast
 
 import numpy as np
 
-from geneva_cli.analysis.locking import Lock
 from geneva_cli.drawings.model import kind_of
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.stressed import Stressed, stressed
-from geneva_cli.machine.many import alone, designs_in
-from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.loads.tolerance.locking import Lock
+from geneva_cli.motion.many import alone, designs_in
+from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.motion.spec import Spec
 from geneva_cli.numerics.arrays import Record, parameter, record_of
 from geneva_cli.numerics.jet import Array
-from geneva_cli.outlines.cut_lock import cut_lock
-from geneva_cli.outlines.sizes import Layout, sized
+from geneva_cli.parts.outlines.cut_lock import cut_lock
+from geneva_cli.parts.outlines.outline_sizes import Layout, sized
+from geneva_cli.parts.sizes.stressed import Stressed, stressed
 
 
 class LockSizes(NamedTuple):
@@ -92,7 +92,7 @@ def rack_horns(machines: Sequence[Mechanism]) -> tuple[float, float] | None:
 
 
 def _horn(machine: Mechanism) -> tuple[float, float] | None:
-    from geneva_cli.outlines.rack import rack_sizes  # a wheel that turns needs none
+    from geneva_cli.kinds.linear.rack import rack_sizes  # a wheel that turns needs none
 
     try:
         sizes = rack_sizes(machine)

@@ -6,19 +6,19 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from geneva_cli.collisions.full_turn import SAME
-from geneva_cli.curves.measure import bounds
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, Notice
-from geneva_cli.layout.plain_sizes import Sizes
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.geometry.measure import bounds
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import keeps
+from geneva_cli.parts.sizes.plain_sizes import Sizes
+from geneva_cli.parts.turn.full_turn import SAME
 from geneva_cli.spec.workshops import workshop
 from geneva_cli.verdict.checks.play import motion_play_max
 
 if TYPE_CHECKING:
-    from geneva_cli.curves.plates import Solid
-    from geneva_cli.layout.missing import Missing, NamedParts
+    from geneva_cli.geometry.plates import Solid
+    from geneva_cli.parts.missing import Missing, NamedParts
 
 
 def process_warnings(model: PartsModel) -> Iterator[Notice]:
@@ -45,8 +45,8 @@ def process_warnings(model: PartsModel) -> Iterator[Notice]:
 
 def _small_holes(named: list[NamedParts], least: float) -> Iterator[Notice]:
     """A warning that names each part with a hole below ``least`` thicknesses."""
-    from geneva_cli.curves.plates import solids
-    from geneva_cli.layout.missing import built_of
+    from geneva_cli.geometry.plates import solids
+    from geneva_cli.parts.missing import built_of
 
     if not least:
         return
@@ -70,8 +70,8 @@ def _small_holes(named: list[NamedParts], least: float) -> Iterator[Notice]:
 
 def _holes(solid: Solid) -> Iterator[tuple[float, float]]:
     """Yield the widths of a part's holes and its thickness, if it is cut out of a plate."""
-    from geneva_cli.curves.plates import Plate, Shell
     from geneva_cli.drawings.single_parts import is_cut
+    from geneva_cli.geometry.plates import Plate, Shell
 
     if isinstance(solid, Shell):
         for bored in solid.holes:

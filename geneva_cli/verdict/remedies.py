@@ -8,8 +8,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from geneva_cli.layout.screws import SCREWS
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.parts.shafts.screws import SCREWS
 from geneva_cli.spec.tables import Z_USUAL, Size
 from geneva_cli.verdict.changes import (
     SIZE_STEPS,

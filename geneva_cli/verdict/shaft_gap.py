@@ -13,22 +13,22 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
-from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.measure import at, bounds
-from geneva_cli.curves.moments import oriented
-from geneva_cli.curves.placed import in_place
-from geneva_cli.curves.plates import Member, plates
-from geneva_cli.curves.shapes import Arc, Layer, Point, Segment, as_contour
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.geometry.distance import Polyarc
+from geneva_cli.geometry.measure import at, bounds
+from geneva_cli.geometry.moments import oriented
+from geneva_cli.geometry.placed import in_place
+from geneva_cli.geometry.plates import Member, plates
+from geneva_cli.geometry.shapes import Arc, Layer, Point, Segment, as_contour
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.gear_pair import gear_seats, pitch_radii
-from geneva_cli.parts.pair_teeth import pair_teeth
+from geneva_cli.parts.gears.gear_pair import gear_seats, pitch_radii
+from geneva_cli.parts.gears.pair_teeth import pair_teeth
+from geneva_cli.parts.outlines.outlines import Outlines
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.rack_parts import RackParts
+    from geneva_cli.kinds.linear.parts import RackParts
 
 Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere
 

@@ -11,9 +11,9 @@ import numpy as np
 
 from geneva_cli.errors import Notice
 from geneva_cli.loads.strength import horn, lock, shafts
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Number
-from geneva_cli.outlines.sizes import sized
+from geneva_cli.parts.outlines.outline_sizes import sized
 from geneva_cli.verdict.quantities.designs import single
 from geneva_cli.verdict.quantities.groups import REPORT, only
 from geneva_cli.verdict.quantities.under_load import under_load
@@ -80,7 +80,7 @@ class Strength:
             return float(horn.stoutness(self.mechanism, *sizes)[0]), sizes[1]
         (ball,) = self.load.balls
         assert ball is not None  # without a lock there is no stress
-        from geneva_cli.loads.strength.sphere_horn import sphere_stoutness
+        from geneva_cli.kinds.spherical.horn import sphere_stoutness
 
         stout = sphere_stoutness(self.mechanism, ball.half_width, ball.recess, ball.axes)
         return stout, ball.radius_mm * math.sin(ball.recess)

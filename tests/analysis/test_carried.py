@@ -4,15 +4,10 @@ import mpmath
 import pytest
 
 from geneva_cli import External, Mass, Support
-from geneva_cli.analysis.carried import (
-    body_inertia_kgm2,
-    inertia_kgm2,
-    support_torque_Nm,
-    weight_kg,
-)
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.spec import Spec
+from geneva_cli.loads.carried import body_inertia_kgm2, inertia_kgm2, support_torque_Nm, weight_kg
+from geneva_cli.motion.spec import Spec
 
 
 def test_the_published_turret():

@@ -5,8 +5,8 @@ import pytest
 from witness import mp, to_radians
 from words import Motion, Spec, Wheel
 
-from geneva_cli.analysis.contact import contact
-from geneva_cli.machine.mechanism import build
+from geneva_cli.loads.contact import contact
+from geneva_cli.motion.mechanism import build
 
 SHARES = (-0.93, -0.4, -1e-3, 1e-4, 0.05, 0.77)  # of half a motion
 

@@ -12,10 +12,10 @@ from typer.testing import CliRunner
 from words import Drive, Motion, Spec, Wheel, load
 
 from geneva_cli import Design, External, GenevaError, Load, Shaft, Size, Spherical
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.summary import reversals_deg, summaries
-from geneva_cli.machine.mechanism import build
+from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.angles import omega
 from geneva_cli.verdict.carried_warnings import unlikely_warnings
 from geneva_cli.verdict.cycle_warnings import back_driven_deg

@@ -23,8 +23,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.loads.figures import AXIS_BY_NAME, MACHINES_MAX, USUAL_QUANTITIES, figure
 from geneva_cli.loads.stages import motion_stages
 from geneva_cli.loads.summary import SHOWN_QUANTITIES
-from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.spec import Spec
 from geneva_cli.numerics.sampling import ASPECT, CHORD_ERROR, refined, thinned
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))

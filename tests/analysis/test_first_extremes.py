@@ -15,15 +15,15 @@ from sampling import some
 from witness import mp
 
 from geneva_cli import Crank, External, load
-from geneva_cli.analysis.motion import derivatives
-from geneva_cli.analysis.peaks import QUANTITIES, worst
-from geneva_cli.layout.groove import greatest_pressure
 from geneva_cli.loads import summary
 from geneva_cli.loads.cycle import Cycle, cycle_of
 from geneva_cli.loads.summaries import load_peaks, load_summaries
-from geneva_cli.machine.many import many
-from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.motion.many import many
+from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.motion.motion_table import derivatives
+from geneva_cli.motion.peaks import QUANTITIES, worst
+from geneva_cli.motion.spec import Spec
+from geneva_cli.parts.slots.groove import greatest_pressure
 from geneva_cli.spec.tables import Load, Size
 
 NEAR = 1e-9  # degrees: what is nearer is one place

@@ -7,8 +7,8 @@ import pytest
 from words import Spec, Wheel
 
 from geneva_cli import Design
-from geneva_cli.analysis.forces import rubbing
-from geneva_cli.machine.mechanism import build
+from geneva_cli.loads.forces import rubbing
+from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.tables import Load, Size
 
 # theory-loads.md, 8: a pin of radius 4 in a roller of radius 8

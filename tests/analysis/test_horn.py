@@ -19,8 +19,8 @@ from geneva_cli.loads.strength.horn import (
     single_horn_stresses,
     stoutness,
 )
-from geneva_cli.machine.mechanism import build
-from geneva_cli.outlines.sizes import sized
+from geneva_cli.motion.mechanism import build
+from geneva_cli.parts.outlines.outline_sizes import sized
 from geneva_cli.spec.tables import Load, Size
 
 LOAD = Load(torque_Nm=10.0)

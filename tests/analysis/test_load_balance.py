@@ -8,10 +8,10 @@ import repo
 from witness import mp
 from words import Motion, Spec, Wheel, load
 
-from geneva_cli.analysis.contact import contact
-from geneva_cli.kinematics import registry
+from geneva_cli.loads.contact import contact
 from geneva_cli.loads.cycle import Cycle
-from geneva_cli.machine.mechanism import build
+from geneva_cli.motion import registry
+from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.tables import Load, Size
 
 DESIGNS = repo.DESIGNS

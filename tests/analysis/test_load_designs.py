@@ -7,7 +7,7 @@ import repo
 from words import load
 
 from geneva_cli.loads.cycle import Cycle
-from geneva_cli.machine.mechanism import build
+from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.tables import Load, Support
 
 LOAD = Load(0.02, 3.0, friction=0.1)

@@ -10,17 +10,16 @@ from sampling import some
 from witness import mp
 from words import Drive, Keys, Motion, Spec, Wheel
 
-from geneva_cli.analysis import load_functions
-from geneva_cli.analysis.contact import contact
-from geneva_cli.analysis.forces import load_case
-from geneva_cli.analysis.peaks import worst
-from geneva_cli.analysis.quantities import REPORTED_PEAKS
 from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads import loads
+from geneva_cli.loads import load_functions, loads
+from geneva_cli.loads.contact import contact
 from geneva_cli.loads.cycle import Cycle
-from geneva_cli.machine.many import many
-from geneva_cli.machine.mechanism import build
+from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS
+from geneva_cli.loads.forces import load_case
+from geneva_cli.motion.many import many
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.peaks import worst
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.verdict.cycle_warnings import load_warnings
 

@@ -12,8 +12,8 @@ from geneva_cli import design
 from geneva_cli.loads import loads
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.summaries import load_peaks, load_summaries
-from geneva_cli.machine.many import many
-from geneva_cli.machine.mechanism import build
+from geneva_cli.motion.many import many
+from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.search import BLOCK
 from geneva_cli.spec.tables import Load
 

@@ -7,9 +7,9 @@ import pytest
 from load_states import state
 from words import Drive, Motion, Spec, Wheel
 
-from geneva_cli.kinematics import registry
 from geneva_cli.loads import loads
-from geneva_cli.machine.mechanism import build
+from geneva_cli.motion import registry
+from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.tables import Load, Size
 
 OMEGA = 2.0 * math.pi

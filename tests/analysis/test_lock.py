@@ -10,10 +10,10 @@ from plane_stress import horn as in_plane_stress
 from words import Spec, Wheel
 
 from geneva_cli import Design, Internal, load
-from geneva_cli.analysis.locking import Lock
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.loads.strength.lock import LockUnderTorque, bending, loaded_locks
-from geneva_cli.machine.mechanism import build
+from geneva_cli.loads.tolerance.locking import Lock
+from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.tables import Load, Size
 from geneva_cli.verdict.strength import strength
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from words import Drive, Keys, Motion, Spec, Wheel
 
-from geneva_cli.analysis.motion import motion_table
-from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.motion.motion_table import motion_table
 
 WHEELS = [
     Spec(Wheel(6)),

@@ -8,9 +8,9 @@ from witness import mp
 from words import Spec, Wheel
 
 from geneva_cli import Design, Epicyclic, External, GearSector, SideCrank
-from geneva_cli.analysis.mouth import mouth_contacts
 from geneva_cli.design import load
-from geneva_cli.machine.mechanism import build
+from geneva_cli.loads.impacts.mouth import mouth_contacts
+from geneva_cli.motion.mechanism import build
 from tests.repo import ROOT
 
 

@@ -11,9 +11,9 @@ from sampling import some
 from witness import Geneva, near
 from words import Drive, Keys, Spec, Wheel
 
-from geneva_cli.analysis.peak_search import search_peaks
-from geneva_cli.analysis.peaks import ends, peaks, peaks_of, worst, worst_of
-from geneva_cli.machine.mechanism import build
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.peak_search import search_peaks
+from geneva_cli.motion.peaks import ends, peaks, peaks_of, worst, worst_of
 
 OFFSETS = (-0.9, -0.5, 0.0, 0.3, 0.6, 0.9, 0.99)
 NAMES = ("velocity", "acceleration", "jerk", "power")

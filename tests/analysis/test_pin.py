@@ -6,8 +6,8 @@ import mpmath
 import pytest
 from words import Spec, Wheel
 
-from geneva_cli.analysis.pin import Pin, least_diameter_mm, moment_mm, pin, pin_diameter_mm
-from geneva_cli.machine.mechanism import build
+from geneva_cli.loads.strength.pin import Pin, least_diameter_mm, moment_mm, pin, pin_diameter_mm
+from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.tables import Size
 
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from words import Drive, Motion, Spec, Wheel
 
-from geneva_cli.analysis.positive_drive import positive_drives
-from geneva_cli.analysis.undercut import undercut
-from geneva_cli.kinematics import registry
-from geneva_cli.machine.mechanism import build
+from geneva_cli.loads.positive_drive import positive_drives
+from geneva_cli.motion import registry
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.undercut import undercut
 from geneva_cli.spec.tables import Load, Size
 from geneva_cli.verdict.motion_warnings import motion_warnings
 

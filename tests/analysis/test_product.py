@@ -7,17 +7,9 @@ import numpy as np
 import pytest
 import repo
 
-from geneva_cli import (
-    Design,
-    External,
-    GenevaError,
-    Limits,
-    Product,
-    Support,
-    load,
-)
-from geneva_cli.analysis.motion import derivatives
-from geneva_cli.analysis.product import product_motion
+from geneva_cli import Design, External, GenevaError, Limits, Product, Support, load
+from geneva_cli.loads.product import product_motion
+from geneva_cli.motion.motion_table import derivatives
 
 G = 9.80665
 

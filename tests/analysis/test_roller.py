@@ -10,8 +10,8 @@ import repo
 from witness import mp
 from words import Drive, Keys, Motion, Spec, Wheel, load
 
-from geneva_cli.analysis.forces import load_case
 from geneva_cli.loads.cycle import Cycle
+from geneva_cli.loads.forces import load_case
 from geneva_cli.loads.strength.roller import (
     LIFE_EXPONENT,
     Life,
@@ -21,8 +21,8 @@ from geneva_cli.loads.strength.roller import (
     passages,
 )
 from geneva_cli.loads.strength.wear import wears_mm
-from geneva_cli.machine.many import many
-from geneva_cli.machine.mechanism import build
+from geneva_cli.motion.many import many
+from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.arrays import only_of
 from geneva_cli.spec.tables import Load, RollerMaterial, Size, WheelMaterial
 

@@ -19,13 +19,13 @@ from geneva_cli import (
     Spherical,
     Tolerance,
 )
-from geneva_cli.analysis import change_of_sides
-from geneva_cli.analysis.impacts import entry_impacts
-from geneva_cli.analysis.shock_force import impulse_Nms
-from geneva_cli.kinematics.laws.standard import Cycloidal
-from geneva_cli.kinematics.motion import Motion
-from geneva_cli.machine.drives.cam import Cam
-from geneva_cli.outlines.sizes import built
+from geneva_cli.drives.cam import Cam
+from geneva_cli.loads.impacts import change_of_sides
+from geneva_cli.loads.impacts.impacts import entry_impacts
+from geneva_cli.loads.impacts.shock_force import impulse_Nms
+from geneva_cli.motion.laws.standard import Cycloidal
+from geneva_cli.motion.motion import Motion
+from geneva_cli.parts.outlines.outline_sizes import built
 from geneva_cli.spec.tables import RollerMaterial, WheelMaterial
 
 # A contact is where a square root of the error says: half of a double's digits would be lost of

@@ -10,8 +10,8 @@ import pytest
 import repo
 
 from geneva_cli import Design, External, Load, Mass, Motor, Support, load
-from geneva_cli.analysis.cam_factors import CamFactors
-from geneva_cli.loads import indexer_formula
+from geneva_cli.extras.servo import indexer_formula
+from geneva_cli.extras.servo.cam_factors import CamFactors
 from geneva_cli.loads.fluctuation import flywheel_kgm2
 from geneva_cli.loads.sizing import sizing
 from geneva_cli.numerics.angles import omega

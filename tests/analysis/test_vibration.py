@@ -11,9 +11,9 @@ from swings import shares
 from words import law
 
 from geneva_cli import External
-from geneva_cli.analysis.vibration.shape import law_shape, shape
-from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.loads.vibration.shape import law_shape, shape
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.spec import Spec
 
 LAWS = [*witness.WAVES, *witness.POLYNOMIALS]
 RATIOS = [1e-6, 1e-3, 0.1, 0.37, 0.5, 2 / 3, 1.0, 1.5, 2.0, 2.5, 3.14, 5.0, 7.3, 10.5, 20.1, 99.7]

@@ -14,20 +14,17 @@ from words import law as load_law
 from words import load, points
 
 from geneva_cli import Crank, Design, External, Shaft, SideCrank
-from geneva_cli.analysis.vibration.lobes import highest_ratio, lobes
-from geneva_cli.analysis.vibration.oscillator import Oscillator
-from geneva_cli.analysis.vibration.shape import law_shape, shape
-from geneva_cli.analysis.vibration.vibration import (
-    oscillators_of,
-    speeds_to_avoid,
-)
 from geneva_cli.bench import truth
-from geneva_cli.kinematics import registry
-from geneva_cli.kinematics.laws.table import TableLaw
-from geneva_cli.machine.drives.four_bar import FourBar
-from geneva_cli.machine.drives.noncircular_gears import NoncircularGears
-from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.drives.noncircular_gears import NoncircularGears
+from geneva_cli.kinds.linkages.four_bar import FourBar
+from geneva_cli.loads.vibration.lobes import highest_ratio, lobes
+from geneva_cli.loads.vibration.oscillator import Oscillator
+from geneva_cli.loads.vibration.shape import law_shape, shape
+from geneva_cli.loads.vibration.vibration import oscillators_of, speeds_to_avoid
+from geneva_cli.motion import registry
+from geneva_cli.motion.laws.table import TableLaw
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.spec import Spec
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 

@@ -15,8 +15,6 @@ from sampling import some
 from scipy.integrate import dblquad
 from typer.testing import CliRunner
 
-from geneva_cli.analysis.peaks import peak
-from geneva_cli.app import app
 from geneva_cli.bench import run as bench_run
 from geneva_cli.bench.formulas import Proportions
 from geneva_cli.bench.kinds import KINDS, values_of
@@ -33,7 +31,9 @@ from geneva_cli.bench.subjects.many import PEAK_QUANTITIES
 from geneva_cli.bench.subjects.motion import blocks, stable, stable_texts
 from geneva_cli.bench.timing_pairs import exponent, median_ratio, ratios
 from geneva_cli.bench.truth import acceleration_peak, relative
-from geneva_cli.machine.mechanism import build
+from geneva_cli.cli.app import app
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.peaks import peak
 
 # The greatest error that ours may show, in the subject's own measure.
 OURS = {

@@ -16,7 +16,7 @@ import pytest
 import repo
 from typer.testing import CliRunner
 
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 
 pytestmark = pytest.mark.usefixtures("made_once")
 TURRET, PLAIN, CURVED = "turret.toml", "side-crank-z6.toml", "press-curved.toml"

@@ -10,7 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 import geneva_cli
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 
 ROOT = Path(geneva_cli.__file__).parent
 # Which files may read a clock: the progress bar's, and the bench's, whose subject time is.

@@ -11,7 +11,7 @@ import repo
 from typer.testing import CliRunner
 
 from geneva_cli import load
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 
 pytestmark = pytest.mark.usefixtures("made_once", "read_once")
 DESIGNS = sorted((repo.DESIGNS).glob("*.toml"))

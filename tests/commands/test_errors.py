@@ -10,7 +10,7 @@ from repo import GENEVA
 from typer.main import get_command
 from typer.testing import CliRunner
 
-from geneva_cli.app import COMMANDS, app
+from geneva_cli.cli.app import COMMANDS, app
 
 WITHOUT_SPEC = {
     "table",

@@ -15,30 +15,31 @@ import pytest
 import repo
 from typer.testing import CliRunner
 
-from geneva_cli.analysis import law_values, motion
-from geneva_cli.analysis.cam_factors import CamFactors
-from geneva_cli.analysis.vibration import answers
-from geneva_cli.analysis.vibration.vibration import SpeedToAvoid
-from geneva_cli.app import app
-from geneva_cli.commands.options import say
+from geneva_cli.cli.app import app
+from geneva_cli.cli.options import say
 from geneva_cli.design import load
 from geneva_cli.drawings import parts_list
 from geneva_cli.drawings.catalogue import PARTS
 from geneva_cli.errors import GenevaError, Notice
-from geneva_cli.kinematics import registry
-from geneva_cli.kinematics.pitch_curve import WALLED
-from geneva_cli.layout import gear_curves, groove
+from geneva_cli.extras.servo.cam_factors import CamFactors
 from geneva_cli.loads import figures, summary
 from geneva_cli.loads.sizing import SHOWN_SIZING
+from geneva_cli.loads.vibration import answers
+from geneva_cli.loads.vibration.vibration import SpeedToAvoid
 from geneva_cli.manual import TOPICS
 from geneva_cli.manual.explained import GROUPS, Entry, entries
+from geneva_cli.motion import law_values, registry
+from geneva_cli.motion import motion_table as motion
+from geneva_cli.motion.pitch_curve import WALLED
 from geneva_cli.names import unit_of
+from geneva_cli.parts.gears import gear_curves
+from geneva_cli.parts.slots import groove
 from geneva_cli.specfile.meanings import listed, meanings, names
 from geneva_cli.specfile.template import EXAMPLES
 from geneva_cli.study import survey
 from geneva_cli.study.sweep.run import ERROR
+from geneva_cli.study.synth.table import NAMES as SYNTH
 from geneva_cli.study.verdicts import checks_table
-from geneva_cli.synthesis.table import NAMES as SYNTH
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION, STATIC, TURNING
 from geneva_cli.verdict.checks.registry import PROOFS as PROVED

@@ -6,14 +6,14 @@ import json
 import subprocess
 import sys
 
-from geneva_cli.app import COMMANDS
-from geneva_cli.commands.options import Settings
+from geneva_cli.cli.app import COMMANDS
+from geneva_cli.cli.options import Settings
 
 TAKE_A_SPEC = {"spec", "specs"}
 
 
 def parameters(name):
-    run = importlib.import_module(f"geneva_cli.commands.{name}").run
+    run = importlib.import_module(f"geneva_cli.cli.commands.{name}").run
     return inspect.signature(run, eval_str=True).parameters
 
 

@@ -10,13 +10,13 @@ import repo
 from repo import GENEVA
 from typer.testing import CliRunner
 
-from geneva_cli.app import COMMANDS, GROUPS, app
+from geneva_cli.cli.app import COMMANDS, GROUPS, app
 from geneva_cli.manual import TOPICS
 
 EXAMPLES = [
     (name, example)
     for name in COMMANDS
-    for example in importlib.import_module(f"geneva_cli.commands.{name}").EXAMPLES
+    for example in importlib.import_module(f"geneva_cli.cli.commands.{name}").EXAMPLES
 ]
 
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import pytest
 import repo
 
-from geneva_cli.app import COMMANDS
+from geneva_cli.cli.app import COMMANDS
 
 DESIGNS = str(repo.DESIGNS)
 # What costs: a run may import only what its row allows of these.
@@ -27,7 +27,7 @@ def leave(status):
     end(status)
 os._exit = leave
 sys.argv[0] = "geneva"
-from geneva_cli.app import main
+from geneva_cli.cli.app import main
 main()
 """
 # The same, a run a line of standard input: each in a fork of a process that has imported what every
@@ -128,13 +128,13 @@ ROWS = [
 
 # The quick ones may import this much of the program, and no more.
 OWN = {
-    "--help": "app errors progress streams manual",
-    "--version": "app errors progress streams",
+    "--help": "cli cli.app errors progress streams manual",
+    "--version": "cli cli.app errors progress streams",
     # no spec, no registry of kinds, no record of either: of the wheels their closed forms alone
-    "table --z 6": "app errors progress streams table commands commands.completion "
-    "commands.options commands.table kinematics kinematics.wheels kinematics.wheels.classic output "
-    "output.finite output.formats output.text study study.survey analysis "
-    "analysis.cam_factors analysis.timing numerics numerics.angles numerics.arrays spec "
+    "table --z 6": "cli cli.app errors progress streams table cli.commands cli.completion "
+    "cli.options cli.commands.table motion motion.wheels motion.wheels.classic motion.timing "
+    "output output.finite output.formats output.text study study.survey extras extras.servo "
+    "extras.servo.cam_factors numerics numerics.angles numerics.arrays spec "
     "spec.rules",
 }
 
@@ -167,7 +167,7 @@ def loaded(words, **settings):
         timeout=60,
         **settings,
     )
-    assert "geneva_cli.app" in found.stderr.split()
+    assert "geneva_cli.cli.app" in found.stderr.split()
     return set(found.stderr.split())
 
 
@@ -198,7 +198,7 @@ def loaded_in(process, words):
         assert more, said
         said += more
     *found, _ = said.decode().split()
-    assert "geneva_cli.app" in found, found
+    assert "geneva_cli.cli.app" in found, found
     return set(found)
 
 
@@ -240,9 +240,9 @@ def test_few_own_modules(line):
 
 def test_a_drive_before_another_imports_no_third_kind():
     modules = own(loaded(["peaks", os.path.join(DESIGNS, "behind-gears.toml")]))
-    drives = {name for name in modules if name.startswith("machine.drives.")}
-    assert drives >= {"machine.drives.epicyclic", "machine.drives.elliptical_gears"}
-    assert not drives & {"machine.drives.cam", "machine.drives.four_bar", "machine.drives.carousel"}
+    drives = {name for name in modules if name.startswith(("drives.", "kinds."))}
+    assert drives >= {"drives.epicyclic", "drives.elliptical_gears"}
+    assert not drives & {"drives.cam", "kinds.linkages.four_bar", "kinds.carousel.motion"}
 
 
 @pytest.mark.parametrize("words", ["geneva ", "geneva ta", "geneva table --", "geneva motion --s"])
@@ -256,7 +256,7 @@ def test_completion(words):
     modules = loaded([], env=os.environ | settings)
     assert not modules & HEAVY
     if count == 1:  # a command's name: no command is imported
-        assert own(modules) == {"app", "errors", "progress", "streams"}
+        assert own(modules) == {"cli", "cli.app", "errors", "progress", "streams"}
 
 
 @pytest.mark.parametrize(
@@ -295,6 +295,6 @@ def test_loads_are_imported_where_they_are_asked_for(forks, sort):
     """No report is; nor is numpy.ma, of which some functions of NumPy take a moment."""
     target = "synth --motion-deg 120 --z 6 --external --rollers 2 --check 0 " + sort
     found = loaded_in(forks[1], Row(target).words)
-    assert any(name.startswith("loads") for name in own(found)) == bool(sort)
+    assert any(name.startswith("loads.summar") for name in own(found)) == bool(sort)
     assert not any(name.startswith("verdict.report") for name in own(found))
     assert bool(sort) or "numpy.ma" not in found

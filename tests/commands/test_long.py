@@ -21,12 +21,12 @@ from repo import GENEVA, put
 from words import load
 
 from geneva_cli import Cycloidal, Design, External, Motion, progress
-from geneva_cli.analysis.motion import SAMPLES_MAX, motion_table
-from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.slot_sampling import profile_table
+from geneva_cli.motion.motion_table import SAMPLES_MAX, motion_table
+from geneva_cli.motion.peaks import peaks
 from geneva_cli.output import show
 from geneva_cli.output.bar import TextBar
+from geneva_cli.parts.slots.slot_sampling import profile_table
 from geneva_cli.study.survey import survey
 from geneva_cli.table import WHOLE_ROWS, Table, record_table, rows_table
 

@@ -17,8 +17,8 @@ from typer.testing import CliRunner
 from windows import looking
 
 from geneva_cli import output
-from geneva_cli.app import COMMANDS, app
-from geneva_cli.commands import help
+from geneva_cli.cli.app import COMMANDS, app
+from geneva_cli.cli.commands import help
 from geneva_cli.manual import GROUPS, TITLES, TOPICS, page, path, search
 
 pytestmark = pytest.mark.usefixtures("made_once")

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from geneva_cli.app import COMMANDS, GROUPS, app
+from geneva_cli.cli.app import COMMANDS, GROUPS, app
 from geneva_cli.manual import path
 from geneva_cli.specfile.keys import Key, all_keys
 

@@ -7,7 +7,7 @@ import pytest
 import repo
 from typer.testing import CliRunner
 
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 
 pytestmark = pytest.mark.usefixtures("made_once")
 DESIGN = str(repo.DESIGNS / "tolerances.toml")

@@ -9,7 +9,7 @@ import repo
 from typer.testing import CliRunner
 
 from geneva_cli import load
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 
 PRESS = str(repo.DESIGNS / "press-straight.toml")
 RACK = str(repo.DESIGNS / "linear.toml")

@@ -18,7 +18,7 @@ from typer.testing import CliRunner
 from windows import COLUMNS, bare, look_at_page, look_at_table, require_width
 
 from geneva_cli import output
-from geneva_cli.app import COMMANDS, app
+from geneva_cli.cli.app import COMMANDS, app
 from geneva_cli.manual import TOPICS, page
 from geneva_cli.output.terminal import chunks
 from geneva_cli.output.values import value

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from geneva_cli.curves import chords
+from geneva_cli.geometry import chords
 
 
 @pytest.mark.parametrize("fewest", [True, False])

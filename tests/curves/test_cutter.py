@@ -8,12 +8,12 @@ from drawing_witness import polygon
 from shapely.ops import unary_union
 from typer.testing import CliRunner
 
-from geneva_cli.app import app
-from geneva_cli.curves.cutter import faults, freed
-from geneva_cli.curves.plates import Plate, plates
-from geneva_cli.curves.shapes import Arc, Circle, Line, about, closed
+from geneva_cli.cli.app import app
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.cutter import faults, freed
+from geneva_cli.geometry.plates import Plate, plates
+from geneva_cli.geometry.shapes import Arc, Circle, Line, about, closed
 
 OFF = 5e-3  # mm², on outlines some mm long: chords, and shapely's own arcs of 64 to a quarter
 

@@ -11,16 +11,16 @@ from shapely.geometry import LinearRing
 from typer.testing import CliRunner
 from words import Spec, Wheel
 
-from geneva_cli.app import app
-from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.kerf import offset, paths
-from geneva_cli.curves.moments import area
-from geneva_cli.curves.plates import Plate, plates
-from geneva_cli.curves.shapes import Arc, Circle, Cubic, Line, about, backwards, closed
+from geneva_cli.cli.app import app
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.mechanism import build
-from geneva_cli.outlines.sizes import outlines
+from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.kerf import offset, paths
+from geneva_cli.geometry.moments import area
+from geneva_cli.geometry.plates import Plate, plates
+from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, about, backwards, closed
+from geneva_cli.motion.mechanism import build
+from geneva_cli.parts.outlines.outline_sizes import outlines
 from geneva_cli.spec.tables import Size
 
 SAGITTA = 1e-4  # mm, of the chords that shapely is given

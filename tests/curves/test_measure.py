@@ -13,11 +13,11 @@ from sampling import some
 from scipy.integrate import quad
 from shapely.geometry import LineString, Point, Polygon
 
-from geneva_cli.curves.drawing import Drawing, extent
-from geneva_cli.curves.measure import at, bounds, fraction_at, halves, segment_length, turned
-from geneva_cli.curves.moments import area
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, about, closed
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.drawing import Drawing, extent
+from geneva_cli.geometry.measure import at, bounds, fraction_at, halves, segment_length, turned
+from geneva_cli.geometry.moments import area
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, about, closed
 
 FINE = 1e-5  # mm, of the witnesses' polygons
 # Few examples: the whole file stays within seconds, and each is compared in several ways.

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geneva_cli.curves.measure import turned
-from geneva_cli.curves.moments import area, moments, total
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, about, backwards, closed
+from geneva_cli.geometry.measure import turned
+from geneva_cli.geometry.moments import area, moments, total
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, about, backwards, closed
 
 mp = mpmath.mp.clone()
 mp.dps = 40

@@ -9,9 +9,9 @@ import pytest
 from drawing_witness import apart, drawn_shapes
 from test_dxf import MANY, bow, of, smooth
 
-from geneva_cli.curves.pieces import pieces_table, prepared
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.pieces import pieces_table, prepared
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line
 from geneva_cli.output import draw, dxf, show, svg
 from geneva_cli.output.formats import format_of
 from geneva_cli.table import rows_table

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from sampling import some
 from shapely.geometry import Polygon
 
-from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.shapes import Arc, Contour, Line, about, backwards, closed
+from geneva_cli.geometry.distance import Polyarc
+from geneva_cli.geometry.shapes import Arc, Contour, Line, about, backwards, closed
 
 FINE = 1e-5  # mm, how far the witnesses' polygons stray from the arcs
 QUICK = settings(max_examples=some(40, 12))

@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from geneva_cli.curves.plates import Shell
-from geneva_cli.curves.round_holes import RoundHole
-from geneva_cli.curves.sphere import Region, Rotation, SphereArc, cross, place, unit
-from geneva_cli.curves.sphere_arcs import SphereArcs
-from geneva_cli.curves.sphere_hull import Cap, convex_hull
+from geneva_cli.geometry.plates import Shell
+from geneva_cli.geometry.round_holes import RoundHole
+from geneva_cli.geometry.sphere import Region, Rotation, SphereArc, cross, place, unit
+from geneva_cli.geometry.sphere_arcs import SphereArcs
+from geneva_cli.geometry.sphere_hull import Cap, convex_hull
 
 POLE = (0.0, 0.0, 1.0)
 CLOSE = 1e-14  # sums of some numbers up to 2 pi

@@ -23,7 +23,7 @@ import pytest
 from sampling import some
 from witness import QUANTITIES, Geneva, doubled, mp, near, to_degrees, to_radians
 
-from geneva_cli.kinematics.path_and_slot import END_DEG
+from geneva_cli.motion.path_and_slot import END_DEG
 
 Z = some(range(3, 25), (3, 4, 5, 6, 12, 24))
 NAMES = ("position", "velocity", "acceleration", "jerk")

@@ -16,9 +16,9 @@ from machine_witness import motions
 from sampling import some
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.wheels.external import External
-from geneva_cli.machine.many import many, may_vary, taken
-from geneva_cli.machine.mechanism import build
+from geneva_cli.motion.many import many, may_vary, taken
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.jet import turning
 from geneva_cli.numerics.latest import Latest
 
@@ -276,7 +276,7 @@ def test_a_known_carrier_turns_as_its_pin_goes_round_the_crank_axis(name):
 @pytest.mark.parametrize("count", [40, 41])
 def test_blocks_of_mirrored_angles_have_the_values_of_single_angles(monkeypatch, name, count):
     """Blocks of 7 angles: the last one ends at the middle, or contains it."""
-    monkeypatch.setattr("geneva_cli.kinematics.engagement.BLOCK", 7)
+    monkeypatch.setattr("geneva_cli.motion.engagement.BLOCK", 7)
     motion = build(MACHINES[name][0]).engagements[0].motion
     half = np.linspace(motion.entry_deg, 0.0, count // 2, endpoint=False)
     x = np.concatenate((half, [0.0] * (count % 2), -half[::-1]))

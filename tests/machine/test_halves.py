@@ -8,14 +8,14 @@ import pytest
 from witness import mp
 
 from geneva_cli import Cam, Design, External, Motion, NoncircularGears, SineGroup, Tuned
-from geneva_cli.analysis.peak_search import worst_peaks
-from geneva_cli.analysis.peaks import worst
 from geneva_cli.design import Size
 from geneva_cli.drawings.sheet.points import tables
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics import registry
-from geneva_cli.layout.slot_sampling import chord_errors, nodes
-from geneva_cli.machine.many import many
+from geneva_cli.motion import registry
+from geneva_cli.motion.many import many
+from geneva_cli.motion.peak_search import worst_peaks
+from geneva_cli.motion.peaks import worst
+from geneva_cli.parts.slots.slot_sampling import chord_errors, nodes
 
 SWING = 0.3  # of the ratio 1 + SWING sin 6 phi
 

@@ -13,20 +13,20 @@ from witness import LAWS as WITNESS
 from witness import krasniqi, mp, near
 from words import LAWS, Spec, Wheel, named, points
 
-from geneva_cli.analysis.law_values import characteristic
-from geneva_cli.analysis.peak_search import QUANTITIES, search_peaks
-from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import marking
-from geneva_cli.kinematics import registry
-from geneva_cli.kinematics.law_motion import LawMotion
-from geneva_cli.kinematics.laws.greatest import greatest
-from geneva_cli.kinematics.laws.scca import SineConstantCosine
-from geneva_cli.kinematics.laws.standard import SineGroup
-from geneva_cli.kinematics.laws.table import TableLaw
-from geneva_cli.kinematics.laws.tuned import Tuned
-from geneva_cli.kinematics.motion import Motion
-from geneva_cli.machine.many import taken
-from geneva_cli.machine.mechanism import build
+from geneva_cli.loads.vibration.tuned import Tuned
+from geneva_cli.motion import registry
+from geneva_cli.motion.law_motion import LawMotion
+from geneva_cli.motion.law_values import characteristic
+from geneva_cli.motion.laws.greatest import greatest
+from geneva_cli.motion.laws.scca import SineConstantCosine
+from geneva_cli.motion.laws.standard import SineGroup
+from geneva_cli.motion.laws.table import TableLaw
+from geneva_cli.motion.many import taken
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.motion import Motion
+from geneva_cli.motion.peak_search import QUANTITIES, search_peaks
+from geneva_cli.motion.peaks import peaks
 
 CASES = [
     *[(name, 0.0) for name in LAWS],

@@ -5,7 +5,7 @@ import pytest
 import repo
 
 from geneva_cli import load
-from geneva_cli.kinematics.layout import Joint, Pivot
+from geneva_cli.motion.pivots import Joint, Pivot
 
 # of a linkage's own lengths, some hundred mm: rounding of a few sines
 NEAR = 1e-11

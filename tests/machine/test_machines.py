@@ -19,14 +19,14 @@ from load_states import state
 from witness import mp, to_degrees, to_radians
 from words import Spec, load
 
-from geneva_cli.analysis.motion import motion_table
-from geneva_cli.analysis.peaks import QUANTITIES, worst
-from geneva_cli.analysis.timing import timings
+from geneva_cli.drives.transmission import Transmission
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics import registry
-from geneva_cli.machine.both_ways import backwards
-from geneva_cli.machine.drives.transmission import Transmission
-from geneva_cli.machine.mechanism import build
+from geneva_cli.motion import registry
+from geneva_cli.motion.both_ways import backwards
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.motion_table import motion_table
+from geneva_cli.motion.peaks import QUANTITIES, worst
+from geneva_cli.motion.timing import timings
 
 NAMES = ("position", "velocity", "acceleration", "jerk")
 SIDE = 'kind = "side-crank", A = '

@@ -7,19 +7,19 @@ import pytest
 from sampling import some
 from witness import Geneva
 
-from geneva_cli.analysis.peak_search import motion_peaks, search_peaks
-from geneva_cli.analysis.peaks import peak
-from geneva_cli.kinematics.registry import gearing as wheel_of
-from geneva_cli.kinematics.wheels.side_crank_arrays import (
+from geneva_cli.drives.side_crank import SideCrank
+from geneva_cli.motion.many import many
+from geneva_cli.motion.peak_search import motion_peaks, search_peaks
+from geneva_cli.motion.peaks import peak
+from geneva_cli.motion.registry import gearing as wheel_of
+from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.wheels.side_crank_arrays import (
     acceleration,
     acceleration_at_end,
     acceleration_peaks,
     velocity_peaks,
     wheels,
 )
-from geneva_cli.machine.drives.side_crank import SideCrank
-from geneva_cli.machine.many import many
-from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
 
 GEARINGS = ("external", "internal")
@@ -76,7 +76,7 @@ def test_a_finer_scan_finds_no_more(peaks, monkeypatch):
     """Three times the scan finds nothing more among 200,000, in `make test` among 50,000."""
     w = batch(*designs(some(200_000, 50_000), 2))
     size, _ = peaks(w)
-    monkeypatch.setattr("geneva_cli.kinematics.wheels.side_crank_arrays.SCAN", 33)
+    monkeypatch.setattr("geneva_cli.motion.wheels.side_crank_arrays.SCAN", 33)
     assert np.nanmax(np.abs(size / peaks(w)[0] - 1.0)) <= 2 * EXACT
 
 

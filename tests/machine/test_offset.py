@@ -15,8 +15,8 @@ from exact.rates import DIGITS
 from exact.table import LIMIT, Table
 from witness import mp
 
-from geneva_cli.analysis.peaks import worst
-from geneva_cli.machine.mechanism import build
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.peaks import worst
 
 NEAR = (1e-4, 1e-9, 1e-14)
 

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from scipy.optimize import root
 
+from geneva_cli.drives.path_wheels.choice import chosen
+from geneva_cli.drives.path_wheels.wheels import wheels
+from geneva_cli.drives.paths.boxes import _overlaps, _two_turns
+from geneva_cli.drives.paths.pairs import pairs
+from geneva_cli.drives.paths.samples import PathSamples, points
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.paths.boxes import _overlaps, _two_turns
-from geneva_cli.kinematics.paths.pairs import pairs
-from geneva_cli.kinematics.paths.samples import PathSamples, points
-from geneva_cli.linkage.choice import chosen
-from geneva_cli.linkage.wheels import wheels
-from geneva_cli.machine.drives.four_bar import FourBar
+from geneva_cli.kinds.linkages.four_bar import FourBar
 
 PLACES = 480  # of the grid
 CHECKED = 4001  # places at which a wheel is checked between entry and exit, and on the way back

@@ -13,7 +13,7 @@ import pytest
 from words import load
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics import registry
+from geneva_cli.motion import registry
 
 WHEEL = "[wheel]\nz = 6\n"
 BALL = WHEEL + 'gearing = "spherical"\n'

@@ -10,8 +10,8 @@ import repo
 
 from geneva_cli import design
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics import registry
-from geneva_cli.machine.mechanism import build
+from geneva_cli.motion import registry
+from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.schema import checked, fields
 
 KINDS = [

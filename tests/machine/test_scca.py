@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from witness import LAWS, SineLaw, mp
 
-from geneva_cli.analysis.law_values import characteristic
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.laws import standard
-from geneva_cli.kinematics.laws.scca import SineConstantCosine
+from geneva_cli.motion.law_values import characteristic
+from geneva_cli.motion.laws import standard
+from geneva_cli.motion.laws.scca import SineConstantCosine
 
 pi = math.pi
 NAMED = {

@@ -18,11 +18,11 @@ from shapely.ops import unary_union
 
 from geneva_cli import Crank, Cycloidal, Design, EllipticalGears, External, Load, Motion
 from geneva_cli.drawings.parts_list import parts_list
-from geneva_cli.machine.both_ways import backwards
-from geneva_cli.machine.many import may_vary
-from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Spec
-from geneva_cli.scene import place_at, value_at
+from geneva_cli.motion.both_ways import backwards
+from geneva_cli.motion.many import may_vary
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.spec import Spec
+from geneva_cli.output.scene import place_at, value_at
 from geneva_cli.study.animation.scene import scene
 
 pytestmark = pytest.mark.usefixtures("no_advice")

@@ -9,9 +9,9 @@ from swings import shares
 from words import law, load
 
 from geneva_cli import Design, External, Motion, Tuned
-from geneva_cli.analysis.vibration.shape import law_shape
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics import registry
+from geneva_cli.loads.vibration.shape import law_shape
+from geneva_cli.motion import registry
 
 mp = mpmath.mp.clone()
 mp.dps = 50

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from geneva_cli.kinematics.laws.standard import ModifiedSine
-from geneva_cli.kinematics.slot_and_motion import _sinc
+from geneva_cli.motion.laws.standard import ModifiedSine
+from geneva_cli.motion.slot_and_motion import _sinc
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.latest import Latest
 from geneva_cli.numerics.quadrature import Integrands, lobatto, rule, span_integrals

@@ -23,12 +23,12 @@ WORK = """
 import hashlib, io, sys
 import numpy as np
 from geneva_cli import design
-from geneva_cli.analysis.motion import motion_table
-from geneva_cli.curves import fit
-from geneva_cli.layout.assembly import assembly
-from geneva_cli.layout.groove import groove_curve
-from geneva_cli.outlines.wheel import slot_walls
-from geneva_cli.outlines.sizes import sizes
+from geneva_cli.motion.motion_table import motion_table
+from geneva_cli.geometry import fit
+from geneva_cli.parts.assembly import assembly
+from geneva_cli.parts.slots.groove import groove_curve
+from geneva_cli.parts.outlines.wheel_outline import slot_walls
+from geneva_cli.parts.outlines.outline_sizes import sizes
 def load(path):
     return design.load(path).mechanism
 def tell(what):

@@ -29,10 +29,10 @@ from hypothesis import strategies as st
 from sampling import some
 from shapely.geometry import Polygon
 
-from geneva_cli.curves.drawing import Drawing, extent
-from geneva_cli.curves.moments import area
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, about, closed
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.drawing import Drawing, extent
+from geneva_cli.geometry.moments import area
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, about, closed
 from geneva_cli.output import dxf, svg
 from geneva_cli.output.dxf import chunks
 from geneva_cli.output.dxf_file import FLOAT_CODES

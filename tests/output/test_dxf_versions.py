@@ -8,8 +8,8 @@ import pytest
 from drawing_witness import apart, drawn_shapes, dxf_document, dxf_shapes
 from test_dxf import MANY, SAME, bow, of, smooth
 
-from geneva_cli.curves.shapes import Arc, Circle, Line, closed
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.shapes import Arc, Circle, Line, closed
 from geneva_cli.output.dxf import chunks
 from geneva_cli.output.formats import DXF_VERSIONS
 

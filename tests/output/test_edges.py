@@ -13,14 +13,14 @@ from sampling import some
 from step_witness import File
 
 from geneva_cli import Design, External, Internal, Size
-from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.edges import Edge
-from geneva_cli.curves.inset import inset, lines_and_arcs
-from geneva_cli.curves.mass import mass_properties
-from geneva_cli.curves.moments import with_material_left
-from geneva_cli.curves.plates import Plate, plates
-from geneva_cli.curves.shapes import Arc, Circle, Cubic, Line, as_contour, closed
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.edges import Edge
+from geneva_cli.geometry.inset import inset, lines_and_arcs
+from geneva_cli.geometry.mass import mass_properties
+from geneva_cli.geometry.moments import with_material_left
+from geneva_cli.geometry.plates import Plate, plates
+from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, as_contour, closed
 from geneva_cli.output.mesh import scad
 from geneva_cli.output.mesh.solids import bodies
 from geneva_cli.output.step import chunks

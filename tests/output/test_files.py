@@ -21,9 +21,9 @@ from sampling import some
 from typer.testing import CliRunner
 from words import load
 
-from geneva_cli.analysis.motion import motion_table
-from geneva_cli.app import COMMANDS, app
+from geneva_cli.cli.app import COMMANDS, app
 from geneva_cli.design import load as load_design
+from geneva_cli.motion.motion_table import motion_table
 
 OLD = "the old file, whole\n"
 TEMPORARY = re.compile(r"\.motion\.csv\.geneva-\d+\.tmp")
@@ -50,7 +50,7 @@ FORKS = """
 import os, shlex, sys
 import numpy, rich.console
 import geneva_cli.design
-from geneva_cli.app import main
+from geneva_cli.cli.app import main
 for line in sys.argv[1:]:
     child = os.fork()
     if not child:
@@ -373,7 +373,7 @@ HOSTILE = [
 
 def titled():
     """The commands that read a spec and print something; export writes a folder."""
-    runs = {c: importlib.import_module(f"geneva_cli.commands.{c}").run for c in COMMANDS}
+    runs = {c: importlib.import_module(f"geneva_cli.cli.commands.{c}").run for c in COMMANDS}
     reads = [name for name, run in runs.items() if {"spec", "specs"} & set(run.__annotations__)]
     return [name for name in reads if name != "export"]
 

@@ -12,7 +12,7 @@ from scipy import constants as si
 from typer.testing import CliRunner
 
 from geneva_cli import GenevaError, load
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 from geneva_cli.names import UNITS, unit_of
 from geneva_cli.output import Choice, choosing
 from geneva_cli.output.inches import (

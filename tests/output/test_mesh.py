@@ -16,14 +16,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from geneva_cli import Design, External, Size, Spherical
-from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.mass import face
-from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.moments import area
-from geneva_cli.curves.plates import Plate, Shell, solids
-from geneva_cli.curves.shapes import Arc, Circle, Cubic, Line, closed
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.mass import face
+from geneva_cli.geometry.measure import bounds
+from geneva_cli.geometry.moments import area
+from geneva_cli.geometry.plates import Plate, Shell, solids
+from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, closed
 from geneva_cli.output.formats import MESHES
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.mesh import obj, scad, stl, threemf

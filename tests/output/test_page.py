@@ -20,16 +20,16 @@ from typer.testing import CliRunner
 from words import law
 
 from geneva_cli import Design, EllipticalGears, External, Linear, Load, Motion, Size, load
-from geneva_cli.app import app
-from geneva_cli.collisions.gaps import Gaps
-from geneva_cli.collisions.pairs import Pose
-from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.shapes import Circle
-from geneva_cli.kinematics.layout import Joint
-from geneva_cli.layout.link_positions import links_at
+from geneva_cli.cli.app import app
+from geneva_cli.geometry.measure import bounds
+from geneva_cli.geometry.shapes import Circle
+from geneva_cli.motion.pivots import Joint
 from geneva_cli.output import animate, moving_gif, page, still_svg
 from geneva_cli.output.inks import INKS
-from geneva_cli.scene import body_pose, value_at
+from geneva_cli.output.scene import body_pose, value_at
+from geneva_cli.parts.links.link_positions import links_at
+from geneva_cli.parts.turn.gaps import Gaps
+from geneva_cli.parts.turn.pairs import Pose
 from geneva_cli.study.animation.scene import scene
 from geneva_cli.study.animation.turn import MachineTurn
 

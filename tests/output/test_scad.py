@@ -15,11 +15,11 @@ import trimesh
 from test_mesh import DESIGNS, HOLES, SHAPE
 
 from geneva_cli import Design, External
-from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.mass import face
-from geneva_cli.curves.plates import Plate, solids
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.mass import face
+from geneva_cli.geometry.plates import Plate, solids
 from geneva_cli.output.mesh import scad
 from geneva_cli.output.mesh.solids import bodies
 

@@ -12,10 +12,10 @@ import pytest
 from ezdxf import recover
 from words import Motion, Spec, Wheel
 
-from geneva_cli.curves.helvetica import CAPITALS, width
-from geneva_cli.curves.sheet import WIDTHS, Label
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.helvetica import CAPITALS, width
+from geneva_cli.geometry.sheet import WIDTHS, Label
 from geneva_cli.output import draw_sheet
 from geneva_cli.output.formats import DXF_VERSIONS, is_drawn, sheet_as
 from geneva_cli.output.sheets import dxf, pdf, svg
@@ -98,8 +98,8 @@ def test_a_pdf_is_whole(sheet):
 
 def test_arcs_of_a_pdf_are_arcs():
     """One cubic a quarter turn at most is off by 2.8e-4 of the radius, as is known of it."""
-    from geneva_cli.curves.measure import as_cubic
-    from geneva_cli.curves.shapes import about
+    from geneva_cli.geometry.measure import as_cubic
+    from geneva_cli.geometry.shapes import about
 
     for sweep in (0.1, 1.0, 0.5 * math.pi, -0.5 * math.pi):
         arc = about((3.0, 4.0), 10.0, 0.7, sweep)

@@ -181,7 +181,8 @@ main()
 
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(
-    "module", ["geneva_cli.app", "typer", "geneva_cli.commands.motion", "numpy", "numpy.linalg"]
+    "module",
+    ["geneva_cli.cli.app", "typer", "geneva_cli.cli.commands.motion", "numpy", "numpy.linalg"],
 )
 def test_ctrl_c_while_importing(module):
     """At once, and without the traceback of whatever was being imported."""

@@ -10,9 +10,9 @@ from hypothesis import given, settings
 from sampling import some
 from test_dxf import MANY, TINY, bow, of, smooth
 
-from geneva_cli.curves.drawing import Annotations, extent
-from geneva_cli.curves.shapes import Circle, Cubic, Line, about, closed
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.drawing import Annotations, extent
+from geneva_cli.geometry.shapes import Circle, Cubic, Line, about, closed
 from geneva_cli.output import dxf
 from geneva_cli.output.inks import INKS, OTHERS
 from geneva_cli.output.notes import round_length

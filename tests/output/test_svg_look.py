@@ -12,13 +12,13 @@ from test_svg import luminance
 from typer.testing import CliRunner
 from words import Drive, Spec, Wheel
 
-from geneva_cli.app import app
-from geneva_cli.curves import helvetica
-from geneva_cli.curves.drawing import extent
-from geneva_cli.curves.mass import face
-from geneva_cli.curves.plates import plates
+from geneva_cli.cli.app import app
 from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry import helvetica
+from geneva_cli.geometry.drawing import extent
+from geneva_cli.geometry.mass import face
+from geneva_cli.geometry.plates import plates
 from geneva_cli.output import draw
 from geneva_cli.output.formats import FILLS
 from geneva_cli.output.inks import INKS

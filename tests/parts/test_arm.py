@@ -12,14 +12,14 @@ from shapely.geometry import Point
 from typer.testing import CliRunner
 from words import Drive, Motion, Spec, Wheel
 
-from geneva_cli.app import app
-from geneva_cli.curves.hull import convex_hull
-from geneva_cli.curves.measure import segment_length
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Line
+from geneva_cli.cli.app import app
 from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.keyways import DIN_6885_1, TABLES, key
+from geneva_cli.geometry.hull import convex_hull
+from geneva_cli.geometry.measure import segment_length
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line
 from geneva_cli.parts.arm import crank_arm, walls
+from geneva_cli.parts.shafts.keyways import DIN_6885_1, TABLES, key
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Size
 

@@ -16,14 +16,14 @@ from sampling import some
 from shapely import affinity
 
 from geneva_cli import load
-from geneva_cli.curves.plates import Group, Stack
-from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics import registry
-from geneva_cli.kinematics.layout import Joint
-from geneva_cli.layout.link_positions import links_at
+from geneva_cli.geometry.plates import Group, Stack
+from geneva_cli.geometry.shapes import Circle
+from geneva_cli.motion import registry
+from geneva_cli.motion.pivots import Joint
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.link_sizes import places
+from geneva_cli.parts.links.link_positions import links_at
+from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.spec.processes import PROCESSES
 from geneva_cli.specfile.template import template
 

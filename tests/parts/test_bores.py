@@ -8,14 +8,14 @@ from shapely.geometry import Point
 from step_witness import File, Solid
 
 from geneva_cli import Design, External, Size, Spherical
-from geneva_cli.curves.moments import area
-from geneva_cli.curves.plates import plates
-from geneva_cli.curves.shapes import Contour
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.bores import bore_of, radius_of
+from geneva_cli.geometry.moments import area
+from geneva_cli.geometry.plates import plates
+from geneva_cli.geometry.shapes import Contour
+from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.output.step import chunks
-from geneva_cli.parts.sphere.sphere_parts import SphereParts
+from geneva_cli.parts.shafts.bores import bore_of, radius_of
 from geneva_cli.spec.tables import Shaft
 from geneva_cli.verdict.checks.registry import SPHERE, check_named
 

@@ -9,13 +9,13 @@ import trimesh
 from drawing_witness import polygon
 
 from geneva_cli import Design, External, Load, Size, Spherical
-from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.mass import mass_properties
-from geneva_cli.curves.plates import plates
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.clamps import Clamp
-from geneva_cli.layout.screws import SCREWS, screw
+from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.mass import mass_properties
+from geneva_cli.geometry.plates import plates
 from geneva_cli.output.mesh.solids import bodies
+from geneva_cli.parts.shafts.clamps import Clamp
+from geneva_cli.parts.shafts.screws import SCREWS, screw
 
 SIZE = {"wheel_hub_mm": 44.0, "wheel_bore_mm": 16.0, "wheel_clamp_mm": 5.0}
 

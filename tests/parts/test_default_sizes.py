@@ -11,12 +11,12 @@ from words import Spec, Wheel
 
 from geneva_cli import Counter, Design
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.layout.ball import inner_edge
-from geneva_cli.outlines.counter import counter_sizes
-from geneva_cli.outlines.sizes import machine_sizes
-from geneva_cli.outlines.wheel import dial_bolts
+from geneva_cli.kinds.counter.frame import bore as counter_bore
+from geneva_cli.kinds.counter.outlines import counter_sizes
+from geneva_cli.kinds.spherical.ball import inner_edge
 from geneva_cli.parts.arm import crank_arm
-from geneva_cli.parts.counter_frame import bore as counter_bore
+from geneva_cli.parts.outlines.outline_sizes import machine_sizes
+from geneva_cli.parts.outlines.wheel_outline import dial_bolts
 from geneva_cli.spec.tables import Load, Size
 
 L = 100.0

@@ -7,10 +7,10 @@ from drawing_witness import polygon
 from shapely.geometry import Polygon
 from words import Spec, Wheel
 
-from geneva_cli.curves.mass import mass_properties
-from geneva_cli.curves.shapes import Circle, Contour, Line
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.mass import mass_properties
+from geneva_cli.geometry.shapes import Circle, Contour, Line
 from geneva_cli.parts.wheel import wheel_plate
 from geneva_cli.parts.wheel_body import wheel_body
 from geneva_cli.spec.tables import Size

@@ -13,10 +13,10 @@ from shapely import affinity
 from test_assembles import SAGITTA, samples
 
 from geneva_cli import Design, Internal, Size, load
-from geneva_cli.curves.plates import Group
-from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics import registry
+from geneva_cli.geometry.plates import Group
+from geneva_cli.geometry.shapes import Circle
+from geneva_cli.motion import registry
 
 DRAWN = "wheel", "crank", "arm", "links", "first-wheel", "first-crank", "frame", "groove-plate"
 TOLERANCE = 0.02  # mm, of curved walls: few pieces

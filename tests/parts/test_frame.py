@@ -8,13 +8,13 @@ import pytest
 import repo
 
 from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, load
-from geneva_cli.curves.hole_walls import least_wall
-from geneva_cli.curves.plates import plates
-from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.stressed import stressed
-from geneva_cli.machine.least_wall import wall_min
-from geneva_cli.outlines.sizes import machine_sizes
+from geneva_cli.geometry.hole_walls import least_wall
+from geneva_cli.geometry.plates import plates
+from geneva_cli.geometry.shapes import Circle
+from geneva_cli.parts.outlines.outline_sizes import machine_sizes
+from geneva_cli.parts.sizes.stressed import stressed
+from geneva_cli.spec.least_wall import wall_min
 
 # The pivots of the parts list whose shafts reach the frame, of each kind of drive. The crank of a
 # side-crank ends above the input crank, and the wheel's shaft of the four-bar above the wheel.

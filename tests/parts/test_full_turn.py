@@ -20,19 +20,19 @@ from shapely.geometry import Point
 from test_outline import CURVED_SLOTS, STRAIGHT, L, disc, made, name, turned
 from words import LAWS, Motion, load
 
-from geneva_cli.collisions import gaps
-from geneva_cli.collisions.full_turn import FullTurn, full_turn
-from geneva_cli.collisions.gaps import Gaps
-from geneva_cli.collisions.machine_parts import WorkLimit
-from geneva_cli.collisions.smallest import positions
-from geneva_cli.curves.measure import turned as turned_contour
-from geneva_cli.curves.shapes import Arc, Contour, Line, Segment, about, closed
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.reliefs import reliefs
-from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.outlines.walls.straight import straight_walls
-from geneva_cli.outlines.wheel import wheel_contour
+from geneva_cli.geometry.measure import turned as turned_contour
+from geneva_cli.geometry.shapes import Arc, Contour, Line, Segment, about, closed
+from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.outlines.reliefs import reliefs
+from geneva_cli.parts.outlines.walls.straight import straight_walls
+from geneva_cli.parts.outlines.wheel_outline import wheel_contour
+from geneva_cli.parts.turn import gaps
+from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
+from geneva_cli.parts.turn.gaps import Gaps
+from geneva_cli.parts.turn.machine_parts import WorkLimit
+from geneva_cli.parts.turn.smallest import positions
 
 
 def overlaps(found: Outlines, count: int = 60) -> Iterator[float]:
@@ -499,7 +499,7 @@ def test_a_turn_that_is_not_proved_is_not_tried_again(monkeypatch):
         tries.append(found)
         raise WorkLimit("not within the budget")
 
-    monkeypatch.setattr("geneva_cli.collisions.full_turn.full_turn", unproved)
+    monkeypatch.setattr("geneva_cli.parts.turn.full_turn.full_turn", unproved)
     one = PartsModel(made(6).assembly.mechanism)
     for _ in range(2):
         with pytest.raises(WorkLimit):

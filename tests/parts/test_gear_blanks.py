@@ -9,10 +9,10 @@ import pytest
 import repo
 
 from geneva_cli import Design, Epicyclic, External, GearSector, load
-from geneva_cli.curves.shapes import Arc, Circle, Contour
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.gear_curves import gears_table
-from geneva_cli.parts.links import drawn_links
+from geneva_cli.geometry.shapes import Arc, Circle, Contour
+from geneva_cli.parts.gears.gear_curves import gears_table
+from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.spec.tables import Size
 
 RHO = 7850.0  # kg/m³, steel

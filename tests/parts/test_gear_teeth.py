@@ -20,16 +20,16 @@ from geneva_cli import (
     NoncircularGears,
     SideCrank,
 )
-from geneva_cli.curves import fit
-from geneva_cli.curves.gear_teeth import Rack, RoundTeeth, circle
-from geneva_cli.curves.measure import at, turned
-from geneva_cli.curves.rolling_teeth import teeth_along
-from geneva_cli.curves.shapes import Contour
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.layout import Joint, Link, Teeth
-from geneva_cli.layout.assembly import assembly
-from geneva_cli.layout.gear_mesh import gear_mesh
-from geneva_cli.parts.gear_pair import driven_curve, driver_curve
+from geneva_cli.geometry import fit
+from geneva_cli.geometry.gear_teeth import Rack, RoundTeeth, circle
+from geneva_cli.geometry.measure import at, turned
+from geneva_cli.geometry.rolling_teeth import teeth_along
+from geneva_cli.geometry.shapes import Contour
+from geneva_cli.motion.pivots import Joint, Link, Teeth
+from geneva_cli.parts.assembly import assembly
+from geneva_cli.parts.gears.gear_mesh import gear_mesh
+from geneva_cli.parts.gears.gear_pair import driven_curve, driver_curve
 from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.headline import both_ways_lines
 

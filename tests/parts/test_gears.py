@@ -12,16 +12,16 @@ from shapely.geometry import LineString, Point, Polygon
 from words import Drive, Keys, Motion, Spec, Wheel, points
 
 from geneva_cli import Design, External, Internal, NoncircularGears, load
-from geneva_cli.curves.measure import segment_length
-from geneva_cli.curves.shapes import Circle, Contour, Cubic
 from geneva_cli.drawings.centre_marks import with_centre_marks
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics import registry
-from geneva_cli.layout.assembly import assembly
-from geneva_cli.layout.gear_curves import convexity, gears_table
-from geneva_cli.layout.groove import _distances, groove_table
-from geneva_cli.machine.mechanism import build
-from geneva_cli.parts.gear_pair import driven_curve, driver_curve
+from geneva_cli.geometry.measure import segment_length
+from geneva_cli.geometry.shapes import Circle, Contour, Cubic
+from geneva_cli.motion import registry
+from geneva_cli.motion.mechanism import build
+from geneva_cli.parts.assembly import assembly
+from geneva_cli.parts.gears.gear_curves import convexity, gears_table
+from geneva_cli.parts.gears.gear_pair import driven_curve, driver_curve
+from geneva_cli.parts.slots.groove import _distances, groove_table
 from geneva_cli.spec.tables import Limits
 from geneva_cli.verdict.checks import checks
 

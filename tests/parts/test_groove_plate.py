@@ -6,11 +6,11 @@ from drawing_witness import polygon, vertices
 from shapely.geometry import LineString
 
 from geneva_cli import Design, External, load
-from geneva_cli.curves.mass import mass_properties
-from geneva_cli.curves.plates import plates
-from geneva_cli.curves.shapes import Circle
 from geneva_cli.drawings.parts_list import parts_list
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.mass import mass_properties
+from geneva_cli.geometry.plates import plates
+from geneva_cli.geometry.shapes import Circle
 from geneva_cli.parts.flat_parts import FlatParts
 
 SAGITTA = 1e-3  # mm, of the chords that shapely is given

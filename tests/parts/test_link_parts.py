@@ -13,16 +13,16 @@ from typer.testing import CliRunner
 from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli import load
-from geneva_cli.app import app
-from geneva_cli.curves.hole_walls import plate_wall
-from geneva_cli.curves.mass import mass_properties
-from geneva_cli.curves.shapes import Circle
+from geneva_cli.cli.app import app
 from geneva_cli.design import Design
 from geneva_cli.drawings.single_parts import single_parts
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.layout import Joint
-from geneva_cli.layout.link_positions import links_at
-from geneva_cli.parts.links import drawn_links
+from geneva_cli.geometry.hole_walls import plate_wall
+from geneva_cli.geometry.mass import mass_properties
+from geneva_cli.geometry.shapes import Circle
+from geneva_cli.motion.pivots import Joint
+from geneva_cli.parts.links.link_positions import links_at
+from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.spec.tables import Shaft, Size
 
 # rounding of a few sines of lengths of some hundred mm

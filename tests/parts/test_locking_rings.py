@@ -5,15 +5,15 @@ import math
 import numpy as np
 import pytest
 
-from geneva_cli.kinematics.laws.standard import ModifiedSine
-from geneva_cli.kinematics.motion import Motion
-from geneva_cli.kinematics.wheels.internal import Internal
-from geneva_cli.machine.drives.cam import Cam
-from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Spec
-from geneva_cli.outlines import locking_rings
-from geneva_cli.outlines.locking_rings import polar_points, towards
-from geneva_cli.outlines.sizes import outlines
+from geneva_cli.drives.cam import Cam
+from geneva_cli.motion.laws.standard import ModifiedSine
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.motion import Motion
+from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.wheels.internal import Internal
+from geneva_cli.parts.outlines import locking_rings
+from geneva_cli.parts.outlines.locking_rings import polar_points, towards
+from geneva_cli.parts.outlines.outline_sizes import outlines
 
 
 @pytest.mark.parametrize(("z", "alpha0"), [(12, -30.0), (8, -30.0), (6, 0.0)])

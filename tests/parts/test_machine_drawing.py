@@ -9,9 +9,9 @@ from shapely.affinity import rotate, translate
 from shapely.geometry import Polygon
 
 from geneva_cli import load
-from geneva_cli.curves.plates import Group
-from geneva_cli.curves.shapes import Circle
 from geneva_cli.drawings.parts_list import parts_list
+from geneva_cli.geometry.plates import Group
+from geneva_cli.geometry.shapes import Circle
 
 CHORDS = 1e-4  # mm, by which what shapely sees lies off arcs
 # Of the centre distance, times it: 1e-6 along parts that touch all the way, as a pin in its hole.

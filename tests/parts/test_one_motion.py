@@ -5,20 +5,20 @@ import math
 import pytest
 from test_full_turn import spoilt
 
-from geneva_cli.collisions.full_turn import full_turn
-from geneva_cli.collisions.one_motion import one_motion
-from geneva_cli.curves.measure import turned
-from geneva_cli.curves.shapes import closed
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.kinematics.laws.standard import ModifiedSine
-from geneva_cli.kinematics.motion import Motion
-from geneva_cli.kinematics.wheels.external import External
-from geneva_cli.kinematics.wheels.internal import Internal
-from geneva_cli.kinematics.wheels.spherical import Spherical
-from geneva_cli.machine.drives.cam import Cam
-from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.drives.cam import Cam
+from geneva_cli.drives.crank import Crank
+from geneva_cli.geometry.measure import turned
+from geneva_cli.geometry.shapes import closed
+from geneva_cli.motion.laws.standard import ModifiedSine
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.motion import Motion
+from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.wheels.external import External
+from geneva_cli.motion.wheels.internal import Internal
+from geneva_cli.motion.wheels.spherical import Spherical
+from geneva_cli.parts.turn.full_turn import full_turn
+from geneva_cli.parts.turn.one_motion import one_motion
 from geneva_cli.spec.tables import Size
 
 SMALL = Size(roller_radius_mm=3.0, slot_clearance_mm=0.02, lock_clearance_mm=0.01)

@@ -19,19 +19,19 @@ from shapely import affinity
 from shapely.geometry import LineString, Point, Polygon
 from words import LAWS, Drive, Motion, Spec, Wheel
 
-from geneva_cli.collisions.full_turn import full_turn
-from geneva_cli.curves.measure import turned as turn
-from geneva_cli.curves.moments import area
-from geneva_cli.curves.shapes import Arc, Contour
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.motion import Motion as Given
-from geneva_cli.layout.assembly import assembly
-from geneva_cli.machine.mechanism import build
-from geneva_cli.outlines.outlines import CURVED, Outlines
-from geneva_cli.outlines.sizes import outlines, sizes
-from geneva_cli.outlines.walls.path_walls import _free
-from geneva_cli.outlines.walls.straight import straight_walls
-from geneva_cli.outlines.wheel import wheel_contour
+from geneva_cli.geometry.measure import turned as turn
+from geneva_cli.geometry.moments import area
+from geneva_cli.geometry.shapes import Arc, Contour
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.motion import Motion as Given
+from geneva_cli.parts.assembly import assembly
+from geneva_cli.parts.outlines.outline_sizes import outlines, sizes
+from geneva_cli.parts.outlines.outlines import CURVED, Outlines
+from geneva_cli.parts.outlines.walls.path_walls import _free
+from geneva_cli.parts.outlines.walls.straight import straight_walls
+from geneva_cli.parts.outlines.wheel_outline import wheel_contour
+from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.checks.registry import turn_checks
 

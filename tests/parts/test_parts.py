@@ -28,7 +28,7 @@ from typer.testing import CliRunner
 from words import load
 
 from geneva_cli import Design
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 from geneva_cli.specfile.template import KINDS
 from geneva_cli.verdict.checks import checks
 
@@ -772,7 +772,7 @@ def test_templates_draw_all_parts(kind):
 TWICE = """
 import sys
 from typer.testing import CliRunner
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 for spec, part, output in (("curved", "assembly", "a.dxf"), ("plain", "assembly", "a.svg"),
                            ("plain", "crank", "c.csv")):
     arguments = ["profile", spec + ".toml", "--part", part, "-o", output, "--curves", "spline"]

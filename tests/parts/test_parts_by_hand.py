@@ -14,11 +14,6 @@ from scipy.spatial import KDTree
 from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli import Counter, Design, EllipticalGears, External, Internal, Linear, load
-from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.moments import moments
-from geneva_cli.curves.plates import plates, solids
-from geneva_cli.curves.shapes import Arc, Circle
-from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.drawings.sheet.bores import bored
 from geneva_cli.drawings.sheet.crank import draw_arm, draw_disc, draw_roller
@@ -26,26 +21,31 @@ from geneva_cli.drawings.sheet.links import draw_link
 from geneva_cli.drawings.sheet.standing import draw_frame
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel import draw_wheel
-from geneva_cli.drawings.sphere.arm_drawing import arm_cone
-from geneva_cli.drawings.sphere.drawings import wheel_cone
-from geneva_cli.layout.bores import RoundBore, bore_of
-from geneva_cli.layout.reliefs import arc_floor, reliefs, widened
-from geneva_cli.layout.roller_paths import mouth_corners
-from geneva_cli.layout.stressed import lock_of, stressed
-from geneva_cli.outlines.cut_lock import cut_arcs
-from geneva_cli.outlines.sizes import machine_sizes, outlines
-from geneva_cli.parts.all_shafts import passing_arm
+from geneva_cli.geometry.measure import bounds
+from geneva_cli.geometry.moments import moments
+from geneva_cli.geometry.plates import plates, solids
+from geneva_cli.geometry.shapes import Arc, Circle
+from geneva_cli.geometry.sheet import CENTRE, OUTLINE
+from geneva_cli.kinds.counter.parts import CounterParts
+from geneva_cli.kinds.linear.arm import crank_arm as rack_arm
+from geneva_cli.kinds.linear.frame import guide
+from geneva_cli.kinds.spherical.arm_drawing import arm_cone
+from geneva_cli.kinds.spherical.drawings import wheel_cone
+from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.parts.arm import crank_arm
-from geneva_cli.parts.counter_parts import CounterParts
 from geneva_cli.parts.first_pair import first_pair
-from geneva_cli.parts.gear_pair import gear_shafts
-from geneva_cli.parts.links import drawn_links
-from geneva_cli.parts.planes import planes
-from geneva_cli.parts.rack_arm import crank_arm as rack_arm
-from geneva_cli.parts.rack_frame import guide
-from geneva_cli.parts.shaft import Ends, Shaft
-from geneva_cli.parts.shafts import crank_hub
-from geneva_cli.parts.sphere.sphere_parts import SphereParts
+from geneva_cli.parts.gears.gear_pair import gear_shafts
+from geneva_cli.parts.links.link_planes import planes
+from geneva_cli.parts.links.links import drawn_links
+from geneva_cli.parts.outlines.cut_lock import cut_arcs
+from geneva_cli.parts.outlines.outline_sizes import machine_sizes, outlines
+from geneva_cli.parts.outlines.reliefs import arc_floor, reliefs, widened
+from geneva_cli.parts.shafts.all_shafts import passing_arm
+from geneva_cli.parts.shafts.bores import RoundBore, bore_of
+from geneva_cli.parts.shafts.hub_and_shafts import crank_hub
+from geneva_cli.parts.shafts.shaft import Ends, Shaft
+from geneva_cli.parts.sizes.stressed import lock_of, stressed
+from geneva_cli.parts.slots.roller_paths import mouth_corners
 from geneva_cli.spec.tables import Size
 
 L = 100.0

@@ -14,11 +14,11 @@ from scipy.interpolate import make_interp_spline
 from typer.testing import CliRunner
 
 from geneva_cli import Design
-from geneva_cli.app import app
-from geneva_cli.curves.moments import moments
+from geneva_cli.cli.app import app
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics import registry
+from geneva_cli.geometry.moments import moments
+from geneva_cli.motion import registry
 from geneva_cli.output.chosen import only
 
 DESIGNS = sorted(Path(__file__, "../../../designs").resolve().glob("*.toml"))

@@ -12,9 +12,9 @@ from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli import load
 from geneva_cli.design import Design
-from geneva_cli.layout.link_positions import links_at
-from geneva_cli.parts.links import drawn_links
-from geneva_cli.parts.planes import planes
+from geneva_cli.parts.links.link_planes import planes
+from geneva_cli.parts.links.link_positions import links_at
+from geneva_cli.parts.links.links import drawn_links
 
 
 def of(name, *given):

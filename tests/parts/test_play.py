@@ -18,13 +18,13 @@ from shapely.geometry import Point
 from test_outline import disc, made, turned
 from words import Motion, load
 
-from geneva_cli.collisions.free_angles import free_angles
-from geneva_cli.collisions.full_turn import full_turn
-from geneva_cli.collisions.gaps import Gaps
-from geneva_cli.collisions.machine_parts import WorkLimit
-from geneva_cli.collisions.play import windows
-from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.outlines.sizes import outlines
+from geneva_cli.parts.outlines.outline_sizes import outlines
+from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.turn.free_angles import free_angles
+from geneva_cli.parts.turn.full_turn import full_turn
+from geneva_cli.parts.turn.gaps import Gaps
+from geneva_cli.parts.turn.machine_parts import WorkLimit
+from geneva_cli.parts.turn.play import windows
 from geneva_cli.verdict.checks.registry import turn_checks
 
 DESIGNS = repo.DESIGNS
@@ -278,7 +278,7 @@ def test_angles_of_a_longer_period_begin_at_its_entry() -> None:
 
 def test_work_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     found = made(6)
-    monkeypatch.setattr("geneva_cli.collisions.gaps.WORK", 1e4)
+    monkeypatch.setattr("geneva_cli.parts.turn.gaps.WORK", 1e4)
     with pytest.raises(WorkLimit, match="it takes more than 1e\\+04 distances"):
         full_turn(found)
     monkeypatch.undo()

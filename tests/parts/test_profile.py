@@ -7,11 +7,11 @@ import pytest
 from witness import mp
 from words import Drive, Motion, Spec, Wheel, named
 
-from geneva_cli.kinematics import registry
-from geneva_cli.kinematics.pitch_curve import retraces
-from geneva_cli.layout.slot_profile import slot
-from geneva_cli.layout.slot_sampling import chord_errors, nodes, profile_table
-from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.motion import registry
+from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.motion.pitch_curve import retraces
+from geneva_cli.parts.slots.slot_profile import slot
+from geneva_cli.parts.slots.slot_sampling import chord_errors, nodes, profile_table
 from geneva_cli.spec.tables import Size
 
 L = 200.0

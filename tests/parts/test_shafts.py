@@ -6,8 +6,8 @@ import pytest
 import repo
 
 from geneva_cli import Design, External, Internal, SideCrank, Size, load
-from geneva_cli.curves.plates import plates
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.plates import plates
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.verdict.shaft_gap import ring_gap, shaft_gap

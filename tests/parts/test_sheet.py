@@ -24,23 +24,23 @@ from sheet_witness import (
 from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli import EllipticalGears, Linear, load
-from geneva_cli.curves import marks
-from geneva_cli.curves.board import Board
-from geneva_cli.curves.measure import bounds, points
-from geneva_cli.curves.placed import in_place
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Line
-from geneva_cli.curves.sheet import Label
-from geneva_cli.curves.sphere import place
 from geneva_cli.design import Design
 from geneva_cli.drawings.sheet.cut import faces
 from geneva_cli.drawings.sheet.paper import FORMATS, SCALES
 from geneva_cli.drawings.sheet.points import gear_tables, polyline, tables
 from geneva_cli.drawings.sheet.view import View
-from geneva_cli.drawings.sphere.drawings import wheel_cone
-from geneva_cli.drawings.sphere.sheet import flat_slot
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry import marks
+from geneva_cli.geometry.board import Board
+from geneva_cli.geometry.measure import bounds, points
+from geneva_cli.geometry.placed import in_place
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line
+from geneva_cli.geometry.sheet import Label
+from geneva_cli.geometry.sphere import place
+from geneva_cli.kinds.spherical.drawings import wheel_cone
+from geneva_cli.kinds.spherical.sheet import flat_slot
 from geneva_cli.output.sheets import dxf
-from geneva_cli.parts.links import drawn_links
+from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.spec.tables import RollerMaterial, Size, TitleBlock, Tolerance, WheelMaterial
 
 pytestmark = pytest.mark.usefixtures("made_once")

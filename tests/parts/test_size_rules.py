@@ -7,12 +7,12 @@ import pytest
 from typer.testing import CliRunner
 from words import Motion, Spec, Wheel
 
-from geneva_cli.analysis.peaks import peaks_table
-from geneva_cli.app import app
-from geneva_cli.curves.shapes import Arc
+from geneva_cli.cli.app import app
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.mechanism import build
-from geneva_cli.outlines.sizes import outlines
+from geneva_cli.geometry.shapes import Arc
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.peaks import peaks_table
+from geneva_cli.parts.outlines.outline_sizes import outlines
 from geneva_cli.spec.tables import Size
 
 HUGE = [

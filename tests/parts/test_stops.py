@@ -8,15 +8,15 @@ import repo
 from test_outline import made
 from words import Motion, load
 
-from geneva_cli.collisions.free_angles import free_angles, search_deg
-from geneva_cli.collisions.full_turn import full_turn
-from geneva_cli.collisions.gaps import Gaps
-from geneva_cli.collisions.machine_parts import smallest_clearance
-from geneva_cli.collisions.play import windows
-from geneva_cli.curves.measure import at
-from geneva_cli.curves.shapes import Arc, Line
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.machine.mechanism import build
+from geneva_cli.geometry.measure import at
+from geneva_cli.geometry.shapes import Arc, Line
+from geneva_cli.motion.mechanism import build
+from geneva_cli.parts.turn.free_angles import free_angles, search_deg
+from geneva_cli.parts.turn.full_turn import full_turn
+from geneva_cli.parts.turn.gaps import Gaps
+from geneva_cli.parts.turn.machine_parts import smallest_clearance
+from geneva_cli.parts.turn.play import windows
 
 BARE = ("turret", "internal-z6", "four-bar-z4", "press-curved", "three-rollers-z4", "spherical-z6")
 LOOSE = (
@@ -105,7 +105,7 @@ def test_nearly_straight_walls_stop_like_straight_ones(sagitta):
 
 def test_an_arc_at_an_inflection_stops_the_wheel(monkeypatch):
     """With these places of the joints a wall has a radius of 560 m: the play was 5.27 degrees."""
-    monkeypatch.setattr("geneva_cli.curves.fit.path.WEIGHT", 2.0**-8)
+    monkeypatch.setattr("geneva_cli.geometry.fit.path.WEIGHT", 2.0**-8)
     parts = made(8, motion=Motion("modified-sine", alpha0_deg=-16.303125, ratio="matched"))
     assert parts.gaps.wheel.radius.max() > 1e5
     # twice what the walls are known to, over the roller's distance from the wheel's axis

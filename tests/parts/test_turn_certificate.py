@@ -17,24 +17,24 @@ from sampling import some
 from turn_witness import ROUNDING, TO_MM, check_bounds, check_proof, least_gap, turn_of
 from words import load
 
-from geneva_cli.collisions import certificate as halving
-from geneva_cli.collisions.certificate import certificate
-from geneva_cli.collisions.full_turn import full_turn
-from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.extents import farthest, from_segments, short_pieces
-from geneva_cli.curves.shapes import Line, about, closed
 from geneva_cli.drawings.model import PartsModel
+from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.laws.standard import Cycloidal, ModifiedSine
-from geneva_cli.kinematics.motion import Motion
-from geneva_cli.kinematics.wheels.external import External
-from geneva_cli.kinematics.wheels.internal import Internal
-from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.geometry.distance import Polyarc
+from geneva_cli.geometry.extents import farthest, from_segments, short_pieces
+from geneva_cli.geometry.shapes import Line, about, closed
+from geneva_cli.motion.laws.standard import Cycloidal, ModifiedSine
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.motion import Motion
+from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.wheels.external import External
+from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.numerics.arrays import Undecided
-from geneva_cli.outlines.sizes import outlines
-from geneva_cli.outlines.travel import UNKNOWN, Travel, curve_rates, path_travel, slot_travel
+from geneva_cli.parts.outlines.outline_sizes import outlines
+from geneva_cli.parts.turn import turn_certificate as halving
+from geneva_cli.parts.turn.full_turn import full_turn
+from geneva_cli.parts.turn.travel import UNKNOWN, Travel, curve_rates, path_travel, slot_travel
+from geneva_cli.parts.turn.turn_certificate import certificate
 from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.checks.proved import least_gap as least_gap_check
 

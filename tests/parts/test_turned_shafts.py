@@ -9,21 +9,21 @@ from drawing_witness import polygon
 from step_witness import File, Solid
 
 from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, load
-from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.plates import Group, Plate, Stack, lowered, solids
-from geneva_cli.curves.shapes import Circle
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics import registry
-from geneva_cli.layout.bearings import DIN_471, SERIES_60, bearing_up_to, circlip_up_to
-from geneva_cli.layout.stressed import stressed
-from geneva_cli.outlines.sizes import machine_sizes
+from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.plates import Group, Plate, Stack, lowered, solids
+from geneva_cli.geometry.shapes import Circle
+from geneva_cli.kinds.spherical.parts import SphereParts
+from geneva_cli.motion import registry
 from geneva_cli.output.mesh import scad
 from geneva_cli.output.mesh.solids import bodies
 from geneva_cli.output.step import chunks
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.links import placed_holes
-from geneva_cli.parts.sphere.sphere_parts import SphereParts
+from geneva_cli.parts.links.links import placed_holes
+from geneva_cli.parts.outlines.outline_sizes import machine_sizes
+from geneva_cli.parts.shafts.bearings import DIN_471, SERIES_60, bearing_up_to, circlip_up_to
+from geneva_cli.parts.sizes.stressed import stressed
 from geneva_cli.specfile.template import template
 
 TURNED = Size(shafts="turned", wheel_bore_mm=16.0, crank_bore_mm=10.0)

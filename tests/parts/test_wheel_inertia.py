@@ -20,10 +20,10 @@ from geneva_cli import (
     WheelMaterial,
     load,
 )
-from geneva_cli.curves.mass import MassProperties
 from geneva_cli.drawings.parts_list import parts_table
-from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.geometry.mass import MassProperties
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.spec import Spec
 from geneva_cli.verdict.carried_warnings import carried_warnings
 
 

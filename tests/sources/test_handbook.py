@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from witness import near
 
-from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
+from geneva_cli.motion.timing import timings
 
 Z = range(3, 25)
 

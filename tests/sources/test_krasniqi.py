@@ -15,9 +15,9 @@ import numpy as np
 import pytest
 from witness import mp, near
 
-from geneva_cli.analysis.timing import timings
-from geneva_cli.kinematics.laws.standard import SineGroup
-from geneva_cli.kinematics.pitch_curve import pitch, pitch_at_retrace, retraces
+from geneva_cli.motion.laws.standard import SineGroup
+from geneva_cli.motion.pitch_curve import pitch, pitch_at_retrace, retraces
+from geneva_cli.motion.timing import timings
 
 SHAPES = (-0.25, -0.15, -0.05, 0.0, 0.05, 0.15, 0.25)  # the rows of Table 1, and 0
 U = [k / 40 for k in range(41)]

@@ -10,7 +10,7 @@ from fractions import Fraction
 import pytest
 from witness import near
 
-from geneva_cli.analysis.timing import timings
+from geneva_cli.motion.timing import timings
 
 Z = range(3, 25)
 

@@ -10,7 +10,7 @@ import math
 import pytest
 from witness import near
 
-from geneva_cli.analysis.peaks import peaks
+from geneva_cli.motion.peaks import peaks
 
 # z, A, motion angle (deg), peak velocity, peak acceleration and its angle, peak power and its
 # angle, acceleration at entry

@@ -3,7 +3,7 @@
 import repo
 from typer.testing import CliRunner
 
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 from geneva_cli.specfile.designs import titles
 from geneva_cli.specfile.json_schema import FILE
 

@@ -3,7 +3,7 @@
 import pytest
 
 from geneva_cli import GenevaError, load
-from geneva_cli.kinematics import registry
+from geneva_cli.motion import registry
 from geneva_cli.names import UNITS
 from geneva_cli.spec.schema import REQUIRED, fields
 from geneva_cli.spec.tables import PLAIN

@@ -13,7 +13,7 @@ from scipy import constants as si
 from typer.testing import CliRunner
 
 from geneva_cli import External, GenevaError, Size, load
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 from geneva_cli.names import UNITS as OF_KEYS
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.units import UNITS, in_unit_of, pattern, unit_key

@@ -20,11 +20,11 @@ import repo
 import trimesh
 from build123d import GeomType, import_step
 
-from geneva_cli.curves.mass import face
-from geneva_cli.curves.plates import plates, solids
-from geneva_cli.curves.shapes import Arc, Circle, Line
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.mass import face
+from geneva_cli.geometry.plates import plates, solids
+from geneva_cli.geometry.shapes import Arc, Circle, Line
 from geneva_cli.manual import page
 
 SAME = 1e-12  # relative: the kernel integrates along these curves to rounding

@@ -11,13 +11,13 @@ from fuzz_machines import machine_text
 from fuzz_spec import read
 from fuzzing import campaign, in_time
 
-from geneva_cli.analysis.certificate import certificate
-from geneva_cli.analysis.certificate_loads import LOADS, not_proved
-from geneva_cli.analysis.peaks import QUANTITIES, worst
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.registry import DRIVES
+from geneva_cli.extras.certify.certificate import certificate
+from geneva_cli.extras.certify.loads import LOADS, not_proved
 from geneva_cli.loads.loads import greatest
+from geneva_cli.motion.peaks import QUANTITIES, worst
+from geneva_cli.motion.registry import DRIVES
 
 SECONDS = 60  # of one machine; most take 0.1 s, and 2,000 intervals of a four-bar's four peaks 12 s
 NEAR = 1e-6  # of a peak: how far the bounds of decimals and doubles may be apart, by rounding

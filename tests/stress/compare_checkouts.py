@@ -86,7 +86,7 @@ def run_all(folder: str, words: list[str]) -> None:
     """Run every command line with the package that Python finds, and keep what comes out."""
     from typer.testing import CliRunner
 
-    from geneva_cli.app import app
+    from geneva_cli.cli.app import app
 
     designs = sorted(name for name in os.listdir("designs") if name.endswith(".toml"))
     calls = [line for name in designs for line in lines_of_design(name)] + lines_of_no_design()

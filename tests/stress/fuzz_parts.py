@@ -13,11 +13,11 @@ from fuzz_machines import machine_text
 from fuzz_spec import consistent, read, sound, sound_motion
 from fuzzing import campaign, strictly
 
-from geneva_cli.curves.pieces import pieces_table
 from geneva_cli.design import Design
 from geneva_cli.drawings.catalogue import DRAWINGS, PARTS, is_table, part_drawing, part_table
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.pieces import pieces_table
 from geneva_cli.study.verdicts import Verdict, checks_table
 from geneva_cli.table import flat
 from geneva_cli.verdict.advice import judged

@@ -14,10 +14,10 @@ from fuzzing import campaign, in_time
 from test_full_turn import random_case
 from test_outline import made
 
-from geneva_cli.collisions.free_angles import EXACT, free_angles
-from geneva_cli.collisions.gaps import Gaps
 from geneva_cli.errors import GenevaError
-from geneva_cli.outlines.wheel import slot_walls, wheel_contour
+from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
+from geneva_cli.parts.turn.free_angles import EXACT, free_angles
+from geneva_cli.parts.turn.gaps import Gaps
 
 SECONDS = 30  # of one machine
 WIDTHS, RECESSES = 3, 10  # of slots, and of recesses for each: walls of curved slots cost the most

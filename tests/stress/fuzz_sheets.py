@@ -15,9 +15,9 @@ from fuzz_spec import read
 from fuzzing import campaign, strictly
 from sheet_witness import assert_as_listed, assert_measured, beyond, crossings, overlaps
 
-from geneva_cli.curves.sheet import DIMENSION
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.sheet import DIMENSION
 from geneva_cli.output.sheets import dxf, pdf, svg
 
 SECONDS = 60  # for one sheet and its checks

@@ -20,11 +20,11 @@ from fuzz_machines import in_range, machine_text
 from fuzzing import campaign, strictly
 
 from geneva_cli import design
-from geneva_cli.analysis.motion import motion_table
-from geneva_cli.analysis.peaks import peaks_table
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics import registry
-from geneva_cli.kinematics.registry import DRIVES, GEARINGS, LAWS
+from geneva_cli.motion import registry
+from geneva_cli.motion.motion_table import motion_table
+from geneva_cli.motion.peaks import peaks_table
+from geneva_cli.motion.registry import DRIVES, GEARINGS, LAWS
 from geneva_cli.spec.rules import OneOf, Words
 from geneva_cli.spec.schema import REQUIRED, fields
 from geneva_cli.spec.tables import LISTS

@@ -15,11 +15,11 @@ from fuzzing import campaign, in_time
 from test_outline import made
 from words import Motion
 
-from geneva_cli.collisions.free_angles import free_angles, search_deg
-from geneva_cli.collisions.full_turn import full_turn
-from geneva_cli.collisions.machine_parts import smallest_clearance
-from geneva_cli.collisions.play import windows
 from geneva_cli.errors import GenevaError
+from geneva_cli.parts.turn.free_angles import free_angles, search_deg
+from geneva_cli.parts.turn.full_turn import full_turn
+from geneva_cli.parts.turn.machine_parts import smallest_clearance
+from geneva_cli.parts.turn.play import windows
 
 SECONDS = 30  # of one machine
 LAWS = ("modified-sine", "cycloidal", "modified-trapezoid", "3-4-5", "harmonic")
@@ -63,7 +63,7 @@ def require_largest_plays(parts):
 def one(arguments):
     """Return the result of a case: a seed, the step of the joints' weights, the machine's keys."""
     seed, step, case = arguments
-    with in_time(SECONDS), mock.patch("geneva_cli.curves.fit.path.WEIGHT", step):
+    with in_time(SECONDS), mock.patch("geneva_cli.geometry.fit.path.WEIGHT", step):
         try:
             parts = made.__wrapped__(**case)
         except GenevaError:

@@ -23,11 +23,11 @@ import pymunk
 import repo
 import shapely
 
-from geneva_cli.collisions.play import windows
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.outlines.counter_play import counter_play
+from geneva_cli.kinds.counter.play import counter_play
 from geneva_cli.output import draw
+from geneva_cli.parts.turn.play import windows
 
 TURNS = 2
 STEPS = 7200  # a turn: a roller 50 mm from its axis moves 0.04 mm in one

@@ -23,7 +23,7 @@ from fuzz_spec import ODD, spec_text
 from fuzzing import FILES
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics import registry
+from geneva_cli.motion import registry
 from geneva_cli.spec.schema import Points, checked, fields
 from geneva_cli.spec.tables import PLAIN
 from geneva_cli.specfile.json_schema import FILE, schema

@@ -41,12 +41,12 @@ from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS
 from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
 
-from geneva_cli.curves import mass
-from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.plates import Group, Plate, Stack
-from geneva_cli.curves.shapes import Contour, Cubic
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry import mass
+from geneva_cli.geometry.measure import bounds
+from geneva_cli.geometry.plates import Group, Plate, Stack
+from geneva_cli.geometry.shapes import Contour, Cubic
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.step import chunks
 

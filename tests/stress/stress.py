@@ -40,7 +40,7 @@ from witness import LAWS as LAW_WITNESSES
 from witness import SIGN, mp
 from words import LAWS
 
-from geneva_cli.kinematics.registry import DRIVES, GEARINGS
+from geneva_cli.motion.registry import DRIVES, GEARINGS
 
 
 def missing():

@@ -24,8 +24,8 @@ from machine_witness import motions
 from many_options import options
 from witness import QUANTITIES as EXACT
 
-from geneva_cli.analysis.peak_search import motion_peaks
-from geneva_cli.machine.many import many, taken
+from geneva_cli.motion.many import many, taken
+from geneva_cli.motion.peak_search import motion_peaks
 
 NAMES = ("velocity", "acceleration")
 CHUNK = 10_000  # designs built together

@@ -14,8 +14,8 @@ from collections import Counter
 from test_full_turn import random_case, turns_as_polygons_do
 from test_outline import made
 
-from geneva_cli.collisions.full_turn import full_turn
 from geneva_cli.errors import GenevaError
+from geneva_cli.parts.turn.full_turn import full_turn
 
 
 def every_number_of_slots() -> int:

@@ -11,12 +11,12 @@ from pathlib import Path
 
 from typer.testing import CliRunner
 
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.synthesis.reading import read_target
-from geneva_cli.synthesis.search import search
-from geneva_cli.synthesis.written import chosen
+from geneva_cli.study.synth.reading import read_target
+from geneva_cli.study.synth.search import search
+from geneva_cli.study.synth.written import chosen
 
 ROWS = 105  # as many as the trial in which an older synth's specs failed 27 times
 REQUIREMENTS = (

@@ -20,7 +20,7 @@ import termios
 import repo
 from repo import GENEVA
 
-from geneva_cli.app import COMMANDS
+from geneva_cli.cli.app import COMMANDS
 from geneva_cli.manual import TOPICS
 
 COLUMNS = (60, 80, 120, 200)

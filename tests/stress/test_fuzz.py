@@ -28,10 +28,10 @@ from hypothesis import strategies as st
 from sampling import some
 from typer.testing import CliRunner
 
-from geneva_cli.analysis.motion import motion_table
-from geneva_cli.analysis.peaks import worst
-from geneva_cli.app import COMMANDS, app
-from geneva_cli.kinematics.registry import DRIVES
+from geneva_cli.cli.app import COMMANDS, app
+from geneva_cli.motion.motion_table import motion_table
+from geneva_cli.motion.peaks import worst
+from geneva_cli.motion.registry import DRIVES
 from geneva_cli.output.formats import FORMATS
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Limits, Size
@@ -235,7 +235,7 @@ def command(name):
     import typer
     from typer.main import get_command
 
-    module = importlib.import_module(f"geneva_cli.commands.{name}")
+    module = importlib.import_module(f"geneva_cli.cli.commands.{name}")
     one = typer.Typer(add_completion=False)
     one.command(name)(module.run)
     examples = [shlex.split(line)[1:] for line in module.EXAMPLES]

@@ -9,9 +9,9 @@ import repo
 from sampling import some
 
 from geneva_cli import Design, SideCrank, load
-from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.measure import at
-from geneva_cli.scene import body_pose, pose
+from geneva_cli.geometry.distance import Polyarc
+from geneva_cli.geometry.measure import at
+from geneva_cli.output.scene import body_pose, pose
 from geneva_cli.study.animation.scene import scene
 
 

@@ -16,14 +16,14 @@ from sampling import some
 from test_sheets import objects
 from typer.testing import CliRunner
 
-from geneva_cli.app import app
-from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.shapes import Line, closed
+from geneva_cli.cli.app import app
 from geneva_cli.design import Design, load
-from geneva_cli.document import Document, Fact, Facts, Grid, Picture, TextList
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.shapes import Line, closed
 from geneva_cli.output import jsonfile, pdf_file
 from geneva_cli.output.document import html, markdown, pdf, pdf_drawing, pdf_table
+from geneva_cli.output.document.blocks import Document, Fact, Facts, Grid, Picture, TextList
 from geneva_cli.output.document.html import inline
 from geneva_cli.output.document.paper import SOFT, lines, wide
 from geneva_cli.output.document.values import value_text

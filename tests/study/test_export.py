@@ -11,7 +11,7 @@ import repo
 import trimesh
 from typer.testing import CliRunner
 
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 from geneva_cli.design import load
 from geneva_cli.study import export
 from geneva_cli.study.export import TRADES, export_files, trade_of

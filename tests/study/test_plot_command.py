@@ -10,7 +10,7 @@ import repo
 from repo import GENEVA
 from typer.testing import CliRunner
 
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 from geneva_cli.errors import GenevaError
 from geneva_cli.figure import JOINED, LINE, POINTS
 from geneva_cli.study.figures import CURVES_MAX, of_table

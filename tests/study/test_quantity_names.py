@@ -10,12 +10,12 @@ import repo
 from typer.testing import CliRunner
 
 from geneva_cli import GenevaError, load
-from geneva_cli.analysis.quantities import REPORTED_PEAKS
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
+from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS
 from geneva_cli.study.batches import numbers
 from geneva_cli.study.fields import pick
 from geneva_cli.study.survey import NAMES as TABLE
-from geneva_cli.synthesis.rows import Candidate
+from geneva_cli.study.synth.rows import Candidate
 from geneva_cli.table import Table
 from geneva_cli.verdict.quantities.groups import GROUPS
 from geneva_cli.verdict.quantities.names import WORDS, group_of, whole_name
@@ -86,7 +86,7 @@ def test_sizes_and_walls_need_no_turn(name, monkeypatch):
     machine = load(str(repo.DESIGNS / "press-curved.toml")).mechanism
     beside = pick([name, "parts.smallest_gap_mm", "checks.gap_mm"]).of(machine)
     assert None not in beside
-    monkeypatch.setattr("geneva_cli.collisions.full_turn.full_turn", None)
+    monkeypatch.setattr("geneva_cli.parts.turn.full_turn.full_turn", None)
     assert pick([name]).of(machine) == beside[:1]
 
 

@@ -11,9 +11,9 @@ from sampling import some
 from typer.testing import CliRunner
 
 from geneva_cli.answer import FAILS, PASSES, WARNS, Summary, SummaryLine
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 from geneva_cli.design import Design, load
-from geneva_cli.loads.indexer_formula import RATED_kW, RecommendedMotor
+from geneva_cli.extras.servo.indexer_formula import RATED_kW, RecommendedMotor
 from geneva_cli.output import terminal
 from geneva_cli.output.summary import chunks
 from geneva_cli.output.window import Window

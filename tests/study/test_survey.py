@@ -6,10 +6,10 @@ import pytest
 from sampling import some
 from witness import Geneva, near, to_degrees
 
-from geneva_cli.analysis.peaks import ends, peak
-from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.wheels import classic
+from geneva_cli.motion.peaks import ends, peak
+from geneva_cli.motion.timing import timings
+from geneva_cli.motion.wheels import classic
 from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.study.survey import NAMES, parse_z, survey
 

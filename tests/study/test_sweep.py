@@ -20,7 +20,7 @@ from repo import heed_signals
 from typer.testing import CliRunner
 
 from geneva_cli import GenevaError, load
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 from geneva_cli.output.growing import GrowingFile
 from geneva_cli.specfile.reader import read
 from geneva_cli.study.pool import mapped

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 from geneva_cli.specfile.reader import read
 from geneva_cli.study.batches import batch_machines, known_columns
 from geneva_cli.study.sweep.plan import plan

@@ -14,24 +14,24 @@ from typer.testing import CliRunner
 from words import LAWS, Drive, Motion, Spec, Wheel, load
 from words import Keys as _keys
 
-from geneva_cli.analysis.peaks import peak, worst
-from geneva_cli.analysis.timing import timings
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
+from geneva_cli.drives.side_crank import SideCrank
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives.side_crank import SideCrank
-from geneva_cli.machine.mechanism import build
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.peaks import peak, worst
+from geneva_cli.motion.timing import timings
 from geneva_cli.output.terminal import chunks
 from geneva_cli.output.window import Window
-from geneva_cli.synthesis import table as rows_shown
-from geneva_cli.synthesis.built import Built
-from geneva_cli.synthesis.families import closed
-from geneva_cli.synthesis.parts_data import parts_data
-from geneva_cli.synthesis.reading import read_target
-from geneva_cli.synthesis.rows import NEAR_DEG, MachineRow, _groove_failure
-from geneva_cli.synthesis.search import search
-from geneva_cli.synthesis.shown import for_people, for_terminal
-from geneva_cli.synthesis.table import NAMES, synthesis_table, turned
-from geneva_cli.synthesis.written import chosen, commented
+from geneva_cli.study.synth import table as rows_shown
+from geneva_cli.study.synth.built import Built
+from geneva_cli.study.synth.families import closed
+from geneva_cli.study.synth.parts_data import parts_data
+from geneva_cli.study.synth.reading import read_target
+from geneva_cli.study.synth.rows import NEAR_DEG, MachineRow, _groove_failure
+from geneva_cli.study.synth.search import search
+from geneva_cli.study.synth.shown import for_people, for_terminal
+from geneva_cli.study.synth.table import NAMES, synthesis_table, turned
+from geneva_cli.study.synth.written import chosen, commented
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.motion import GROOVE_MAX_DEG, groove_pressure
 

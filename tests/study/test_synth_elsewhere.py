@@ -7,17 +7,17 @@ import pytest
 from sampling import some
 from typer.testing import CliRunner
 
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 from geneva_cli.design import load
-from geneva_cli.kinematics.laws.standard import ModifiedSine
-from geneva_cli.kinematics.motion import Motion
-from geneva_cli.machine.mechanism import build
-from geneva_cli.synthesis.built import built
-from geneva_cli.synthesis.families import every
-from geneva_cli.synthesis.parts import machine_and_parts
-from geneva_cli.synthesis.reading import read_target
-from geneva_cli.synthesis.search import search
-from geneva_cli.synthesis.table import turned
+from geneva_cli.motion.laws.standard import ModifiedSine
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.motion import Motion
+from geneva_cli.study.synth.built import built
+from geneva_cli.study.synth.families import every
+from geneva_cli.study.synth.parts import machine_and_parts
+from geneva_cli.study.synth.reading import read_target
+from geneva_cli.study.synth.search import search
+from geneva_cli.study.synth.table import turned
 from geneva_cli.verdict.checks import checks
 
 pytestmark = pytest.mark.usefixtures("few_four_bars")

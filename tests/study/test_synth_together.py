@@ -4,36 +4,36 @@ import math
 
 import pytest
 
-from geneva_cli.analysis.undercut import depths_mm, undercut
+from geneva_cli.drives.cam import Cam
+from geneva_cli.drives.crank import Crank
+from geneva_cli.drives.epicyclic import Epicyclic
+from geneva_cli.drives.side_crank import SideCrank
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.laws.standard import Cycloidal
-from geneva_cli.kinematics.motion import Motion
-from geneva_cli.kinematics.wheels.external import External
-from geneva_cli.kinematics.wheels.internal import Internal
-from geneva_cli.layout.assembly import assembly
-from geneva_cli.layout.groove import greatest_pressure
-from geneva_cli.layout.roller_paths import roller_paths
-from geneva_cli.machine.drives.cam import Cam
-from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.drives.epicyclic import Epicyclic
-from geneva_cli.machine.drives.side_crank import SideCrank
-from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.motion.laws.standard import Cycloidal
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.motion import Motion
+from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.undercut import depths_mm, undercut
+from geneva_cli.motion.wheels.external import External
+from geneva_cli.motion.wheels.internal import Internal
+from geneva_cli.parts.assembly import assembly
+from geneva_cli.parts.slots.groove import greatest_pressure
+from geneva_cli.parts.slots.roller_paths import roller_paths
 from geneva_cli.spec.tables import Load, Size
 from geneva_cli.study.batches import numbers
 from geneva_cli.study.fields import pick
-from geneva_cli.synthesis import search as searching
-from geneva_cli.synthesis.families.every import kinds
-from geneva_cli.synthesis.parts_data import (
+from geneva_cli.study.synth import search as searching
+from geneva_cli.study.synth.families.every import kinds
+from geneva_cli.study.synth.parts_data import (
     UNDERCUT_SAMPLES,
     _alike,
     _kept,
     compute_parts_data,
     parts_data,
 )
-from geneva_cli.synthesis.reading import read_target
-from geneva_cli.synthesis.search import search
-from geneva_cli.synthesis.table import synthesis_table
+from geneva_cli.study.synth.reading import read_target
+from geneva_cli.study.synth.search import search
+from geneva_cli.study.synth.table import synthesis_table
 
 LAW = Cycloidal()
 MATCHED = Motion(LAW, ratio="matched")

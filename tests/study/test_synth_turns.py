@@ -3,24 +3,24 @@
 import numpy as np
 import pytest
 
-from geneva_cli.collisions.glance import gap_about, play_about
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.kinematics.laws.standard import ModifiedSine
-from geneva_cli.kinematics.motion import Motion
-from geneva_cli.kinematics.wheels.external import External
-from geneva_cli.kinematics.wheels.internal import Internal
-from geneva_cli.machine.drives.cam import Cam
-from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.drives.gear_sector import GearSector
-from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.drives.cam import Cam
+from geneva_cli.drives.crank import Crank
+from geneva_cli.kinds.gear_sector.motion import GearSector
+from geneva_cli.motion.laws.standard import ModifiedSine
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.motion import Motion
+from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.wheels.external import External
+from geneva_cli.motion.wheels.internal import Internal
+from geneva_cli.parts.turn.glance import gap_about, play_about
 from geneva_cli.spec.tables import Size
-from geneva_cli.synthesis.built import built
-from geneva_cli.synthesis.parts import USUAL, exact, parts, with_roller
-from geneva_cli.synthesis.parts_data import distances_at_rest, parts_data
-from geneva_cli.synthesis.reading import read_target
-from geneva_cli.synthesis.search import search
-from geneva_cli.synthesis.turns import Turn
+from geneva_cli.study.synth.built import built
+from geneva_cli.study.synth.parts import USUAL, exact, parts, with_roller
+from geneva_cli.study.synth.parts_data import distances_at_rest, parts_data
+from geneva_cli.study.synth.reading import read_target
+from geneva_cli.study.synth.search import search
+from geneva_cli.study.synth.turns import Turn
 from geneva_cli.verdict.checks import Check, checks
 from geneva_cli.verdict.checks.play import finds_slot
 

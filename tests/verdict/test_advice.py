@@ -11,7 +11,7 @@ from words import load
 
 from geneva_cli import Design
 from geneva_cli.loads import loads
-from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.numerics.latest import counted
 from geneva_cli.spec.schema import fields
 from geneva_cli.specfile.writer import keys_of

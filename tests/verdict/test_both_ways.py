@@ -29,10 +29,10 @@ from geneva_cli import (
     Tuned,
     load,
 )
-from geneva_cli.analysis.impacts import entry_impacts
-from geneva_cli.machine.both_ways import backwards, every_way
-from geneva_cli.machine.many import many
-from geneva_cli.outlines.sizes import built
+from geneva_cli.loads.impacts.impacts import entry_impacts
+from geneva_cli.motion.both_ways import backwards, every_way
+from geneva_cli.motion.many import many
+from geneva_cli.parts.outlines.outline_sizes import built
 from geneva_cli.study.summary.loads import of_loads
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.checks import checks

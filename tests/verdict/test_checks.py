@@ -10,14 +10,14 @@ from typer.testing import CliRunner
 from words import Drive, Keys, Motion, Spec, Wheel, law, load
 
 from geneva_cli import Design, External
-from geneva_cli.app import app
-from geneva_cli.collisions.full_turn import Most
+from geneva_cli.cli.app import app
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine import spec as machine_spec
-from geneva_cli.machine.mechanism import build
+from geneva_cli.motion import spec as machine_spec
+from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.turn.full_turn import Most
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.verdict.checks import Check, checks
 from geneva_cli.verdict.checks.registry import standing_checks

@@ -11,7 +11,7 @@ from sampling import some
 from typer.testing import CliRunner
 from words import load
 
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 from geneva_cli.verdict import advice
 
 pytestmark = pytest.mark.usefixtures("made_once")

@@ -8,12 +8,12 @@ import pytest
 from impact_witness import contact_of, force_of, impacts_in
 
 from geneva_cli import Design, External, Limits, Load, Size, Spherical, Tolerance
-from geneva_cli.analysis import change_of_sides
-from geneva_cli.analysis.impacts import entry_impacts, reversal_impacts
-from geneva_cli.analysis.mouth import mouth_contacts
-from geneva_cli.analysis.pin import pin_diameter_mm
-from geneva_cli.machine.many import many
-from geneva_cli.outlines.sizes import built
+from geneva_cli.loads.impacts import change_of_sides
+from geneva_cli.loads.impacts.impacts import entry_impacts, reversal_impacts
+from geneva_cli.loads.impacts.mouth import mouth_contacts
+from geneva_cli.loads.strength.pin import pin_diameter_mm
+from geneva_cli.motion.many import many
+from geneva_cli.parts.outlines.outline_sizes import built
 from geneva_cli.verdict.checks import single_check
 from geneva_cli.verdict.quantities.designs import Designs
 from geneva_cli.verdict.quantities.disturbances import entry, reversal

@@ -16,8 +16,6 @@ from strength_checks import HORNS, PARTS, require_same_in_a_batch, rows
 
 from geneva_cli import Crank, Design, External, Internal, NoncircularGears, SideCrank
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.keyways import DIN_6885_1
-from geneva_cli.layout.stressed import lock_of, stressed
 from geneva_cli.loads.strength.arm import (
     ArmDimensions,
     arm_stress_MPa,
@@ -26,14 +24,16 @@ from geneva_cli.loads.strength.arm import (
 )
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.loads.strength.part_loads import part_loads
-from geneva_cli.machine.materials import wheel_material
-from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Spec
-from geneva_cli.outlines.crank import crank_contours
-from geneva_cli.outlines.cut_lock import cut_arcs, cut_lock
-from geneva_cli.outlines.outlines import SWEPT_DEG, drawn
-from geneva_cli.outlines.sizes import sized
-from geneva_cli.outlines.wheel import turned_walls, wheel_contour
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.spec import Spec
+from geneva_cli.parts.outlines.crank_outline import crank_contours
+from geneva_cli.parts.outlines.cut_lock import cut_arcs, cut_lock
+from geneva_cli.parts.outlines.outline_sizes import sized
+from geneva_cli.parts.outlines.outlines import SWEPT_DEG, drawn
+from geneva_cli.parts.outlines.wheel_outline import turned_walls, wheel_contour
+from geneva_cli.parts.shafts.keyways import DIN_6885_1
+from geneva_cli.parts.sizes.stressed import lock_of, stressed
+from geneva_cli.spec.materials import wheel_material
 from geneva_cli.spec.tables import Load, Shaft, Size, WheelMaterial
 from geneva_cli.verdict.quantities.designs import Designs
 from geneva_cli.verdict.quantities.strength import arm, crank_key, crank_shaft, pin, wheel_shaft

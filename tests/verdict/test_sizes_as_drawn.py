@@ -7,10 +7,10 @@ import repo
 from drawing_witness import vertices
 from words import load
 
-from geneva_cli.curves.shapes import Circle
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.layout.projection import outlines_of
-from geneva_cli.outlines.wheel import wheel_circles
+from geneva_cli.geometry.shapes import Circle
+from geneva_cli.parts.outlines.wheel_outline import wheel_circles
+from geneva_cli.parts.projection import outlines_of
 from geneva_cli.verdict.report.parts import cut_sizes
 from geneva_cli.verdict.report.sizes import sizes
 

@@ -8,8 +8,8 @@ from machine_witness import Front
 from witness import to_degrees, to_radians
 from words import Motion, Spec, Wheel
 
-from geneva_cli.kinematics import registry
-from geneva_cli.machine.mechanism import build
+from geneva_cli.motion import registry
+from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.spec.tables import Limits, Size
 from geneva_cli.verdict.checks import checks

@@ -13,12 +13,12 @@ from typer.testing import CliRunner
 from words import Drive, Motion, Spec, Wheel, load
 
 from geneva_cli import Cam, Carousel, Design, Epicyclic, External, Internal, SideCrank, design
-from geneva_cli.app import app
+from geneva_cli.cli.app import app
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle import cycle_of
-from geneva_cli.machine.many import many
-from geneva_cli.machine.mechanism import build
-from geneva_cli.outlines.sizes import sized
+from geneva_cli.motion.many import many
+from geneva_cli.motion.mechanism import build
+from geneva_cli.parts.outlines.outline_sizes import sized
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, Size, WheelMaterial
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.checks import checks

@@ -19,16 +19,16 @@ from geneva_cli import (
     Spherical,
     Tolerance,
 )
-from geneva_cli.analysis.locking import Lock
-from geneva_cli.analysis.tolerance import random_machines
-from geneva_cli.analysis.tolerance.dimensions import Deviations, deviations, slope_of
-from geneva_cli.analysis.tolerance.entry_jump import entry_jumps
-from geneva_cli.analysis.tolerance.motion_error import motion_errors
 from geneva_cli.design import load
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.laws.standard import Cycloidal
-from geneva_cli.kinematics.motion import Motion
+from geneva_cli.loads.tolerance import random_machines
+from geneva_cli.loads.tolerance.dimensions import Deviations, deviations, slope_of
+from geneva_cli.loads.tolerance.entry_jump import entry_jumps
+from geneva_cli.loads.tolerance.locking import Lock
+from geneva_cli.loads.tolerance.motion_error import motion_errors
+from geneva_cli.motion.laws.standard import Cycloidal
+from geneva_cli.motion.motion import Motion
 from geneva_cli.verdict.tolerance.study import flat_locks, sphere_locks
 from tests.repo import ROOT
 
@@ -382,7 +382,7 @@ def test_mean_jump_of_large_errors():
     ],
 )
 def test_the_table_of_jumps_against_each_exact_one(design):
-    from geneva_cli.analysis.shock import first_contacts
+    from geneva_cli.loads.impacts.shock import first_contacts
 
     one = entry_jumps(design.mechanism)[0]
     arm = design.spec.drive.ONE_ARM

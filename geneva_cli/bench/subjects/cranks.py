@@ -14,7 +14,7 @@ from geneva_cli.bench.method import Method, Subject, missing
 from geneva_cli.bench.numeric import NUMERIC, vertex
 from geneva_cli.bench.scalar_loop import by_numba, looped
 from geneva_cli.bench.truth import acceleration_peak, relative
-from geneva_cli.kinematics.wheels.side_crank_arrays import acceleration_peaks, wheels
+from geneva_cli.motion.wheels.side_crank_arrays import acceleration_peaks, wheels
 from geneva_cli.numerics.angles import one_minus_sin_pi
 
 CHECKED = 200  # designs whose error is measured

@@ -11,11 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from geneva_cli.analysis.motion import motion_table
 from geneva_cli.bench.method import Method, Subject, Task
-from geneva_cli.kinematics.wheels.external import External
-from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.motion_table import motion_table
+from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.wheels.external import External
 from geneva_cli.output import delimited
 from geneva_cli.table import Table
 

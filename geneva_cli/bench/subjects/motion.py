@@ -15,10 +15,10 @@ from geneva_cli.bench.method import Method, Subject, Task, missing
 from geneva_cli.bench.scalar_loop import by_numba, motion_loop
 from geneva_cli.bench.truth import digits
 from geneva_cli.bench.truth import motion as exact_motion
-from geneva_cli.kinematics.engagement import WheelMotion
-from geneva_cli.kinematics.wheels.external import External
-from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.motion.engagement import WheelMotion
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import Array
 

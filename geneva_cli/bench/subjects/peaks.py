@@ -5,17 +5,17 @@ from __future__ import annotations
 import math
 from functools import partial
 
-from geneva_cli.analysis.peaks import peak as program
 from geneva_cli.bench.formulas import Proportions, acceleration
 from geneva_cli.bench.method import Method, Subject, Task, missing
 from geneva_cli.bench.numeric import NUMERIC, by_chebpy, closed
 from geneva_cli.bench.truth import acceleration_peak, relative
-from geneva_cli.kinematics import registry
-from geneva_cli.kinematics.wheels import classic
-from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.drives.side_crank import SideCrank
-from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.drives.crank import Crank
+from geneva_cli.drives.side_crank import SideCrank
+from geneva_cli.motion import registry
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.peaks import peak as program
+from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.wheels import classic
 
 CHEBPY = "chebfun"  # the package name of chebpy in pip, as another package has that name
 

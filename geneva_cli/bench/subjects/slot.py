@@ -9,14 +9,14 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.bench.method import Method, Subject, Task
-from geneva_cli.kinematics.laws.standard import Cycloidal
-from geneva_cli.kinematics.motion import Motion
-from geneva_cli.kinematics.wheels.external import External
-from geneva_cli.layout.slot_profile import slot
-from geneva_cli.layout.slot_sampling import chord_errors, nodes
-from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.motion.laws.standard import Cycloidal
+from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.motion.motion import Motion
+from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.jet import Array
+from geneva_cli.parts.slots.slot_profile import slot
+from geneva_cli.parts.slots.slot_sampling import chord_errors, nodes
 from geneva_cli.spec.tables import Size
 
 

@@ -95,8 +95,8 @@ def _table() -> Task:
     words = ("table", "--z", "6")
     eager = (
         "import importlib, numpy, scipy.optimize, scipy.interpolate, rich.table\n"
-        "from geneva_cli.app import COMMANDS\n"
-        "for name in COMMANDS: importlib.import_module('geneva_cli.commands.' + name)\n"
+        "from geneva_cli.cli.app import COMMANDS\n"
+        "for name in COMMANDS: importlib.import_module('geneva_cli.cli.commands.' + name)\n"
     )
     complete = (
         "import os; os.environ.update(_GENEVA_COMPLETE='complete_bash', "

@@ -12,16 +12,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.locking import Lock
-from geneva_cli.analysis.tolerance.draws import Draws
-from geneva_cli.analysis.tolerance.entry_jump import entry_jumps
-from geneva_cli.analysis.tolerance.motion_error import motion_errors
-from geneva_cli.analysis.tolerance.random_machines import random_machines
 from geneva_cli.bench.kinds import task_of_many
 from geneva_cli.bench.method import Method, Subject
-from geneva_cli.kinematics.wheels.external import External
-from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.loads.tolerance.draws import Draws
+from geneva_cli.loads.tolerance.entry_jump import entry_jumps
+from geneva_cli.loads.tolerance.locking import Lock
+from geneva_cli.loads.tolerance.motion_error import motion_errors
+from geneva_cli.loads.tolerance.random_machines import random_machines
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.jet import Array
 from geneva_cli.spec.tables import Size
 

@@ -10,15 +10,15 @@ from functools import partial
 import numpy as np
 
 from geneva_cli.bench.method import Method, Subject, Task
-from geneva_cli.collisions.certificate import certificate, tolerance_mm
-from geneva_cli.collisions.full_turn import full_turn
-from geneva_cli.kinematics.laws.standard import ModifiedSine
-from geneva_cli.kinematics.motion import Motion
-from geneva_cli.kinematics.wheels.external import External
-from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.spec import Spec
-from geneva_cli.outlines.sizes import outlines
+from geneva_cli.drives.crank import Crank
+from geneva_cli.motion.laws.standard import ModifiedSine
+from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.motion.motion import Motion
+from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.wheels.external import External
+from geneva_cli.parts.outlines.outline_sizes import outlines
+from geneva_cli.parts.turn.full_turn import full_turn
+from geneva_cli.parts.turn.turn_certificate import certificate, tolerance_mm
 from geneva_cli.spec.tables import Size
 
 

@@ -13,12 +13,12 @@ from typing import Any
 
 import numpy as np
 
-from geneva_cli.analysis.vibration.oscillator import Oscillator
-from geneva_cli.analysis.vibration.shape import law_shape
-from geneva_cli.analysis.vibration.swing import residual_swing
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.bench.truth import digits
-from geneva_cli.kinematics import registry
+from geneva_cli.loads.vibration.oscillator import Oscillator
+from geneva_cli.loads.vibration.shape import law_shape
+from geneva_cli.loads.vibration.swing import residual_swing
+from geneva_cli.motion import registry
 from geneva_cli.numerics.jet import Array
 
 CHECKED = 200  # ratios whose error is measured

@@ -6,15 +6,15 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from geneva_cli.curves.measure import at
-from geneva_cli.curves.plates import Plate
-from geneva_cli.curves.shapes import Circle, Contour, Shape
-from geneva_cli.curves.sheet import CENTRE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.view import View, times
-from geneva_cli.layout.bores import bore_of, radius_of
-from geneva_cli.layout.written import length, number
-from geneva_cli.outlines.wheel_hub import about_axis
+from geneva_cli.geometry.measure import at
+from geneva_cli.geometry.plates import Plate
+from geneva_cli.geometry.shapes import Circle, Contour, Shape
+from geneva_cli.geometry.sheet import CENTRE
+from geneva_cli.parts.outlines.wheel_hub import about_axis
+from geneva_cli.parts.shafts.bores import bore_of, radius_of
+from geneva_cli.parts.written import length, number
 from geneva_cli.spec.tables import Size
 
 

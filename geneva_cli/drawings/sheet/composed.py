@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from geneva_cli.curves.sheet import Sheet
 from geneva_cli.drawings.sheet.pack import Box, is_overfull, packed
 from geneva_cli.drawings.sheet.paper import (
     FORMATS,
@@ -26,9 +25,10 @@ from geneva_cli.drawings.sheet.paper import (
 from geneva_cli.drawings.sheet.sized import edge_note
 from geneva_cli.drawings.sheet.view import Block
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.written import is_metric, length, number
-from geneva_cli.machine.materials import roller_material, wheel_material
-from geneva_cli.machine.spec import Spec
+from geneva_cli.geometry.sheet import Sheet
+from geneva_cli.motion.spec import Spec
+from geneva_cli.parts.written import is_metric, length, number
+from geneva_cli.spec.materials import roller_material, wheel_material
 from geneva_cli.spec.tables import Material, TitleBlock
 from geneva_cli.spec.workshops import Stock, workshop
 

@@ -9,23 +9,17 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cache, partial
 from typing import Any, NamedTuple
 
-from geneva_cli.curves.measure import bounds, bounds_of
-from geneva_cli.curves.plates import Member, Plate, Stack, plates, steps_of
-from geneva_cli.curves.shapes import Shape
-from geneva_cli.curves.sheet import Sheet
 from geneva_cli.drawings.parts_list import part_rows
 from geneva_cli.drawings.sheet.composed import on_paper
-from geneva_cli.drawings.sheet.cut import (
-    Face,
-    balloons,
-    balloons_in_section,
-    draw_section,
-    faces,
-)
+from geneva_cli.drawings.sheet.cut import Face, balloons, balloons_in_section, draw_section, faces
 from geneva_cli.drawings.sheet.paper import scale_name, smaller
 from geneva_cli.drawings.sheet.view import Block, View
-from geneva_cli.layout.alike import alike
-from geneva_cli.machine.spec import Spec
+from geneva_cli.geometry.measure import bounds, bounds_of
+from geneva_cli.geometry.plates import Member, Plate, Stack, plates, steps_of
+from geneva_cli.geometry.shapes import Shape
+from geneva_cli.geometry.sheet import Sheet
+from geneva_cli.motion.spec import Spec
+from geneva_cli.parts.alike import alike
 
 
 class SheetContent(NamedTuple):

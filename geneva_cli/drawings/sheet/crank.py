@@ -4,23 +4,23 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.curves.measure import at, legs
-from geneva_cli.curves.plates import plates
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Shape
-from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, bored, circle_of, holes_of
 from geneva_cli.drawings.sheet.standing import draw_hub
 from geneva_cli.drawings.sheet.view import View, grouped, times
-from geneva_cli.layout.held_hubs import hub_note
-from geneva_cli.layout.reliefs import is_whole
-from geneva_cli.layout.written import degrees, length
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.geometry.measure import at, legs
+from geneva_cli.geometry.plates import plates
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Shape
+from geneva_cli.geometry.sheet import CENTRE, HIDDEN, OUTLINE
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
-from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.outlines.sizes import drawn_pin_radius
 from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.outlines.outline_sizes import drawn_pin_radius
+from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.outlines.reliefs import is_whole
+from geneva_cli.parts.shafts.held_hubs import hub_note
+from geneva_cli.parts.written import degrees, length
 
 
 def draw_disc(view: View, parts: FlatParts) -> None:

@@ -10,14 +10,14 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
-from geneva_cli.curves.board import chords
-from geneva_cli.curves.measure import at, mapped
-from geneva_cli.curves.placed import in_place
-from geneva_cli.curves.plates import Member, Plate
-from geneva_cli.curves.shapes import Circle, Point, Shape, two_arcs
-from geneva_cli.curves.sheet import HATCH, OUTLINE, line, rectangle
 from geneva_cli.drawings.sheet.view import View
-from geneva_cli.layout.written import length
+from geneva_cli.geometry.board import chords
+from geneva_cli.geometry.measure import at, mapped
+from geneva_cli.geometry.placed import in_place
+from geneva_cli.geometry.plates import Member, Plate
+from geneva_cli.geometry.shapes import Circle, Point, Shape, two_arcs
+from geneva_cli.geometry.sheet import HATCH, OUTLINE, line, rectangle
+from geneva_cli.parts.written import length
 
 
 class Face(NamedTuple):

@@ -5,17 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from geneva_cli.curves.measure import legs
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Shape
-from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, circle_of
 from geneva_cli.drawings.sheet.view import View, times
-from geneva_cli.layout.gear_mesh import ToothedGear
-from geneva_cli.layout.written import is_metric, length, number
+from geneva_cli.geometry.measure import legs
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Point, Shape
+from geneva_cli.geometry.sheet import CENTRE, OUTLINE
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
-from geneva_cli.parts.gear_blanks import Gear
-from geneva_cli.parts.pair_teeth import PairTeeth
+from geneva_cli.parts.gears.gear_blanks import Gear
+from geneva_cli.parts.gears.gear_mesh import ToothedGear
+from geneva_cli.parts.gears.pair_teeth import PairTeeth
+from geneva_cli.parts.written import is_metric, length, number
 
 
 def draw_gear(view: View, gear: Gear) -> None:

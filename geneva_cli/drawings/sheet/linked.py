@@ -5,19 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
-from geneva_cli.curves.plates import Group, Member, Plate, Shell
 from geneva_cli.drawings.sheet.crank import draw_roller
 from geneva_cli.drawings.sheet.links import draw_link
 from geneva_cli.drawings.sheet.standing import draw_shaft
 from geneva_cli.drawings.sheet.view import View
-from geneva_cli.layout.fits import Fits
-from geneva_cli.layout.projection import outlines_of
-from geneva_cli.layout.written import length
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.geometry.plates import Group, Member, Plate, Shell
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.projection import outlines_of
+from geneva_cli.parts.shafts.fits import Fits
+from geneva_cli.parts.written import length
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.rack_parts import RackParts
+    from geneva_cli.kinds.linear.parts import RackParts
 
 Begin: TypeAlias = Callable[..., View]
 
@@ -61,7 +61,7 @@ def geared(begin: Begin, parts: FlatParts | RackParts) -> Iterator[View]:
     """Yield the view of noncircular gears in mesh, if there are any."""
     if parts.gear_pair:
         from geneva_cli.drawings.sheet.gears import draw_gears
-        from geneva_cli.parts.pair_teeth import pair_teeth
+        from geneva_cli.parts.gears.pair_teeth import pair_teeth
 
         view = begin(*(member.part.name for member in parts.gear_pair))
         driven, driver = parts.gear_pair

@@ -5,19 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from geneva_cli.curves.measure import at
-from geneva_cli.curves.plates import Member, Plate
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Point
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.view import Block, View, grouped
-from geneva_cli.layout.fits import Fits
-from geneva_cli.layout.link_positions import same
-from geneva_cli.layout.written import degrees, length
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.geometry.measure import at
+from geneva_cli.geometry.plates import Member, Plate
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Point
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
-from geneva_cli.parts.link_sizes import roller_pins
-from geneva_cli.parts.links import Links, placed_holes
+from geneva_cli.parts.links.link_positions import same
+from geneva_cli.parts.links.link_sizes import roller_pins
+from geneva_cli.parts.links.links import Links, placed_holes
+from geneva_cli.parts.shafts.fits import Fits
+from geneva_cli.parts.written import degrees, length
 
 UP = 0.5 * math.pi
 

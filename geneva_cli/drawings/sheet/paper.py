@@ -6,9 +6,10 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from geneva_cli.curves.helvetica import width
-from geneva_cli.curves.shapes import Circle, Point, Shape
-from geneva_cli.curves.sheet import (
+from geneva_cli.drawings.sheet.view import Block
+from geneva_cli.geometry.helvetica import width
+from geneva_cli.geometry.shapes import Circle, Point, Shape
+from geneva_cli.geometry.sheet import (
     FRAME,
     LARGE,
     OUTLINE,
@@ -19,7 +20,6 @@ from geneva_cli.curves.sheet import (
     polar,
     rectangle,
 )
-from geneva_cli.drawings.sheet.view import Block
 
 LEFT, MARGIN = 20.0, 10.0  # mm: margin of the frame on the filing side, and on the others
 TITLE_WIDTH = 180.0  # mm: width of the title block

@@ -10,13 +10,13 @@ import numpy as np
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.view import Block, times
-from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.layout.fits import Fits
-from geneva_cli.layout.written import coordinate, is_metric, length, number
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.shafts.fits import Fits
+from geneva_cli.parts.written import coordinate, is_metric, length, number
 
 COARSE = 1e-4  # finest tolerance of a table, as a fraction of the centre distance
 MIRRORED = "; the other half is its mirror image in the x axis"
@@ -46,7 +46,7 @@ def tables(parts: Outlines, tolerance: float) -> list[Block]:
         blocks.append(point_table(what + more, points, close))
     guide = assembly.rollers[0][0].groove
     if guide is not None:
-        from geneva_cli.layout.groove import groove_curve
+        from geneva_cli.parts.slots.groove import groove_curve
 
         guided = groove_curve(guide, assembly.L, 0.0)
         symmetric = guide.motion.symmetric
@@ -62,7 +62,7 @@ def gear_tables(mechanism: Mechanism, tolerance: float) -> list[Block]:
     pair, L = mechanism.spec.gears, mechanism.center_distance_mm
     if pair is None:
         return []
-    from geneva_cli.parts.gear_pair import driven_curve, driver_curve
+    from geneva_cli.parts.gears.gear_pair import driven_curve, driver_curve
 
     close, blocks = max(tolerance, COARSE * L), []
     for name, of in (("driven gear", driven_curve), ("driver gear", driver_curve)):

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
-from geneva_cli.curves.sheet import Sheet
 from geneva_cli.drawings.machine_drawing import machine
 from geneva_cli.drawings.sheet import links, points
 from geneva_cli.drawings.sheet.content import (
@@ -32,10 +31,11 @@ from geneva_cli.drawings.sheet.paper import scale_name, table
 from geneva_cli.drawings.sheet.standing import draw_frame, draw_groove
 from geneva_cli.drawings.sheet.view import Block, View
 from geneva_cli.drawings.sheet.wheel import draw_wheel
-from geneva_cli.kinematics.layout import Dimension, Pivot
-from geneva_cli.layout.written import length, quantity
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.geometry.sheet import Sheet
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.pivots import Dimension, Pivot
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.written import length, quantity
 
 
 def sheet(parts: FlatParts) -> Sheet:

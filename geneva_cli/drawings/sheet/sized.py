@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from geneva_cli.layout.fits import Fits
-from geneva_cli.layout.written import deviation, length
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.parts.shafts.fits import Fits
+from geneva_cli.parts.written import deviation, length
 from geneva_cli.spec.tables import Size
 
 

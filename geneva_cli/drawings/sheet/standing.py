@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.plates import Plate, Stack
-from geneva_cli.curves.shapes import ORIGIN, Arc, Circle, Contour, Point, Shape, polygon
-from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, circle_of
 from geneva_cli.drawings.sheet.view import View, grouped, times
-from geneva_cli.layout.bores import around, radius_of, section_note
-from geneva_cli.layout.written import length
+from geneva_cli.geometry.measure import bounds
+from geneva_cli.geometry.plates import Plate, Stack
+from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, Shape, polygon
+from geneva_cli.geometry.sheet import CENTRE, OUTLINE
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
+from geneva_cli.parts.shafts.bores import around, radius_of, section_note
+from geneva_cli.parts.written import length
 
 
 def draw_frame(

@@ -9,16 +9,16 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from geneva_cli.curves import marks
-from geneva_cli.curves.board import Board, chords
-from geneva_cli.curves.measure import legs, mapped
-from geneva_cli.curves.plates import Plate
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Layer, Point, Segment, Shape
-from geneva_cli.curves.sheet import CENTRE, LARGE, OUTLINE, SMALL, Label, Measure, line, polar
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.layout.fits import Fits
+from geneva_cli.geometry import marks
+from geneva_cli.geometry.board import Board, chords
+from geneva_cli.geometry.measure import legs, mapped
+from geneva_cli.geometry.plates import Plate
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Layer, Point, Segment, Shape
+from geneva_cli.geometry.sheet import CENTRE, LARGE, OUTLINE, SMALL, Label, Measure, line, polar
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
+from geneva_cli.parts.shafts.fits import Fits
 
 FIRST, NEXT = 8.0, 7.0  # mm: from the outline to the first dimension line, and between lines
 RANKS = 14  # rows of dimension lines that are tried

@@ -5,22 +5,22 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from geneva_cli.curves.measure import turned
-from geneva_cli.curves.plates import plates
-from geneva_cli.curves.shapes import Arc, Contour, Point
-from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.drawings.part_drawings import pitch_lines
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, bored, circle_of, holes_of
 from geneva_cli.drawings.sheet.standing import draw_hub
 from geneva_cli.drawings.sheet.view import View, grouped, times
-from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.layout.held_hubs import hub_note
-from geneva_cli.layout.projection import outlines_of
-from geneva_cli.layout.written import degrees, length
+from geneva_cli.geometry.measure import turned
+from geneva_cli.geometry.plates import plates
+from geneva_cli.geometry.shapes import Arc, Contour, Point
+from geneva_cli.geometry.sheet import CENTRE, HIDDEN, OUTLINE
+from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
-from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.projection import outlines_of
+from geneva_cli.parts.shafts.held_hubs import hub_note
+from geneva_cli.parts.written import degrees, length
 
 
 def draw_wheel(view: View, parts: FlatParts) -> None:

@@ -26,8 +26,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.contact import NEAR_CUSP
-from geneva_cli.kinematics.pitch_curve import pitch
+from geneva_cli.loads.contact import NEAR_CUSP
 from geneva_cli.loads.strength.horn_search import (
     HornStress,
     SlotEnd,
@@ -36,8 +35,9 @@ from geneva_cli.loads.strength.horn_search import (
     slot_ends,
     squeezed,
 )
-from geneva_cli.machine.many import taken
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.many import taken
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.pitch_curve import pitch
 from geneva_cli.numerics.arrays import Number, blocks, joined, parameter
 from geneva_cli.numerics.jet import Array
 

@@ -12,12 +12,12 @@ from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from geneva_cli.analysis.contact import NEAR_CUSP, contact, contact_values
-from geneva_cli.analysis.forces import load_case
-from geneva_cli.analysis.instant import bounded_loads
-from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.machine.many import taken
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.loads.contact import NEAR_CUSP, contact, contact_values
+from geneva_cli.loads.forces import load_case
+from geneva_cli.loads.instant import bounded_loads
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.many import taken
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Number, Whole, array, parameter
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import TIE

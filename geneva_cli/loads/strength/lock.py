@@ -31,13 +31,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.forces import contact_modulus_GPa, hertz_MPa
-from geneva_cli.analysis.locking import Lock
-from geneva_cli.machine.many import taken
-from geneva_cli.machine.materials import wheel_material
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.loads.forces import contact_modulus_GPa, hertz_MPa
+from geneva_cli.loads.tolerance.locking import Lock
+from geneva_cli.motion.many import taken
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import all_true, blocks, choose_record, parameter
 from geneva_cli.numerics.jet import Array, Number
+from geneva_cli.spec.materials import wheel_material
 
 
 class LockUnderTorque(NamedTuple):
@@ -76,7 +76,7 @@ def held_torque_Nm(mechanism: Mechanism) -> float:
     held = load.torque_Nm if load.dwell_torque_Nm is None else load.dwell_torque_Nm
     if not mechanism.unbalanced:
         return held
-    from geneva_cli.analysis.unbalance import held_unbalance_Nm
+    from geneva_cli.kinds.carousel.unbalance import held_unbalance_Nm
 
     return held + parameter(held_unbalance_Nm(mechanism))
 

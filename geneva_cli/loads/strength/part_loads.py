@@ -7,13 +7,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.load_functions import LoadQuantity
-from geneva_cli.analysis.quantities import FORCE
+from geneva_cli.loads.cycle_quantities import FORCE
+from geneva_cli.loads.load_functions import LoadQuantity
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.shafts import OnShaft, Torque, crank_forces, on_carrier, wheel_forces
 from geneva_cli.loads.summaries import load_peaks
-from geneva_cli.machine.both_ways import every_way
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.both_ways import every_way
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import larger, parameter
 from geneva_cli.numerics.latest import Known
 

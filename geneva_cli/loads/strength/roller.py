@@ -19,22 +19,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.contact import Contact, contact, is_straight
-from geneva_cli.analysis.forces import LoadCase, load_case
-from geneva_cli.analysis.instant import Instant
-from geneva_cli.analysis.load_functions import (
-    LoadBatch,
-    LoadFunctions,
-    SignFunctions,
-    load_batch,
-)
-from geneva_cli.analysis.quantities import FORCE
-from geneva_cli.analysis.stretches import refuse_noise, spans_of, to_mid_motion
-from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.loads.contact import Contact, contact, is_straight
+from geneva_cli.loads.cycle_quantities import FORCE
+from geneva_cli.loads.forces import LoadCase, load_case
 from geneva_cli.loads.groups import of_groups
+from geneva_cli.loads.instant import Instant
+from geneva_cli.loads.load_functions import LoadBatch, LoadFunctions, SignFunctions, load_batch
 from geneva_cli.loads.strength.wear import Rubbing, greatest_rubbing_N
-from geneva_cli.machine.many import taken
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.loads.stretches import refuse_noise, spans_of, to_mid_motion
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.many import taken
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Whole, array, parameter
 from geneva_cli.numerics.jet import Array, Jet, Number
@@ -72,8 +67,8 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
     """Integrals over one motion; only before mid-motion for a ``half`` of -1, only after it for 1.
 
     >>> from geneva_cli import External, Load, Size
-    >>> from geneva_cli.machine.mechanism import build
-    >>> from geneva_cli.machine.spec import Spec
+    >>> from geneva_cli.motion.mechanism import build
+    >>> from geneva_cli.motion.spec import Spec
     >>> m = build(Spec(External(6), size=Size(200.0, 8.0), load=Load(torque_Nm=15.0)))
     >>> round(passage(m.engagements[0], load_case(m)).travel_m, 12)  # 2 L (cos b - (1 - l))
     0.146410161514

@@ -34,14 +34,14 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from geneva_cli.analysis.carried import MM, carried_kg
-from geneva_cli.analysis.forces import QuantityValue
-from geneva_cli.analysis.instant import Instant
-from geneva_cli.analysis.load_functions import LoadQuantity
-from geneva_cli.analysis.peak_search import PeakArray, greater
+from geneva_cli.loads.carried import MM, carried_kg
+from geneva_cli.loads.forces import QuantityValue
+from geneva_cli.loads.instant import Instant
+from geneva_cli.loads.load_functions import LoadQuantity
 from geneva_cli.loads.summaries import load_peaks
-from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.machine.spec import Spec
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.peak_search import PeakArray, greater
+from geneva_cli.motion.spec import Spec
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import N, library, parameter
 from geneva_cli.numerics.jet import Array, Jet, Number, sqrt

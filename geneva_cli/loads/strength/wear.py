@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, Mask, Number, Whole
 
 

@@ -8,7 +8,9 @@ from collections.abc import Iterable, Iterator
 from html import escape
 
 from geneva_cli import output
-from geneva_cli.document import (
+from geneva_cli.errors import clean
+from geneva_cli.output import plot_svg, svg
+from geneva_cli.output.document.blocks import (
     BAD,
     Block,
     Curves,
@@ -21,8 +23,6 @@ from geneva_cli.document import (
     Row,
     TextList,
 )
-from geneva_cli.errors import clean
-from geneva_cli.output import plot_svg, svg
 from geneva_cli.output.document.values import SHORT, is_number, is_short, value_text
 from geneva_cli.output.summary import SIGNS
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from geneva_cli import output
-from geneva_cli.document import (
+from geneva_cli.output.document.blocks import (
     Block,
     Curves,
     Document,

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from geneva_cli.answer import FAILS, PASSES, WARNS
-from geneva_cli.document import (
+from geneva_cli.errors import clean
+from geneva_cli.output import pdf_file, plot_pdf
+from geneva_cli.output.document.blocks import (
     Block,
     Curves,
     Document,
@@ -16,8 +18,6 @@ from geneva_cli.document import (
     Prose,
     TextList,
 )
-from geneva_cli.errors import clean
-from geneva_cli.output import pdf_file, plot_pdf
 from geneva_cli.output.document.paper import (
     AMBER,
     BODY,

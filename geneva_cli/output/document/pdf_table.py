@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from geneva_cli.document import BAD, Facts, Grid
+from geneva_cli.output.document.blocks import BAD, Facts, Grid
 from geneva_cli.output.document.paper import (
     BAND,
     INK,

@@ -10,7 +10,7 @@ from geneva_cli.errors import GenevaError, clean
 from geneva_cli.table import NO_BOUND, in_digits
 
 if TYPE_CHECKING:
-    from geneva_cli.document import Row, Value
+    from geneva_cli.output.document.blocks import Row, Value
 
 SHORT = 12  # letters that are not broken into lines
 NO_BREAK = "\u00a0"  # a space at which no line is broken

@@ -12,13 +12,13 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
-from geneva_cli.curves.cross_holes import CrossHole, Opening
-from geneva_cli.curves.inset import away, inset, lines_and_arcs
-from geneva_cli.curves.measure import fraction_at
-from geneva_cli.curves.moments import oriented
-from geneva_cli.curves.plates import Plate
-from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.cross_holes import CrossHole, Opening
+from geneva_cli.geometry.inset import away, inset, lines_and_arcs
+from geneva_cli.geometry.measure import fraction_at
+from geneva_cli.geometry.moments import oriented
+from geneva_cli.geometry.plates import Plate
+from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment
 from geneva_cli.output.mesh.polygons import (
     arc_chords,
     between,
@@ -64,7 +64,7 @@ def plate_mesh(plate: Plate, tolerance: float) -> Surface:
 
     Raises GenevaError for a plate without thickness, and for contours that cross.
 
-    >>> from geneva_cli.curves.shapes import Circle
+    >>> from geneva_cli.geometry.shapes import Circle
     >>> disc = Plate("disc", "CRANK", Circle("", (0.0, 0.0), 50.0), (), 0.0, 10.0)
     >>> len(plate_mesh(disc, 0.1).triangles)  # 50 chords: 2 x 48 in the faces, 2 x 50 in the wall
     196

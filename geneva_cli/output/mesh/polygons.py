@@ -7,10 +7,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from geneva_cli.curves.measure import STRAIGHT, at
-from geneva_cli.curves.moments import with_material_left
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Point, Segment, two_arcs
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.measure import STRAIGHT, at
+from geneva_cli.geometry.moments import with_material_left
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Point, Segment, two_arcs
 from geneva_cli.output.ezdxf_alone import earcut
 
 Triangle: TypeAlias = tuple[int, int, int]

@@ -12,11 +12,11 @@ import re
 import textwrap
 from collections.abc import Iterator, Sequence
 
-from geneva_cli.curves.cross_holes import CrossHole
-from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.plates import Plate, Shell, Solid
-from geneva_cli.curves.shapes import Circle, Contour, Shape
 from geneva_cli.errors import GenevaError, clean
+from geneva_cli.geometry.cross_holes import CrossHole
+from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.plates import Plate, Shell, Solid
+from geneva_cli.geometry.shapes import Circle, Contour, Shape
 from geneva_cli.output.inks import inks
 from geneva_cli.output.mesh.plates import plate_mesh
 from geneva_cli.output.mesh.polygons import DECIMALS, arc_chords, polygon

@@ -11,19 +11,11 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
-from geneva_cli.curves.plates import Shell
-from geneva_cli.curves.round_holes import RoundHole
-from geneva_cli.curves.sphere import (
-    Region,
-    SphereArc,
-    Vector,
-    cross,
-    dot,
-    square_to,
-    unit,
-)
+from geneva_cli.geometry.plates import Shell
+from geneva_cli.geometry.round_holes import RoundHole
+from geneva_cli.geometry.sphere import Region, SphereArc, Vector, cross, dot, square_to, unit
+from geneva_cli.kinds.spherical.face_mesh import SphereFace
 from geneva_cli.output.mesh.polygons import Triangle, arc_chords, triangles
-from geneva_cli.output.mesh.sphere_face import SphereFace
 from geneva_cli.output.mesh.surface import Surface, surface
 from geneva_cli.output.solid_part import require_thick
 

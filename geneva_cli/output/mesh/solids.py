@@ -10,11 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.plates import Group, Member, Part, Shell, Solid, Stack
-from geneva_cli.curves.shapes import Layer, Point
-from geneva_cli.curves.stacks import Run, Side, levels, outline_of, sides
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.plates import Group, Member, Part, Shell, Solid, Stack
+from geneva_cli.geometry.shapes import Layer, Point
+from geneva_cli.geometry.stacks import Run, Side, levels, outline_of, sides
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.mesh.plates import plate_mesh
 from geneva_cli.output.mesh.polygons import chord_points, triangles

@@ -14,7 +14,7 @@ from geneva_cli.output.mesh.polygons import DECIMALS, Triangle
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from geneva_cli.curves.sphere import Vector
+    from geneva_cli.geometry.sphere import Vector
 
 
 class Surface(NamedTuple):

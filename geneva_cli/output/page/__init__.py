@@ -16,7 +16,7 @@ from geneva_cli.output.svg_paths import element
 from geneva_cli.output.ticks import labels, ticks
 
 if TYPE_CHECKING:
-    from geneva_cli.scene import Bar, Body, Scene, Track
+    from geneva_cli.output.scene import Bar, Body, Scene, Track
 
 
 def chunks(scene: Scene) -> Iterator[str]:

@@ -10,9 +10,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from geneva_cli.curves.shapes import Contour, Layer
-from geneva_cli.curves.sheet import DASHED, DIMENSION, TEXT, WIDTHS, Arrow, Label, Measure, Sheet
 from geneva_cli.errors import clean
+from geneva_cli.geometry.shapes import Contour, Layer
+from geneva_cli.geometry.sheet import DASHED, DIMENSION, TEXT, WIDTHS, Arrow, Label, Measure, Sheet
 from geneva_cli.output.dxf_contours import draw
 from geneva_cli.output.dxf_file import USUAL, dxf_text, extents, linetype
 from geneva_cli.output.ezdxf_alone import BaseLayout, Document, Modelspace

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from geneva_cli.curves.helvetica import CAPITALS
-from geneva_cli.curves.sheet import DASHED, WIDTHS, Arrow, Sheet
+from geneva_cli.geometry.helvetica import CAPITALS
+from geneva_cli.geometry.sheet import DASHED, WIDTHS, Arrow, Sheet
 from geneva_cli.output import pdf_file
 from geneva_cli.output.pdf_file import POINT, Page, number, outline, point
 

@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator
 from html import escape
 
-from geneva_cli.curves.helvetica import CAPITALS
-from geneva_cli.curves.sheet import DASHED, WIDTHS, Arrow, Label, Sheet
 from geneva_cli.errors import clean
+from geneva_cli.geometry.helvetica import CAPITALS
+from geneva_cli.geometry.sheet import DASHED, WIDTHS, Arrow, Label, Sheet
 from geneva_cli.output.svg_paths import element, number, place, point
 
 STYLE = """<style>

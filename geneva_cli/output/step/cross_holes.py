@@ -10,10 +10,10 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from geneva_cli.curves.cross_holes import CrossHole, Opening
-from geneva_cli.curves.moments import with_material_left
-from geneva_cli.curves.plates import Plate
-from geneva_cli.curves.shapes import Circle, Shape
+from geneva_cli.geometry.cross_holes import CrossHole, Opening
+from geneva_cli.geometry.moments import with_material_left
+from geneva_cli.geometry.plates import Plate
+from geneva_cli.geometry.shapes import Circle, Shape
 from geneva_cli.output.splines import Piece
 from geneva_cli.output.step.curves import smooth_curve
 from geneva_cli.output.step.entities import Entities, edge, face, loop, real

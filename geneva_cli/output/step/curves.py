@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import TypeAlias
 
-from geneva_cli.curves.shapes import Arc, Line, Point
+from geneva_cli.geometry.shapes import Arc, Line, Point
 from geneva_cli.output.splines import Piece
 from geneva_cli.output.step.entities import DIRECTION, Entities, listed, real
 

@@ -11,10 +11,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from geneva_cli.curves.edges import Edge
-from geneva_cli.curves.inset import corner, corner_slope, inset, lines_and_arcs
-from geneva_cli.curves.plates import Plate
-from geneva_cli.curves.shapes import Arc, Contour, Line
+from geneva_cli.geometry.edges import Edge
+from geneva_cli.geometry.inset import corner, corner_slope, inset, lines_and_arcs
+from geneva_cli.geometry.plates import Plate
+from geneva_cli.geometry.shapes import Arc, Contour, Line
 from geneva_cli.output.step.curves import curve, is_along, smooth_curve, unit_of
 from geneva_cli.output.step.entities import (
     DIRECTION,

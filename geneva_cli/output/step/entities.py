@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from geneva_cli.curves.shapes import Point
+from geneva_cli.geometry.shapes import Point
 
 LENGTH = 12  # decimals of lengths in mm: with large coordinates more than a double has
 DIRECTION = 16  # decimals of directions, which act through a length

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from geneva_cli.curves.plates import Group, Member, Part, Plate, Shell, Solid, solids
+from geneva_cli.geometry.plates import Group, Member, Part, Plate, Shell, Solid, solids
 from geneva_cli.output.inks import Ink, inks
 from geneva_cli.output.step.entities import Entities, listed, real, words
 from geneva_cli.output.step.shell import shell_solid

@@ -11,19 +11,11 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from geneva_cli.curves.plates import Shell
-from geneva_cli.curves.round_holes import RoundHole
-from geneva_cli.curves.sphere import SphereArc, Vector, combined, cross, opposite, square_to, unit
+from geneva_cli.geometry.plates import Shell
+from geneva_cli.geometry.round_holes import RoundHole
+from geneva_cli.geometry.sphere import SphereArc, Vector, combined, cross, opposite, square_to, unit
 from geneva_cli.output.solid_part import require_thick
-from geneva_cli.output.step.entities import (
-    Entities,
-    WallFace,
-    closed_solid,
-    edge,
-    face,
-    loop,
-    real,
-)
+from geneva_cli.output.step.entities import Entities, WallFace, closed_solid, edge, face, loop, real
 
 FLAT = 1e-12  # cosine of a cone's angle below which it is a plane
 

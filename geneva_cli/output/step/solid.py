@@ -6,9 +6,9 @@ counterclockwise: the lower edge, up at its end, the upper edge back, and down a
 
 from __future__ import annotations
 
-from geneva_cli.curves.moments import with_material_left
-from geneva_cli.curves.plates import Plate
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point
+from geneva_cli.geometry.moments import with_material_left
+from geneva_cli.geometry.plates import Plate
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Point
 from geneva_cli.output.solid_part import plate_contours
 from geneva_cli.output.splines import Piece, pieces
 from geneva_cli.output.step.cross_holes import bored_walls

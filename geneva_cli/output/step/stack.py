@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from geneva_cli.curves.plates import Plate, Stack
-from geneva_cli.curves.shapes import Point
-from geneva_cli.curves.stacks import Level, Side, levels, outline_of, sides
+from geneva_cli.geometry.plates import Plate, Stack
+from geneva_cli.geometry.shapes import Point
+from geneva_cli.geometry.stacks import Level, Side, levels, outline_of, sides
 from geneva_cli.output.solid_part import plate_contours
 from geneva_cli.output.step.curves import curve, is_along, level
 from geneva_cli.output.step.entities import Entities, closed_solid, edge, face, loop

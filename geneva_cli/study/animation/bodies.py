@@ -8,14 +8,14 @@ from contextlib import suppress
 
 import numpy as np
 
-from geneva_cli.curves.shapes import Circle, Contour, Line, Shape, polygon
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.gear_curves import gears_table
+from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, polygon
+from geneva_cli.kinds.counter.scene import stations
+from geneva_cli.kinds.linear.scene import rack
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.scene import Body
-from geneva_cli.study.animation.counter import stations
-from geneva_cli.study.animation.rack import rack
+from geneva_cli.output.scene import Body
+from geneva_cli.parts.gears.gear_curves import gears_table
 from geneva_cli.study.animation.teeth import DrawnTeeth, round_gears
 from geneva_cli.study.animation.tracks import still
 from geneva_cli.study.animation.turn import MachineTurn

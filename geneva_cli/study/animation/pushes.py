@@ -7,11 +7,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from geneva_cli.kinematics.layout import AxisPlace
-from geneva_cli.layout.assembly import Passage
 from geneva_cli.loads.cycle import Cycle
+from geneva_cli.motion.pivots import AxisPlace
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.scene import Push
+from geneva_cli.output.scene import Push
+from geneva_cli.parts.assembly import Passage
 from geneva_cli.study.animation.turn import MachineTurn
 
 

@@ -10,16 +10,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.curves.measure import at, bounds
-from geneva_cli.curves.shapes import Circle, Shape
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.link_positions import links_at
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.geometry.measure import at, bounds
+from geneva_cli.geometry.shapes import Circle, Shape
+from geneva_cli.kinds.linear.scene import rack_ends, view_of_rack
+from geneva_cli.kinds.stop.parts import wheel_stop
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import radians
-from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.outlines.stop import wheel_stop
-from geneva_cli.scene import (
+from geneva_cli.output.scene import (
     Bar,
     Body,
     Box,
@@ -31,10 +30,11 @@ from geneva_cli.scene import (
     Track,
     pose,
 )
+from geneva_cli.parts.links.link_positions import links_at
+from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.animation.bodies import bodies
 from geneva_cli.study.animation.pushes import pushes
-from geneva_cli.study.animation.rack import rack_ends, view_of_rack
 from geneva_cli.study.animation.teeth import DrawnTeeth, carried_gear, drawn_teeth
 from geneva_cli.study.animation.turn import MachineTurn
 from geneva_cli.study.summary.titles import title_of

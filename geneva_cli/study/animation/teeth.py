@@ -8,16 +8,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.curves.placed import placed
-from geneva_cli.curves.plates import Member, Plate
-from geneva_cli.curves.shapes import Shape
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.layout import Link
-from geneva_cli.layout.link_positions import links_at, same
+from geneva_cli.geometry.placed import placed
+from geneva_cli.geometry.plates import Member, Plate
+from geneva_cli.geometry.shapes import Shape
+from geneva_cli.motion.pivots import Link
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.link_sizes import places
-from geneva_cli.scene import Body, Track
+from geneva_cli.output.scene import Body, Track
+from geneva_cli.parts.links.link_positions import links_at, same
+from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.study.animation.tracks import still
 from geneva_cli.study.animation.turn import MachineTurn
 

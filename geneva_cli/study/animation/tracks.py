@@ -9,7 +9,7 @@ from typing import TypeAlias
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.scene import Track
+from geneva_cli.output.scene import Track
 
 # value and slope by the input in degrees, at input angles in degrees
 Moving: TypeAlias = "Callable[[Array], tuple[Array, Array]]"

@@ -8,17 +8,17 @@ from functools import partial
 
 import numpy as np
 
-from geneva_cli.curves.plates import Plate
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.layout import AxisPlace, Joint, Link
-from geneva_cli.kinematics.plane_motion import turned_points
-from geneva_cli.layout.assembly import Passage, assembled_by_input
-from geneva_cli.layout.link_positions import links_at
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.geometry.plates import Plate
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.pivots import AxisPlace, Joint, Link
+from geneva_cli.motion.plane_motion import turned_points
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.parts.links import drawn_links
-from geneva_cli.scene import Bar, CarriedShapes, Place, Track
+from geneva_cli.output.scene import Bar, CarriedShapes, Place, Track
+from geneva_cli.parts.assembly import Passage, assembled_by_input
+from geneva_cli.parts.links.link_positions import links_at
+from geneva_cli.parts.links.links import drawn_links
+from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.study.animation.tracks import Moving, cut, resting, sampled, track
 
 ANGLE_ERROR = 1e-7  # rad, of wheel and crank: a tenth of the page's own error

@@ -6,7 +6,7 @@ Every value is a result of the Design. Values of its report that no section take
 from __future__ import annotations
 
 from geneva_cli.design import Design
-from geneva_cli.document import Document, Prose
+from geneva_cli.output.document.blocks import Document, Prose
 from geneva_cli.study.document import answers, inputs, pictures, verdict
 from geneva_cli.study.document.facts import RemainingValues
 from geneva_cli.study.document.verdict import key_figures

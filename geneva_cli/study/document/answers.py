@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from typing import Any
 
 from geneva_cli.design import Design
-from geneva_cli.document import Block, Grid, Heading, Row, TextList
-from geneva_cli.kinematics.wheels.gearing import Output
 from geneva_cli.loads.figures import AXIS_BY_NAME
 from geneva_cli.loads.summaries import LoadSummary
+from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.output.chosen import only
+from geneva_cli.output.document.blocks import Block, Grid, Heading, Row, TextList
 from geneva_cli.study.document.facts import (
     RemainingValues,
     capital,

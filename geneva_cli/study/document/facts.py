@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from geneva_cli.document import Block, Fact, Facts, Grid, Heading
 from geneva_cli.names import described
+from geneva_cli.output.document.blocks import Block, Fact, Facts, Grid, Heading
 from geneva_cli.table import Table
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from geneva_cli.document import Block, Fact, Facts, Grid, Heading, Prose, TextList
-from geneva_cli.machine.spec import Spec
+from geneva_cli.motion.spec import Spec
 from geneva_cli.names import described
+from geneva_cli.output.document.blocks import Block, Fact, Facts, Grid, Heading, Prose, TextList
 from geneva_cli.spec.schema import Field
 from geneva_cli.specfile.writer import keys_in, values_of
 

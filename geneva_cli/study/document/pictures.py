@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from geneva_cli.design import Design
-from geneva_cli.document import Block, Curves, Heading, Picture, Prose
 from geneva_cli.errors import GenevaError
+from geneva_cli.output.document.blocks import Block, Curves, Heading, Picture, Prose
 
 
 def drawn(design: Design) -> Iterator[Block]:

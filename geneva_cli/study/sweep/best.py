@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import chain
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.fields import Cell
 from geneva_cli.study.sweep.best_search import Row, SweepSearch

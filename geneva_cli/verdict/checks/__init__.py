@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.both_ways import every_way
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.both_ways import every_way
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.verdict.checks.check import Check as Check
 from geneva_cli.verdict.checks.check import all_pass as all_pass
 from geneva_cli.verdict.checks.check import refused, worst
@@ -117,7 +117,7 @@ def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iter
     yield from rows
     if not turned or parts is None:
         return
-    from geneva_cli.collisions.machine_parts import WorkLimit
+    from geneva_cli.parts.turn.machine_parts import WorkLimit
 
     try:
         turn = model.turn

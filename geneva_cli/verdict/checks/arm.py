@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from geneva_cli.curves.hole_walls import plate_wall
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.bores import has_shape
+from geneva_cli.geometry.hole_walls import plate_wall
 from geneva_cli.parts.arm import CrankArm, walls
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.planes import planes
+from geneva_cli.parts.links.link_planes import planes
+from geneva_cli.parts.shafts.bores import has_shape
 from geneva_cli.verdict.checks.check import Check, at_least, compared
 
 

@@ -12,13 +12,13 @@ from itertools import combinations
 
 import numpy as np
 
-from geneva_cli.analysis.carried import farthest_mm
-from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.plates import Member
-from geneva_cli.layout.roller_paths import roller_centres
+from geneva_cli.geometry.distance import Polyarc
+from geneva_cli.geometry.plates import Member
+from geneva_cli.loads.carried import farthest_mm
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.slots.roller_paths import roller_centres
 from geneva_cli.verdict.checks.check import Check, compared
 
 

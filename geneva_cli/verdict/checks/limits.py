@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from geneva_cli.analysis.peaks import worst, worst_of
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.peaks import worst, worst_of
 from geneva_cli.spec import load_limits
 from geneva_cli.verdict.checks.check import Check, compared
 
 if TYPE_CHECKING:
-    from geneva_cli.analysis.product import ProductMotion
+    from geneva_cli.loads.product import ProductMotion
 
 
 def limited_peak(name: str, mechanism: Mechanism) -> Check | None:

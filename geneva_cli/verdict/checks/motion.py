@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.verdict.checks.check import Check, compared
 from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT, turns_back
@@ -27,7 +27,7 @@ def gear_convexity(name: str, mechanism: Mechanism) -> Check | None:
     gears = mechanism.spec.gears
     if not gears:
         return None
-    from geneva_cli.layout.gear_curves import convexity
+    from geneva_cli.parts.gears.gear_curves import convexity
 
     least = convexity(gears)._asdict()[name.removesuffix("_gear_convexity")]
     return compared(name, least, "above", 0.0)
@@ -65,7 +65,7 @@ def undercut_depth(name: str, mechanism: Mechanism) -> Check | None:
     """The depth of the undercut, mm; 0 if there is none."""
     if not mechanism.engagements[0].slot.curved:
         return None
-    from geneva_cli.analysis.undercut import undercut
+    from geneva_cli.motion.undercut import undercut
 
     place = undercut(mechanism)
     depth, at_deg = (place.depth_mm, place.at_deg) if place else (0.0, None)
@@ -81,7 +81,7 @@ def groove_pressure(name: str, mechanism: Mechanism) -> Check | None:
     groove = mechanism.engagements[0].groove
     if groove is None:
         return None
-    from geneva_cli.layout.groove import greatest_pressure
+    from geneva_cli.parts.slots.groove import greatest_pressure
 
     value, at_deg = greatest_pressure(groove)
     own_limit = mechanism.spec.limits.pressure_angle_max_deg

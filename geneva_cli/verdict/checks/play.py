@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.collisions.full_turn import FullTurn, Most
-from geneva_cli.collisions.machine_parts import MachineParts
+from geneva_cli.parts.turn.full_turn import FullTurn, Most
+from geneva_cli.parts.turn.machine_parts import MachineParts
 from geneva_cli.verdict.checks.check import Check, compared
 
 

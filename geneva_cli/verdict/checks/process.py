@@ -6,18 +6,18 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from geneva_cli.curves.plates import plates
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.plain_sizes import drawn_thicknesses
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.geometry.plates import plates
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses
 from geneva_cli.spec.workshops import workshop
 from geneva_cli.verdict.checks.check import Check, compared, refused
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.counter_parts import CounterParts
-    from geneva_cli.parts.rack_parts import RackParts
-    from geneva_cli.parts.sphere.sphere_parts import SphereParts
+    from geneva_cli.kinds.counter.parts import CounterParts
+    from geneva_cli.kinds.linear.parts import RackParts
+    from geneva_cli.kinds.spherical.parts import SphereParts
 
 
 def thickest_plate(name: str, parts: FlatParts) -> Check | None:

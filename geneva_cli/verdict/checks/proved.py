@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from geneva_cli.collisions.certificate import Certificate, certificate, tolerance_mm
-from geneva_cli.collisions.machine_parts import WorkLimit
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.outlines.travel import UNKNOWN
+from geneva_cli.parts.turn.machine_parts import WorkLimit
+from geneva_cli.parts.turn.travel import UNKNOWN
+from geneva_cli.parts.turn.turn_certificate import Certificate, certificate, tolerance_mm
 from geneva_cli.verdict.checks.check import Check, compared
 
 

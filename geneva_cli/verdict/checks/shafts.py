@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geneva_cli.layout.clamps import clamp_of
-from geneva_cli.layout.plain_sizes import Sizes
-from geneva_cli.layout.reliefs import is_whole
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.outlines.reliefs import is_whole
+from geneva_cli.parts.shafts.clamps import clamp_of
+from geneva_cli.parts.sizes.plain_sizes import Sizes
 from geneva_cli.verdict.checks.check import Check, compared, gap
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.rack_parts import RackParts
-    from geneva_cli.parts.sphere.sphere_parts import SphereParts
+    from geneva_cli.kinds.linear.parts import RackParts
+    from geneva_cli.kinds.spherical.parts import SphereParts
 
 
 def crank_shaft(name: str, parts: FlatParts) -> Check | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Number
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.numerics.roots import Falsi
@@ -13,7 +13,7 @@ from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.checks.check import Check, compared
 
 if TYPE_CHECKING:
-    from geneva_cli.analysis.impacts import Impact
+    from geneva_cli.loads.impacts.impacts import Impact
 
 
 def entry_shock(name: str, mechanism: Mechanism) -> Check | None:
@@ -21,7 +21,7 @@ def entry_shock(name: str, mechanism: Mechanism) -> Check | None:
     tolerance = mechanism.spec.tolerance
     if not (tolerance.crank_radius_mm or tolerance.center_distance_mm):
         return None
-    from geneva_cli.analysis.impacts import entry_impacts
+    from geneva_cli.loads.impacts.impacts import entry_impacts
 
     impact = entry_impacts(mechanism, pin_mm=_pin_mm(mechanism)).only
     if impact is None:
@@ -36,7 +36,7 @@ def reversal_shock(name: str, mechanism: Mechanism) -> Check | None:
     """The impact where the roller changes from one wall of its slot to the other."""
     if mechanism.spec.tolerance == Tolerance(distribution=mechanism.spec.tolerance.distribution):
         return None
-    from geneva_cli.analysis.impacts import reversal_impacts
+    from geneva_cli.loads.impacts.impacts import reversal_impacts
 
     if mechanism.unbalanced:
         why = "not computed where a body off its axis moves a wheel on a carrier"
@@ -59,7 +59,7 @@ def drag_words(mechanism: Mechanism) -> str:
     """
     if any(engagement.paired for engagement in mechanism.engagements):
         return "a smaller slot_clearance_mm reduces it"
-    from geneva_cli.analysis.change_of_sides import lasting_drag_Nm
+    from geneva_cli.loads.impacts.change_of_sides import lasting_drag_Nm
 
     # the last digits of a short number are rounding
     drag = to_digits(lasting_drag_Nm(mechanism) * (1.0 - 1e-9), 3, math.ceil)
@@ -93,7 +93,7 @@ def _force_check(name: str, mechanism: Mechanism, impact: Impact) -> Check:
 
 def _tolerable(mechanism: Mechanism, check: Check) -> str:
     """The fraction to which the tolerances on R and L must shrink, whose root the force follows."""
-    from geneva_cli.analysis.impacts import entry_impacts
+    from geneva_cli.loads.impacts.impacts import entry_impacts
 
     limit, pin_mm = check.limit or 0.0, _pin_mm(mechanism)
 
@@ -124,7 +124,7 @@ def stopping_torque(name: str, mechanism: Mechanism) -> Check | None:
     """The resisting torque, limited by the wheel's inertia; None for slots with two walls."""
     if not mechanism.engagements[0].paired:
         return None
-    from geneva_cli.analysis.arrival import arrival
+    from geneva_cli.loads.impacts.arrival import arrival
 
     stop = arrival(mechanism)
     if stop is None:

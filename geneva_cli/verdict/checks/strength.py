@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.spec.load_limits import LIMITED
 from geneva_cli.verdict.checks.check import Check, compared

@@ -7,18 +7,18 @@ from itertools import combinations
 
 import numpy as np
 
-from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.hole_walls import apart, beyond
-from geneva_cli.curves.measure import turned
-from geneva_cli.curves.shapes import Arc, Circle, Line, Point, Segment, backwards, closed
-from geneva_cli.kinematics.pitch_curve import opposites
-from geneva_cli.layout.bores import has_shape
-from geneva_cli.layout.plain_sizes import Sizes
-from geneva_cli.layout.reliefs import is_whole
-from geneva_cli.outlines.crank import rollers_gap
-from geneva_cli.outlines.wheel import wheel_circles
-from geneva_cli.outlines.wheel_hub import wheel_hub
+from geneva_cli.geometry.distance import Polyarc
+from geneva_cli.geometry.hole_walls import apart, beyond
+from geneva_cli.geometry.measure import turned
+from geneva_cli.geometry.shapes import Arc, Circle, Line, Point, Segment, backwards, closed
+from geneva_cli.motion.pitch_curve import opposites
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.outlines.crank_outline import rollers_gap
+from geneva_cli.parts.outlines.reliefs import is_whole
+from geneva_cli.parts.outlines.wheel_hub import wheel_hub
+from geneva_cli.parts.outlines.wheel_outline import wheel_circles
+from geneva_cli.parts.shafts.bores import has_shape
+from geneva_cli.parts.sizes.plain_sizes import Sizes
 from geneva_cli.verdict.checks.check import Check, compared
 
 NO_WALL = {  # the meaning of a negative wall

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, TypeAlias, TypeVar
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.many import alone
-from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.spec import Spec
+from geneva_cli.motion.many import alone
+from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.motion.spec import Spec
 from geneva_cli.numerics.latest import Known
 from geneva_cli.spec.load_limits import LIMITED, limits_by_key
 
 if TYPE_CHECKING:
-    from geneva_cli.analysis.forces import LoadCase
+    from geneva_cli.loads.forces import LoadCase
     from geneva_cli.numerics.arrays import Array, Mask, Number
     from geneva_cli.table import Table
 
@@ -75,7 +75,7 @@ class Designs:
     @cached_property
     def load_case(self) -> LoadCase:
         """The loads' parameters besides the motion."""
-        from geneva_cli.analysis.forces import load_case  # quantities without loads need none
+        from geneva_cli.loads.forces import load_case  # quantities without loads need none
 
         return load_case(self.machine)
 
@@ -94,7 +94,7 @@ class Designs:
 
         Raises GenevaError for a single design of that kind.
         """
-        from geneva_cli.analysis.stretches import refuse_rounding, too_fast
+        from geneva_cli.loads.stretches import refuse_rounding, too_fast
 
         resisted = self._resisted
         if not resisted.any():

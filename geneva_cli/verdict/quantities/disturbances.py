@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from geneva_cli.analysis.carried import inertia_kgm2
-from geneva_cli.analysis.change_of_sides import lasting_drag_Nm
-from geneva_cli.analysis.impacts import Impacts, entry_impacts, reversal_impacts
+from geneva_cli.loads.carried import inertia_kgm2
+from geneva_cli.loads.impacts.change_of_sides import lasting_drag_Nm
+from geneva_cli.loads.impacts.impacts import Impacts, entry_impacts, reversal_impacts
 from geneva_cli.numerics.arrays import Array, Number
 from geneva_cli.verdict.quantities.designs import Columns, Designs
 from geneva_cli.verdict.quantities.under_load import impact_pin_mm
@@ -14,7 +14,7 @@ from geneva_cli.verdict.quantities.under_load import impact_pin_mm
 
 def vibration(of: Designs) -> Columns:
     """The vibration of a load on its elastic shaft."""
-    from geneva_cli.analysis.vibration.vibration import Vibrations, design_vibrations
+    from geneva_cli.loads.vibration.vibration import Vibrations, design_vibrations
 
     shaken = design_vibrations(of.machine, of.requested("vibration"))
     if shaken is None:
@@ -52,7 +52,7 @@ def tolerances(of: Designs) -> Columns:
     None for racks and teeth, whose deviations are not studied. The jump at entry is computed as a
     batch if all designs have tolerances, none of which is too wide.
     """
-    from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst, motion_plays, used
+    from geneva_cli.loads.tolerance.worst_effects import entry_jumps_worst, motion_plays, used
 
     is_studied = of.machine.output.turns and not of.spec.wheel.toothed
     plays = motion_plays(of.machine) if is_studied else None

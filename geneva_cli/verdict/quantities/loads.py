@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from geneva_cli.analysis.peak_search import worst_peaks
-from geneva_cli.analysis.positive_drive import positive_drives
-from geneva_cli.analysis.quantities import REPORTED_PEAKS, sources
+from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS, sources
 from geneva_cli.loads.loads import greatest_pressure, kinetic_power_W
+from geneva_cli.loads.positive_drive import positive_drives
 from geneva_cli.loads.summaries import LoadSummary, load_peaks, load_summaries
+from geneva_cli.motion.peak_search import worst_peaks
 from geneva_cli.numerics.arrays import Number, parameter
 from geneva_cli.verdict.quantities.designs import Columns, Designs
 

@@ -7,14 +7,14 @@ from typing import cast
 
 import numpy as np
 
-from geneva_cli.analysis.carried import carried_kg
-from geneva_cli.analysis.impacts import start_impacts
-from geneva_cli.analysis.peak_search import QUANTITIES, worst_peaks
-from geneva_cli.analysis.product import ProductMotion, product_motion
-from geneva_cli.analysis.timing import timings
-from geneva_cli.kinematics.engagement import WheelMotion
-from geneva_cli.kinematics.wheels.gearing import Output
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.loads.carried import carried_kg
+from geneva_cli.loads.impacts.impacts import start_impacts
+from geneva_cli.loads.product import ProductMotion, product_motion
+from geneva_cli.motion.engagement import WheelMotion
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.peak_search import QUANTITIES, worst_peaks
+from geneva_cli.motion.timing import timings
+from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import Array, N, Number
 from geneva_cli.verdict.quantities.designs import Columns, Designs
@@ -106,7 +106,7 @@ def carousel(of: Designs) -> Columns:
     machine, wheels = of.machine, of.spec.drive.wheels_on_carrier
     if not wheels:
         return {}
-    from geneva_cli.analysis.unbalance import centrifugal_N, held_unbalance_Nm
+    from geneva_cli.kinds.carousel.unbalance import centrifugal_N, held_unbalance_Nm
 
     own = sum(2.0 * one.half_step for one in machine.engagements) * (360.0 / machine.period_deg)
     fastest = worst_peaks(machine, ["velocity"])["velocity"].max

@@ -7,16 +7,16 @@ from collections.abc import Callable
 
 import numpy as np
 
-from geneva_cli.analysis import pin as pins
-from geneva_cli.analysis.unbalance import centrifugal_N
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinds.carousel.unbalance import centrifugal_N
 from geneva_cli.loads.strength import arm as arms
+from geneva_cli.loads.strength import pin as pins
 from geneva_cli.loads.strength import shafts
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress, shear_allowed_MPa
-from geneva_cli.machine.materials import roller_material, wheel_material
-from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.machine.spec import Spec
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.spec import Spec
 from geneva_cli.numerics.arrays import Array, Number, array, parameter
+from geneva_cli.spec.materials import roller_material, wheel_material
 from geneva_cli.spec.tables import Material
 from geneva_cli.spec.workshops import Stock
 from geneva_cli.verdict.quantities.designs import Columns, Designs
@@ -248,8 +248,8 @@ def guide(of: Designs) -> Columns:
 
 def _guide(machine: Mechanism) -> tuple[float, float, float, float]:
     """Length, friction that locks, force and its angle; infinite for what a design lacks."""
-    from geneva_cli.loads.strength.guide import guide_force, locks_at_friction
-    from geneva_cli.outlines.rack import rack_sizes
+    from geneva_cli.kinds.linear.guide_forces import guide_force, locks_at_friction
+    from geneva_cli.kinds.linear.rack import rack_sizes
 
     try:
         sizes = rack_sizes(machine)

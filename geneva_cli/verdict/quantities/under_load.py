@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.analysis import pin as pins
-from geneva_cli.analysis.quantities import FORCE, PV
 from geneva_cli.loads.cycle import cycle_of
+from geneva_cli.loads.cycle_quantities import FORCE, PV
 from geneva_cli.loads.strength import lock, shafts
+from geneva_cli.loads.strength import pin as pins
 from geneva_cli.loads.summaries import load_peaks
-from geneva_cli.machine.materials import roller_material
 from geneva_cli.numerics.arrays import Array, Number, library, parameter
-from geneva_cli.outlines.sizes import Layout, sized
+from geneva_cli.parts.outlines.outline_sizes import Layout, sized
+from geneva_cli.spec.materials import roller_material
 from geneva_cli.verdict.part_sizes import (
     LockSizes,
     batched,
@@ -26,11 +26,11 @@ from geneva_cli.verdict.part_sizes import (
 )
 
 if TYPE_CHECKING:
-    from geneva_cli.layout.ball import Ball
-    from geneva_cli.layout.stressed import Stressed
+    from geneva_cli.kinds.spherical.ball import Ball
     from geneva_cli.loads.strength.horn_search import HornStress
     from geneva_cli.loads.strength.lock import LockUnderTorque
     from geneva_cli.loads.strength.part_loads import PartLoads
+    from geneva_cli.parts.sizes.stressed import Stressed
     from geneva_cli.verdict.quantities.designs import Designs
 
 
@@ -77,7 +77,7 @@ class UnderLoad:
     @cached_property
     def balls(self) -> Sequence[Ball | None]:
         """Sizes of each design on a sphere; None for a design without parts there."""
-        from geneva_cli.layout.sphere_sizes import sized_ball  # which flat machines need not
+        from geneva_cli.kinds.spherical.sizes import sized_ball  # which flat machines need not
 
         return [sized_ball(one) for one in self.designs.each]
 
@@ -103,7 +103,7 @@ class UnderLoad:
             return single_horn_stresses(self.machine, *self.flat_horns).over(width)
         if self.flat_horns is not None:
             return horn_stresses(self.machine, *self.flat_horns, width)
-        from geneva_cli.loads.strength.sphere_horn import sphere_horn
+        from geneva_cli.kinds.spherical.horn import sphere_horn
 
         rows = np.full((len(HornStress._fields), len(self.balls)), np.nan)
         widths = np.broadcast_to(np.ravel(width), len(self.balls))

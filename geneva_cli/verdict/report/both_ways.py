@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.machine.both_ways import every_way
+from geneva_cli.motion.both_ways import every_way
 from geneva_cli.table import rows_table
 from geneva_cli.verdict.quantities.designs import Values
 from geneva_cli.verdict.quantities.groups import REPORT, values

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.analysis.carried import inertia_kgm2
-from geneva_cli.analysis.peaks import worst
-from geneva_cli.analysis.quantities import REPORTED_PEAKS, sources
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads import loads
+from geneva_cli.loads.carried import inertia_kgm2
 from geneva_cli.loads.cycle import cycle_of
+from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS, sources
 from geneva_cli.loads.summary import reversals_deg, summaries
+from geneva_cli.motion.peaks import worst
 from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.quantities.designs import Values
 from geneva_cli.verdict.quantities.groups import own_names
@@ -54,7 +54,7 @@ def needs(model: PartsModel) -> Values:
 
 def slot(model: PartsModel) -> Values:
     """Whether a wall pushes throughout, which may be cut away; None for straight slots."""
-    from geneva_cli.analysis.positive_drive import positive_drives
+    from geneva_cli.loads.positive_drive import positive_drives
 
     drive = positive_drives(model.mechanism)
     return {"positively_driven": not drive.loose_deg if drive else None}
@@ -71,8 +71,8 @@ def vibration(model: PartsModel) -> Values:
     if mechanism.spec.shaft.stiffness_Nm_rad is None:
         return none
     # only for elastic shafts: the modules of vibration take a twentieth of a short report
-    from geneva_cli.analysis.vibration.answers import values
-    from geneva_cli.analysis.vibration.oscillator import required_oscillator
+    from geneva_cli.loads.vibration.answers import values
+    from geneva_cli.loads.vibration.oscillator import required_oscillator
 
     try:
         results = values(mechanism, required_oscillator(mechanism))

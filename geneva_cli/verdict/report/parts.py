@@ -7,7 +7,7 @@ from collections.abc import Callable
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.drawings.parts_list import FIRST, KINDS, parts_list
 from geneva_cli.errors import GenevaError
-from geneva_cli.outlines.stop import wheel_stop
+from geneva_cli.kinds.stop.parts import wheel_stop
 from geneva_cli.table import Reading, rows_table
 from geneva_cli.verdict.checks.cranks import reach_mm
 from geneva_cli.verdict.quantities.designs import Values

@@ -7,7 +7,7 @@ from contextlib import suppress
 
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import scalar
 from geneva_cli.verdict.quantities.designs import Values, single
 from geneva_cli.verdict.quantities.groups import ECHOED, only
@@ -52,9 +52,9 @@ def _cut_radii(model: PartsModel) -> Values:
     spec = model.mechanism.spec
     inside = spec.wheel.SIGN < 0.0
     if spec.is_flat:
-        from geneva_cli.layout.assembly import assembly
-        from geneva_cli.layout.roller_paths import roller_paths
-        from geneva_cli.outlines.sizes import machine_sizes
+        from geneva_cli.parts.assembly import assembly
+        from geneva_cli.parts.outlines.outline_sizes import machine_sizes
+        from geneva_cli.parts.slots.roller_paths import roller_paths
 
         where = assembly(model.mechanism)
         ends = roller_paths(where).ends

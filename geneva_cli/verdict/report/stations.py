@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.analysis.peaks import Peaks, placed_peaks, worst
-from geneva_cli.analysis.timing import timings
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.loads import loads
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.peaks import Peaks, placed_peaks, worst
+from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.angles import omega
 from geneva_cli.table import rows_table
 from geneva_cli.verdict.quantities.designs import Numbers, Values

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from geneva_cli.analysis.timing import timings
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.timing import timings
 
 
 def words(mechanism: Mechanism) -> str:

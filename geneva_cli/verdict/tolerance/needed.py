@@ -14,14 +14,14 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.analysis.impacts import arm_mm
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.layout.ball import Ball
-from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.spec import Spec
-from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.kinds.spherical.ball import Ball
+from geneva_cli.loads.impacts.impacts import arm_mm
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.motion.spec import Spec
+from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.verdict.checks.registry import turn_checks
 
 # The lock's need, None for none, and the spec of the tightest machine (-1) or the loosest (+1)

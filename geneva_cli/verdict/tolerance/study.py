@@ -8,32 +8,27 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.impacts import mouth_jumps_worst
-from geneva_cli.analysis.locking import Lock
-from geneva_cli.analysis.sphere_locking import SphereLock
-from geneva_cli.analysis.tolerance.dimensions import (
-    Deviations,
-    corners,
-    tolerances,
-    without_effect,
-)
-from geneva_cli.analysis.tolerance.draws import Draws
-from geneva_cli.analysis.tolerance.entry_jump import entry_jumps
-from geneva_cli.analysis.tolerance.motion_error import WorstErrors, motion_errors
-from geneva_cli.analysis.tolerance.random_machines import (
+from geneva_cli.drawings.model import PartsModel
+from geneva_cli.errors import GenevaError, Notice, cut
+from geneva_cli.kinds.spherical.locking import SphereLock
+from geneva_cli.kinds.spherical.shells import Shells
+from geneva_cli.loads.impacts.impacts import mouth_jumps_worst
+from geneva_cli.loads.tolerance.dimensions import Deviations, corners, tolerances, without_effect
+from geneva_cli.loads.tolerance.draws import Draws
+from geneva_cli.loads.tolerance.entry_jump import entry_jumps
+from geneva_cli.loads.tolerance.locking import Lock
+from geneva_cli.loads.tolerance.motion_error import WorstErrors, motion_errors
+from geneva_cli.loads.tolerance.random_machines import (
     RandomMachines,
     Spread,
     random_machines,
     spread,
 )
-from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst
-from geneva_cli.drawings.model import PartsModel
-from geneva_cli.errors import GenevaError, Notice, cut
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.loads.tolerance.worst_effects import entry_jumps_worst
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
-from geneva_cli.outlines.cut_lock import cut_arcs
-from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.parts.sphere.shells import Shells
+from geneva_cli.parts.outlines.cut_lock import cut_arcs
+from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.verdict.tolerance.needed import RequiredClearances, required_clearances
 
 SAME = 1e-6  # fraction of the centre distance, or radians: nearer radii and angles are equal

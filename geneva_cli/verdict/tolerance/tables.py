@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from geneva_cli.analysis.tolerance.dimensions import Deviations, tolerances
-from geneva_cli.analysis.tolerance.random_machines import Spread
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, Notice
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.loads.tolerance.dimensions import Deviations, tolerances
+from geneva_cli.loads.tolerance.random_machines import Spread
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.spec.rules import POSITIVE, require_mm
 from geneva_cli.table import Table, record_table, rows_table
 from geneva_cli.verdict.tolerance.study import Study, study

@@ -12,14 +12,14 @@ from exact.fronts import FRONTS, Plain, drive_cases, from_file, spec_of
 from exact.laws import Points, Series, point_cases
 from exact.rates import exactly, variations
 from exact.table import LIMIT, strictly, ulps, unit
-from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics import registry
-from geneva_cli.kinematics.law_motion import MOTION_MIN
-from geneva_cli.layout.slot_profile import slot
-from geneva_cli.layout.slot_sampling import nodes
-from geneva_cli.machine import spec as machine_spec
-from geneva_cli.machine.mechanism import build
+from geneva_cli.motion import registry
+from geneva_cli.motion import spec as machine_spec
+from geneva_cli.motion.law_motion import MOTION_MIN
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.peaks import peaks
+from geneva_cli.parts.slots.slot_profile import slot
+from geneva_cli.parts.slots.slot_sampling import nodes
 
 
 def law_files(table, sample):

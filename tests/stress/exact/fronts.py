@@ -12,8 +12,8 @@ from witness import mp, to_radians
 from words import Spec, Wheel, points
 
 from exact.rates import DIGITS, NEAR_1, angle_rates
-from geneva_cli.kinematics import registry
-from geneva_cli.kinematics.registry import DRIVES
+from geneva_cli.motion import registry
+from geneva_cli.motion.registry import DRIVES
 from geneva_cli.spec.tables import Size
 
 

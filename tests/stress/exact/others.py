@@ -12,9 +12,9 @@ from words import LAWS, load
 from exact.compared import NAMES, PEAKS, PICK, angles, compare
 from exact.rates import NEAR_1
 from exact.table import strictly, ulps, unit
-from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.drive import Drive
+from geneva_cli.motion.drive import Drive
+from geneva_cli.motion.peaks import peaks
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.spec.schema import fields
 

@@ -10,10 +10,10 @@ from exact.compared import NAMES, PEAKS, PICK, angles, candidates, compare, comp
 from exact.fronts import FRONTS, RatioFile, ratio_cases, spec_of
 from exact.rates import BESIDE, angle_rates, exactly, variations
 from exact.table import strictly, ulps, unit
-from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.wheels import classic_arrays
-from geneva_cli.machine.mechanism import build
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.peaks import peaks
+from geneva_cli.motion.wheels import classic_arrays
 
 
 def ratio_files(table, sample):

@@ -1,1 +1,0 @@
-"""The analysis of a machine: timing, motion, peaks, loads, strength, vibration, tolerances."""

@@ -1,0 +1,70 @@
+"""``geneva animate``."""
+
+from typing import Annotated
+
+from geneva_cli.cli.options import Reverse, Settings, SpecPath, flag, output_option, warn
+from geneva_cli.errors import GenevaError
+
+EXAMPLES = (
+    "geneva animate spec.toml -o machine.html",
+    "geneva animate spec.toml -o machine.svg",
+    "geneva animate spec.toml --open",
+)
+
+
+def run(
+    spec: SpecPath,
+    reverse: Reverse = False,
+    settings: Settings = None,
+    open_: Annotated[bool, flag("--open", "Open the page in the desktop's browser.")] = False,
+    output: Annotated[
+        str,
+        output_option("FILE", "Write to this .html, .gif or .svg; - prints html.", default=True),
+    ] = "-",
+) -> None:
+    """Animate the machine on a page that needs no network.
+
+    It shows parts, gears, contact force and curves, and plays or follows a slider. A .gif needs
+    the extra plot; an .svg does not move. --open prints the page's path if there is no browser.
+    """
+    import os
+
+    from geneva_cli.design import load
+    from geneva_cli.output import animate
+    from geneva_cli.study.animation.scene import scene
+
+    if open_ and output != "-" and not output.endswith(".html"):
+        raise GenevaError(f'-o "{output}": --open opens a page: it must end in .html')
+    design = load(spec, settings or (), reverse)
+    machine = scene(design)
+    place = os.path.join(_folder(), "machine.html") if open_ and output == "-" else output
+    animate(machine, place, design.spec.files)
+    warn(design)
+    if open_:
+        _open(os.path.abspath(place))
+
+
+def _open(place: str) -> None:
+    """Open a page in the desktop's browser, and print its path."""
+    import os
+    import webbrowser
+
+    has_display = "DISPLAY" in os.environ or "WAYLAND_DISPLAY" in os.environ or os.name != "posix"
+    opened = (has_display or os.uname().sysname == "Darwin") and webbrowser.open(f"file://{place}")
+    print(place if opened else f"{place}\nno browser was opened: open this page in one")
+
+
+def _folder() -> str:
+    """The user's own folder for the page, which the next run replaces so that no pages pile up."""
+    import os
+    import stat
+    import tempfile
+    from contextlib import suppress
+
+    folder = os.path.join(tempfile.gettempdir(), f"geneva-{os.getuid()}")
+    with suppress(FileExistsError):
+        os.mkdir(folder, 0o700)
+    status = os.lstat(folder)
+    if stat.S_ISDIR(status.st_mode) and status.st_uid == os.getuid():
+        return folder
+    return tempfile.mkdtemp(prefix="geneva-")  # another user has taken the name in a shared folder

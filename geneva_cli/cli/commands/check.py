@@ -1,0 +1,55 @@
+"""``geneva check``."""
+
+import sys
+from typing import Annotated
+
+import typer
+
+from geneva_cli.cli.options import Format, Output, Settings, flag, option, say
+from geneva_cli.errors import clean
+
+EXAMPLES = (
+    "geneva check spec.toml",
+    "geneva check spec.toml --set size.slot_clearance_mm=0.05",
+)
+
+
+def run(
+    specs: Annotated[list[str], typer.Argument(metavar="SPEC...", help="Specs, TOML files.")],
+    strict: Annotated[bool, flag("--strict", "Exit 1 on a warning too.")] = False,
+    verbose: Annotated[
+        bool, typer.Option("-v", "--verbose", help="Every check, also on a terminal.")
+    ] = False,
+    proof: Annotated[
+        float | None, option("MM", "Prove that no parts overlap by more.", name="--proof")
+    ] = None,
+    settings: Settings = None,
+    output: Output = "-",
+    format: Format = "",
+) -> None:
+    """Check designs: failures with their remedies, warnings, and the tightest check.
+
+    It checks the motion, the parts and the spec's own [limits]. The exit status is 1 if a check
+    fails. If one spec cannot be read, the others are still checked.
+    """
+    from geneva_cli.output import is_watched, show_answer
+    from geneva_cli.output.formats import table_as
+    from geneva_cli.study.summary.checks import of_checks
+    from geneva_cli.study.verdicts import verdicts
+
+    name = table_as(output, format)
+    results = list(verdicts(specs, settings or (), proof))
+    judged = [v for v in results if not v.error]
+    if judged:
+        is_short = is_watched(output, format) and not verbose
+        answer = of_checks(judged, not is_short, name == "json")
+        show_answer(answer, output, format, [file for v in judged for file in v.files])
+    for v in results:
+        if v.error:
+            print(clean(v.error), file=sys.stderr)
+        elif output != "-" or name == "csv":
+            say(v.path, v.warnings)
+    if len(judged) < len(results):
+        raise typer.Exit(2)
+    if not all(v.passes for v in results) or (strict and any(v.warnings for v in results)):
+        raise typer.Exit(1)

@@ -1,0 +1,82 @@
+"""``geneva compare``."""
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from geneva_cli.cli import completion
+from geneva_cli.cli.options import AlsoReverse, Format, Output, Settings, flag, option
+from geneva_cli.errors import GenevaError
+
+if TYPE_CHECKING:
+    from geneva_cli.table import Table
+
+EXAMPLES = (
+    "geneva compare spec.toml --vary wheel.z=4,6,8 --pick dwell_s,acceleration.max",
+    "geneva compare spec.toml --against cam,servo",
+)
+
+
+def run(
+    specs: Annotated[list[str], typer.Argument(metavar="SPEC...", help="Specs, TOML files.")],
+    vary: Annotated[
+        list[str] | None,
+        option(
+            "KEY=VALUES",
+            "One spec with several values: drive.A=0,0.3,0.6.",
+            complete=completion.keys,
+        ),
+    ] = None,
+    pick: Annotated[
+        str,
+        option(
+            "FIELD,...",
+            "Only these, as acceleration.max,dwell_s.",
+            complete=completion.listed(completion.fields),
+        ),
+    ] = "",
+    against: Annotated[
+        str,
+        option(
+            "NAME,...",
+            "One spec with cam, servo: the same step, time and load.",
+            complete=completion.listed(lambda: ("cam", "servo")),
+        ),
+    ] = "",
+    ratio: Annotated[bool, flag("--ratio", "Numbers over the first design's.")] = False,
+    differing: Annotated[bool, flag("--differing", "Only what differs.")] = False,
+    reverse: AlsoReverse = False,
+    settings: Settings = None,
+    output: Output = "-",
+    format: Format = "",
+) -> None:
+    """Designs side by side: a column for each design, a row for each quantity.
+
+    --against compares one spec with a cam indexer and a servo.
+    """
+    from geneva_cli.output import refuse_inches, show
+    from geneva_cli.study.compare import compare
+    from geneva_cli.study.compare import differing as only_differing
+
+    if ratio:
+        refuse_inches("ratios have no unit")
+    if against:
+        table = _against(
+            specs, settings or [], against, bool(vary or pick or ratio or differing or reverse)
+        )
+    else:
+        picks = [name.strip() for name in pick.split(",")] if pick else []
+        table = compare(specs, settings or (), vary or (), picks, ratio, reverse)
+        table = only_differing(table) if differing else table
+    show(table, output, format, specs)
+
+
+def _against(specs: list[str], settings: list[str], names: str, others: bool) -> "Table":
+    """The comparison of one spec with other kinds of drives."""
+    from geneva_cli.extras.servo.against import against
+
+    if len(specs) > 1 or others:
+        raise GenevaError(
+            "--against: it compares one spec, without --vary, --pick, --ratio and --reverse"
+        )
+    return against(specs[0], settings, [name.strip() for name in names.split(",")])

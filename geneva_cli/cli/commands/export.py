@@ -1,0 +1,83 @@
+"""``geneva export``."""
+
+import os
+import sys
+from typing import Annotated
+
+from geneva_cli.cli import completion
+from geneva_cli.cli.options import (
+    Settings,
+    SpecPath,
+    flag,
+    option,
+    output_option,
+    require_written,
+    say,
+)
+from geneva_cli.errors import GenevaError, clean
+
+EXAMPLES = (
+    "geneva export spec.toml -o turret",
+    "geneva export spec.toml --set size.process=laser --for laser -o to-cut",
+    "geneva export spec.toml --set size.process=print --for print -o to-print",
+)
+
+
+def run(
+    spec: SpecPath,
+    output: Annotated[
+        str,
+        output_option("FOLDER", "Write into this folder (required)."),
+    ] = "",
+    trade: Annotated[
+        str | None,
+        option(
+            "TRADE",
+            "What laser, mill or print needs.  [default: all files]",
+            name="--for",
+            complete=completion.words(lambda: ("laser", "mill", "print")),
+        ),
+    ] = None,
+    force: Annotated[bool, flag("--force", "Write even a machine that jams.")] = False,
+    settings: Settings = None,
+) -> None:
+    """Write every file that a shop needs into a folder, and list them.
+
+    Each part has its count and thickness in its name, as wheel-1x-18mm.dxf. Besides there are the
+    drawing sheet, assembly, list of parts, report, page and spec; contents.csv lists all.
+
+    All files are written or none. The folder may exist if it is empty, or if this command wrote
+    it and no file in it was added or changed since.
+    """
+    from geneva_cli.design import load
+    from geneva_cli.output import refuse_columns, show
+    from geneva_cli.output.folder import Entry, replacing_folder
+    from geneva_cli.study.export import export_files, trade_of
+    from geneva_cli.table import rows_table
+
+    refuse_columns()
+    needed = trade_of(trade)
+    design = load(spec, settings or ())
+    if not output:
+        raise GenevaError("the files need a folder: give -o FOLDER")
+    if design.spec.is_turned:
+        require_written(design, design.judge(), force)
+    files, missing = export_files(design, needed)
+    entries = [Entry(file.name, file.content) for file in files]
+    with replacing_folder(output, entries, design.spec.files) as folder:
+        for file in files:
+            file.write(os.path.join(folder, file.name))
+    rows = [(os.path.join(output, one.file), one.content) for one in entries]
+    show(rows_table(("file", "content"), rows, design.spec.title))
+    for one in missing:
+        print(clean(f"{spec}: warning: {one.name}: not written: {one.why}"), file=sys.stderr)
+    process = design.spec.size.process
+    if trade and process != trade:
+        print(
+            clean(
+                f"{spec}: warning: size.process is {process or 'not set'}, so clearances are not "
+                f"those of {trade}; --set size.process={trade} sets them"
+            ),
+            file=sys.stderr,
+        )
+    say(design.spec.path, design.warnings)

@@ -1,0 +1,50 @@
+"""``geneva help``."""
+
+from typing import Annotated, Any
+
+import typer
+
+from geneva_cli.cli import completion
+from geneva_cli.errors import GenevaError, cut, nearest
+
+EXAMPLES = (
+    "geneva help",
+    "geneva help cycle",
+    "geneva help friction",
+)
+
+
+def run(
+    context: typer.Context,
+    topic: Annotated[
+        str,
+        typer.Argument(
+            metavar="[WORD]",
+            help="A page, a command, or a word to search for; without one: all pages.",
+            autocompletion=completion.words(completion.topics),
+        ),
+    ] = "",
+) -> None:
+    """Show a page of the manual, the options of a command, or all places of a word."""
+    from geneva_cli.manual import TOPICS, Hit, contents, page, search
+    from geneva_cli.output import show, show_markdown, show_text
+    from geneva_cli.table import Reading, rows_table
+
+    commands: Any = context.find_root().command
+    if f"{topic}s" in TOPICS and topic not in commands.list_commands(context):
+        topic = f"{topic}s"
+    if not topic:
+        show_markdown(contents())
+    elif topic not in TOPICS and topic in commands.list_commands(context):
+        _, command, _ = commands.resolve_command(context, [topic])
+        info = typer.Context(command, parent=context.find_root(), info_name=topic)
+        show_text(command.get_help(info) + "\n")
+    elif topic in TOPICS:
+        show_markdown(page(topic))
+    elif hits := search(topic):
+        table = rows_table(Hit._fields, hits, f"{topic}: `geneva help TOPIC` shows a page.")
+        show(table.replaced(reading=Reading(("topic", "line"))))
+    else:
+        raise GenevaError(
+            f'"{cut(topic)}" is no page of the manual, and on no page{nearest(topic, TOPICS)}'
+        )

@@ -1,0 +1,34 @@
+"""``geneva keys``."""
+
+from typing import Annotated
+
+import typer
+
+from geneva_cli.cli import completion
+from geneva_cli.cli.options import Format, Output
+
+EXAMPLES = (
+    "geneva keys drive",
+    "geneva keys size.center_distance_mm",
+)
+
+
+def run(
+    word: Annotated[
+        str,
+        typer.Argument(
+            metavar="[TABLE|KEY]",
+            help="drive, drive.A or A; without one: all.",
+            autocompletion=completion.words(completion.tables_and_keys),
+        ),
+    ] = "",
+    output: Output = "-",
+    format: Format = "",
+) -> None:
+    """List the keys of a spec: unit, allowed values, default, and the machines that have them."""
+    from geneva_cli.output import show
+    from geneva_cli.specfile.keys import Key, about
+    from geneva_cli.table import Reading, rows_table
+
+    reading = Reading(("key", "meaning", "table", "unit", "default", "range", "goes_with"))
+    show(rows_table(Key._fields, about(word)).replaced(reading=reading), output, format)

@@ -1,0 +1,81 @@
+"""``geneva loads``."""
+
+import sys
+from collections.abc import Sequence
+from typing import Annotated
+
+from geneva_cli.cli.options import Format, Output, Reverse, Settings, SpecPath, flag, option, say
+from geneva_cli.errors import clean, is_warning
+
+ROWS = 361
+
+EXAMPLES = (
+    "geneva loads spec.toml",
+    "geneva loads spec.toml -o cycle.csv",
+    "geneva loads spec.toml --set load.inertia_kgm2=0.8 --format json",
+    "geneva loads spec.toml --certify",
+)
+
+
+def run(
+    spec: SpecPath,
+    samples: Annotated[
+        int | None, option("N", f"The cycle in N rows instead (csv: {ROWS}).")
+    ] = None,
+    certify: Annotated[bool, flag("--certify", "Prove the greatest loads instead.")] = False,
+    reverse: Reverse = False,
+    settings: Settings = None,
+    output: Output = "-",
+    format: Format = "",
+) -> None:
+    """Loads of the motion: torque, forces, stress and power over a cycle.
+
+    The recommended motor comes first, then each quantity: its greatest and least value over the
+    motions, with their input angles. Mean and root mean square are over the whole period. As csv,
+    or with --samples, the cycle is printed in rows, evenly spaced in the input angle from entry.
+    json is always the summary.
+
+    The pin force is positive on the wall that drives the wheel, and negative on the wall that holds
+    it back. The input's torque and power are negative where the wheel drives the input. In a dwell
+    the lock holds the wheel, and all values are 0.
+
+    Links are rigid and have no mass, and the motor exerts a torque alone. The force guide_force_N
+    acts on what guides the roller besides its shaft: a rocker, slider, groove or fixed gear, or
+    what pushes the crank. A coulisse's block or a first wheel's roller needs a length in [drive].
+    Without it the crank's bearings are shown without that force. pv_W_m2 is the greatest Hertz
+    pressure times the sliding speed, for a roller fixed to its pin.
+
+    With --certify, the torques and the pin force are each proved to lie between two bounds, or
+    called not proved. It needs geneva-cli[certify]. More: `geneva help certificates`.
+    """
+    from geneva_cli.design import load
+    from geneva_cli.output import show, show_answer
+    from geneva_cli.output.formats import is_for_people, table_as
+    from geneva_cli.study.summary.loads import of_loads
+
+    design = load(spec, settings or (), reverse)
+    if certify:
+        certificates = design.certified_loads(is_for_people(output, format))
+        show(certificates, output, format, design.spec.files)
+        return
+    name = table_as(output, format)
+    by_rows = name == "csv" or (samples is not None and name != "json")
+    # before any output: a cycle whose loads are refused has no rows either
+    warnings = design.loads_table.to_dict()["warnings"] if by_rows or output != "-" else ()
+    if by_rows:
+        table = design.load_cycle(ROWS if samples is None else samples)
+        show(table, output, format, design.spec.files)
+    else:
+        show_answer(of_loads(design), output, format, design.spec.files)
+    _say(design.spec.path, warnings)
+
+
+def _say(path: str, texts: Sequence[str]) -> None:
+    """Print warnings, one a line, and all notes on unknown values as one line."""
+    say(path, filter(is_warning, texts))
+    notes = [text for text in texts if not is_warning(text)]
+    if len(notes) > 1:
+        lists_keys = "`geneva loads SPEC` lists the keys that they need"
+        print(clean(f"{path}: note: some values are not known; {lists_keys}"), file=sys.stderr)
+    else:
+        say(path, notes)

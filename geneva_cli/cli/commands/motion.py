@@ -1,0 +1,82 @@
+"""``geneva motion``."""
+
+import sys
+from typing import Annotated
+
+from geneva_cli.cli import completion
+from geneva_cli.cli.options import Output, Reverse, Settings, SpecPath, one_of, option, warn
+from geneva_cli.errors import GenevaError, clean
+from geneva_cli.output.formats import CAMS, CONTROLLERS, FORMATS
+
+EXAMPLES = (
+    "geneva motion spec.toml --samples 13",
+    "geneva motion spec.toml -o motion.csv",
+    "geneva motion spec.toml --turns 8 -o revolution.csv",
+    "geneva motion spec.toml --format cam --for codesys -o cam.st",
+)
+CAM = "An electronic cam"
+
+
+def run(
+    spec: SpecPath,
+    samples: Annotated[int | None, option("N", "Rows, both ends included.  [default: 361]")] = None,
+    turns: Annotated[
+        int | None, option("N", "Turns of the input, with a row at each entry and jump.")
+    ] = None,
+    controller: Annotated[
+        str | None,
+        option(
+            "CONTROLLER",
+            f"{one_of(CONTROLLERS)}  [default: polynomial]",
+            CAM,
+            name="--for",
+            complete=completion.words(lambda: CONTROLLERS),
+        ),
+    ] = None,
+    tolerance: Annotated[
+        float | None, option("DEG", "Greatest error of the wheel's angle.  [default: 0.0001]", CAM)
+    ] = None,
+    reverse: Reverse = False,
+    settings: Settings = None,
+    output: Output = "-",
+    format: Annotated[
+        str,
+        option(
+            "FORMAT",
+            one_of((*FORMATS, *CAMS)),
+            complete=completion.words(lambda: (*FORMATS, *CAMS)),
+        ),
+    ] = "",
+) -> None:
+    """Position, velocity, acceleration and jerk over a cycle from entry.
+
+    If the engagements differ, it covers a whole period of the machine.
+
+    --format cam writes an electronic cam: polynomials of degree five as csv, CODESYS points
+    (XYVA), or Beckhoff pairs. Standard error has the number of rows and the greatest error.
+    """
+    from geneva_cli.design import load
+    from geneva_cli.output import show, show_text
+
+    design = load(spec, settings or (), reverse)
+    files = design.spec.files
+    if format not in CAMS:
+        if controller is not None or tolerance is not None:
+            raise GenevaError("--for and --tolerance are for electronic cams: --format cam")
+        show(design.motion(361 if samples is None else samples, turns), output, format, files)
+        warn(design)
+        return
+    from geneva_cli.extras.servo.cam_files import cam
+
+    if samples is not None:
+        raise GenevaError("--samples: a cam has the points that its --tolerance needs")
+    content, rows, error_deg = cam(
+        design, controller or CONTROLLERS[0], turns, 1e-4 if tolerance is None else tolerance
+    )
+    if isinstance(content, str):
+        show_text(content, output, files)
+    else:
+        show(content, output, "csv", files)
+    text = f"{spec}: {rows} rows, greatest error {error_deg:.2g} degrees of the wheel"
+    print(clean(text), file=sys.stderr)
+    warn(design)

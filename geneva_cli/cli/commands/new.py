@@ -1,0 +1,106 @@
+"""``geneva new``."""
+
+import os
+from typing import Annotated
+
+import typer
+
+from geneva_cli.cli import completion
+from geneva_cli.cli.options import Output, flag, option
+from geneva_cli.errors import GenevaError
+
+EXAMPLES = (
+    "geneva new external -o wheel.toml",
+    "geneva new --list",
+    "geneva new --from-design turret -o turret.toml",
+)
+
+
+def run(
+    kind: Annotated[
+        str,
+        typer.Argument(
+            metavar="[KIND]",
+            help="curved, turret, a kind of drive, ...: see --list.",
+            autocompletion=completion.words(completion.kinds),
+        ),
+    ] = "",
+    from_design: Annotated[
+        str,
+        option(
+            "NAME",
+            "A copy of one of the designs, as it is.",
+            complete=completion.words(completion.designs),
+        ),
+    ] = "",
+    list_: Annotated[bool, flag("--list", "All kinds and designs, and what they are.")] = False,
+    all_: Annotated[
+        bool, flag("--all", "Every key that the kind can have, with its default.")
+    ] = False,
+    force: Annotated[bool, flag("--force", "Replace files that exist.")] = False,
+    output: Output = "-",
+) -> None:
+    """Write a short commented spec to start from; --all for every key.
+
+    An existing file is kept, unless --force is given. For editors: `geneva help spec`.
+    """
+    from geneva_cli.output import show
+    from geneva_cli.specfile.template import KINDS, example
+    from geneva_cli.table import Reading, rows_table
+
+    if bool(kind) + bool(from_design) + list_ != 1:
+        raise GenevaError("KIND, --from-design NAME or --list: give one of them")
+    if all_ and not kind:
+        raise GenevaError("--all goes with KIND")
+    if list_:
+        from geneva_cli.specfile.designs import titles
+
+        kinds = [(name, "new", example(name).about) for name in KINDS]
+        designs = [(name, "new --from-design", title) for name, title in titles().items()]
+        table = rows_table(("name", "command", "about"), kinds + designs)
+        show(table.replaced(reading=Reading(("name", "about"))), output)
+    elif kind:
+        _new(kind, output, all_, force)
+    else:
+        _copy(from_design, output, force)
+
+
+def _new(kind: str, output: str, whole: bool, force: bool) -> None:
+    """Write a kind's spec, which names the JSON Schema only if that is in its folder."""
+    from geneva_cli.output import refuse_existing, show_text
+    from geneva_cli.specfile.json_schema import FILE
+    from geneva_cli.specfile.template import template
+
+    if not force:
+        refuse_existing(output)
+    is_beside = output != "-" and os.path.isfile(os.path.join(os.path.dirname(output), FILE))
+    show_text(template(kind, is_beside, whole), output)
+
+
+def _copy(name: str, output: str, force: bool) -> None:
+    """Write a design's spec, and the files that it names into its folder."""
+    from geneva_cli.output import refuse_existing, show_text
+    from geneva_cli.specfile.designs import design
+
+    text, files = design(name)
+    if files and output == "-":
+        raise GenevaError(
+            f"--from-design {name}: it needs {', '.join(files)} in its folder; give -o FILE"
+        )
+    named_files = {os.path.join(os.path.dirname(output), file): files[file] for file in files}
+    if not force:
+        refuse_existing(output)
+        for place, content in named_files.items():
+            if not _holds(place, content):
+                refuse_existing(place)
+    for place, content in named_files.items():
+        show_text(content, place)
+    show_text(text, output)
+
+
+def _holds(place: str, content: str) -> bool:
+    try:
+        with open(place, encoding="utf-8", errors="replace") as file:
+            return file.read() == content
+    except FileNotFoundError:
+        return False

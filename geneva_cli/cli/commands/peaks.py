@@ -1,0 +1,39 @@
+"""``geneva peaks``."""
+
+from typing import Annotated
+
+from geneva_cli.cli.options import Format, Output, Reverse, Settings, SpecPath, flag, warn
+
+EXAMPLES = (
+    "geneva peaks spec.toml",
+    "geneva peaks spec.toml --set wheel.z=5 --format json",
+    "geneva peaks spec.toml --certify",
+)
+
+
+def run(
+    spec: SpecPath,
+    certify: Annotated[bool, flag("--certify", "Prove each peak between two bounds.")] = False,
+    reverse: Reverse = False,
+    settings: Settings = None,
+    output: Output = "-",
+    format: Format = "",
+) -> None:
+    """Greatest velocity, acceleration, jerk and power of a design, as invariants.
+
+    Angles are signed input angles from mid-motion. If engagements differ, each peak is the
+    greatest of all.
+
+    With --certify each peak is proved to lie between two bounds, or is called not proved. It needs
+    the extra geneva-cli[certify]. More: `geneva help certificates`.
+    """
+    from geneva_cli.design import load
+    from geneva_cli.output import show
+    from geneva_cli.output.formats import is_for_people
+
+    design = load(spec, settings or (), reverse)
+    table = design.peaks_table
+    if certify:
+        table = design.certified_peaks(is_for_people(output, format))
+    show(table, output, format, design.spec.files)
+    warn(design)

@@ -1,0 +1,81 @@
+"""``geneva plot``."""
+
+from typing import Annotated
+
+import typer
+
+from geneva_cli.cli import completion
+from geneva_cli.cli.options import AlsoReverse, Output, Settings, option, say, warn
+from geneva_cli.errors import GenevaError, cut
+
+EXAMPLES = (
+    "geneva plot spec.toml --pick velocity",
+    "geneva plot spec.toml -o motion.svg",
+    "geneva plot spec.toml --vary wheel.z=6,8,10 --pick acceleration -o several.svg",
+)
+
+
+def run(
+    specs: Annotated[
+        list[str],
+        typer.Argument(metavar="SPEC...", help="Specs, TOML files; or one .csv, as of a sweep."),
+    ],
+    pick: Annotated[
+        str,
+        option(
+            "QUANTITY,...",
+            "Only these, as velocity,pin_force_N.",
+            complete=completion.listed(completion.quantities),
+        ),
+    ] = "",
+    x: Annotated[str, option("COLUMN", "Column of a csv for the x axis.", name="--x")] = "",
+    y: Annotated[str, option("COLUMN,...", "Columns of a csv for the y axis.", name="--y")] = "",
+    vary: Annotated[
+        list[str] | None,
+        option(
+            "KEY=VALUES", "One spec with several values: wheel.z=4,6,8.", complete=completion.keys
+        ),
+    ] = None,
+    reverse: AlsoReverse = False,
+    settings: Settings = None,
+    output: Output = "-",
+    format: Annotated[
+        str, option("FORMAT", "table (a chart in text), svg, png, pdf, csv, json or md.")
+    ] = "",
+) -> None:
+    """Plot curves over a cycle, exact at peaks and jumps; or columns of a csv, such as a sweep's.
+
+    Without -o it prints a chart in text. png and pdf need the extra geneva-cli[plot]. More:
+    `geneva help plots`.
+    """
+    from geneva_cli.output import plot
+    from geneva_cli.output.formats import plotted_as
+    from geneva_cli.study.figures import of_specs, of_table
+
+    plotted_as(output, format)  # refuse a wrong format before any computation
+    tables = [path for path in specs if path.lower().endswith(".csv")]
+    if tables:
+        _refuse_with_csv(tables[0], specs, {"--pick": pick, "--set": settings, "--vary": vary})
+        plot(of_table(tables[0], x, _names(y)), output, format, tables)
+        return
+    if x or y:
+        raise GenevaError(f"--x and --y are for a .csv; for {cut(specs[0], 300)} give --pick")
+    figure, designs, left_out = of_specs(specs, settings or (), _names(pick), vary or (), reverse)
+    plot(figure, output, format, [file for d in designs for file in d.spec.files])
+    for design in designs:
+        warn(design)
+    for path, text in left_out:
+        say(path, [text])
+
+
+def _names(texts: str) -> list[str]:
+    return [name.strip() for name in texts.split(",") if name.strip()]
+
+
+def _refuse_with_csv(table: str, specs: list[str], options: dict[str, object]) -> None:
+    """Refuse other files and options with a csv, which is plotted by itself."""
+    if len(specs) > 1:
+        raise GenevaError(f"{cut(table, 300)}: a csv is plotted by itself, without other files")
+    for name, value in options.items():
+        if value:
+            raise GenevaError(f"{name} is for specs; for {cut(table, 300)} give --x and --y")

@@ -1,0 +1,184 @@
+"""``geneva profile``."""
+
+from typing import Annotated
+
+from geneva_cli.cli import completion
+from geneva_cli.cli.options import (
+    Output,
+    Settings,
+    SpecPath,
+    flag,
+    one_of,
+    option,
+    require_written,
+    warn,
+)
+from geneva_cli.drawings.catalogue import PARTS, is_sheet, require_tolerance
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.output import draw, draw_sheet, in_units, show
+from geneva_cli.output.formats import (
+    DRAWN,
+    DXF_VERSIONS,
+    FILLS,
+    FORMATS,
+    curve_tolerance,
+    is_drawn,
+    sheet_as,
+    usual_curves,
+)
+
+EXAMPLES = (
+    "geneva profile spec.toml --samples 9",
+    "geneva profile spec.toml --part wheel -o wheel.dxf",
+    "geneva profile spec.toml --part sheet -o machine.pdf",
+)
+
+CUT = "To cut"
+DRAWING = "The drawing"
+
+
+def run(
+    spec: SpecPath,
+    part: Annotated[
+        str,
+        option(
+            "PART",
+            "slot, wheel, crank, arm, assembly, parts, sheet or another.",
+            complete=completion.words(lambda: PARTS),
+        ),
+    ] = "slot",
+    tolerance: Annotated[
+        float | None,
+        option("MM", "Greatest distance from the true curve.  [default: 0.001; of meshes 0.01]"),
+    ] = None,
+    samples: Annotated[int | None, option("N", "Number of rows of a table, evenly spaced.")] = None,
+    curves: Annotated[
+        str | None,
+        option(
+            "KIND",
+            "Curved walls as arcs or spline; .step has spline.",
+            DRAWING,
+            complete=completion.words(lambda: ("arcs", "spline")),
+        ),
+    ] = None,
+    kerf: Annotated[float | None, option("MM", "Paths for a cut of this width.", CUT)] = None,
+    cutter: Annotated[
+        float | None, option("MM", "Diameter of a milling cutter that must fit.", CUT)
+    ] = None,
+    dog_bones: Annotated[
+        bool, flag("--dog-bones", "Free the corners that this cutter leaves round.", CUT)
+    ] = False,
+    center_marks: Annotated[
+        bool, flag("--center-marks", "A cross in every circle, on layer CENTER.", DRAWING)
+    ] = False,
+    units: Annotated[
+        str,
+        option(
+            "UNIT",
+            "Unit of drawings and tables: mm or inch.",
+            DRAWING,
+            complete=completion.words(lambda: ("mm", "inch")),
+        ),
+    ] = "mm",
+    dxf_version: Annotated[
+        str | None,
+        option(
+            "VERSION",
+            "Version of .dxf, R12 to R2018.  [default: R2000]",
+            DRAWING,
+            complete=completion.words(lambda: DXF_VERSIONS),
+        ),
+    ] = None,
+    fill: Annotated[
+        str | None,
+        option(
+            "LOOK",
+            "Plates in .svg: none, tint or hatch.",
+            DRAWING,
+            complete=completion.words(lambda: FILLS),
+        ),
+    ] = None,
+    force: Annotated[bool, flag("--force", "Draw even a machine that jams.")] = False,
+    settings: Settings = None,
+    output: Output = "-",
+    format: Annotated[
+        str,
+        option(
+            "FORMAT",
+            one_of((*FORMATS, *DRAWN, "pdf")),
+            name="--format",
+            complete=completion.words(lambda: (*FORMATS, *DRAWN, "pdf")),
+        ),
+    ] = "",
+) -> None:
+    """Write a part as a table of points, or as a drawing to cut: csv, dxf, svg, step or pdf.
+
+    A drawing is written only if its machine completes a whole turn. All parts, frames of
+    reference and layers: `geneva help parts`.
+    """
+    from geneva_cli.design import load
+
+    curves = curves or usual_curves(output, format)
+    tolerance = curve_tolerance(tolerance, output, format)
+    _require(curves, units, dog_bones, cutter)
+    sheet = is_sheet(part)
+    drawn = bool(sheet_as(output, format)) if sheet else is_drawn(output, format)
+    design = load(spec, settings or ())
+    own = {"version": dxf_version} if dxf_version is not None else {}
+    own |= {"fill": fill} if fill is not None else {}
+    files = design.spec.files
+    if not sheet and design.is_table(part, drawn):
+        _refuse(kerf, cutter, center_marks, own)
+        with in_units(units):
+            show(design.part_table(part, tolerance, samples), output, format, files)
+        warn(design)
+        return
+    if samples is not None:
+        raise GenevaError("--samples is for tables of points; drawings take --tolerance")
+    require_tolerance(design.mechanism, tolerance)
+    if design.spec.is_turned:
+        require_written(design, design.judge(part), force)
+    if sheet:
+        _refuse(kerf, cutter, center_marks)
+        if fill is not None:
+            raise GenevaError(
+                "--fill is for single parts and the assembly; a sheet has lines alone"
+            )
+        draw_sheet(design.sheet(tolerance, curves, part, units), output, format, files, **own)
+    else:
+        if cutter is not None:
+            require_written(design, design.cutter(part, cutter, dog_bones), force)
+        bones = cutter if dog_bones else None
+        drawing = design.drawing(part, tolerance, curves, kerf, bones, center_marks)
+        draw(drawing, output, format, units, files, **own)
+    warn(design)
+
+
+def _require(curves: str, units: str, dog_bones: bool, cutter: float | None) -> None:
+    """Raise GenevaError for values with which no drawing can be written."""
+    from geneva_cli.design import CURVES
+    from geneva_cli.geometry.pieces import UNITS
+
+    if curves not in CURVES:
+        raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
+    if units not in UNITS:
+        raise GenevaError(f"--units {cut(units)}: it must be one of {', '.join(UNITS)}")
+    if dog_bones and cutter is None:
+        raise GenevaError("--dog-bones needs the cutter's diameter: --cutter MM")
+
+
+def _refuse(
+    kerf: float | None,
+    cutter: float | None,
+    marks: bool,
+    own: dict[str, str] | None = None,
+) -> None:
+    """Raise GenevaError for options of parts to cut, if none is written."""
+    if kerf is not None:
+        raise GenevaError("--kerf is for parts to cut; this one is a table, or a sheet")
+    if cutter is not None:
+        raise GenevaError("--cutter is for parts to cut; this one is a table, or a sheet")
+    if marks:
+        raise GenevaError("--center-marks is for drawings; this one is a table, or a sheet")
+    if own:
+        raise GenevaError("--dxf-version and --fill are for drawings; this is a table of points")

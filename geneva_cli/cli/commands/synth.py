@@ -1,0 +1,161 @@
+"""``geneva synth``."""
+
+import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated
+
+from geneva_cli.cli import completion
+from geneva_cli.cli.options import Format, Output, Settings, flag, option, warn
+from geneva_cli.errors import GenevaError, clean, cut
+
+if TYPE_CHECKING:
+    from geneva_cli.study.target import Target
+
+EXAMPLES = (
+    "geneva synth --motion-deg 180 --z 6 --check 0",
+    "geneva synth --dwell-s 0.8.. --cycle 1.5 --z 8 --check 0",
+)
+
+
+WANTED = "Wanted, a number or a range (0.2..0.3, 0.8.., ..180, 1/3)"
+MACHINES = "Machines that are tried"
+ROWS = "Rows"
+
+
+def run(
+    tau: Annotated[str, option("X", "Motion / cycle.", WANTED)] = "",
+    motion_deg: Annotated[str, option("DEG", "Input angle of one motion.", WANTED)] = "",
+    dwell_deg: Annotated[str, option("DEG", "Input angle of a dwell.", WANTED)] = "",
+    motion_s: Annotated[str, option("S", "Seconds of motion.", WANTED)] = "",
+    dwell_s: Annotated[str, option("S", "Seconds of dwell.", WANTED)] = "",
+    cycle: Annotated[str, option("S", "Seconds from step to step.", WANTED)] = "",
+    index_mm: Annotated[str, option("MM", "Travel of a rack per step.", WANTED)] = "",
+    subject_to: Annotated[
+        list[str] | None,
+        option(
+            "BOUND",
+            'Of any quantity, as "jerk.max <= 5"; repeat.',
+            WANTED,
+            complete=completion.words(completion.fields),
+        ),
+    ] = None,
+    z: Annotated[str, option("Z", "Slots: 6, 3..12 or 3,4,6.", MACHINES, default="3..24")] = "",
+    internal: Annotated[bool, flag("--internal", "Internal wheels.", MACHINES)] = False,
+    external: Annotated[bool, flag("--external", "External wheels.", MACHINES)] = False,
+    spherical: Annotated[bool, flag("--spherical", "Spherical wheels.", MACHINES)] = False,
+    linear: Annotated[bool, flag("--linear", "Racks alone.", MACHINES)] = False,
+    carousel: Annotated[str, option("N", "Wheels on a carrier alone: 3, or 1..4.", MACHINES)] = "",
+    rollers: Annotated[
+        int | None, option("M", "Rollers; without it, any number.", MACHINES)
+    ] = None,
+    law: Annotated[
+        str,
+        option(
+            "NAME",
+            "Law of curved slots, or all.",
+            MACHINES,
+            complete=completion.words(completion.laws),
+        ),
+    ] = "modified-sine",
+    space: Annotated[
+        str, option("X", "Largest four-bar, in centre distances.", MACHINES, default="3")
+    ] = "",
+    from_: Annotated[
+        str,
+        option("SPEC", "Take z, speed, sizes, loads and limits from it.", MACHINES, name="--from"),
+    ] = "",
+    settings: Settings = None,
+    sort: Annotated[
+        str,
+        option(
+            "min:FIELD",
+            "The least first; max:FIELD: the greatest.",
+            ROWS,
+            complete=completion.words(completion.fields),
+        ),
+    ] = "",
+    check: Annotated[int, option("N", "Turn and check the parts of N rows.", ROWS)] = 20,
+    buildable: Annotated[bool, flag("--buildable", "Only rows that pass.", ROWS)] = False,
+    write: Annotated[int | None, option("N", "Write row N as a spec instead.", ROWS)] = None,
+    output: Output = "-",
+    format: Format = "",
+) -> None:
+    """Find the machines that meet all requirements; the lowest peak comes first.
+    The machines tried, and the columns: `geneva help search`.
+    """
+    from geneva_cli.study.synth.reading import read_frame, read_target
+
+    if settings and not from_:
+        raise GenevaError("--set goes with --from: it changes a key of that spec")
+    if check < 0 or (buildable and not check):
+        raise GenevaError(f"--check {cut(check)}: it must be at least {int(buildable)}")
+    if write is not None and write < 1:
+        raise GenevaError(f"--write {cut(write)}: rows are numbered from 1")
+    target = read_target(
+        tau=tau,
+        motion_deg=motion_deg,
+        dwell_deg=dwell_deg,
+        motion_s=motion_s,
+        dwell_s=dwell_s,
+        cycle=cycle,
+        index_mm=index_mm,
+        z=z,
+        internal=internal,
+        external=external,
+        spherical=spherical,
+        linear=linear,
+        carousel=carousel,
+        rollers=rollers,
+        law=law,
+        frame=read_frame(from_, settings or ()) if from_ else None,
+        sort=sort,
+        subject_to=subject_to or (),
+        space=space,
+    )
+    if write is None:
+        _show(target, check, buildable, output, format)
+    else:
+        _write(target, write, check, buildable, output, format)
+
+
+def _inputs(target: "Target") -> Sequence[str]:
+    """The files that the requirement was read from."""
+    return target.frame.files if target.frame else ()
+
+
+def _show(target: "Target", check: int, buildable: bool, output: str, format: str) -> None:
+    from geneva_cli.output import is_watched, show
+    from geneva_cli.output.formats import is_for_people
+    from geneva_cli.study.synth.shown import for_people, for_terminal
+    from geneva_cli.study.synth.table import synthesis_table
+
+    if output.endswith(".toml") and not format:
+        raise GenevaError(f"-o {cut(output, 300)}: a spec is one row of the table; add --write N")
+    people = is_for_people(output, format)
+    table = synthesis_table(target, check, buildable)
+    if is_watched(output, format):
+        table = for_terminal(table, max(check, 20))  # no fewer than are turned by default
+    elif people:
+        table = for_people(table)
+    show(table, output, format, _inputs(target))
+
+
+def _write(
+    target: "Target", number: int, check: int, buildable: bool, output: str, format: str
+) -> None:
+    from geneva_cli.design import Design
+    from geneva_cli.output import show_text
+    from geneva_cli.study.synth.search import search
+    from geneva_cli.study.synth.written import chosen
+
+    if format:
+        raise GenevaError(f"--format {cut(format)}: --write writes a spec, which is TOML")
+    if output != "-" and not output.endswith(".toml"):
+        raise GenevaError(f'-o "{cut(output, 300)}": --write writes a spec: it must end in .toml')
+    row, text = chosen(search(target), number, buildable, check)
+    show_text(text, output, _inputs(target))
+    path = "<stdout>" if output == "-" else output
+    if row.trouble:
+        note = f"{path}: warning: its parts cannot be built: {row.trouble}"
+        print(clean(note), file=sys.stderr)
+    warn(Design.of(row.spec.replace(path=path)))

@@ -1,0 +1,41 @@
+"""``geneva vibration``."""
+
+from typing import Annotated
+
+from geneva_cli.cli.options import Format, Output, Reverse, Settings, SpecPath, option, say
+
+EXAMPLES = ("geneva vibration spec.toml --period-ratio 5.5 --damping 0.02",)
+
+
+def run(
+    spec: SpecPath,
+    period_ratio: Annotated[
+        float | None, option("X", "Motion time over natural period, in place of [shaft].")
+    ] = None,
+    damping: Annotated[float | None, option("Z", "Damping ratio, in place of [shaft]'s.")] = None,
+    samples: Annotated[int, option("N", "Number of speeds in the csv.")] = 401,
+    reverse: Reverse = False,
+    settings: Settings = None,
+    output: Output = "-",
+    format: Format = "",
+) -> None:
+    """The load on an elastic shaft: vibration after each index, and the speeds to avoid.
+
+    As csv the spectrum: residual and steady state from half to twice the design's speed. At a
+    speed to avoid the residual has a local maximum of at least 0.0001 of the step. `avoid` says
+    how far it moves with a stiffness 20 % lower and higher.
+    """
+    from geneva_cli.design import load
+    from geneva_cli.output import show, show_answer
+    from geneva_cli.output.formats import table_as
+    from geneva_cli.study.summary.vibration import of_vibration
+
+    design = load(spec, settings or (), reverse)
+    if table_as(output, format) == "csv":
+        table = design.spectrum(samples, period_ratio, damping)
+        show(table, output, format, design.spec.files)
+        return
+    result = design.vibration(period_ratio, damping)
+    show_answer(of_vibration(design, result), output, format, design.spec.files)
+    if output != "-":
+        say(design.spec.path, result.to_dict()["warnings"])

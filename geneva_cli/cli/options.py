@@ -1,0 +1,110 @@
+"""Options of several commands."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
+
+import typer
+
+from geneva_cli.cli import completion
+from geneva_cli.errors import Notice, clean
+from geneva_cli.output.formats import FORMATS
+
+if TYPE_CHECKING:
+    from geneva_cli.design import Design
+
+
+def one_of(names: Iterable[str]) -> str:
+    """The allowed words of an option, for its help."""
+    *others, last = names
+    return f"{', '.join(others)} or {last}."
+
+
+def option(
+    metavar: str,
+    help: str,
+    heading: str | None = None,
+    *,
+    name: str = "",
+    complete: Callable[..., list[str]] | None = None,
+    default: str | bool = True,
+) -> Any:
+    """An option with a value, below a heading of the help.
+
+    ``name`` is its name where the parameter's is another, ``complete`` completes what is typed, and
+    ``default`` is shown as the default.
+    """
+    return typer.Option(
+        *([name] if name else []),
+        metavar=metavar,
+        help=help,
+        rich_help_panel=heading,
+        autocompletion=complete,
+        show_default=default,
+    )
+
+
+def flag(name: str, help: str, heading: str | None = None) -> Any:
+    """An option without a value, below a heading of the help."""
+    return typer.Option(name, help=help, rich_help_panel=heading)
+
+
+def output_option(metavar: str, help: str, default: bool = False) -> Any:
+    """The option ``-o`` of a file or folder to write; ``default`` shows its default."""
+    return typer.Option("-o", "--output", metavar=metavar, help=help, show_default=default)
+
+
+SpecPath: TypeAlias = Annotated[
+    str, typer.Argument(metavar="SPEC", help="The spec, a TOML file; - reads standard input.")
+]
+Settings: TypeAlias = Annotated[
+    list[str] | None,
+    option(
+        "KEY=VALUE",
+        "Set a key over the file's, as drive.n_rpm=90.",
+        name="--set",
+        complete=completion.keys,
+    ),
+]
+Reverse: TypeAlias = Annotated[bool, flag("--reverse", "Turn the input the other way.")]
+AlsoReverse: TypeAlias = Annotated[
+    bool, flag("--reverse", "Also each design turning the other way.")
+]
+Output: TypeAlias = Annotated[
+    str,
+    output_option("FILE", "Write to this file; - prints."),
+]
+Format: TypeAlias = Annotated[
+    str,
+    option("FORMAT", one_of(FORMATS), name="--format", complete=completion.words(lambda: FORMATS)),
+]
+
+
+def warn(design: Design) -> None:
+    """Print the warnings about the motion on standard error."""
+    say(design.spec.path, design.motion_warnings)
+
+
+def say(path: str, warnings: Iterable[str]) -> None:
+    """Print warnings about a spec on standard error, one a line."""
+    for warning in warnings:
+        print(clean(f"{path}: warning: {with_name(warning)}"), file=sys.stderr)
+
+
+def with_name(warning: str) -> str:
+    """A warning with its name for ``geneva explain``."""
+    return f"{warning} [{warning.name}]" if isinstance(warning, Notice) else warning
+
+
+def require_written(design: Design, verdict: tuple[str, list[str]], force: bool) -> None:
+    """Exit with status 1 for parts that overlap or cannot be built, unless forced; else warn."""
+    path = design.spec.path
+    refused, warned = verdict
+    if refused and not force:
+        text = f"not written: {refused}; --force writes it anyway"
+        print(clean(f"{path}: {text}"), file=sys.stderr)
+        raise typer.Exit(1)
+    for text in [refused, *warned] if refused else warned:
+        print(clean(f"{path}: warning: {text}"), file=sys.stderr)

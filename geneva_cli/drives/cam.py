@@ -1,0 +1,119 @@
+"""Cam-Geneva: a fixed groove guides the roller along the crank, and the slots stay straight.
+
+Every law whose velocity at mid-motion is positive can be made in this way. Straight slots then
+drive the wheel positively.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, ClassVar
+
+from geneva_cli.drives.pin_path import PinPath
+from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.motion.drive import Needs, Plan
+from geneva_cli.motion.engagement import Carrier, ConstantRate, Engagement, Vector, cross
+from geneva_cli.motion.law_motion import LawMotion, refuse_alpha0
+from geneva_cli.motion.slot_and_motion import SolvedPath, SolvedPathSlot
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.arrays import larger, parameter
+from geneva_cli.numerics.jet import Jet, Number
+from geneva_cli.spec.schema import Example
+
+if TYPE_CHECKING:
+    from geneva_cli.motion.motion import Motion
+    from geneva_cli.motion.wheels.gearing import Gearing
+
+
+class Cam(PinPath, kw_only=True):
+    """A fixed groove guides the roller along the crank.
+
+    It needs a ``Motion``, whose law gives the shape of the groove. The slots stay straight and
+    radial.
+
+    >>> round(Design(External(6), Cam(), Motion(Cycloidal())).peaks.acceleration.max, 12)
+    1.5
+    """
+
+    NAME: ClassVar[str] = "cam"
+    WORDS: ClassVar[str] = "a crank whose roller runs in a cam"
+    EXAMPLE: ClassVar[Example] = Example(
+        "a cam-Geneva: straight slots, and a motion law from a fixed cam",
+        {
+            "wheel": {"z": 6},
+            "motion": {"law": "cycloidal"},
+        },
+    )
+    GEARINGS: ClassVar[tuple[str, ...]] = ("external", "internal")
+    LAW: ClassVar[Needs] = Needs.LAW
+    ONE_ROLLER: ClassVar[bool] = False
+
+    def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
+        """The engagement of each roller. Raises GenevaError for an impossible law or ratio."""
+        assert motion is not None  # ``compatible`` refuses a cam without a law
+        if motion.ratio is not None:
+            raise GenevaError(
+                "ratio has no meaning with a cam, since the crank's length changes: remove ratio",
+                ("motion", "ratio"),
+            )
+        natural = 2.0 * wheel.half_motion_deg(wheel.step)
+        motion_deg = natural - motion.alpha0_deg
+        refuse_alpha0(motion.alpha0_deg, natural)
+        # At input 0 the roller crosses the line of centres, and the wheel is half-way.
+        early = motion.law.half_way * motion_deg
+        turned = LawMotion(-early, motion_deg - early, wheel.step.b, motion.law)
+        path = SolvedPath(turned, wheel.SIGN)
+        _refuse_unreachable(turned, wheel.SIGN)
+        body = ConstantRate(-wheel.SIGN)  # the roller slides along the crank and turns with it
+        carrier = Carrier(body=body, reactions=Slide(), groove=path)
+        engagement = Engagement(0.0, path, SolvedPathSlot(path), turned, carrier)
+        ratio = parameter(path.crossing)
+        return self.planned(engagement, ratio, L, wheel.SIGN < 0.0)
+
+
+class Slide:
+    """Equilibrium of the roller's slide: forces from the groove's wall and across the crank's arm.
+
+    The crank also holds a couple.
+    """
+
+    def __call__(
+        self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
+    ) -> list[tuple[Vector, Vector]]:
+        """Forces of each load on the crank's shaft, and on the groove."""
+        x, y = path
+        wall = y.derivative() * -1.0, x.derivative()
+        arm = x.lower - 1.0, y.lower
+        across = arm[1] * -1.0, arm[0]
+        turning = cross(wall, across)
+        out = []
+        for force, _ in loads:
+            push, hold = cross(wall, force) / turning, cross(force, across) / turning
+            crank = across[0] * push, across[1] * push
+            out.append((crank, (wall[0] * hold, wall[1] * hold)))
+        return out
+
+
+def _refuse_unreachable(motion: LawMotion, sign: float) -> None:
+    """Raise GenevaError if slot and crank become parallel, or the wheel stands at mid-motion."""
+    V = motion(0.0, 1).c[1]
+    refuse(
+        (V <= 0.0) | ((V >= 1.0) & (sign < 0.0)),
+        lambda: GenevaError(
+            f"at mid-motion the law moves the wheel {V:.4g} times as fast as the crank: the "
+            "factor must be above 0" + (" and below 1" if sign < 0 else ""),
+            ("motion", "law"),
+        ),
+    )
+    end = radians(motion.exit_deg) + sign * motion.half_step
+    start = radians(-motion.entry_deg) + sign * motion.half_step
+    wide = larger(start, end)
+    refuse(
+        (wide <= 0.0) | (wide >= math.pi),
+        lambda: GenevaError(
+            f"in {motion.exit_deg - motion.entry_deg:.6g} deg of motion crank and slot become "
+            "parallel before the end: increase alpha0_deg to shorten it",
+            ("motion", "alpha0_deg"),
+        ),
+    )

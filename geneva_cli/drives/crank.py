@@ -1,0 +1,57 @@
+"""A crank directly on the input shaft, or several equal ones geared to it about one wheel.
+
+From places that are whole steps apart the wheel looks alike. So a crank there moves it as the first
+one does. The cranks work in turn, crank j after the j-th part of a turn of the input: the wheel
+moves as by one crank with that many rollers, and so do the loads.
+"""
+
+import math
+from typing import Annotated, ClassVar, Self
+
+from geneva_cli.drives.transmission import Direct
+from geneva_cli.motion.drive import Plan
+from geneva_cli.spec.rules import Z_MAX, Range
+
+
+class Crank(Direct, kw_only=True):
+    """The plain crank: crank angle and input angle are equal.
+
+    ``n_rpm`` is its constant speed. ``rollers`` is the number of rollers, evenly spaced unless
+    ``roller_angles_deg`` places them. With ``crank_steps`` each roller has a crank of its own.
+
+    >>> Design(External(6), Crank(n_rpm=30, rollers=2)).timing.cycle_s  # a roller's passage
+    1.0
+    >>> Design(External(6), Crank(rollers=2, crank_steps=(0, 3))).mechanism.crank_places[1].at[0]
+    -100.0
+    """
+
+    NAME: ClassVar[str] = "crank"
+    WORDS: ClassVar[str] = "a crank"
+    crank_steps: Annotated[
+        tuple[float, ...] | None,
+        Range(0.0, Z_MAX, "[)"),
+        "places of cranks with one roller each about the wheel, in steps from the first",
+    ] = None
+
+    @property
+    def cranks(self) -> tuple[float, ...]:
+        """The places of the spec."""
+        return self.crank_steps or super().cranks
+
+    def may_vary(self, table: str, key: str) -> bool:
+        """False for the slots if several cranks turn both ways: their places change with it."""
+        placed = self.crank_steps and self.both_ways
+        return not placed or (table, key) != ("wheel", "z")
+
+    def backwards(self, plan: Plan) -> Self:
+        """The drive that turns the other way: its last crank works first after the first one.
+
+        >>> crank = Crank(rollers=3, crank_steps=(0, 4, 3))
+        >>> crank.backwards(Design(External(5), crank).mechanism.plan).crank_steps
+        (0.0, 2.0, 1.0)
+        """
+        out = super().backwards(plan)
+        if not self.crank_steps:
+            return out
+        z = float(round(math.pi / plan.engagements[0].half_step))
+        return out.replace(crank_steps=(0.0, *(z - step for step in self.crank_steps[:0:-1])))

@@ -1,0 +1,146 @@
+"""Two equal elliptical gears, each turning about a focus, in front of the crank.
+
+With the driver at phi, the driven gear with the crank is at f: tan(f/2) = (1-e)/(1+e) tan(phi/2),
+slowest at 0. The directions of the half angles are (cos phi/2, sin phi/2) and ((1+e) cos phi/2,
+(1-e) sin phi/2).
+
+Source: the focal property of the ellipse; Kepler's true anomaly follows this law too.
+"""
+
+from collections.abc import Callable
+from typing import Annotated, ClassVar, NamedTuple
+
+from geneva_cli.drives.pushed import Mesh, PushedCrank
+from geneva_cli.drives.transmission import LocalTransmission, Transmission
+from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.motion.drive import Gears, Plan
+from geneva_cli.motion.engagement import Displacement, Path
+from geneva_cli.motion.pivots import Dimension, Layout, Pivot
+from geneva_cli.motion.wheels.gearing import Gearing
+from geneva_cli.numerics.angles import sin_cos_deg
+from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.jet import Jet, Number, cosines_after, sine_versine_of
+from geneva_cli.spec.rules import POSITIVE, OneOf, Range
+from geneva_cli.spec.schema import Example
+
+
+class EllipticalGears(Transmission, kw_only=True):
+    """Two equal elliptical gears, with the index in their slow phase or in their quick one.
+
+    ``eccentricity`` is that of the pitch ellipses, 0 or more and below 1; they turn about a focus.
+
+    >>> round(Design(External(6), EllipticalGears(eccentricity=0.3)).timing.motion_deg, 6)
+    187.984352
+    """
+
+    NAME: ClassVar[str] = "elliptical-gears"
+    WORDS: ClassVar[str] = "a crank behind elliptical gears"
+    IN_FRONT: ClassVar[str] = "elliptical gears"
+    EXAMPLE: ClassVar[Example] = Example(
+        "equal elliptical gears in front: a slower, softer index",
+        {
+            "wheel": {"z": 6},
+            "drive": {"eccentricity": 0.3},
+        },
+    )
+    GEARED: ClassVar[bool] = True
+    INPUT_SENSE: ClassVar[float] = -1.0
+    eccentricity: Annotated[float, Range(0.0, 1.0, "[)"), "of the gears' pitch ellipses"]
+    phase: Annotated[str, OneOf(("slow", "quick")), "phase of the gears at mid-motion"] = "slow"
+    gear_distance_mm: Annotated[float, POSITIVE, "distance between the two gears' axes, C"] = 100.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        refuse(
+            self.eccentricity > 1.0 - 0.999e-12,  # 1 - 1e-12, as a double, passes
+            lambda: GenevaError(
+                f"eccentricity = {self.eccentricity!r}: too close to 1 to be computed; it "
+                "must be at most 1 - 1e-12",
+                ("drive", "eccentricity"),
+            ),
+        )
+
+    @property
+    def gears(self) -> Gears:
+        """The pair of gears."""
+        return Gears(self.gear_distance_mm, self.about(0.0).advance)
+
+    def input_axis_mm(self, plan: Plan, sign: float) -> float:
+        """Place of the driver gear's axis, mm from the wheel's."""
+        return plan.center_distance_mm + self.gear_distance_mm
+
+    def layout(self, plan: Plan, sign: float) -> Layout:
+        """Pivots and dimensions: each gear turns about a focus, the driven one with the crank."""
+        a = 0.5 * self.gear_distance_mm
+        return (
+            Pivot("driver gear axis", self.input_axis_mm(plan, sign), 0.0),
+            Dimension("gears' axes", self.gear_distance_mm, "mm"),
+            Dimension("gears' semi-major axis", a, "mm"),
+            Dimension("gears' focus from centre", a * self.eccentricity, "mm"),
+            Dimension("index in the gears' phase", self.phase),
+        )
+
+    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
+        """Reactions of the crank, whose gear is pushed by the driver's teeth."""
+        return Mesh(path, self.gear_distance_mm / L)
+
+    def exact_advance(
+        self, half: tuple[float, float], exact: Callable[[float], float]
+    ) -> Displacement:
+        """Rotation of the driven gear about an angle f, from sine and cosine of f/2."""
+        e = exact(self.eccentricity)
+        return _focal(e if self.phase == "slow" else -e, *half)
+
+    def about(self, crank_deg: float) -> LocalTransmission:
+        """Transmission about an angle f of the driven gear in degrees."""
+        slow = self.phase == "slow"
+        return _about(self.eccentricity if slow else -self.eccentricity, crank_deg)
+
+
+class Focal(NamedTuple):
+    """The gears about one angle f of the driven one.
+
+    It holds half angles: the direction of the driven gear, then that of the driver. ``size``² is W
+    = 1 + e² + 2 e cos phi there, a sum of positive terms.
+    """
+
+    e: float
+    sin_h: float
+    cos_h: float
+    sin_p: float
+    cos_p: float
+    size: float
+
+    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
+        """sin d and 1 - cos d of the driven gear's rotation d, ``tau`` input radians later."""
+        e = self.e
+        m = library(tau, e, self.size)
+        least = (1.0 - e) * (1.0 + e)
+        s, c = m.sin(0.5 * tau), m.cos(0.5 * tau)
+        # Half angles: the driver's direction, and the driven gear's from its own at f.
+        sine, cosine = self.sin_p * c + self.cos_p * s, self.cos_p * c - self.sin_p * s
+        across = self.size * self.size * s
+        along = least * c - 4.0 * e * self.sin_h * self.cos_h * s
+        x, y = along * along - across * across, 2.0 * along * across
+        W = ((1.0 + e) * cosine) ** 2 + ((1.0 - e) * sine) ** 2
+        sin_phi, cos_phi = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
+        cosines = cosines_after(sin_phi, cos_phi, max(order, 1) - 1)
+        rate = least / Jet((W, *[2.0 * e * t for t in cosines[1:]]))
+        return sine_versine_of(rate, y, x, order)
+
+
+def _focal(e: float, sin_h: float, cos_h: float) -> Focal:
+    """The gears about an angle of the driven one, from half that angle."""
+    a, b = (1.0 + e) * sin_h, (1.0 - e) * cos_h
+    size = library(a, b).hypot(a, b)
+    return Focal(e, sin_h, cos_h, a / size, b / size, size)
+
+
+def _about(e: float, crank_deg: float) -> LocalTransmission:
+    m = library(e, crank_deg)
+    focal = _focal(e, *sin_cos_deg(0.5 * crank_deg))
+    a, b = (1.0 + e) * focal.sin_h, (1.0 - e) * focal.cos_h
+    phi = 2.0 * m.degrees(m.atan2(a, b))
+    turns = (crank_deg - phi) / 720.0  # half angles repeat after two turns
+    phi = phi + 720.0 * (round(turns) if isinstance(turns, float) else m.rint(turns))
+    return LocalTransmission(phi, focal)

@@ -1,0 +1,208 @@
+"""Gear-Geneva: the roller sits on a planet that rolls on a fixed sun, or in a fixed ring.
+
+With the carrier R0 at phi the roller is at R0 e^(i phi) + rp e^(i c phi). The rate c is 1 + u on a
+sun and 1 - u in a ring, with u = fixed teeth / planet teeth. At an extreme of this trochoid, where
+both arms are in line, the roller enters its slot without shock: u = 2z/(z-2), R0 - rp = L sin b.
+The jump at entry is (R0 - c² rp)/(L cos b), which is zero for rp = L sin b/(c² - 1). A negative rp
+lowers the peak instead.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
+
+from geneva_cli.drives.pin_path import PinPath
+from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.motion import path_and_slot
+from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.engagement import Anchor, Carrier, ConstantRate, Vector, cross
+from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
+from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, Teeth
+from geneva_cli.motion.wheels.classic import gap
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.arrays import Array, choose, library
+from geneva_cli.numerics.jet import Jet, Number, sin_cos, sine_versine
+from geneva_cli.spec.rules import OneOf, Range, Words
+from geneva_cli.spec.schema import Example
+
+if TYPE_CHECKING:
+    from geneva_cli.motion.motion import Motion
+    from geneva_cli.motion.wheels.gearing import Gearing
+
+
+class Epicyclic(PinPath, kw_only=True):
+    """A planet gear carries the roller.
+
+    ``planet_ratio`` is the planet's crank over the centre distance; with "shockless" the
+    acceleration does not jump at entry. ``fixed`` is the gear that the planet rolls on.
+
+    >>> soft = Design(External(4), Epicyclic(planet_ratio="shockless"))
+    >>> abs(soft.peaks.ends.acceleration_entry) < 1e-9
+    True
+    """
+
+    NAME: ClassVar[str] = "epicyclic"
+    WORDS: ClassVar[str] = "a roller on a planet gear"
+    EXAMPLE: ClassVar[Example] = Example(
+        "a gear-Geneva: the roller on a planet enters without a jump",
+        {
+            "wheel": {"z": 4},
+            "drive": {"planet_ratio": "shockless", "fixed": "sun"},
+            "size": {"roller_radius_mm": 4.0},
+        },
+    )
+    TOOTHED: ClassVar[bool] = True
+    planet_ratio: Annotated[
+        float | str,
+        Words(Range(-0.4, 0.4), ("shockless",)),
+        'planet crank rp / L, either sign; "shockless" for no jump at entry',
+    ]
+    fixed: Annotated[str, OneOf(("sun", "ring")), "fixed gear that the planet rolls on"] = "sun"
+
+    def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
+        """The engagement, with the planet's arm pointing outwards at mid-motion."""
+        refuse(
+            (wheel.z != 3) & (wheel.z != 4) & (wheel.z != 6),
+            lambda: GenevaError(
+                f"z = {wheel.z}: the planet's path closes only if 2z/(z-2) is a whole number: "
+                "z must be 3, 4 or 6",
+                ("wheel", "z"),
+            ),
+        )
+        step = wheel.step
+        teeth = 2 * wheel.z // (wheel.z - 2)
+        c = 1.0 + teeth if self.fixed == "sun" else 1.0 - teeth
+        l, cos_b = step.sin_cos
+        rp = l / (c * c - 1.0) if isinstance(self.planet_ratio, str) else self.planet_ratio
+        _refuse_reach(l, rp, teeth, c)
+        R0 = l + rp
+        half = wheel.half_motion_deg(step)
+
+        def both(slope: float, bend: float, planet: float) -> tuple[tuple[float, float], ...]:
+            return ((R0 * slope, R0 * bend), (planet * slope, planet * bend))
+
+        # At the ends the planet's arm points back along the carrier, at mid-motion outwards.
+        anchors = (
+            Anchor(-half, -step.b, cos_b, Arms(-1.0, 0.0, both(1.0, 1.0, -rp), c)),
+            Anchor(0.0, 0.0, gap(1.0, *step) - 2.0 * rp, Arms(0.0, 1.0, both(1.0, 1.0, rp), c)),
+            Anchor(half, step.b, cos_b, Arms(1.0, 0.0, both(1.0, -1.0, -rp), c)),
+        )
+        path = AnchoredPath(anchors)
+        followed = StraightSlotMotion(path, step.b)
+        # The roller sits on the planet, which turns c times as fast as the carrier.
+        reactions = PlanetReactions(R0, rp, c)
+        engagement = path_and_slot.engagement(
+            0.0, path, followed, Carrier(1.0, ConstantRate(-c), reactions)
+        )
+        return self.planned(engagement, R0 + rp, L)
+
+    def layout(self, plan: Plan, sign: float) -> Layout:
+        """Pivots and dimensions of carrier, planet and gears; at input 0 both arms point at the
+        wheel.
+        """
+        reactions = cast(PlanetReactions, plan.engagements[0].reactions)
+        L = plan.center_distance_mm
+        R0, rp, teeth = L * reactions.R0, L * reactions.rp, abs(reactions.c - 1.0)
+        planet = R0 / abs(reactions.c)
+        return (
+            Pivot("planet axis", L - R0, 0.0),
+            Dimension("carrier R0", R0, "mm"),
+            Dimension("planet crank rp", rp, "mm"),
+            Dimension("fixed gear", self.fixed),
+            Dimension("fixed teeth / planet teeth", teeth),
+            Dimension("planet's pitch radius", planet, "mm"),
+            Dimension("fixed gear's pitch radius", planet * teeth, "mm"),
+        )
+
+    def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
+        """Carrier, planet arm, and the pitch circles of planet and fixed gear, at input angles."""
+        reactions = cast(PlanetReactions, plan.engagements[0].reactions)
+        L, still, turn = plan.center_distance_mm, 0.0 * input_deg, radians(input_deg)
+        R0, rp, c = L * reactions.R0, L * reactions.rp, reactions.c
+        m, axis = library(turn), (still + L, still)
+        planet = L - R0 * m.cos(turn), R0 * m.sin(turn)
+        roller = planet[0] - rp * m.cos(c * turn), planet[1] + rp * m.sin(c * turn)
+        radius, shaft = R0 / abs(c), Joint.SHAFT
+        return (
+            Link("carrier", (axis, planet), (shaft, shaft), 2),
+            Link("planet's arm", (planet, roller), (shaft, Joint.ROLLER), 1),
+            Link("planet", (planet,), (shaft,), 3, radius),
+            Link(
+                "fixed gear",
+                (axis,),
+                (shaft,),
+                3,
+                radius * abs(c - 1.0),
+                Teeth(inside=self.fixed == "ring", fixed=True),
+            ),
+        )
+
+
+class PlanetReactions(NamedTuple):
+    """Equilibrium of the planet, held by the carrier's pin and by the fixed gear at the mesh.
+
+    The mesh is -R0/c farther out than the planet's axis: nearer on a sun, farther in a ring.
+    """
+
+    R0: float  # over L
+    rp: float
+    c: float
+
+    def __call__(
+        self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
+    ) -> list[tuple[Vector, Vector]]:
+        """Reactions of the carrier's shaft, and of the fixed gear, to each load."""
+        turn = Jet.variable(radians(input_deg), path[0].order - 1)
+        (s, c), (sp, cp) = sin_cos(turn), sin_cos(turn * self.c)
+        across, planet = (s * -1.0, c * -1.0), (cp * -self.rp, sp * self.rp)
+        out = []
+        for force, moment in loads:
+            push = (cross(planet, force) + moment) * (self.c / self.R0)
+            third = across[0] * push, across[1] * push
+            out.append(((force[0] + third[0], force[1] + third[1]), third))
+        return out
+
+
+class Arms(NamedTuple):
+    """Carrier and planet about a pose: their slopes and bends, and the planet's rate c.
+
+    ``radial`` is the sense of their speed along the ray; ``level`` is 1 if the speed is across it.
+    """
+
+    radial: float
+    level: float
+    arms: tuple[tuple[float, float], ...]
+    c: float
+    cuts: tuple[float, ...] = ()
+
+    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
+        """The pin's displacement since the pose, along the ray and across it."""
+        u: Jet | None = None
+        v: Jet | None = None
+        for (slope, bend), rate in zip(self.arms, (1.0, self.c), strict=True):
+            sine, versine = sine_versine(Jet.variable(tau, order) * rate)
+            # In the ray's frame the speed is along it at the ends, and across it at mid-motion.
+            du = sine * (slope * self.radial) + versine * (bend * self.level)
+            dv = sine * (slope * self.level) + versine * (bend * (1.0 - self.level))
+            u, v = (du, dv) if u is None or v is None else (u + du, v + dv)
+        assert u is not None and v is not None
+        return u, v
+
+
+def _refuse_reach(l: float, rp: float, teeth: int, c: float) -> None:
+    """Raise GenevaError if the wheel would start backwards or the roller would leave its slot.
+
+    Forward from rest: R0 >= c² rp. Into the slot at entry: R0 > c rp. Forward at mid-motion: R0 + c
+    rp > 0, where R0 = l + rp.
+    """
+    most = l / (c * c - 1.0)
+    least = -l / choose(c > 0.0, 1.0 + c, teeth)
+    refuse(
+        (rp <= least) | (rp > most),
+        lambda: GenevaError(
+            f"planet_ratio = {rp:.6g}: the wheel would turn back, or the roller leave its slot: it "
+            f"must be above {least:.6g} and at most {most:.6g} (shockless)",
+            ("drive", "planet_ratio"),
+        ),
+    )

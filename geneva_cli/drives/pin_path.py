@@ -1,0 +1,33 @@
+"""Drives that move the roller along a path of their own, with straight radial slots."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from geneva_cli.motion.drive import Drive, Needs, Plan
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.wheels.classic import refuse_jam, rollers_max
+
+
+class PinPath(Drive, kw_only=True):
+    """A drive whose roller does not run on the crank's circle."""
+
+    GEARINGS: ClassVar[tuple[str, ...]] = ("external",)
+    LAW: ClassVar[Needs] = Needs.NO_LAW
+    ONE_ROLLER: ClassVar[bool] = True
+    ONE_ARM: ClassVar[bool] = False
+    RADIAL: ClassVar[bool] = True
+    ALIKE: ClassVar[bool] = True
+
+    def planned(
+        self,
+        engagement: Engagement,
+        ratio: float,
+        center_distance_mm: float,
+        inside: bool = False,
+    ) -> Plan:
+        """The plan with one engagement for each roller."""
+        motion = engagement.motion_deg
+        refuse_jam(self.rollers, motion, inside)
+        period = 360.0 / self.rollers
+        return Plan((engagement,), period, ratio, rollers_max(motion), center_distance_mm)

@@ -1,0 +1,108 @@
+"""Side-crank drive (Whitworth's crank and rotating coulisse) in front of the crank.
+
+The coulisse carries the Geneva crank. The symbols A and f follow Polyudov and Kandyak, "Kinematics
+of the Maltese cross mechanism with a side-crank drive".
+"""
+
+from collections.abc import Callable
+from typing import Annotated, ClassVar
+
+from geneva_cli.drives import whitworth
+from geneva_cli.drives.pushed import PushedCrank
+from geneva_cli.drives.transmission import LocalTransmission, Transmission
+from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.engagement import CarrierVelocity, ClosedPeaks, Displacement, Path
+from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot
+from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.jet import Array
+from geneva_cli.spec.rules import POSITIVE, Range
+from geneva_cli.spec.schema import Example
+
+
+class SideCrank(Transmission, kw_only=True):
+    """A crank and a rotating coulisse: A > 0 slows the index down, A < 0 makes it faster.
+
+    ``A`` is the distance of the two axes over the input crank's length, between -1 and 1. Raises
+    GenevaError outside this range.
+
+    >>> Design(External(6), SideCrank(A=0.6)).peaks.velocity.max  # 1 / (1 + A) of the plain crank's
+    0.625
+    """
+
+    NAME: ClassVar[str] = "side-crank"
+    WORDS: ClassVar[str] = "a side-crank"
+    IN_FRONT: ClassVar[str] = "a side-crank"
+    EXAMPLE: ClassVar[Example] = Example(
+        "a side-crank drive: a slower, softer index",
+        {
+            "wheel": {"z": 6},
+            "drive": {"A": 0.6},
+        },
+    )
+    LENGTH: ClassVar[str] = "input_crank_mm"
+    A: Annotated[
+        float, Range(-1.0, 1.0, "()"), "side-crank: base offset / input crank length; > 0 is slower"
+    ]
+    input_crank_mm: Annotated[
+        float | None, POSITIVE, "input crank length r, for its forces (parts use R by default)"
+    ] = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        whitworth.refuse_rounding(self.A)
+
+    def about(self, crank_deg: float) -> LocalTransmission:
+        """Transmission about a coulisse angle f in degrees."""
+        return whitworth.about(self.A, crank_deg)
+
+    def exact_advance(
+        self, half: tuple[float, float], exact: Callable[[float], float]
+    ) -> Displacement:
+        """Rotation of the coulisse about an angle f, from sine and cosine of f/2."""
+        return whitworth.exact_coulisse(exact(self.A), *half)
+
+    def turning(self, crank_deg: float, sense: float) -> CarrierVelocity:
+        """Rate of the crank, which is the coulisse."""
+        return whitworth.turning(self.A, crank_deg, sense)
+
+    def input_axis_mm(self, plan: Plan, sign: float) -> float:
+        """Place of the input crank's axis, mm from the wheel's."""
+        return plan.center_distance_mm - sign * self.A * self._crank_mm(plan)
+
+    def layout(self, plan: Plan, sign: float) -> Layout:
+        """Pivot and dimensions of the input crank, by default as long as the Geneva crank."""
+        r = self._crank_mm(plan)
+        return (
+            Pivot("input crank axis", self.input_axis_mm(plan, sign), 0.0),
+            Dimension("input crank r", r, "mm"),
+            Dimension("base offset a", self.A * r, "mm"),
+        )
+
+    def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
+        """The input crank, and the coulisse (the Geneva crank) in which its pin slides."""
+        L, r = plan.center_distance_mm, self._crank_mm(plan)
+        turn, still = radians(input_deg), 0.0 * input_deg
+        m = library(turn)
+        axis = still + self.input_axis_mm(plan, sign), still
+        pin = axis[0] - sign * r * m.cos(turn), r * m.sin(turn)
+        own = still + L, still
+        return (
+            Link("input crank", (axis, pin), (Joint.SHAFT, Joint.PIN), 3),
+            Link("coulisse", (own, pin), (Joint.SHAFT, Joint.SLIDE), 2),
+        )
+
+    def _crank_mm(self, plan: Plan) -> float:
+        own = plan.ratio * plan.center_distance_mm
+        return own if self.input_crank_mm is None else self.input_crank_mm
+
+    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
+        """Reactions to the block on the input crank, which pushes across the coulisse."""
+        if self.input_crank_mm is None:
+            return None
+        return whitworth.SlidingBlock(self.A, self.input_crank_mm / L, wheel.SIGN, radians(mid_deg))
+
+    def closed_peaks(self, wheel: Gearing, place: RollerPlace) -> ClosedPeaks | None:
+        """Peak acceleration of plain wheels; None for others."""
+        return whitworth.closed_peaks(self.A, wheel, place)

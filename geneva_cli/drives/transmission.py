@@ -1,0 +1,229 @@
+"""Drives with a transmission between input shaft and crank: the roller runs on a circle."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
+
+from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.motion.drive import Drive, Needs, Plan
+from geneva_cli.motion.engagement import (
+    Anchor,
+    Carrier,
+    CarrierVelocity,
+    ClosedPeaks,
+    ConstantRate,
+    Displacement,
+    Engagement,
+    Path,
+)
+from geneva_cli.motion.path_and_slot import AnchoredPath, ClassicMotion
+from geneva_cli.motion.rollers import places
+from geneva_cli.motion.wheels.classic import refuse_jam, rollers_max
+from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
+from geneva_cli.motion.wheels.poses import PinPose, middle
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.arrays import parameter
+from geneva_cli.numerics.jet import Jet, Number, sine_versine
+
+if TYPE_CHECKING:
+    from geneva_cli.drives.pushed import PushedCrank
+    from geneva_cli.motion.laws.law import Law
+    from geneva_cli.motion.motion import Motion
+
+
+class LocalTransmission(NamedTuple):
+    """A transmission written about one crank angle, so that nothing cancels near it."""
+
+    input_deg: float  # input angle there
+    # A function of the input rotation since then (radians) and the order. It returns sin d and 1 -
+    # cos d of the crank's rotation d since then, with their derivatives by the input angle.
+    advance: Displacement
+    # True if the crank may turn alike before and after; False for an arbitrary ratio
+    even: bool = True
+    # input radians since then at which another formula of ``advance`` takes over
+    cuts: Sequence[float] = ()
+
+
+def same(tau: Number, order: int) -> tuple[Jet, Jet]:
+    """sin d and 1 - cos d of a crank that turns as the input does."""
+    return sine_versine(Jet.variable(tau, order))
+
+
+class PinTravel(NamedTuple):
+    """Displacement of a crank's pin from a pose, by the input angle."""
+
+    pose: PinPose
+    advance: Displacement
+    cuts: Sequence[float] = ()  # of ``advance``
+
+    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
+        """Displacement along the pose's ray and across it, ``tau`` input radians later."""
+        return self.pose.displacement(*self.advance(tau, order))
+
+
+class Transmission(Drive, kw_only=True):
+    """A drive in front of the crank; a kind defines ``about``, and more only if it needs more."""
+
+    LAW: ClassVar[Needs] = Needs.MAY
+    CRANKED: ClassVar[bool] = True
+
+    @abstractmethod
+    def about(self, crank_deg: float) -> LocalTransmission:
+        """The transmission about a crank angle in degrees, which is 0 at mid-motion."""
+
+    @property
+    def reach_deg(self) -> float:
+        """Greatest crank angle from mid-motion at which the crank may move the wheel, degrees."""
+        return 180.0
+
+    def closed_peaks(self, wheel: Gearing, place: RollerPlace) -> ClosedPeaks | None:
+        """Peaks behind this transmission that need no general search; None if there are none."""
+        return None
+
+    def input_deg(self, crank_deg: float) -> float:
+        """Input angle from mid-motion at a crank angle from mid-motion, degrees.
+
+        ``about`` covers one turn of the crank about mid-motion (one step, for a first wheel). The
+        rest repeats it.
+        """
+        whole = 2.0 * self.reach_deg
+        turns = round(crank_deg / whole)
+        return 360.0 * turns + float(self.about(crank_deg - whole * turns).input_deg)
+
+    def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
+        """Plan of straight slots, which give the motion; or of curved slots, from a law."""
+        return self._straight(wheel, L) if motion is None else self._curved(wheel, motion, L)
+
+    def _straight(self, wheel: Gearing, L: float) -> Plan:
+        rollers = places(wheel, self, L)
+        self._refuse_reach(wheel, rollers[0].reach_deg)
+        engagements = tuple(self._follows(wheel, place, L) for place in rollers)
+        turn = 360.0 * self.turns
+        period = turn / self.rollers if len(rollers) == 1 else turn
+        most = rollers_max(2.0 * rollers[0].half_motion_deg)
+        return Plan(engagements, period, rollers[0].ratio, most, L)
+
+    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
+        """Reactions on crank and transmission; None if a length is not known.
+
+        ``mid_deg`` is the input angle at which the roller crosses the line of centres.
+        """
+        return None
+
+    def _follows(self, wheel: Gearing, place: RollerPlace, L: float) -> Engagement:
+        """The engagement of a straight slot with one of the rollers."""
+        here = self.about(place.crank_deg)
+        first, second, third = (self._anchor(pose, place.crank_deg) for pose in place.poses)
+        path = AnchoredPath((first, second, third))
+        slot, motion = wheel.follow(path, place, here.advance)
+        closed = wheel.closed_form(place) if self.direct else None
+        if closed:
+            motion = ClassicMotion(path, place.step.b, *closed)
+        else:
+            motion.closed_peaks = self.closed_peaks(wheel, place)
+            motion.mirrored = motion.mirrored and here.even
+        body = wheel.body(place, here.advance)
+        body = body or self.turning(place.crank_deg, -wheel.SIGN)
+        mid = here.input_deg
+        reactions = self.reactions(wheel, path, mid, L) if wheel.FLAT else None
+        hub = wheel.hub(place)
+        carrier = Carrier(body=body, reactions=reactions, hub=hub)
+        return Engagement(mid, path, slot, motion, carrier)
+
+    def turning(self, crank_deg: float, sense: float) -> CarrierVelocity | None:
+        """Rate of the crank from a crank angle on; None if only its pin's path gives it.
+
+        ``sense`` is 1 if it turns with the wheel, else -1.
+        """
+        return ConstantRate(sense) if self.direct else None
+
+    def _anchor(self, pose: PinPose, crank_deg: float) -> Anchor:
+        """A pose as an anchor by the input angle; the roller is ``crank_deg`` behind the first."""
+        here = self.about(crank_deg + pose.crank_deg)
+        from_mid = here.input_deg - self.about(crank_deg).input_deg
+        return Anchor(from_mid, pose.wheel, pose.along, PinTravel(pose, here.advance, here.cuts))
+
+    def _curved(self, wheel: Gearing, motion: Motion, L: float) -> Plan:
+        """Plan of curved slots, solved for from a law and the crank's circle."""
+        from geneva_cli.motion.law_motion import LawMotion, refuse_alpha0
+        from geneva_cli.motion.path_and_motion import MiddlePath, SolvedSlot
+
+        half = wheel.half_motion_deg(wheel.step)
+        self._refuse_reach(wheel, half)
+        natural = 2.0 * self.about(half).input_deg
+        motion_deg = natural - motion.alpha0_deg
+        refuse_alpha0(motion.alpha0_deg, natural)
+        refuse_jam(self.rollers, motion_deg, wheel.SIGN < 0.0)
+        ratio = self._ratio(wheel, motion, motion_deg)
+        pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
+        anchor = self._anchor(pose, 0.0)
+        path = MiddlePath(anchor, self.about(0.0).even)
+        turned = LawMotion(-0.5 * motion_deg, 0.5 * motion_deg, wheel.step.b, motion.law)
+        reactions = self.reactions(wheel, path, 0.0, L) if wheel.FLAT else None
+        body = self.turning(0.0, -wheel.SIGN)
+        carrier = Carrier(body=body, reactions=reactions)
+        engagement = Engagement(0.0, path, SolvedSlot(path, turned), turned, carrier)
+        period = 360.0 * self.turns / self.rollers
+        most = rollers_max(motion_deg)
+        return Plan((engagement,), period, ratio, most, L)
+
+    def _ratio(self, wheel: Gearing, motion: Motion, motion_deg: float) -> float:
+        """R/L of a curved slot: the spec's, sin b, or matched to the law at mid-motion."""
+        if motion.ratio is None:
+            return wheel.step.sin_cos[0]
+        if not isinstance(motion.ratio, str):
+            return motion.ratio
+        matched = self.matched_ratio(wheel, motion.law, motion_deg)
+        refuse(
+            matched != matched,
+            lambda: GenevaError(
+                'ratio = "matched": at mid-motion the wheel turns back, or too fast for any R/L '
+                "below 1; set a number, or change alpha0_deg or the law",
+                ("motion", "ratio"),
+            ),
+        )
+        return matched
+
+    def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
+        """R/L at which the pin crosses the line of centres as fast as the wheel's slot does.
+
+        At any other R/L the pressure angle at mid-motion is 90 degrees. NaN if no R/L below 1 has
+        this property.
+        """
+        crank = self.about(0.0).advance(0.0, 1)[0].c[1]
+        turned = law(0.5, 1).c[1] * 2.0 * wheel.step.b / radians(motion_deg)
+        return wheel.matched_ratio(parameter(turned / crank))
+
+    def _refuse_reach(self, wheel: Gearing, farthest_deg: float) -> None:
+        """Raise GenevaError if the transmission does not cover the whole motion."""
+        refuse(
+            farthest_deg > self.reach_deg * (1.0 + 1e-12),
+            lambda: GenevaError(
+                f"z = {wheel.z}: the crank must turn {farthest_deg:.6g} deg to either side, but "
+                f'kind = "{self.NAME}" turns it only {self.reach_deg:.6g}: reduce z or first_z',
+                ("wheel", "z"),
+            ),
+        )
+
+
+class Direct(Transmission, kw_only=True):
+    """A drive without a transmission: crank angle and input angle are equal."""
+
+    ALIKE: ClassVar[bool] = True
+
+    @property
+    def direct(self) -> bool:
+        """Always True: the classic closed forms hold."""
+        return True
+
+    def exact_advance(
+        self, half: tuple[float, float], exact: Callable[[float], float]
+    ) -> Displacement:
+        """Rotation of the crank, which is the input's."""
+        return same
+
+    def about(self, crank_deg: float) -> LocalTransmission:
+        """Transmission about a crank angle in degrees, which is the input angle."""
+        return LocalTransmission(crank_deg, same)

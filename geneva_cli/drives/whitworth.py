@@ -1,0 +1,174 @@
+"""Crank and rotating coulisse (Whitworth): the transmission of the side-crank drive.
+
+An input crank of length r turns about an axis at the base offset a from the coulisse's axis; A =
+a/r. With the input at phi the coulisse points along the vector (A + cos phi, sin phi), whose angle
+is f.
+"""
+
+from typing import NamedTuple
+
+from geneva_cli.drives.pushed import PushedCrank
+from geneva_cli.drives.transmission import LocalTransmission
+from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.motion.engagement import Peak, Vector
+from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
+from geneva_cli.numerics.angles import radians, sin_cos_deg
+from geneva_cli.numerics.arrays import choose, library, parameter
+from geneva_cli.numerics.jet import Jet, Number, cosines_after, sin_cos, sine_versine_of
+
+
+def refuse_rounding(A: float) -> None:
+    """Raise GenevaError for |A| too close to 1 to be computed."""
+    refuse(
+        abs(A) > 1.0 - 0.999e-12,  # 1 - 1e-12, as a double, passes
+        lambda: GenevaError(
+            f"A = {A!r}: too close to 1 to be computed; its size must be at most 1 - 1e-12",
+            ("drive", "A"),
+        ),
+    )
+
+
+class SideCrankPeak(NamedTuple):
+    """Peaks of a batch of plain wheels behind side-cranks, faster than by a general search."""
+
+    A: float
+    sign: float
+    l: float
+    rest: float  # 1 - l
+
+    def __call__(self, quantity: str) -> Peak[float] | None:
+        """Peak of the velocity or acceleration of a batch, NaN where unknown; else None."""
+        if isinstance(self.A, float) and isinstance(self.l, float):
+            return None
+        import numpy as np
+
+        from geneva_cli.motion.wheels import side_crank_arrays as arrays
+
+        peaks = {"velocity": arrays.velocity_peaks, "acceleration": arrays.acceleration_peaks}
+        if quantity not in peaks:
+            return None
+        w = arrays.wheels(self.sign, self.l, self.rest, self.A)
+        # nearer to 1 the search for arrays may miss a peak
+        sure = abs(w.A) <= 0.999
+        return Peak(*(parameter(np.where(sure, v, np.nan)[:, None]) for v in peaks[quantity](w)))
+
+
+def closed_peaks(A: float, wheel: Gearing, place: RollerPlace) -> SideCrankPeak | None:
+    """Peaks of a wheel with closed forms and equal steps, at its first roller; else None."""
+    closed = wheel.closed_form(place)
+    plain = isinstance(place.crank_deg, float) and place.crank_deg == 0.0
+    if closed is None or wheel.steps or not plain:
+        return None
+    return SideCrankPeak(A, *closed)
+
+
+class Coulisse(NamedTuple):
+    """The coulisse's rotation from one of its angles f.
+
+    h = asin(A sin f) is the angle between input crank and coulisse. ``length`` is the coulisse's,
+    cos h + A cos f, and ``rest`` is cos h - A cos f. ``grows`` selects the form of W = x² + y² that
+    is a sum of positive terms on the line of centres.
+    """
+
+    A: float
+    sin_f: float
+    cos_f: float
+    sin_h: float
+    cos_h: float
+    length: float
+    rest: float
+    grows: bool  # an array for a batch
+
+    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
+        """sin d and 1 - cos d of the coulisse's rotation d, ``tau`` input radians later."""
+        y, x, rate = self._turned(tau, order - 1)
+        return sine_versine_of(rate, y, x, order)
+
+    def rate(self, tau: Number, order: int) -> Jet:
+        """Rate at which the coulisse turns, radians per input radian."""
+        return self._turned(tau, order)[2]
+
+    def _turned(self, tau: Number, order: int) -> tuple[Number, Number, Jet]:
+        """The coulisse's vector (y, x) in the frame of its direction at f, and its rate."""
+        A, s, c, length = self.A, self.sin_f, self.cos_f, self.length
+        m = library(tau, A, s)
+        sin_t, cos_t = m.sin(0.5 * tau), m.cos(0.5 * tau)
+        x = cos_t * cos_t * length - 2.0 * sin_t * cos_t * self.sin_h - sin_t * sin_t * self.rest
+        y = 2.0 * sin_t * (cos_t * self.cos_h - sin_t * self.sin_h)
+        # df/dphi = (1 + (1 - A²)/W)/2 with W = x² + y² = 1 + A² + 2 A cos phi. As A nears 1 the
+        # coulisse turns at half speed, and nothing cancels.
+        sine, cosine = x * s + y * c, x * c - y * s - A
+        cosines = cosines_after(sine, cosine, max(order, 0))
+        W = choose(self.grows, length * length - 4.0 * A * c * sin_t * sin_t, x * x + y * y)
+        square = Jet((W, *[2.0 * A * t for t in cosines[1:]]))
+        return y, x, 0.5 + (0.5 * (1.0 - A) * (1.0 + A)) / square
+
+
+class CoulisseRate(NamedTuple):
+    """Rate of the coulisse as the roller's crank; it turns with the wheel if ``sense`` is 1."""
+
+    coulisse: Coulisse
+    sense: float
+
+    def __call__(self, tau: Number, order: int) -> Jet:
+        """Rate in radians per input radian."""
+        return self.coulisse.rate(tau, order) * self.sense
+
+
+class SlidingBlock(PushedCrank):
+    """The block at the end of an input crank of length ``r`` over L, in the coulisse's slot."""
+
+    def __init__(self, A: float, r: float, sign: float, mid: float) -> None:
+        self.A, self.r, self.sign = A, r, sign
+        self.mid = mid  # input angle of the engagement's mid-motion, radians
+
+    def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
+        """Block position on the coulisse, and the direction across it.
+
+        The coulisse points at the wheel at input angle 0.
+        """
+        s, c = sin_cos(Jet.variable(radians(input_deg) + self.mid, order))
+        x, y = (c + self.A) * (-self.sign * self.r), s * self.r
+        return (x, y), (y * -1.0, x)
+
+
+def about(A: float, crank_deg: float) -> LocalTransmission:
+    """The side-crank about a coulisse angle f in degrees, for an offset A between -1 and 1."""
+    return LocalTransmission(*_about(A, crank_deg))
+
+
+def exact_coulisse(A: float, sin_half: float, cos_half: float) -> Coulisse:
+    """The coulisse about an angle f, from f/2, in numbers in which differences lose no digits."""
+    m = library(A, sin_half, cos_half)
+    s, c = 2.0 * sin_half * cos_half, (cos_half - sin_half) * (cos_half + sin_half)
+    sin_h = A * s
+    cos_h = m.sqrt((1.0 - sin_h) * (1.0 + sin_h))
+    return Coulisse(A, s, c, sin_h, cos_h, cos_h + A * c, cos_h - A * c, grows=False)
+
+
+def turning(A: float, crank_deg: float, sense: float) -> CoulisseRate:
+    """Rate of the coulisse from its angle f in degrees on."""
+    return CoulisseRate(_about(A, crank_deg)[1], sense)
+
+
+def _about(A: float, crank_deg: float) -> tuple[float, Coulisse]:
+    m = library(A, crank_deg)
+    s, c = sin_cos_deg(crank_deg)
+    # cos h and the coulisse's length are sums of positive terms for A near +-1.
+    sin_h = A * s
+    cos_h = m.hypot(c, s * m.sqrt((1.0 - A) * (1.0 + A)))
+    level = s == 0.0  # on the line of centres, where most peaks are
+    long = cos_h + abs(A * c)
+    short = (1.0 - A) * (1.0 + A) / long
+    ahead = A * c > 0.0
+    length = choose(level, 1.0 + A * c, choose(ahead, long, short))
+    rest = choose(level, 1.0 - A * c, choose(ahead, short, long))
+    # phi = f + h, or the angle of the input crank itself if the two nearly cancel
+    added = crank_deg + m.degrees(m.atan2(sin_h, cos_h))
+    turns = crank_deg / 360.0
+    whole = 360.0 * (round(turns) if isinstance(turns, float) else m.rint(turns))
+    up = m.copysign(length * s, crank_deg - whole)  # half a turn back is not half a turn ahead
+    own = whole + m.degrees(m.atan2(up, length * c - A))
+    phi = choose(A < 0.0, own, added)
+    grows = (A * c < 0.0) & level
+    return phi, Coulisse(A, s, c, sin_h, cos_h, length, rest, grows)

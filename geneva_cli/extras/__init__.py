@@ -1,0 +1,1 @@
+"""Answers that not every user needs, a folder each."""

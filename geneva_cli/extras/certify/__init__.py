@@ -1,0 +1,1 @@
+"""Certificates: proved bounds of the peaks and loads."""

@@ -1,0 +1,308 @@
+"""Certificates: proved bounds of the greatest velocity, acceleration, jerk, power, force, torque.
+
+The program's own formulas are evaluated in balls over every whole motion (``enclosures.greatest``).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, NamedTuple, cast
+
+from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.extras.certify.loads import LOADS, load_formula, not_proved
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.peaks import QUANTITIES
+from geneva_cli.numerics.jet import Jet, Number
+from geneva_cli.numerics.tolerances import TIE
+from geneva_cli.table import Table, rows_table
+
+if TYPE_CHECKING:
+    from geneva_cli.extras.certify.decimals import Formula
+    from geneva_cli.numerics.balls import Ball
+    from geneva_cli.numerics.enclosures import BoundedSpan, Greatest
+
+DECIMALS, DOUBLES = "the decimals as written", "the spec's numbers as doubles"
+LIMIT = 2000  # intervals a motion: 12 times what any design here takes, some seconds
+DIGITS = 15  # that are printed: as many as every double keeps
+NARROW_DEG = 1e-6  # a narrower place is one angle for people
+DERIVED = {"velocity": 0, "acceleration": 1, "jerk": 2}  # derivatives of the velocity
+
+
+class Place(NamedTuple):
+    """Input angles in degrees between which the greatest size may be, rounded outwards."""
+
+    from_deg: float
+    to_deg: float
+
+    @property
+    def is_narrow(self) -> bool:
+        """True if it is one angle for people."""
+        return self.to_deg - self.from_deg < NARROW_DEG
+
+
+class Open(NamedTuple):
+    """An interval of input angles that was not settled, and what is known of the size there.
+
+    ``below`` is a proved bound of it, None if there is none.
+    """
+
+    from_deg: float
+    to_deg: float
+    below: float | None
+
+
+class Certificate(NamedTuple):
+    """Bounds of a peak, and all places where it may be.
+
+    If it is ``proved``, the greatest size lies from ``low`` to ``high``. Else ``low`` is reached,
+    ``high`` is None, and ``open`` is the interval that was left over.
+    """
+
+    quantity: str
+    low: float
+    high: float | None
+    places: tuple[Place, ...]
+    mirrored: bool  # True for two places that mirror each other
+    intervals: int
+    open: Open | None
+    about: str = DOUBLES
+
+    @property
+    def proved(self) -> bool:
+        """True if no interval is left over."""
+        return self.open is None
+
+    @property
+    def at_deg(self) -> float | None:
+        """Middle of the first place, degrees; None if it is not proved."""
+        first = self.places[0] if self.places else None
+        return None if first is None else 0.5 * (first.from_deg + first.to_deg)
+
+    @property
+    def where(self) -> str:
+        """The places in words.
+
+        >>> Design(External(6)).certificate("acceleration").where
+        'at two mirrored places'
+        """
+        if not self.places:
+            return "not proved"
+        if len(self.places) > 1:
+            return "at two mirrored places" if self.mirrored else f"at {len(self.places)} places"
+        (place,) = self.places
+        between = f"between {place.from_deg:.9g} and {place.to_deg:.9g}°"
+        return "unique" if place.is_narrow else between
+
+    @property
+    def text(self) -> str:
+        """The certificate in a line.
+
+        >>> Design(External(6)).certificate("velocity").text
+        'velocity.max in [0.999999999999999, 1.00000000000001], unique, proved'
+        """
+        low = _outwards(self.low, ROUND_FLOOR)
+        if self.open is None:
+            high = _outwards(cast(float, self.high), ROUND_CEILING)
+            return f"{self.quantity}.max in [{low}, {high}], {self.where}, proved"
+        a, b, below = self.open
+        known = "no bound is known" if below is None else f"below {below:.6g}"
+        return (
+            f"{self.quantity}.max at least {low}, not proved: open from {a:.15g} to {b:.15g}°, "
+            f"{known} there, after {self.intervals} intervals"
+        )
+
+    def confirms(self, size: float, at_deg: float) -> bool:
+        """True if it is proved and a peak in doubles agrees with it, up to the share ``TIE``.
+
+        >>> certificate = Design(External(6)).certificate("velocity")
+        >>> certificate.confirms(1.0, 0.0), certificate.confirms(1.0 + 1e-12, 0.0)
+        (True, False)
+        """
+        if self.high is None:
+            return False
+        near = any(a - NARROW_DEG <= at_deg <= b + NARROW_DEG for a, b in self.places)
+        return near and self.low * (1.0 - TIE) <= size <= self.high * (1.0 + TIE)
+
+
+def certificate(
+    mechanism: Mechanism, quantity: str, limit: int = LIMIT, decimals: bool = True
+) -> Certificate:
+    """The certificate of a machine's peak over all its engagements, with so many intervals each.
+
+    It is about the decimals of the spec, for machines whose formulas allow it and unless
+    ``decimals`` is False; else about the spec's numbers as doubles. Loads are about doubles.
+
+    Raises GenevaError without python-flint, and for a quantity that has no certificate.
+    """
+    names = (*QUANTITIES, *LOADS)
+    if quantity not in names:
+        hint = nearest(quantity, names)
+        raise GenevaError(
+            f'no certificate of "{cut(quantity)}"{hint}; there are those of {", ".join(names)}'
+        )
+    reason = not_proved(mechanism, quantity) if quantity in LOADS else ""
+    if reason:
+        raise GenevaError(f"{quantity}.max is not proved: {reason}")
+    if find_spec("flint") is None:
+        raise GenevaError('certificates need python-flint: pip install "geneva-cli[certify]"')
+    from geneva_cli.extras.certify.decimals import exact_rates
+    from geneva_cli.numerics.balls import precision
+    from geneva_cli.numerics.enclosures import greatest
+
+    each = mechanism.engagements
+    if mechanism.spec.wheel.JUMPS and quantity != "velocity":
+        # where the velocity jumps, its derivatives have no bound
+        begin, end = (mechanism.shown_deg(x) for x in (each[0].entry_deg, each[0].exit_deg))
+        return Certificate(quantity, 0.0, None, (), False, 0, Open(begin, end, None))
+    with precision():
+        exact = exact_rates(mechanism) if decimals and quantity in QUANTITIES else None
+        if exact is None:
+            # in doubles, as the program computes it
+            formulas = [
+                load_formula(mechanism, e, quantity)
+                if quantity in LOADS
+                else _peak(e.motion.rate, quantity)
+                for e in each
+            ]
+            peaks = [
+                greatest(_curve(formula), {*e.motion.seams_deg, *e.slot.seams_deg}, limit)
+                for formula, e in zip(formulas, each, strict=True)
+            ]
+        else:
+            peaks = [
+                greatest(_curve(_peak(rate, quantity)), (e.entry_deg, e.exit_deg), limit, False)
+                for rate, e in zip(exact, each, strict=True)
+            ]
+    combined = _combined(
+        quantity, [_EngagementPeak(mechanism, *both) for both in zip(each, peaks, strict=True)]
+    )
+    return combined._replace(about=DOUBLES if exact is None else DECIMALS)
+
+
+def _peak(rate: Formula, quantity: str) -> Formula:
+    """Velocity, acceleration, jerk or power from the wheel's rate."""
+
+    def power(x: Number, order: int) -> Jet:
+        speed = rate(x, order + 1)
+        return speed.lower * speed.derivative()
+
+    def derivative(x: Number, order: int) -> Jet:
+        jet = rate(x, order + DERIVED[quantity])
+        for _ in range(DERIVED[quantity]):
+            jet = jet.derivative()
+        return jet
+
+    return power if quantity == "power" else derivative
+
+
+def _curve(formula: Formula) -> Callable[[Ball, int], Sequence[Ball]]:
+    """Taylor coefficients of a formula at a ball of input angles in degrees."""
+    from geneva_cli.numerics.balls import ball_of
+
+    return lambda at, order: [ball_of(c) for c in formula(cast("Number", at), order).c]
+
+
+class _EngagementPeak(NamedTuple):
+    """The greatest size over one engagement, with its angles as the machine's input angles."""
+
+    mechanism: Mechanism
+    engagement: Engagement
+    greatest: Greatest
+
+    def shown(self, interval: BoundedSpan) -> Place:
+        """An interval of the engagement as the machine's; longer by the rounding of both ends."""
+        start = self.mechanism.shown_deg(self.engagement.mid_deg + interval.start)
+        # rounding of an angle that is counted from another mid-motion
+        slack = 0.0 if start == interval.start else (2.0**-42)
+        end = interval.end + (start - interval.start)
+        return Place(start - slack, end + slack)
+
+    def mirrors(self, one: BoundedSpan, other: BoundedSpan) -> bool:
+        """True if two intervals lie opposite each other in a symmetric motion."""
+        apart = abs(one.start + other.end)
+        return self.engagement.motion.symmetric and apart < NARROW_DEG
+
+
+def _combined(quantity: str, peaks: Sequence[_EngagementPeak]) -> Certificate:
+    """One certificate of all engagements."""
+    low = max(one.greatest.low for one in peaks)
+    least = low * (1.0 - TIE)
+    count = sum(one.greatest.intervals for one in peaks)
+    left = [
+        Open(*one.shown(one.greatest.open), _known(one.greatest.open.high))
+        for one in peaks
+        if one.greatest.open and one.greatest.open.high >= least
+    ]
+    if left:
+        worst = max(left, key=lambda o: math.inf if o.below is None else o.below)
+        return Certificate(quantity, low, None, (), False, count, worst)
+    places = [(one, place) for one in peaks for place in one.greatest.places if place.high >= least]
+    first, last = places[0], places[-1]
+    mirrored = len(places) == 2 and first[0] is last[0] and first[0].mirrors(first[1], last[1])
+    shown = tuple(sorted(one.shown(place) for one, place in places))
+    high = max(one.greatest.high for one in peaks)
+    return Certificate(quantity, low, high, shown, mirrored, count, None)
+
+
+def _known(high: float) -> float | None:
+    return high if math.isfinite(high) else None
+
+
+def _outwards(x: float, rounding: str) -> str:
+    """A number with ``DIGITS`` digits, rounded as given.
+
+    >>> _outwards(1 / 3, ROUND_CEILING)
+    '0.333333333333334'
+    """
+    digits = Context(prec=DIGITS, rounding=rounding).create_decimal(Decimal(x))
+    exponent = digits.adjusted() - DIGITS + 1
+    return f"{digits.quantize(Decimal((0, (1,), exponent)))}"
+
+
+def with_certificates(peaks: Table, mechanism: Mechanism, for_people: bool) -> Table:
+    """A record of peaks with the certificates of all: a table of them, or a text each."""
+    proofs = [certificate(mechanism, quantity) for quantity in QUANTITIES]
+    rows = [_row(one) for one in proofs]
+    table = rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
+    texts = [*(one.text for one in proofs), f"holds for {proofs[0].about}"]
+    value = tuple(texts) if for_people else table
+    return peaks.replaced(names=(*peaks.names, "certificate"), columns=[*peaks.columns, (value,)])
+
+
+def load_certificates(mechanism: Mechanism, for_people: bool) -> Table | tuple[str, ...]:
+    """The loads' certificates: a table of them, or a text each.
+
+    For a load without a certificate, ``why`` is the reason.
+    """
+    lacks = mechanism.output.lacks
+    reasons = {name: not_proved(mechanism, name) for name in LOADS if name not in lacks}
+    proofs = {name: certificate(mechanism, name) for name, why in reasons.items() if not why}
+    if for_people:
+        refused = [f"{name}.max not proved: {why}" for name, why in reasons.items() if why]
+        about = [f"holds for {DOUBLES}"] if proofs else []
+        return (*[one.text for one in proofs.values()], *refused, *about)
+    names = ("quantity", "low", "high", "at_deg", "places", "proved", "intervals", "about", "open")
+    none: dict[str, object] = dict.fromkeys(names) | {"places": (), "proved": False, "intervals": 0}
+    rows = [
+        (_row(proofs[name]) if name in proofs else none | {"quantity": name}) | {"why": why or None}
+        for name, why in reasons.items()
+    ]
+    return rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
+
+
+def _row(one: Certificate) -> dict[str, object]:
+    return {
+        "quantity": one.quantity,
+        "low": one.low,
+        "high": one.high,
+        "at_deg": one.at_deg,
+        "places": tuple(map(tuple, one.places)),
+        "proved": one.proved,
+        "intervals": one.intervals,
+        "about": one.about,
+        "open": None if one.open is None else one.open._asdict(),
+    }

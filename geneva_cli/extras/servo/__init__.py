@@ -1,0 +1,1 @@
+"""Geneva or servo: electronic cams, cam indexers, and comparisons with them."""

@@ -1,0 +1,178 @@
+"""A Geneva mechanism against a cam indexer and a servo, with the same step, time and load.
+
+Each alternative is a machine whose wheel follows a law, with one index a turn of its input; it has
+the same functions of loads, sizing and vibration. A cam indexer has the modified sine. A servo has
+the seven segments of ``s-curve``, drives the dial through the motor's reducer, and speeds up its
+own rotor, too.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+
+from geneva_cli.design import Design, load
+from geneva_cli.drives.crank import Crank
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.extras.servo.s_curve import SCurve
+from geneva_cli.loads.carried import inertia_kgm2, resisting_torque_Nm
+from geneva_cli.motion.laws.law import Law
+from geneva_cli.motion.laws.standard import ModifiedSine
+from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.motion.motion import Motion
+from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.wheels.external import External
+from geneva_cli.spec.tables import Load
+from geneva_cli.study.compare import over
+from geneva_cli.study.fields import Cell, pick
+from geneva_cli.table import Table, rows_table
+
+# The rows, and their quantities.
+ROWS = {
+    "motion_s": "timing.motion_s",
+    "dwell_s": "timing.dwell_s",
+    "velocity_max_rad_s": "velocity.max_rad_s",
+    "acceleration_max_rad_s2": "acceleration.max_rad_s2",
+    "acceleration_entry_rad_s2": "acceleration.entry_rad_s2",
+    "jerk_max_rad_s3": "jerk.max_rad_s3",
+    "wheel_torque_max_Nm": "loads.torque_Nm.max",
+    "motor_torque_max_Nm": "sizing.motor_torque_max_Nm",
+    "motor_torque_rms_Nm": "sizing.motor_torque_rms_Nm",
+    "power_max_W": "cycle.power_W.max",
+    "inertia_ratio": "sizing.inertia_ratio",
+    "residual_deg": "vibration.residual_deg",
+}
+# What no number says of the alternatives; the design's own words are its machine's.
+WORDS = {
+    "holds_the_dwell_by": ("cam", "motor torque"),
+    "impact_at_entry": ("none", "none"),
+    "without_power": ("follows cam", "coasts"),
+    "another_step_or_time": ("a new cam", "a parameter"),
+}
+LAWS: dict[str, Law] = {"cam": ModifiedSine(), "servo": SCurve()}
+NAMES = tuple(LAWS)
+
+
+def against(path: str, settings: Sequence[str], names: Sequence[str]) -> Table:
+    """A column for the design and each alternative, a row for each quantity.
+
+    ``names`` are among NAMES. Values that need a load, a motor's inertia or a shaft's stiffness are
+    None without it. Raises GenevaError for another name, and for unequal steps or motions.
+    """
+    for name in names:
+        if name not in NAMES:
+            raise GenevaError(f"--against {cut(name)}: it must be one of {', '.join(NAMES)}")
+    design = load(path, settings)
+    columns = {name: _values(design, name) for name in dict.fromkeys(("geneva", *names))}
+    rows: list[tuple[Cell, ...]] = [(row, *(own[row] for own in columns.values())) for row in ROWS]
+    own_words = _words(design)
+    for row, words in WORDS.items():
+        cells = {"geneva": own_words[row], **dict(zip(NAMES, words, strict=True))}
+        rows.append((row, *(cells[name] for name in columns)))
+    known = [row for row in rows if any(cell is not None for cell in row[1:])]
+    return rows_table(("quantity", *columns), known, design.spec.title, mixed=True)
+
+
+def _words(design: Design) -> dict[str, str]:
+    """What no number says of the design, by the rows of WORDS."""
+    return {
+        "holds_the_dwell_by": design.spec.dwell_holder or "nothing",
+        "impact_at_entry": "in every step" if design.spec.wheel.JUMPS else "if R/L is off",
+        "without_power": "follows crank",
+        "another_step_or_time": "a new wheel",
+    }
+
+
+def alternative(design: Design, name: str, rotor: bool = False) -> Mechanism:
+    """The machine of a cam indexer or a servo with the step, the times and the load of a design.
+
+    With ``rotor`` a servo's load has its rotor and the losses of its reducer, too.
+    """
+    times = design.timings
+    if design.spec.drive.wheels_on_carrier:
+        raise GenevaError(
+            f'--against: kind = "{design.spec.drive.NAME}" has wheels on a carrier, and an '
+            "alternative stands on the ground"
+        )
+    steps = [t.index_deg for t in times if t.index_deg is not None]
+    if not steps:
+        raise GenevaError("--against: cam and servo turn a wheel, and this machine moves a rack")
+    spans = [(round(t.motion_s, 12), round(t.cycle_s, 12)) for t in times]
+    if len({*zip(spans, [round(step, 9) for step in steps], strict=True)}) > 1:
+        raise GenevaError(
+            "--against: this machine's engagements differ, and an alternative has one index a turn"
+        )
+    first = times[0]
+    z = round(360.0 / steps[0])  # equal steps fill a turn
+    spec, own = design.spec, design.spec.motor
+    n_rpm = 60.0 / first.cycle_s
+    inertia, torque = inertia_kgm2(spec), resisting_torque_Nm(spec)
+    # A cam's reducer lets the motor turn as fast as before.
+    motor = own.replace(gear_ratio=own.gear_ratio * spec.drive.n_rpm / n_rpm)
+    efficiency = spec.load.efficiency
+    if name == "servo":
+        motor, efficiency = own, 1.0
+    if rotor:
+        inertia = inertia / own.gear_efficiency + own.inertia_kgm2 * own.gear_ratio**2
+        torque = torque / own.gear_efficiency
+    # The extra dwell angle takes the place of the motion angle that z slots would have.
+    extra = 180.0 - 360.0 / z - 360.0 * first.motion_s / first.cycle_s
+    return build(
+        Spec(
+            External(z),
+            Crank(n_rpm=n_rpm),
+            Motion(LAWS[name], alpha0_deg=extra, ratio="matched"),
+            load=Load(inertia_kgm2=inertia, torque_Nm=torque, efficiency=efficiency),
+            motor=motor,
+            shaft=spec.shaft,
+        )
+    )
+
+
+def _values(design: Design, name: str) -> dict[str, Cell]:
+    """The values of the design itself or of an alternative, by the names of ROWS."""
+    machine = alternative(design, name) if name in NAMES else design.mechanism
+    values = dict(zip(ROWS, pick([*ROWS.values()]).of(machine), strict=True))
+    if name != "servo":
+        return values
+    motor = design.spec.motor
+    rotating = alternative(design, name, rotor=True)
+    most, power = pick(("loads.torque_Nm.max", "cycle.power_W.max")).of(rotating)
+    values |= {
+        "motor_torque_max_Nm": over(most, motor.gear_ratio),
+        "motor_torque_rms_Nm": _servo_rms_Nm(design) if most is not None else None,
+        "power_max_W": power,
+    }
+    inertia = inertia_kgm2(design.spec)
+    values["inertia_ratio"] = over(inertia, motor.inertia_kgm2 * motor.gear_ratio**2)
+    return values
+
+
+def _servo_rms_Nm(design: Design) -> float:
+    """The root mean square of a servo's motor torque over a cycle.
+
+    The reducer's losses count whether the motor drives the load or brakes it. Torques are lines
+    between the law's breaks and the places where the load begins to drive.
+    """
+    motor, first, law = design.spec.motor, design.timings[0], LAWS["servo"]
+    unit = math.radians(first.index_deg or 0.0) / first.motion_s**2
+    inertia, resisting = inertia_kgm2(design.spec), resisting_torque_Nm(design.spec)
+    turns = -resisting / inertia if inertia else 0.0  # where the load begins to drive
+    mean = 0.0
+    for low, high in pairwise((0.0, *law.breaks, 1.0)):
+        middle, slope = map(float, law(0.5 * (low + high), 3).derivatives()[2:])
+        rise = 0.5 * slope * (high - low)
+        ends = [(middle - rise) * unit, (middle + rise) * unit]
+        inner = [turns] if min(ends) < turns < max(ends) else []
+        for one, two in pairwise((ends[0], *inner, ends[1])):
+            drives = inertia * 0.5 * (one + two) + resisting > 0.0
+            eta = 1.0 / motor.gear_efficiency if drives else motor.gear_efficiency
+            a, b = (
+                (inertia * x + resisting) * eta / motor.gear_ratio
+                + motor.inertia_kgm2 * motor.gear_ratio * x
+                for x in (one, two)
+            )
+            share = (two - one) / (ends[1] - ends[0]) if inner else 1.0
+            mean += share * (high - low) * (a * a + a * b + b * b) / 3.0
+    return math.sqrt(mean * first.motion_s / first.cycle_s)

@@ -1,0 +1,98 @@
+"""Electronic cams as controllers read them.
+
+Sources: CODESYS SoftMotion, library SM3_Basic, MC_CAM_REF and SMC_CAMXYVA; Beckhoff TwinCAT CNC,
+cam tables in ASCII, with master and slave in steps of 1e-4 degrees.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from geneva_cli.design import Design
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.extras.servo.electronic_cam import (
+    CamPoints,
+    cam_pairs,
+    cam_pieces,
+    cam_points,
+    periods,
+)
+from geneva_cli.output.formats import CONTROLLERS
+from geneva_cli.table import Table
+
+
+def codesys(cam: CamPoints, title: str) -> Iterator[str]:
+    """A declaration in structured text: polynomials of degree five between points."""
+    count, end = len(cam.master_deg), float(cam.master_deg[-1])
+    yield f"(* {_plain(title)} *)\n"
+    yield f"(* greatest error {cam.error_deg:.2g} degrees of the slave *)\n"
+    yield "(* before MC_CamTableSelect: cam.pce := ADR(points); *)\n"
+    yield "VAR\n"
+    yield "  cam : MC_CAM_REF := (byType := 3, "
+    yield f"xStart := 0.0, xEnd := {end!r}, nElements := {count});\n"
+    yield f"  points : ARRAY[1..{count}] OF SMC_CAMXYVA := [\n"
+    columns = (cam.master_deg, cam.slave_deg, cam.velocity, cam.acceleration_per_deg)
+    for i, row in enumerate(zip(*(column.tolist() for column in columns), strict=True), 1):
+        x, y, v, a = (value + 0.0 for value in row)
+        comma = "," if i < count else ""
+        yield f"    (dX := {x!r}, dY := {y!r}, dV := {v!r}, dA := {a!r}){comma}\n"
+    yield "  ];\nEND_VAR\n"
+
+
+def beckhoff(cam: CamPoints, title: str) -> Iterator[str]:
+    """A table of pairs in ASCII, between which a straight line is drawn."""
+    yield f"Tablename = geneva # {_plain(title)}\n"
+    yield "Table-ID = 1 # any number that is free\n"
+    yield "Tabletype = 7 # pairs of whole numbers, 1e-4 degrees\n"
+    yield f"Functiontype = 1 # linear; greatest error {cam.error_deg:.2g} degrees\n"
+    yield f"Lines = {len(cam.master_deg)}\n"
+    yield "Begintable\n"
+    for master, slave in zip(cam.master_deg.tolist(), cam.slave_deg.tolist(), strict=True):
+        yield f"{round(1e4 * master)} {round(1e4 * slave)}\n"
+    yield "EndTable\n"
+
+
+def _plain(title: str) -> str:
+    """A title that ends no comment, in letters that every controller reads."""
+    plain = title.encode("ascii", "replace").decode().replace("*", "")
+    return " ".join(plain.split())
+
+
+def cam(
+    design: Design, controller: str, turns: int | None, tolerance_deg: float
+) -> tuple[Table | str, int, float]:
+    """The cam of a controller as a table or a text, the number of its rows, and its error, degrees.
+
+    Without ``turns`` it covers a period. Raises GenevaError for an unknown controller, for turns
+    that are no whole periods, and where a controller has no room for the cam.
+
+    >>> _, points, error_deg = cam(Design(External(6)), "codesys", None, 1e-4)
+    >>> points, error_deg < 1e-4
+    (13, True)
+    """
+    if controller not in CONTROLLERS:
+        raise GenevaError(f"--for {cut(controller)}: it must be one of {', '.join(CONTROLLERS)}")
+    if not 0.0 < tolerance_deg < 360.0:
+        raise GenevaError(f"--tolerance {tolerance_deg:.6g}: must be above 0, below 360 degrees")
+    mechanism = design.mechanism
+    if not mechanism.output.turns:
+        raise GenevaError(
+            "--for: an electronic cam has angles, and this machine moves a rack: write its motion "
+            "as a table, with --turns"
+        )
+    count = periods(mechanism, turns)
+    if controller == "polynomial":
+        table = cam_pieces(mechanism, count, tolerance_deg)
+        return table, len(table), float(max(table.to_dict()["error_deg"]))
+    if controller == "codesys":
+        points = cam_points(mechanism, count, tolerance_deg)
+        text = codesys(points, design.spec.title)
+    else:
+        if count * mechanism.period_deg > 360.0 + 1e-9:
+            raise GenevaError(
+                "--for beckhoff: its table covers one turn of the input, and this cam is of "
+                f"{count * mechanism.period_deg / 360.0:.6g}; take --for codesys"
+            )
+        points = cam_pairs(mechanism, count, tolerance_deg)
+        text = beckhoff(points, design.spec.title)
+    return "".join(text), len(points.master_deg), points.error_deg

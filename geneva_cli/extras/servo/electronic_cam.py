@@ -1,0 +1,308 @@
+"""The motion as an electronic cam: points or polynomials between which a controller interpolates.
+
+The master is the input, in degrees from the first entry; the slave is the wheel, in degrees from
+its place there. Each error is that of the controller's own interpolation. It is evaluated at 33
+places of a piece. One is the middle, where a smooth error of one sign is greatest or nearly so.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.angles import distinct
+from geneva_cli.numerics.jet import Array
+from geneva_cli.table import Table
+
+INSIDE = (np.arange(33) + 0.5) / 33.0  # places in a piece, its middle among them
+LEAST_DEG = 1e-3  # shorter pieces are not halved: a servo's cycle is longer
+
+# widths of pieces, and the states after and before their ends -> powers of their polynomials
+Interpolation: TypeAlias = "Callable[[Array, Array, Array], Array]"
+
+
+class CamPoints(NamedTuple):
+    """Points of a cam in ascending order, and the greatest error between them.
+
+    ``master_deg``, ``slave_deg``, ``velocity`` (degrees a degree) and ``acceleration_per_deg`` are
+    arrays (k,); ``error_deg`` is in degrees of the wheel.
+    """
+
+    master_deg: Array
+    slave_deg: Array
+    velocity: Array
+    acceleration_per_deg: Array
+    error_deg: float
+
+
+class _Stretch(NamedTuple):
+    """A part of the period between two places where a derivative may jump.
+
+    ``engagement`` is None in a dwell. Master and slave are degrees from the first entry.
+    """
+
+    engagement: Engagement | None
+    begin_deg: float
+    end_deg: float
+    mid_deg: float  # where the engagement's own angle is 0
+    base_deg: float  # the slave's angle there; in a dwell everywhere
+
+    def states(self, master_deg: Array, side: int) -> Array:
+        """Slave angle, velocity and acceleration (3, k) at ascending angles (k,).
+
+        The acceleration is that just after the angles for ``side`` 1, just before for -1.
+        """
+        if self.engagement is None:
+            rest = np.zeros((3, len(master_deg)))
+            rest[0] = self.base_deg
+            return rest
+        wheel, velocity = self._derivatives(master_deg, (0, 1))
+        nudge = 1e-9 * side * (self.end_deg - self.begin_deg)  # into the stretch
+        acceleration, jerk = self._derivatives(master_deg + nudge, (2, 3))
+        per_deg = np.radians(acceleration - np.radians(nudge) * jerk)
+        return np.stack([self.base_deg + np.degrees(wheel), velocity, per_deg])
+
+    def slave_deg(self, master_deg: Array) -> Array:
+        """Slave angle (k,) at ascending angles (k,)."""
+        if self.engagement is None:
+            return np.full(len(master_deg), self.base_deg)
+        return self.base_deg + np.degrees(self._derivatives(master_deg, (0,))[0])
+
+    def _derivatives(self, master_deg: Array, orders: Sequence[int]) -> list[Array]:
+        assert self.engagement is not None
+        first, last = self.engagement.entry_deg, self.engagement.exit_deg
+        local = np.clip(master_deg - self.mid_deg, first, last)
+        return self.engagement.motion.derivatives(local, orders)
+
+
+def periods(mechanism: Mechanism, turns: int | None) -> int:
+    """The number of periods in ``turns`` of the input; 1 for None.
+
+    Raises GenevaError if the turns are no whole periods.
+    """
+    if turns is None:
+        return 1
+    if not 1 <= turns <= 1000:  # more make no file that a program reads
+        raise GenevaError(f"--turns {cut(turns)}: must be at least 1, at most 1000")
+    count = 360.0 * turns / mechanism.period_deg
+    if abs(count - round(count)) > 1e-9:
+        whole = round(mechanism.period_deg / 360.0)
+        raise GenevaError(
+            f"--turns {turns}: this machine repeats after {whole} turns of its input; "
+            f"give a multiple of {whole}"
+        )
+    z = mechanism.spec.wheel.z
+    if mechanism.spec.wheel.stopped and turns > z - 2:
+        raise GenevaError(
+            f"--turns {turns}: the stop leaves {z - 2} whole motions, as the first and the last of "
+            f"{z} are blocked half-way; give at most {z - 2}"
+        )
+    return round(count)
+
+
+def knots_deg(mechanism: Mechanism, count: int) -> Array:
+    """Where a derivative may jump in ``count`` periods, and the end: degrees from first entry."""
+    ends = [stretch.begin_deg for stretch in _stretches(mechanism)]
+    repeats = mechanism.period_deg * np.arange(count)[:, None]
+    knots: Array = np.append((repeats + np.array(ends)).ravel(), count * mechanism.period_deg)
+    return knots
+
+
+def cam_pieces(mechanism: Mechanism, count: int, tolerance_deg: float) -> Table:
+    """Polynomials of the fifth degree over ``count`` periods, a row each.
+
+    Columns: ``begin_deg``, ``end_deg`` of the master; ``c0`` to ``c5``, of which the slave is
+    c0 + c1 t + ... + c5 t^5 degrees at t degrees after the beginning; ``error_deg``.
+
+    Source: Hermite interpolation; value, velocity and acceleration are the true ones at both ends.
+    """
+    begins, ends, coefficients, errors = [], [], [], []
+    for stretch in _stretches(mechanism):
+        nodes, states, error = _halved(stretch, _quintic, tolerance_deg, LEAST_DEG)
+        begins.append(nodes[:-1])
+        ends.append(nodes[1:])
+        coefficients.append(_quintic(np.diff(nodes), *states))
+        errors.append(error)
+    begin, end, error_deg = map(np.concatenate, (begins, ends, errors))
+    powers = np.concatenate(coefficients, axis=1)
+    step = step_deg(mechanism)
+    again = np.arange(count)[:, None]
+    rows = [(again * mechanism.period_deg + one).ravel() for one in (begin, end)]
+    constant = (again * step + powers[0]).ravel()
+    others = [np.tile(one, count) for one in (*powers[1:], error_deg)]
+    names = ("begin_deg", "end_deg", *(f"c{k}" for k in range(6)), "error_deg")
+    return Table(names, [*rows, constant, *others])
+
+
+def cam_points(mechanism: Mechanism, count: int, tolerance_deg: float) -> CamPoints:
+    """Points with velocity and acceleration, between which polynomials of degree five are drawn.
+
+    A point has one velocity and one acceleration: a jump becomes a ramp over 0.01 degrees after it.
+    """
+    first, error_deg, last = _period_points(mechanism, tolerance_deg, None)
+    later = first
+    if count > 1:  # a period after another may begin with a jump
+        later, error, last = _period_points(mechanism, tolerance_deg, last)
+        error_deg = max(error_deg, error)
+    step = np.array([[mechanism.period_deg], [step_deg(mechanism)], [0.0], [0.0]])
+    whole = [first, *(later + k * step for k in range(1, count))]
+    end = np.append(mechanism.period_deg, last)[:, None] + (count - 1) * step
+    master, slave, velocity, acceleration = np.concatenate([*whole, end], axis=1)
+    return CamPoints(master, slave, velocity, acceleration, error_deg)
+
+
+def _period_points(
+    mechanism: Mechanism, tolerance_deg: float, before: Array | None
+) -> tuple[Array, float, Array]:
+    """Points (4, k) of a period without its end, their error, and the state (3,) at its end.
+
+    ``before`` is the state at the end of the period before it, if there is one.
+    """
+    points: list[Array] = []
+    error_deg = 0.0
+    for stretch in _stretches(mechanism):
+        nodes, (begin, end), errors = _halved(stretch, _quintic, tolerance_deg, LEAST_DEG)
+        error_deg = max(error_deg, float(errors.max()))
+        if before is not None and np.abs(begin[1:, 0] - before[1:]).max() > 1e-9:
+            start = nodes[0]
+            nodes[0] += min(0.01, 0.25 * (nodes[1] - start))
+            after = stretch.states(nodes[:1], 1)
+            ramp = np.append(begin[0, 0], before[1:])[:, None]
+            begin[:, :1] = after
+            points.append(np.vstack([[[start]], ramp]))
+            error_deg = max(
+                error_deg,
+                _error(stretch, np.array([start, nodes[0]]), ramp, after),
+                _error(stretch, nodes[:2], after, end[:, :1]),
+            )
+        points.append(np.vstack([nodes[:-1], begin]))
+        before = end[:, -1]
+    assert before is not None  # a period has a motion
+    return np.concatenate(points, axis=1), error_deg, before
+
+
+def cam_pairs(mechanism: Mechanism, count: int, tolerance_deg: float) -> CamPoints:
+    """Pairs of master and slave for linear interpolation: at most 360, and 0.1 degrees apart.
+
+    All are multiples of 1e-4 degrees. The tolerance grows until the pairs are few enough.
+    """
+    most, least_deg, grid = 360, 0.1, 1e-4  # of a table of Beckhoff's
+    stretches = list(_stretches(mechanism))
+    for rung in range(240):
+        tolerance = max(tolerance_deg, 0.5 * grid) * 2.0 ** (rung / 8.0)
+        nodes = [_halved(stretch, _linear, tolerance, 2.0 * least_deg)[0] for stretch in stretches]
+        ends = np.append(np.concatenate([one[:-1] for one in nodes]), mechanism.period_deg)
+        if count * (len(ends) - 1) + 1 <= most:
+            break
+    else:
+        raise GenevaError(f"{count} periods need more than {most} pairs; give fewer --turns")
+    ends = grid * np.rint(ends / grid)
+    near = np.diff(ends) < least_deg
+    near[-1], near[-2] = False, near[-2] or near[-1]  # the end stays, the place before it goes
+    ends = ends[np.append(True, ~near)]
+    slave = np.empty_like(ends)
+    for stretch in stretches:
+        here = (ends >= stretch.begin_deg - grid) & (ends <= stretch.end_deg + grid)
+        slave[here] = stretch.slave_deg(ends[here])
+    slave = grid * np.rint(slave / grid)
+    error_deg = max(_linear_error(stretch, ends, slave) for stretch in stretches)
+    again = np.arange(count)[:, None]
+    master = np.append((again * mechanism.period_deg + ends[:-1]).ravel(), 0.0)
+    angle = np.append((again * step_deg(mechanism) + slave[:-1]).ravel(), 0.0)
+    master[-1] = count * mechanism.period_deg
+    angle[-1] = (count - 1) * step_deg(mechanism) + slave[-1]
+    nothing = np.zeros_like(master)
+    return CamPoints(master, angle, nothing, nothing, error_deg)
+
+
+def step_deg(mechanism: Mechanism) -> float:
+    """The wheel's angle over one period, degrees."""
+    return math.degrees(sum(2.0 * one.half_step for one in mechanism.engagements))
+
+
+def _stretches(mechanism: Mechanism) -> list[_Stretch]:
+    """The stretches of a period, in order: those of each motion, then its dwell."""
+    out: list[_Stretch] = []
+    begin, slave = 0.0, 0.0
+    for i, engagement in enumerate(mechanism.engagements):
+        half = math.degrees(engagement.half_step)
+        mid = begin - engagement.entry_deg
+        # seams within the rounding of half a turn are one: no stretch is that short
+        for first, last in pairwise(distinct(engagement.motion.seams_deg, 1e-12)):
+            out.append(_Stretch(engagement, mid + first, mid + last, mid, slave + half))
+        slave += 2.0 * half
+        dwell = mechanism.dwell_deg(i)
+        begin = mid + engagement.exit_deg + dwell
+        if dwell > 0.0:
+            out.append(_Stretch(None, begin - dwell, begin, begin, slave))
+    return out
+
+
+def _halved(
+    stretch: _Stretch, interpolation: Interpolation, tolerance_deg: float, least_deg: float
+) -> tuple[Array, tuple[Array, Array], Array]:
+    """Nodes of a stretch, the states (3, k) after and before each piece's ends, and its errors.
+
+    Pieces are halved until each is within the tolerance, or no longer than ``least_deg``.
+    """
+    nodes = np.array([stretch.begin_deg, stretch.end_deg])
+    while True:
+        after = stretch.states(nodes[:-1], 1)
+        before = stretch.states(nodes[1:], -1)
+        width = np.diff(nodes)
+        error = _errors(stretch, nodes, interpolation(width, after, before))
+        wide = (error > tolerance_deg) & (width > least_deg)
+        if not wide.any():
+            return nodes, (after, before), error
+        nodes = np.sort(np.append(nodes, nodes[:-1][wide] + 0.5 * width[wide]))
+
+
+def _errors(stretch: _Stretch, nodes: Array, powers: Array) -> Array:
+    """The greatest error of each piece, from the powers (6, k) of its polynomial."""
+    t = np.diff(nodes)[:, None] * INSIDE
+    places = (nodes[:-1, None] + t).ravel()
+    true = stretch.slave_deg(places).reshape(t.shape)
+    value = np.zeros_like(t)
+    for power in powers[::-1]:
+        value = value * t + power[:, None]
+    out: Array = abs(value - true).max(axis=1)
+    return out
+
+
+def _error(stretch: _Stretch, nodes: Array, after: Array, before: Array) -> float:
+    """The error of one polynomial of degree five between two nodes and their states (3, 1)."""
+    return float(_errors(stretch, nodes, _quintic(np.diff(nodes), after, before))[0])
+
+
+def _linear_error(stretch: _Stretch, master: Array, slave: Array) -> float:
+    """The greatest error of linear interpolation in a stretch."""
+    inner = master[(master > stretch.begin_deg) & (master < stretch.end_deg)]
+    nodes = np.concatenate([[stretch.begin_deg], inner, [stretch.end_deg]])
+    places = (nodes[:-1, None] + np.diff(nodes)[:, None] * INSIDE).ravel()
+    true = stretch.slave_deg(places)
+    return float(abs(np.interp(places, master, slave) - true).max())
+
+
+def _quintic(width: Array, after: Array, before: Array) -> Array:
+    """The powers (6, k) of the polynomials with these values, slopes and curvatures at the ends."""
+    y0, v0, a0 = after
+    y1, v1, a1 = before
+    rise = y1 - y0 - width * (v0 + 0.5 * width * a0)
+    slope = width * (v1 - v0 - width * a0)
+    bend = width * width * (a1 - a0)
+    third = 10.0 * rise - 4.0 * slope + 0.5 * bend
+    fourth = -15.0 * rise + 7.0 * slope - bend
+    fifth = 6.0 * rise - 3.0 * slope + 0.5 * bend
+    return np.stack([y0, v0, 0.5 * a0, third / width**3, fourth / width**4, fifth / width**5])
+
+
+def _linear(width: Array, after: Array, before: Array) -> Array:
+    """The powers (2, k) of the straight lines between the ends."""
+    return np.stack([after[0], (before[0] - after[0]) / width])

@@ -1,0 +1,274 @@
+"""The lines and texts that are already on a drawing, to keep new ones clear of them.
+
+Lines are stored as short chords. A new dimension comes as several candidates, each with all its
+lines and texts. Of the free candidates the one is used that crosses the fewest dimensions.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+
+from geneva_cli.geometry.measure import at, points, segment_length
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Segment, Shape, two_arcs
+from geneva_cli.geometry.sheet import ABOVE, BELOW, Label, Measure
+from geneva_cli.numerics.arrays import Array
+
+BESIDE, ON = 3.0, 4.0  # mm: distance of a dimension line to another, and to a line of the part
+IN_LINE = 0.1  # mm: lines that overlap by less may be in line with each other
+
+
+class Board:
+    """A drawing's chords, and the boxes of its texts."""
+
+    def __init__(self) -> None:
+        self._texts: list[Label] = []
+        self._drawn: Array = np.empty((0, 4))  # straight lines of the part
+        self._part: Array = np.empty((0, 4))  # all chords of the part
+        self._ruled: Array = np.empty((0, 4))  # straight dimension lines
+        self._main: Array = np.empty((0, 4))  # dimension lines, leaders and arrows
+        self._extended: Array = np.empty((0, 4))  # extension lines
+        self._swept: list[Arc] = []  # dimension lines that are arcs
+        self._all: Array = np.empty((0, 4))
+
+    def draw(self, shape: Shape) -> None:
+        """Add the lines of a shape."""
+        own = chords(shape)
+        self._keep(own)
+        self._part = np.concatenate((self._part, own))
+        if isinstance(shape, Contour):
+            lines = _chords(piece for piece in shape.segments if isinstance(piece, Line))
+            self._drawn = np.concatenate((self._drawn, lines))
+
+    def write(self, label: Label) -> None:
+        """Add a text."""
+        self._texts.append(label)
+        self._keep(_edges(label))
+
+    def put(self, measure: Measure) -> None:
+        """Add a dimension: its lines, arrows and text."""
+        self._keep(_lines(measure))
+        self._main = np.concatenate((self._main, _main(measure)))
+        self._extended = np.concatenate((self._extended, _chords(measure.extension_lines)))
+        own = measure.lines[0]
+        if isinstance(own, Line):
+            self._ruled = np.concatenate((self._ruled, _chords([own])))
+        elif isinstance(own, Arc):
+            self._swept.append(own)
+        self.write(measure.label)
+
+    def first(self, candidates: Iterable[Measure], gap: float = 0.6) -> Measure | None:
+        """Return the free dimension with the fewest crossings, and add it; None if none is free.
+
+        ``gap`` is the least distance of its text to what is drawn, mm. Of equal ones it is the
+        first. After the first free one 100 more are tried.
+        """
+        best, least, left = None, math.inf, 100
+        for measure in candidates:
+            if not left or not least:
+                break
+            left -= best is not None
+            if self._meets(measure) or not self._is_free(measure, gap):
+                continue
+            count = self._crossings(measure)
+            if count < least:
+                best, least = measure, count
+        if best is not None:
+            self.put(best)
+        return best
+
+    def _meets(self, measure: Measure) -> bool:
+        """Return True if a dimension line runs along another one, or along a line of the part."""
+        own = measure.lines[0]
+        if isinstance(own, Arc):
+            return any(_arcs_together(own, other) for other in self._swept)
+        if not isinstance(own, Line):
+            return False
+        beside_part = measure.kind == "length" and _runs_along(own, self._drawn, ON)
+        return beside_part or _runs_along(own, self._ruled, BESIDE)
+
+    def _crossings(self, measure: Measure) -> int:
+        """Return how often a dimension crosses others, and grazes lines of the part.
+
+        Extension lines may cross each other (ISO 129-1).
+        """
+        main = _main(measure)
+        crossings = _crossings(main, self._main) + _crossings(main, self._extended)
+        crossings += _crossings(_chords(measure.extension_lines), self._main)
+        grazed = (_grazes(piece, self._part) for piece in measure.main_lines)
+        return crossings + sum(grazed)
+
+    def _is_free(self, measure: Measure, gap: float) -> bool:
+        """Return True if a dimension's text keeps ``gap`` mm clear, and its lines meet no text."""
+        if crosses(measure.label, self._all, gap):
+            return False
+        own = np.concatenate((_lines(measure), _edges(measure.label)))
+        return not any(crosses(text, own, 0.6) for text in self._texts)
+
+    def box(self) -> tuple[float, float, float, float]:
+        """Return the bounding box of all lines and texts: x0, y0, x1, y1."""
+        x, y = self._all[:, ::2], self._all[:, 1::2]
+        return float(x.min()), float(y.min()), float(x.max()), float(y.max())
+
+    def _keep(self, lines: Array) -> None:
+        self._all = np.concatenate((self._all, lines))
+
+
+def chords(shape: Shape) -> Array:
+    """Return the chords of a shape, (n, 4)."""
+    if isinstance(shape, Circle):
+        return _chords(two_arcs(shape))
+    assert isinstance(shape, Contour)
+    return _chords(shape.segments)
+
+
+def _arcs_together(a: Arc, b: Arc) -> bool:
+    """Return True if two arcs run side by side with less than ``BESIDE`` between."""
+    same = math.dist(a.centre, b.centre) < IN_LINE and abs(a.radius - b.radius) < BESIDE
+    turn = (_middle(b) - _middle(a)) % math.tau
+    off = min(turn, math.tau - turn)
+    return same and (0.5 * (abs(a.sweep) + abs(b.sweep)) - off) * a.radius > IN_LINE
+
+
+def _runs_along(line: Line, lines: Array, apart: float) -> bool:
+    """Return True if a line runs beside one of others, (n, 4), with less than ``apart`` between."""
+    (x, y), (u, v) = line
+    long = math.dist(*line)
+    if long < IN_LINE:
+        return False
+    c, s = (u - x) / long, (v - y) / long
+    dx, dy = lines[:, ::2].T - x, lines[:, 1::2].T - y
+    (start, end), (one, other) = dx * c + dy * s, np.abs(dy * c - dx * s)
+    # a wheel of many slots has thousands of lines: reductions over pairs would take most of a sheet
+    overlap = (np.minimum(start, end) < long - IN_LINE) & (np.maximum(start, end) > IN_LINE)
+    return bool((overlap & (np.maximum(one, other) < apart)).any())
+
+
+def _grazes(piece: Segment, lines: Array) -> bool:
+    """Return True if a straight line lies within 1.5 mm of chords, (n, 4), in nearly its direction.
+
+    An eye does not keep such lines apart at arm's length.
+    """
+    if not isinstance(piece, Line):
+        return False
+    (x, y), (u, v) = piece
+    long = math.dist(*piece)
+    if long < IN_LINE:
+        return False
+    c, s = (u - x) / long, (v - y) / long
+    dx, dy = lines[:, ::2] - x, lines[:, 1::2] - y
+    along, across = dx * c + dy * s, dy * c - dx * s
+    run, rise = np.diff(along)[:, 0], np.diff(across)[:, 0]
+    slope = rise / np.where(run == 0.0, 1.0, run)
+    steep = np.abs(rise) > 0.2 * np.abs(run)  # above 11 degrees lines are seen to cross
+    # the part of each chord between the ends of the line
+    first = np.clip(along.min(axis=1), 0.0, long)
+    last = np.clip(along.max(axis=1), 0.0, long)
+    levels = (across[:, 0] + slope * (end - along[:, 0]) for end in (first, last))
+    low, high = np.sort(np.stack(list(levels)), axis=0)
+    near = (low < 1.5) & (high > -1.5) & (last - first > IN_LINE)
+    return bool((near & ~steep).any())
+
+
+def _middle(arc: Arc) -> float:
+    """Return the direction of an arc's middle from its centre."""
+    (x, y), (u, v) = arc.centre, at(arc, 0.5)
+    return math.atan2(v - y, u - x)
+
+
+def _chords(pieces: Iterable[Segment]) -> Array:
+    rows: list[tuple[float, float, float, float]] = []
+    for piece in pieces:
+        # chords of at most 1.5 mm
+        count = 1 if isinstance(piece, Line) else max(1, math.ceil(segment_length(piece) / 1.5))
+        ends = points(piece, count)
+        rows += [(*p, *q) for p, q in zip(ends, ends[1:], strict=False)]
+    return np.array(rows).reshape(-1, 4)
+
+
+def _lines(measure: Measure) -> Array:
+    """Return the chords of a dimension's lines and arrows."""
+    sides = [
+        Line(a, b)
+        for arrow in measure.arrows
+        for a, b in zip(arrow.corners, (*arrow.corners[1:], arrow.corners[0]), strict=True)
+    ]
+    return _chords([*measure.lines, *sides])
+
+
+def _main(measure: Measure) -> Array:
+    """Return the chords of dimension line or leader, and the axes of arrows, without their tips.
+
+    Dimensions in a row meet with their tips, and a leader touches what it points at.
+    """
+    tip = 0.5  # mm at an end that may lie on another line
+    rows = [_chords([piece]) for piece in measure.main_lines]
+    for arrow in measure.arrows:
+        _, left, right = arrow.corners
+        back = 0.5 * (left[0] + right[0]), 0.5 * (left[1] + right[1])
+        rows.append(_chords([Line(arrow.tip, back)]))
+    for chain in rows:
+        for end, other in ((slice(0, 2), slice(2, 4)), (slice(2, 4), slice(0, 2))):
+            row = chain[0 if end.start == 0 else -1]
+            long = float(np.hypot(*(row[other] - row[end])))
+            if long > 2.0 * tip:
+                row[end] += tip / long * (row[other] - row[end])
+    return np.concatenate(rows)
+
+
+def _crossings(some: Array, others: Array) -> int:
+    """Return how many pairs of chords, (m, 4) and (n, 4), cross."""
+    if not len(some) or not len(others):
+        return 0
+    a, b = some[:, None, :2], some[:, None, 2:]
+    c, d = others[None, :, :2], others[None, :, 2:]
+    apart = _side(a, b, c) * _side(a, b, d) < 0.0
+    return int((apart & (_side(c, d, a) * _side(c, d, b) < 0.0)).sum())
+
+
+def _side(a: Array, b: Array, p: Array) -> Array:
+    """Return on which side of lines from a to b points are: above 0 on the left."""
+    u, v = b - a, p - a
+    return np.asarray(u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0])
+
+
+def _edges(label: Label) -> Array:
+    corners = label.corners
+    return np.array([(*p, *q) for p, q in zip(corners, (*corners[1:], corners[0]), strict=True)])
+
+
+def crosses(label: Label, lines: Array, gap: float = 0.0) -> bool:
+    """Return True if chords, (n, 4), come nearer to a text's box than ``gap`` mm."""
+    xs, ys = zip(*label.corners, strict=True)
+    x, y = lines[:, ::2], lines[:, 1::2]
+    near = (np.minimum(x[:, 0], x[:, 1]) < max(xs) + 2.0 * gap) & (
+        np.maximum(x[:, 0], x[:, 1]) > min(xs) - 2.0 * gap
+    )
+    near &= (np.minimum(y[:, 0], y[:, 1]) < max(ys) + 2.0 * gap) & (
+        np.maximum(y[:, 0], y[:, 1]) > min(ys) - 2.0 * gap
+    )
+    return bool(near.any()) and _enters(label, lines[near], gap)
+
+
+def _enters(label: Label, lines: Array, gap: float) -> bool:
+    """Return True if one of a few chords meets the box of a text grown by ``gap``."""
+    c, s = math.cos(label.turn), math.sin(label.turn)
+    x, y = lines[:, ::2] - label.at[0], lines[:, 1::2] - label.at[1]
+    along, up = c * x + s * y, c * y - s * x
+    low, high = np.zeros(len(lines)), np.ones(len(lines))
+    limits = (
+        (along, -gap, label.width + gap),
+        (up, -BELOW * label.height - gap, ABOVE * label.height + gap),
+    )
+    for place, least, most in limits:
+        start, step = place[:, 0], place[:, 1] - place[:, 0]
+        flat = np.abs(step) < 1e-12
+        safe = np.where(flat, 1.0, step)
+        a, b = (least - start) / safe, (most - start) / safe
+        within = (start >= least) & (start <= most)
+        first = np.where(flat, np.where(within, -np.inf, np.inf), np.minimum(a, b))
+        last = np.where(flat, np.where(within, np.inf, -np.inf), np.maximum(a, b))
+        low, high = np.maximum(low, first), np.minimum(high, last)
+    return bool((low <= high).any())

@@ -1,0 +1,251 @@
+"""Bounds and lengths of shapes, and shapes moved and rotated.
+
+Lengths are in the unit of the coordinates. Arcs are computed from their ends and
+bulge. The centre of a nearly straight arc is far away and inaccurate.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import NamedTuple, TypeVar
+
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, Point, Segment, Shape
+
+STRAIGHT = 1e-16  # a bulge below it moves no point of the arc by a rounding of the chord
+# Gauss-Legendre's abscissae and weights of eight points on -1..1, one sign of each pair
+GAUSS = (
+    (0.18343464249564980, 0.36268378337836198),
+    (0.52553240991632899, 0.31370664587788729),
+    (0.79666647741362674, 0.22238103445337447),
+    (0.96028985649753623, 0.10122853629037626),
+)
+S = TypeVar("S", Contour, Circle, Shape)
+
+
+class Box(NamedTuple):
+    """Least and greatest coordinates."""
+
+    x0: float
+    y0: float
+    x1: float
+    y1: float
+
+
+def bounds(shape: Shape) -> Box:
+    """Smallest box around a shape, with the exact extremes of its arcs and cubics."""
+    if isinstance(shape, Circle):
+        (x, y), r = shape.centre, shape.radius
+        return Box(x - r, y - r, x + r, y + r)
+    return _box(p for segment in shape.segments for p in _extremes(segment))
+
+
+def bounds_of(shapes: Iterable[Shape]) -> Box:
+    """Smallest box around some shapes."""
+    boxes = [bounds(shape) for shape in shapes]
+    return _box(corner for box in boxes for corner in (box[:2], box[2:]))
+
+
+def segment_length(segment: Segment) -> float:
+    """Length of a line or arc; of a cubic that of its control polygon, which is no shorter."""
+    if isinstance(segment, Cubic):
+        return math.fsum(map(math.dist, segment[:-1], segment[1:]))
+    chord = math.dist(segment.start, segment.end)
+    if isinstance(segment, Line) or abs(segment.bulge) < STRAIGHT:
+        return chord
+    half = 0.5 * segment.sweep
+    return chord * half / math.sin(half)
+
+
+def directions(piece: Line | Arc) -> tuple[float, float]:
+    """Directions of travel at both ends, radians."""
+    (x0, y0), (x1, y1) = piece.start, piece.end
+    chord = math.atan2(y1 - y0, x1 - x0)
+    half = 0.5 * piece.sweep if isinstance(piece, Arc) else 0.0
+    return chord - half, chord + half
+
+
+def legs(arc: Arc) -> tuple[float, float]:
+    """Directions of an arc's ends from its centre, counterclockwise."""
+    x, y = arc.centre
+    first = math.atan2(arc.start[1] - y, arc.start[0] - x)
+    return (first, first + arc.sweep) if arc.sweep > 0.0 else (first + arc.sweep, first)
+
+
+def fraction_at(piece: Line | Arc, point: Point) -> float:
+    """Fraction of the length at a point of the piece, or of its whole line or circle.
+
+    With h half the sweep, the point at the fraction t has the direction (2 t - 1) h from the
+    centre, seen from the arc's middle. Over the radius it is (2 a - 1) sin h along the chord and
+    cos h - 2 b sin h across it. Here a and b are the point's places along and across the chord from
+    its start, over the chord. So nothing is measured from a centre that is far away.
+
+    >>> fraction_at(Line((0.0, 0.0), (4.0, 0.0)), (1.0, 0.0))
+    0.25
+    """
+    (x, y), (x0, y0), (x1, y1) = point, piece.start, piece.end
+    u, v = x1 - x0, y1 - y0
+    along = ((x - x0) * u + (y - y0) * v) / (u * u + v * v)
+    if isinstance(piece, Line) or abs(piece.bulge) < STRAIGHT:
+        return along
+    across, half = ((y - y0) * u - (x - x0) * v) / (u * u + v * v), 0.5 * piece.sweep
+    sine, cosine = math.sin(half), math.cos(half)
+    turn = math.atan2((2.0 * along - 1.0) * sine, cosine - 2.0 * across * sine)
+    return 0.5 + 0.5 * turn / half
+
+
+def at(segment: Segment, t: float) -> Point:
+    """Point at the parameter 0..1, which is a fraction of the length for lines and arcs."""
+    if t in (0.0, 1.0):
+        return segment.end if t else segment.start
+    if isinstance(segment, Cubic):
+        return _on_cubic(segment, t)
+    if isinstance(segment, Line) or abs(segment.bulge) < STRAIGHT:
+        (x0, y0), (x1, y1) = segment.start, segment.end
+        return x0 + t * (x1 - x0), y0 + t * (y1 - y0)
+    return _on_arc(segment, [t])[0]
+
+
+def points(segment: Segment, count: int) -> list[Point]:
+    """``count`` + 1 points at even parameters, both ends included."""
+    inner = [i / count for i in range(1, count)]
+    if isinstance(segment, Arc) and abs(segment.bulge) >= STRAIGHT:
+        return [segment.start, *_on_arc(segment, inner), segment.end]
+    return [segment.start, *(at(segment, t) for t in inner), segment.end]
+
+
+def _on_arc(arc: Arc, parameters: Iterable[float]) -> list[Point]:
+    """Points of an arc: the chord to a point is the whole chord, rotated and shortened."""
+    (x0, y0), (x1, y1) = arc.start, arc.end
+    u, v, half = x1 - x0, y1 - y0, 0.5 * arc.sweep
+    sine, out = math.sin(half), list[Point]()
+    for t in parameters:
+        turn, scale = (t - 1.0) * half, math.sin(t * half) / sine
+        c, s = scale * math.cos(turn), scale * math.sin(turn)
+        out.append((x0 + c * u - s * v, y0 + s * u + c * v))
+    return out
+
+
+def halves(arc: Arc) -> tuple[Arc, Arc]:
+    """The arc cut in two at its middle."""
+    middle, bulge = at(arc, 0.5), math.tan(0.125 * arc.sweep)
+    return Arc(arc.start, middle, bulge), Arc(middle, arc.end, bulge)
+
+
+def halved(segment: Segment, is_long: Callable[[float], bool]) -> list[Segment]:
+    """A segment alone; an arc halved until no part ``is_long`` by the size of its bulge."""
+    if isinstance(segment, Arc) and is_long(abs(segment.bulge)):
+        return [part for half in halves(segment) for part in halved(half, is_long)]
+    return [segment]
+
+
+def as_cubic(arc: Arc) -> Cubic:
+    """The cubic with the arc's ends, tangents and middle, within 3e-4 of the radius at 90 degrees.
+
+    Its handles are 4/3 tan(sweep/4) of the radius long; with the bulge b, (1 + b²)/3 of the chord.
+    """
+    (x0, y0), (x1, y1) = arc.start, arc.end
+    long = (1.0 + arc.bulge * arc.bulge) / 3.0
+    half = 0.5 * arc.sweep
+    c, s = long * math.cos(half), long * math.sin(half)
+    x, y = x1 - x0, y1 - y0
+    first = x0 + c * x + s * y, y0 + c * y - s * x
+    second = x1 - c * x + s * y, y1 - c * y - s * x
+    return Cubic(arc.start, first, second, arc.end)
+
+
+def mapped(
+    shape: S,
+    point: Callable[[Point], Point],
+    radius: Callable[[float], float] = lambda r: r,
+) -> S:
+    """Move a shape by a similarity that keeps the sense of rotation.
+
+    ``point`` maps its points, and ``radius`` a circle's radius.
+    """
+    if isinstance(shape, Circle):
+        return shape._replace(centre=point(shape.centre), radius=radius(shape.radius))
+    return shape._replace(segments=tuple(_mapped(s, point) for s in shape.segments))
+
+
+def turned(shape: S, radians: float, centre: Point = (0.0, 0.0)) -> S:
+    """Rotate a shape about a point, counterclockwise."""
+    (x, y), c, s = centre, math.cos(radians), math.sin(radians)
+
+    def point(p: Point) -> Point:
+        u, v = p[0] - x, p[1] - y
+        return x + c * u - s * v, y + s * u + c * v
+
+    return mapped(shape, point)
+
+
+def turned_pieces(pieces: Iterable[Segment], radians: float) -> tuple[Segment, ...]:
+    """Rotate pieces of an outline about the origin, counterclockwise."""
+    return turned(Contour("", tuple(pieces), closed=False), radians).segments
+
+
+def mirrored(pieces: Sequence[Segment]) -> list[Segment]:
+    """Mirror pieces of an outline in the x axis, and run them backwards."""
+    return [_mirrored(piece) for piece in reversed(pieces)]
+
+
+def _mirrored(segment: Segment) -> Segment:
+    start, end = _over(segment.end), _over(segment.start)
+    if isinstance(segment, Cubic):
+        return Cubic(start, _over(segment.second), _over(segment.first), end)
+    return segment._replace(start=start, end=end)  # an arc's bulge changes its sign twice
+
+
+def _over(p: Point) -> Point:
+    return p[0], -p[1]
+
+
+def _mapped(segment: Segment, point: Callable[[Point], Point]) -> Segment:
+    if isinstance(segment, Cubic):
+        return Cubic(*map(point, segment))
+    start, end = point(segment.start), point(segment.end)
+    return Arc(start, end, segment.bulge) if isinstance(segment, Arc) else Line(start, end)
+
+
+def _box(points: Iterable[Point]) -> Box:
+    xs, ys = zip(*points, strict=True)
+    return Box(min(xs), min(ys), max(xs), max(ys))
+
+
+def _extremes(segment: Segment) -> Iterator[Point]:
+    """The ends, and the points at which the segment runs along an axis."""
+    yield segment.start
+    yield segment.end
+    if isinstance(segment, Cubic):
+        for axis in (0, 1):
+            for t in _level(*(p[axis] for p in segment)):
+                yield at(segment, t)
+    elif isinstance(segment, Arc) and abs(segment.bulge) >= STRAIGHT:
+        (x0, y0), (x1, y1) = segment.start, segment.end
+        sweep, quarter = segment.sweep, 0.5 * math.pi
+        first = math.atan2(y1 - y0, x1 - x0) - 0.5 * sweep  # direction at the start
+        low, high = sorted((first, first + sweep))
+        for k in range(math.ceil(low / quarter), math.floor(high / quarter) + 1):
+            yield at(segment, min(max((k * quarter - first) / sweep, 0.0), 1.0))
+
+
+def _level(a: float, b: float, c: float, d: float) -> list[float]:
+    """Parameters inside 0..1 at which a cubic's coordinate is stationary."""
+    e, f, g = b - a, c - b, d - c  # the derivative's Bernstein coefficients, by 3
+    square, half = e - 2.0 * f + g, f - e  # square t^2 + 2 half t + e = 0
+    under = half * half - square * e
+    if under < 0.0:
+        return []
+    root = -(half + math.copysign(math.sqrt(under), half))  # no cancellation
+    roots = [root / square] if square else []
+    roots += [e / root] if root else []
+    return [t for t in roots if 0.0 < t < 1.0]
+
+
+def _on_cubic(cubic: Cubic, t: float) -> Point:
+    """Point of a cubic by de Casteljau's construction."""
+    corners: list[Point] = list(cubic)
+    while len(corners) > 1:
+        pairs = zip(corners[:-1], corners[1:], strict=True)
+        corners = [(x + t * (u - x), y + t * (v - y)) for (x, y), (u, v) in pairs]
+    return corners[0]

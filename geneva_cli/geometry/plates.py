@@ -1,0 +1,216 @@
+"""Solids extruded from outlines along the axis, or cut out of a sphere, and groups of them.
+
+The wheel's plane is z = 0..thickness, or its sphere's centre is the origin. Lengths are in
+millimetres, angles in radians.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+
+from geneva_cli.geometry.edges import Edge
+from geneva_cli.geometry.shapes import Circle, Contour, Layer, Point
+
+if TYPE_CHECKING:
+    from geneva_cli.geometry.cross_holes import CrossHole
+    from geneva_cli.geometry.round_holes import RoundHole
+    from geneva_cli.geometry.sphere import Region, Rotation, Vector
+
+
+class Plate(NamedTuple):
+    """A flat part: the inside of an outline without its holes, from ``low`` to ``high``.
+
+    Cross holes go across its axis. The edge is around both faces.
+    """
+
+    name: str
+    layer: Layer
+    outline: Contour | Circle
+    holes: tuple[Contour | Circle, ...]
+    low: float
+    high: float
+    cross: tuple[CrossHole, ...] = ()
+    edge: Edge = Edge()
+
+    @property
+    def thickness(self) -> float:
+        """Thickness along the axis."""
+        return self.high - self.low
+
+    @property
+    def plates(self) -> tuple[Plate, ...]:
+        """The plate itself, as those of a ``Stack``."""
+        return (self,)
+
+    def of_plates(self, plates: Iterable[Plate]) -> Plate:
+        """Return the only plate, as a part in place of this one."""
+        (only,) = plates
+        return only
+
+
+class Stack(NamedTuple):
+    """A turned part: plates without holes, each on the one before, as one solid.
+
+    Of two neighbours one lies within the other. Where their outlines coincide, they have the same
+    pieces.
+    """
+
+    name: str
+    layer: Layer
+    plates: tuple[Plate, ...]
+
+    @property
+    def low(self) -> float:
+        """Lower end along the axis."""
+        return self.plates[0].low
+
+    @property
+    def high(self) -> float:
+        """Upper end along the axis."""
+        return self.plates[-1].high
+
+    @property
+    def thickness(self) -> float:
+        """Length along the axis."""
+        return self.high - self.low
+
+    def of_plates(self, plates: Iterable[Plate]) -> Stack:
+        """Return a part with other plates."""
+        return self._replace(plates=tuple(plates))
+
+
+class Shell(NamedTuple):
+    """A solid between two spheres about the origin, over regions that touch along whole arcs.
+
+    Round holes are all within the last of the regions, and separate from each other.
+    """
+
+    name: str
+    layer: Layer
+    regions: tuple[Region, ...]
+    inner: float
+    outer: float
+    holes: tuple[RoundHole, ...] = ()
+
+    @property
+    def volume(self) -> float:
+        """Solid angle times a third of the difference of the cubes, minus the holes, mm³."""
+        covered = math.fsum(r.area for r in self.regions)
+        bored = math.fsum(hole.volume(self.inner, self.outer) for hole in self.holes)
+        return covered * (self.outer**3 - self.inner**3) / 3.0 - bored
+
+    @property
+    def centroid(self) -> Vector:
+        """Centre of mass of a uniform shell, mm."""
+        covered = np.sum([r.moments[0] for r in self.regions], axis=0)
+        first = covered * (self.outer**4 - self.inner**4) / 4.0
+        for hole in self.holes:
+            first = first - hole.first(self.inner, self.outer) * np.array(hole.axis)
+        x, y, z = (first / self.volume).tolist()
+        return x, y, z
+
+    def reach(self, direction: Vector) -> float:
+        """Greatest coordinate of the shell along a direction, mm from the centre."""
+        from geneva_cli.geometry.sphere_arcs import SphereArcs
+
+        if any(
+            SphereArcs(r.boundary).signed(np.array([direction]))[0][0] < 0.0 for r in self.regions
+        ):
+            return self.outer
+        most = max(arc.reach(direction) for region in self.regions for arc in region.boundary)
+        return most * (self.outer if most > 0.0 else self.inner)
+
+    def inertia(self, axis: Vector) -> float:
+        """The volume's moment of inertia about an axis through the centre, mm⁵.
+
+        >>> from geneva_cli.geometry.sphere import Region, SphereArc, place
+        >>> half = place(math.pi / 2.0, 0.0)
+        >>> dome = Region((SphereArc((0.0, 0.0, 1.0), math.pi / 2.0, half, half),), (0.0, 0.0, 1.0))
+        >>> ball = Shell("", "WHEEL", (dome,), 0.0, 10.0)
+        >>> round(ball.inertia((0.0, 0.0, 1.0)) / ball.volume, 12)  # 2/5 r²
+        40.0
+        """
+        covered = math.fsum(r.area - float(r.moments[1] @ axis @ axis) for r in self.regions)
+        bored = math.fsum(hole.inertia(self.inner, self.outer, axis) for hole in self.holes)
+        return covered * (self.outer**5 - self.inner**5) / 5.0 - bored
+
+
+class Group(NamedTuple):
+    """An assembly of parts, each turned about its own origin and then moved."""
+
+    name: str
+    members: tuple[Member, ...]
+
+
+class Member(NamedTuple):
+    """One of a group's parts, and its position."""
+
+    part: Part
+    at: Point = (0.0, 0.0)
+    turn: float = 0.0  # counterclockwise
+    frame: Rotation | None = None  # in place of a turn: the directions of its x, y and z
+
+
+Solid: TypeAlias = Plate | Stack | Shell
+Part: TypeAlias = Solid | Group
+
+
+def edged(member: Member, edge: Edge) -> Member:
+    """A member with an edge around the faces of all its flat solids."""
+    part = member.part
+    if isinstance(part, Plate):
+        part = part._replace(edge=edge)
+    elif isinstance(part, Group):
+        part = part._replace(members=tuple(edged(one, edge) for one in part.members))
+    return member._replace(part=part)
+
+
+def solids(part: Part) -> list[Solid]:
+    """All solids of a part, each as often as it is used."""
+    if isinstance(part, Group):
+        return [one for member in part.members for one in solids(member.part)]
+    return [part]
+
+
+def plates(part: Part) -> list[Plate]:
+    """The flat solids of a part; turned ones are left out."""
+    return [one for one in solids(part) if isinstance(one, Plate)]
+
+
+def between(part: Plate | Stack, low: float, high: float) -> Plate | Stack:
+    """The length of a flat or turned part that lies between two heights."""
+    inside = (one for one in part.plates if one.low < high and one.high > low)
+    return part.of_plates(
+        one._replace(low=max(low, one.low), high=min(high, one.high)) for one in inside
+    )
+
+
+def inwards(part: Part, outside: float) -> Plate | Stack:
+    """A flat or turned part whose heights count inwards from ``outside``, by distances instead."""
+    assert isinstance(part, Plate | Stack)
+    return part.of_plates(
+        one._replace(low=outside - one.high, high=outside - one.low) for one in part.plates[::-1]
+    )
+
+
+def steps_of(part: Part) -> list[Plate]:
+    """A flat part, or the steps of a turned one, under the part's name."""
+    assert isinstance(part, Plate | Stack)
+    return [step._replace(name=part.name) for step in part.plates]
+
+
+def lowered(part: Plate | Stack) -> Plate | Stack:
+    """A flat or turned part with its lower face at z = 0."""
+    down = part.low
+    return part.of_plates(
+        one._replace(
+            low=one.low - down,
+            high=one.high - down,
+            cross=tuple(hole._replace(height=hole.height - down) for hole in one.cross),
+        )
+        for one in part.plates
+    )

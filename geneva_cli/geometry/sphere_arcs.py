@@ -1,0 +1,132 @@
+"""Arcs of circles on a unit sphere as arrays: distances of points, and the points facing them.
+
+The distance of two points is the angle between them. At the nearest points of two boundaries, one
+has a corner, or the points and the axes of both circles are on one great circle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.geometry.sphere import SphereArc
+from geneva_cli.numerics.arrays import Array, Whole
+from geneva_cli.numerics.tolerances import SAME_ANGLE
+
+
+class _Nearest(NamedTuple):
+    """Where points are seen from the axes of k arcs: arrays (n, k), radians."""
+
+    off: Array  # from the arc's circle
+    turn: Array  # about the axis, from the arc's start
+    past: Array  # beyond its end, below 0 on the arc
+    short: Array  # of its start
+    beyond: Array  # the smaller of both, 0 on the arc
+    square: Array  # of the half chord to the nearest point of the arc
+
+
+def half_chords(off: Array, across: Array, beyond: Array) -> Array:
+    """Return the squares of half the chords between points and the nearest points of arcs.
+
+    ``off`` is the angle of a point from the arc's circle, ``beyond`` the angle about the axis by
+    which it is past the arc's end. ``across`` is the product of the sines of both angles from the
+    axis. In the triangle of axis, point and end this needs no difference of near numbers.
+    """
+    return np.sin(0.5 * off) ** 2 + across * np.sin(0.5 * beyond) ** 2
+
+
+class SphereArcs:
+    """A boundary of arcs, each from the end of the one before; its region is to its left.
+
+    If it is not closed, it is a part of a boundary and continues smoothly at its ends.
+
+    >>> import math
+    >>> from geneva_cli.geometry.sphere import place
+    >>> cap = SphereArcs([SphereArc((0.0, 0.0, 1.0), 0.5, place(0.5, 0.0), place(0.5, 0.0))])
+    >>> away, _ = cap.signed(np.array([place(0.7, 1.0), place(0.2, 2.0)]))
+    >>> away.round(12).tolist()  # outside, and inside
+    [0.2, -0.3]
+    """
+
+    def __init__(self, arcs: Sequence[SphereArc], closed: bool = True) -> None:
+        self.axis = np.array([arc.axis for arc in arcs])
+        self.x = np.array([arc.ahead for arc in arcs])
+        self.y = np.cross(self.axis, self.x)
+        self.angle = np.array([arc.angle for arc in arcs])
+        self.sweep = np.array([arc.sweep for arc in arcs])
+        self.start = np.array([arc.start for arc in arcs])
+        self.middle = self.at(np.arange(len(arcs)), 0.5 * self.sweep)
+        half = np.sin(self.angle) * np.sin(0.25 * self.sweep)
+        self.size = 2.0 * np.arcsin(np.minimum(half, 1.0))  # angle from its middle to its ends
+        self.first = self._turns(arcs)  # left turn of the boundary before each arc,
+        if not closed:
+            self.first[0] = 0.0
+        self.last = np.roll(self.first, -1)  # and after it
+
+    def _turns(self, arcs: Sequence[SphereArc]) -> Array:
+        """Left turns of the boundary before each arc."""
+        back = np.roll([arc.travel(arc.end) for arc in arcs], 1, axis=0)
+        on = np.array([arc.travel(arc.start) for arc in arcs])
+        sideways = (np.cross(back, on) * self.start).sum(axis=1)
+        return np.arctan2(sideways, (back * on).sum(axis=1))
+
+    def __len__(self) -> int:
+        return len(self.angle)
+
+    def at(self, which: Whole, turn: Array) -> Array:
+        """Points of some of the arcs, (n, 3), at angles about their axes from their starts."""
+        c, s = np.cos(turn)[:, None], np.sin(turn)[:, None]
+        flat = np.sin(self.angle[which])[:, None]
+        ahead = c * self.x[which] + s * self.y[which]
+        return np.cos(self.angle[which])[:, None] * self.axis[which] + flat * ahead
+
+    def signed(self, points: Array) -> tuple[Array, Array]:
+        """Distances of points (n, 3) from the boundary, and the nearest points of it (n, 3).
+
+        Distances are in radians, negative inside.
+        """
+        off, turn, past, short, beyond, square = self._nearest(points)
+        near = np.argmin(square, axis=1)
+        row = np.arange(len(points))
+        away = 2.0 * np.arcsin(np.sqrt(np.minimum(square[row, near], 1.0)))
+        at_start = short[row, near] < past[row, near]
+        corner = np.where(at_start, self.first[near], self.last[near])
+        corner = np.where((beyond[row, near] > 0.0) & (np.abs(corner) > SAME_ANGLE), corner, 0.0)
+        outside = np.where(corner != 0.0, corner > 0.0, off[row, near] > 0.0)
+        end = np.where(at_start, 0.0, self.sweep[near])
+        foot = np.where(past[row, near] <= 0.0, turn[row, near], end)
+        return np.where(outside, away, -away), self.at(near, foot)
+
+    def distances(self, points: Array) -> Array:
+        """Distances of points (n, 3) from each arc, radians, (n, k)."""
+        square = self._nearest(points).square
+        return 2.0 * np.arcsin(np.sqrt(np.minimum(square, 1.0)))
+
+    def _nearest(self, points: Array) -> _Nearest:
+        """The nearest points of each arc to points (n, 3)."""
+        along, sideways = points @ self.x.T, points @ self.y.T
+        across = np.hypot(along, sideways)
+        off = np.arctan2(across, points @ self.axis.T) - self.angle
+        turn = np.remainder(np.arctan2(sideways, along), 2.0 * np.pi)
+        past, short = turn - self.sweep, 2.0 * np.pi - turn
+        beyond = np.where(past <= 0.0, 0.0, np.minimum(past, short))
+        square = half_chords(off, np.sin(self.angle) * across, beyond)
+        return _Nearest(off, turn, past, short, beyond, square)
+
+    def facing(self, which: Whole, towards: Array) -> tuple[Whole, Array]:
+        """Points of some of the arcs that face directions (n, 3), or face away from them.
+
+        They are on the great circle through the arc's axis and the direction. The result is the
+        index of the direction for each point, and the points.
+        """
+        along = (towards * self.x[which]).sum(axis=1)
+        turn = np.arctan2((towards * self.y[which]).sum(axis=1), along)
+        owner, points = [], []
+        for opposite in (0.0, np.pi):
+            at = np.remainder(turn + opposite, 2.0 * np.pi)
+            on = np.flatnonzero(at <= self.sweep[which])
+            owner.append(on)
+            points.append(self.at(which[on], at[on]))
+        return np.concatenate(owner), np.concatenate(points)

@@ -1,0 +1,1 @@
+"""Kinds of machines that only some users need, a folder each."""

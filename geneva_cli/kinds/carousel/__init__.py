@@ -1,0 +1,1 @@
+"""Carousels: wheels on a carrier that turns about a standing finger."""

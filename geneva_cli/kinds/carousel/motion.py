@@ -1,0 +1,75 @@
+"""Carousel: the finger stands, and a carrier takes the wheels round it.
+
+The input turns the carrier. Seen from the carrier, the finger turns backwards, and a wheel is that
+of a plain crank: path, slot, motion and clearances are the same. With the carrier at c, the wheel
+stands at c + psi(c) from the ground. An internal wheel turns against the carrier: c - psi(c).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, ClassVar
+
+from geneva_cli.drives.transmission import Direct
+from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.motion.pivots import Dimension, Layout, Pivot, wheel_places
+from geneva_cli.motion.wheels.classic import rollers_max
+from geneva_cli.spec.rules import Range
+from geneva_cli.spec.schema import Example
+
+if TYPE_CHECKING:
+    from geneva_cli.motion.drive import Plan
+    from geneva_cli.motion.motion import Motion
+    from geneva_cli.motion.wheels.gearing import Gearing
+
+
+class Carousel(Direct, kw_only=True):
+    """Equal ``wheels`` that orbit on a carrier, evenly spaced, and index at a fixed finger.
+
+    ``n_rpm`` is the carrier's speed. ``rollers`` are the fingers, if there is one wheel.
+
+    >>> orbit = Design(External(4), Carousel(wheels=3))
+    >>> orbit.mechanism.absolute_deg(45.0, 45.0)  # at exit: the carrier's angle and its own
+    90.0
+    """
+
+    NAME: ClassVar[str] = "carousel"
+    WORDS: ClassVar[str] = "a carrier round a fixed finger"
+    EXAMPLE: ClassVar[Example] = Example(
+        "wandering hours: wheels orbit on a carrier and index at a fixed finger",
+        {"wheel": {"z": 4}, "drive": {"wheels": 3, "n_rpm": 1.0}},
+    )
+    FIRST: ClassVar[str] = "its carrier turns at a constant speed"
+    GEARINGS: ClassVar[tuple[str, ...]] = ("external", "internal")
+    wheels: Annotated[int, Range(1, 24), "number of wheels on the carrier, evenly spaced"] = 1
+
+    @property
+    def wheels_on_carrier(self) -> int:
+        """The number of wheels."""
+        return self.wheels
+
+    def may_vary(self, table: str, key: str) -> bool:
+        """False for the number of wheels, which decides over what period the loads repeat."""
+        return (table, key) != (self.TABLE, "wheels")
+
+    def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
+        """Plan of one wheel; the others do the same later. Only one of them moves at a time."""
+        plan = super().plan(wheel, motion, L)
+        moving = plan.engagements[0].motion_deg  # several wheels have one kind of motion
+        refuse(
+            self.wheels > 1 and self.wheels * moving >= 360.0,
+            lambda: GenevaError(
+                f"wheels = {self.wheels}: each moves for {moving:.6g} deg of the carrier, so that "
+                f"they would meet; at most {rollers_max(moving)}",
+                (self.TABLE, "wheels"),
+            ),
+        )
+        return plan
+
+    def layout(self, plan: Plan, sign: float) -> Layout:
+        """Axes and number of wheels, and the radius on which they orbit."""
+        _, *others = wheel_places(self.wheels, sign, plan.center_distance_mm)
+        return (
+            *(Pivot(f"axis of wheel {place.number}", *place.at) for place in others),
+            Dimension("wheels on the carrier", self.wheels),
+            Dimension("orbit's radius", plan.center_distance_mm, "mm"),
+        )

@@ -1,0 +1,1 @@
+"""The counter: a driver, a pinion and number wheels."""

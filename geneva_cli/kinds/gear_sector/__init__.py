@@ -1,0 +1,1 @@
+"""Gear sectors: steps at a constant ratio."""

@@ -1,0 +1,1 @@
+"""The linear Geneva: a rack of slots."""

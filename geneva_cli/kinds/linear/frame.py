@@ -1,0 +1,194 @@
+"""The frame of a rack's machine: the crank's shaft in it, and the guide along the rack on it.
+
+A bar is bolted under the rack's back, and reaches a little beyond it. It slides between a rail, on
+which the rack lies, and a wall. A cover on the wall keeps the rack from lifting. All of them lie
+beyond the sweep of the crank's arm, and are screwed to the frame.
+
+The rack covers its guide in each of its steps. At the start of the first one it ends R - w past the
+crank's axis, w being half a slot. On the other side it does so at the end of the last one. So the
+guide is 2 (R - w) long.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.plates import Plate
+from geneva_cli.geometry.shapes import Circle
+from geneva_cli.geometry.sheet import rectangle
+from geneva_cli.kinds.linear.arm import rack_bore
+from geneva_cli.kinds.linear.rack import RackSizes, rack_ends, rack_sizes, slot_places
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.pivots import Dimension
+from geneva_cli.parts.edged_parts import FrameAndShafts
+from geneva_cli.parts.gears.gear_pair import gear_seats, gear_shafts
+from geneva_cli.parts.mounted_plate import (
+    corner_radius,
+    hole_without_shaft,
+    mounted_plate,
+    require_walls,
+    shaft_holes,
+)
+from geneva_cli.parts.shafts.bearings import bearing_up_to, shoulder_length
+from geneva_cli.parts.shafts.bolt_holes import bolt_radius
+from geneva_cli.parts.shafts.bores import bore_of
+from geneva_cli.parts.shafts.built_shafts import built_shafts
+from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, shaft_ends
+from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses, pin_radius
+from geneva_cli.spec.least_wall import wall_min
+
+
+class RackFrame(NamedTuple):
+    """The heights of a rack's parts along the crank's axis, mm; 0 is the rack's lower face."""
+
+    plain: float  # lower face of a frame of plain shafts
+    top: float  # upper face of the frame
+    low: float  # lower face of what is on the crank's shaft: the arm, or gears below it
+    arm: float  # lower face of the arm
+    stands: float  # its upper face
+    rack: float  # upper face of the rack
+    cover: float  # thickness of the guide's cover
+
+
+def rack_frame(mechanism: Mechanism) -> RackFrame:
+    """Return the heights of a machine's parts."""
+    size, R = mechanism.spec.size, mechanism.center_distance_mm
+    thick, gap = drawn_thicknesses(size, R), size.allowances.pin_gap_mm
+    arm = -gap - thick.arm
+    low = gear_seats(mechanism, None)[0].low if mechanism.spec.gears else arm
+    top = low - size.washer_mm
+    if has_arm(mechanism) or mechanism.spec.gears:
+        top -= shoulder_length(size, 2.0 * R)  # as on a wheel of 6 slots, whose L is 2 R
+    stands = 0.0 - gap  # no -0.0
+    return RackFrame(top - thick.arm, top, low, arm, stands, thick.wheel, thick.arm)
+
+
+def has_arm(mechanism: Mechanism) -> bool:
+    """Return True if the roller has a pin, which an arm carries."""
+    return pin_radius(mechanism.spec.size, mechanism.roller_radius_mm) > 0.0
+
+
+def shaft_radius(mechanism: Mechanism) -> float:
+    """Return the radius of the crank's shaft in the arm; 0 without an arm."""
+    return rack_bore(mechanism) if has_arm(mechanism) else 0.0
+
+
+def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
+    """Return the shafts, plain or turned, and the frame, with holes for them and guide's screws.
+
+    Raises GenevaError, naming the key, where they do not fit.
+    """
+    size, sizes, heights = mechanism.spec.size, rack_sizes(mechanism), rack_frame(mechanism)
+    L = 2.0 * sizes.arm  # as a wheel of 6 slots has it
+    span = heights.plain, heights.top, heights.top
+    axles, bottom = built_shafts(size, list(_shafts(mechanism, heights)), [], span)
+    bored = shaft_holes(size, axles, heights.top)
+    require_walls(bored, wall_min(size, sizes.arm), axles)
+    if not has_arm(mechanism):
+        diameter = mechanism.spec.shaft.crank_diameter_mm
+        bored.insert(0, hole_without_shaft(diameter, mechanism.crank_shaft.at, L))
+    holes = [*bored, *(hole for at in _rows(sizes) for hole in _row(sizes, at))]
+    frame = mounted_plate(holes, holes, corner_radius(size, L), (bottom, heights.top))
+    return FrameAndShafts(frame, tuple(axles))
+
+
+def _shafts(mechanism: Mechanism, heights: RackFrame) -> Iterator[Shaft]:
+    """Yield the crank's shaft, up to the arm's upper face, and that of a driver gear.
+
+    There is no crank's shaft without an arm, as the crank is one piece with its shaft then.
+    """
+    size, geared = mechanism.spec.size, mechanism.spec.gears is not None
+    if has_arm(mechanism):
+        radius, axis = rack_bore(mechanism), mechanism.crank_shaft.at
+        if size.shafts == "turned":  # a rack's crank has its bore in the arm: errors name that key
+            bearing_up_to(2.0 * radius, "crank's shaft", "arm_bore_mm")
+        driven = gear_seats(mechanism, None)[:1] if geared else []
+        seats = (*driven, Seat("crank", heights.arm, heights.stands))
+        low, high = shaft_ends(size, "crank", heights.plain, heights.stands)
+        bore = bore_of(size, "crank", radius)
+        # the keyway is on the side of the locking sector, as in the arm
+        yield Shaft("crank's shaft", "crank", bore, seats, low, high, axis, math.pi, math.pi)
+    if geared:
+        ends = Ends(heights.plain, heights.rack, crank_has_one=True)
+        yield from gear_shafts(mechanism, None, ends, shaft_radius(mechanism))
+
+
+def guide_bar(mechanism: Mechanism, count: int) -> Plate:
+    """Return the bar under a rack of ``count`` slots; half the height under it is free."""
+    sizes, heights = rack_sizes(mechanism), rack_frame(mechanism)
+    low, high = rack_ends(sizes, count)
+    x = sizes.guide.back
+    outline = rectangle("LINK", x, low, x + sizes.guide.bar, high)
+    return Plate("guide bar", "LINK", outline, bar_bolts(sizes, count), 0.5 * heights.top, 0.0)
+
+
+def bar_bolts(sizes: RackSizes, count: int) -> tuple[Circle, ...]:
+    """Return the holes that fix the bar to a rack, behind each of its slots."""
+    x = sizes.guide.middle
+    return tuple(Circle("BORE", (x, y), _bolt(sizes)) for y in slot_places(sizes, count))
+
+
+def guide(mechanism: Mechanism) -> tuple[Plate, ...]:
+    """Return rail, wall and cover of the guide.
+
+    Raises GenevaError where the slots are so wide that hardly any guide is left between them.
+    """
+    sizes, heights = rack_sizes(mechanism), rack_frame(mechanism)
+    place = sizes.guide
+    x, bar, slide, half = place.back, place.bar, place.slide, place.half
+    if half < bar:
+        raise GenevaError(
+            f"roller_radius_mm = {sizes.roller:g}: a guide that the rack always covers would be "
+            f"{2.0 * half:.4g} mm long, and its screws need {2.0 * bar:.4g}: use a smaller roller",
+            ("size", "roller_radius_mm"),
+        )
+    over = heights.rack + mechanism.spec.size.allowances.pin_gap_mm
+    on_rail, on_wall = (tuple(_row(sizes, at)) for at in _rows(sizes))
+    rail = rectangle("FRAME", x + bar + slide, -half, x + 2.0 * bar + slide, half)
+    wall = rectangle("FRAME", x - slide - 2.0 * bar, -half, x - slide, half)
+    # the cover ends a tenth of a bar inside the edges of wall and bar
+    cover = rectangle("FRAME", x - slide - 1.9 * bar, -half, x + 0.9 * bar, half)
+    return (
+        Plate("guide rail", "FRAME", rail, on_rail, heights.top, 0.0),
+        Plate("guide wall", "FRAME", wall, on_wall, heights.top, over),
+        Plate("guide cover", "FRAME", cover, on_wall, over, over + heights.cover),
+    )
+
+
+def rack_dimensions(sizes: RackSizes) -> Iterator[Dimension]:
+    """Yield the dimensions of rack, locking sector and guide."""
+    lock = {
+        "recess radius": sizes.recess,
+        "locking sector: outer radius": sizes.lock,
+        "locking sector: inner radius": sizes.floor,
+    }
+    named = {
+        "distance of the slots": 2.0 * sizes.arm,
+        "edge, from the deepest roller": sizes.edge,
+        **(lock if sizes.lock else {}),
+        "guide bar: width": sizes.guide.bar,
+        "guide: clearance on either side": sizes.guide.slide,
+        "guide: length": 2.0 * sizes.guide.half,
+    }
+    for name, value in named.items():
+        yield Dimension(name, value, "mm")
+
+
+def _rows(sizes: RackSizes) -> tuple[float, float]:
+    """Return the x of the screws of rail and wall."""
+    place = sizes.guide
+    return place.back + 1.5 * place.bar + place.slide, place.back - place.slide - place.bar
+
+
+def _row(sizes: RackSizes, x: float) -> Iterator[Circle]:
+    """Yield three screws' holes along the guide, half a bar's width from its ends."""
+    far = sizes.guide.half - 0.5 * sizes.guide.bar
+    for y in (-far, 0.0, far):
+        yield Circle("BORE", (x, y), _bolt(sizes))
+
+
+def _bolt(sizes: RackSizes) -> float:
+    return bolt_radius(None, 2.0 * sizes.arm, 0.5 * sizes.guide.bar)

@@ -1,0 +1,171 @@
+"""Racks of parallel slots: the linear Geneva, to which wheels of very many slots tend.
+
+A rack is written as if it were driven through a pinion of the crank's radius R: its angle is the
+travel over R, from -1 to 1 radian. So it needs no formulas of its own for loads. The unit of
+length is R too, as no axis gives a centre distance: the crank's axis is at (1, 0), the roller is at
+(0, 0) at mid-motion, and the slots run along x.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, ClassVar
+
+from geneva_cli.motion.engagement import Anchor, Displacement, Slot, SlotAxis
+from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
+from geneva_cli.motion.pivots import Pivot
+from geneva_cli.motion.wheels.gearing import FollowedRate, Gearing, Output, RollerPlace
+from geneva_cli.motion.wheels.poses import HalfStep, PinPose, middle
+from geneva_cli.numerics.jet import Jet, Number
+from geneva_cli.spec.schema import Example
+
+if TYPE_CHECKING:
+    from geneva_cli.motion.plane_motion import PlaneMotion
+    from geneva_cli.numerics.arrays import Array
+
+
+class Linear(Gearing):
+    """A rack of parallel slots: it moves by two crank radii a turn, and rests as long.
+
+    ``z`` is the number of slots, 3 or more. The centre distance is the crank's radius.
+
+    >>> Design(Linear(6)).timing.motion_deg
+    180.0
+    >>> Design(Linear(6)).timing.index_mm
+    200.0
+    """
+
+    NAME: ClassVar[str] = "linear"
+    EXAMPLE: ClassVar[Example] = Example(
+        "a rack of parallel slots: motion and dwell equal", {"wheel": {"z": 6}}
+    )
+    USUAL_LOAD: ClassVar[dict[str, float]] = {"mass_kg": 4, "force_N": 30}
+    FLAT: ClassVar[bool] = False
+    PARTS: ClassVar[str] = "rack"
+    DISTANCE: ClassVar[str] = "crank radius"
+    LOCK: ClassVar[str] = "locking ring"
+
+    def output(self, center_distance_mm: float) -> Output:
+        """The travel, in millimetres."""
+        radius_m = center_distance_mm / 1000.0
+        loads = {
+            "rack_speed_m_s": ("omega_rad_s", radius_m),
+            "rack_acceleration_m_s2": ("alpha_rad_s2", radius_m),
+            "rack_force_N": ("wheel_torque_Nm", 1.0 / radius_m),
+        }
+        lacks = (
+            *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "wheel_bearing_N"),
+            *("inertia_kgm2", "acceleration_rad_s2", "inertia_torque_Nm", "friction_torque_Nm"),
+            *("total_torque_Nm", "design_torque_Nm", "moment_Nms", "drag_Nm"),
+            *("residual_deg", "windup_deg"),
+        )
+        return Output(
+            noun="rack",
+            column="rack_mm",
+            unit="mm",
+            per_radian=center_distance_mm,
+            rate_unit="m",
+            rate_per_radian=radius_m,
+            load_keys="mass_kg or force_N in [load]",
+            loads=loads,
+            lacks=lacks,
+            invariants="derivative of its travel over R",
+        )
+
+    @property
+    def title(self) -> str:
+        """The title of a design without one of its own."""
+        return f"Geneva rack of {self.z} slots"
+
+    def axes(self, L: float) -> tuple[Pivot, ...]:
+        """Axis of the crank."""
+        return (Pivot("crank axis", L, 0.0),)
+
+    def plane_motion(self, center_distance_mm: float) -> PlaneMotion:
+        """How the rack slides: by the crank's radius a radian."""
+        from geneva_cli.motion.plane_motion import Sliding
+
+        return Sliding(center_distance_mm)
+
+    def words(self, slots: str) -> str:
+        """The rack in words, whose slots are parallel."""
+        return f"rack of {self.z} parallel slots"
+
+    def index_deg(self, i: int) -> float:
+        """Step of the pinion, two radians, in degrees."""
+        return math.degrees(2.0)
+
+    def half_motion_deg(self, step: HalfStep) -> float:
+        """Crank angle in degrees from entry to mid-motion: 90."""
+        return 90.0
+
+    def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
+        """Place of a roller, which enters and leaves a slot beside the crank's axis."""
+        poses = (
+            PinPose(-90.0, -1.0, 1.0, (-1.0, 0.0), (0.0, 1.0)),
+            middle(self.SIGN, 1.0, 0.0),
+            PinPose(90.0, 1.0, 1.0, (1.0, 0.0), (0.0, -1.0)),
+        )
+        return RollerPlace(step, 90.0, poses, 1.0)
+
+    def follow(
+        self, path: AnchoredPath, place: RollerPlace, turn: Displacement
+    ) -> tuple[Slot, StraightSlotMotion]:
+        """Parallel slot for a roller's path, and the travel that follows."""
+        return ParallelSlot(path), ParallelSlotMotion(path, 1.0)
+
+    def exact_rate(
+        self, step: tuple[float, float], L: float, exact: Callable[[float], float]
+    ) -> FollowedRate:
+        """Rate of a rack, as in ``Gearing.exact_rate``: that of the roller across the slots."""
+
+        def rate(sine: Jet, versine: Jet) -> Jet:
+            return sine.derivative()
+
+        return rate
+
+
+class ParallelSlot(Slot):
+    """A straight slot across the travel of its rack."""
+
+    def __init__(self, path: AnchoredPath) -> None:
+        self.path = path
+
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+        """Pin (x, y) in the rack, on the slot's straight axis."""
+        along = self.path.from_middle(input_deg, order)[0]
+        return along, along * 0.0
+
+    def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
+        """Lever of the slot's normal about the pinion's axis, and the pin's speed along it."""
+        along = self.path.from_nearest(input_deg, order + 1)[0].derivative()
+        return SlotAxis(along * 0.0 + 1.0, along)
+
+    def play(self, clearance: Number) -> Number:
+        """Free travel, for a clearance on either side of the roller."""
+        return 2.0 * clearance
+
+    def upright(self, input_deg: Number, order: int = 0) -> float:
+        """0: a rack does not turn about the roller's axis."""
+        return 0.0
+
+
+class ParallelSlotMotion(StraightSlotMotion):
+    """Travel of a rack whose slot follows the pin, over the crank's radius."""
+
+    def __call__(self, input_deg: Number, order: int = 3) -> Jet:
+        """Travel from the pin's position across the slots; at rest at both ends."""
+
+        def solve(anchor: Anchor, x: Number) -> Jet:
+            return anchor.place(x, order)[1] + anchor.wheel
+
+        return self.path.solved(input_deg, solve)
+
+    def rate(self, input_deg: Number, order: int = 2) -> Jet:
+        """Speed of the pin across the slots."""
+        return self.path.from_nearest(input_deg, order + 1)[1].derivative()
+
+    def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
+        """Speed and its derivatives at arrays of angles, computed from the middle anchor only."""
+        return self.path.from_middle(input_deg, order + 1)[1].derivative().arrays()

@@ -1,0 +1,139 @@
+"""All parts of a rack's machine at their positions, at input angle 0.
+
+In the machine's frame the rack's slots run along x, the roller is at the origin, and the crank's
+axis is at (R, 0). Each part is built once, on first use. Drawing, solid, list of parts and sheet
+are projections of them. Their outlines are lines and arcs, which no tolerance changes, but those of
+noncircular gears.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import cached_property
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.hole_walls import require_faces
+from geneva_cli.geometry.plates import Group, Member, Plate, plates
+from geneva_cli.geometry.shapes import Point
+from geneva_cli.kinds.linear.arm import rack_arm, rack_crank
+from geneva_cli.kinds.linear.frame import (
+    bar_bolts,
+    guide,
+    guide_bar,
+    has_arm,
+    shaft_radius,
+    shafts_and_frame,
+)
+from geneva_cli.kinds.linear.rack import RackSizes, rack_contour, rack_sizes
+from geneva_cli.parts.edged_parts import EdgedParts, FrameAndShafts
+from geneva_cli.parts.gears.gear_pair import gear_pair
+from geneva_cli.parts.missing import NamedParts
+from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses
+
+
+class RackParts(EdgedParts):
+    """The parts of a machine, in its frame.
+
+    A part that the sizes leave no place for raises GenevaError, naming the key.
+    """
+
+    @cached_property
+    def sizes(self) -> RackSizes:
+        """The sizes of rack and locking sector."""
+        return rack_sizes(self.mechanism)
+
+    @property
+    def axis(self) -> Point:
+        """The crank's axis."""
+        return self.sizes.arm, 0.0
+
+    @cached_property
+    def wheel(self) -> Member:
+        """The rack, with holes for the bolts of its guide bar."""
+        count, sizes = self.mechanism.spec.wheel.z, self.sizes
+        high = drawn_thicknesses(self.mechanism.spec.size, sizes.arm).wheel
+        outline, holes = rack_contour(sizes, count), bar_bolts(sizes, count)
+        return self._edged([Member(Plate("rack", "WHEEL", outline, holes, 0.0, high))])[0]
+
+    @cached_property
+    def bar(self) -> Member:
+        """The bar under the rack's back."""
+        return self._edged([Member(guide_bar(self.mechanism, self.mechanism.spec.wheel.z))])[0]
+
+    @cached_property
+    def arm(self) -> Plate | None:
+        """The crank's arm; None without a pin for the roller."""
+        if not has_arm(self.mechanism):
+            return None
+        return self._plate(rack_arm(self.mechanism))
+
+    @cached_property
+    def crank_without_arm(self) -> Member:
+        """Locking sector, roller and pin, as they lie in the rack's plane."""
+        return self._crank(None)
+
+    @cached_property
+    def crank(self) -> Member:
+        """The crank: arm, locking sector, roller on its pin."""
+        return self._crank(self.arm)
+
+    def _crank(self, arm: Plate | None) -> Member:
+        below = (Member(arm),) if arm else ()
+        members = *below, *self._edged(rack_crank(self.mechanism))
+        # the roller is on the rack's side
+        return Member(Group("crank", members), self.axis, math.pi)
+
+    @cached_property
+    def gear_pair(self) -> tuple[Member, ...]:
+        """The noncircular gears that turn the crank, with teeth or up to their pitch curves."""
+        return gear_pair(self.mechanism, None, self.writer, shaft_radius(self.mechanism))
+
+    @cached_property
+    def guide(self) -> tuple[Member, ...]:
+        """Rail, wall and cover of the guide."""
+        self._require_built()
+        return self._edged(Member(plate) for plate in guide(self.mechanism))
+
+    @cached_property
+    def _framed(self) -> FrameAndShafts:
+        self._require_built()
+        return shafts_and_frame(self.mechanism)
+
+    def _require_built(self) -> None:
+        """Raise GenevaError where the crank's shaft has no bearing in the frame."""
+        if reason := self.mechanism.spec.no_parts:
+            raise GenevaError(reason, ("drive", "kind"))
+
+    @property
+    def horn_mm(self) -> float | None:
+        """Thickness of the horns between slots and recesses; None without a lock."""
+        return self.sizes.horn if self.sizes.lock else None
+
+    @property
+    def standing(self) -> tuple[Member, ...]:
+        """The parts that stand still."""
+        return (*self.guide, self.frame)
+
+    @property
+    def members(self) -> tuple[Member, ...]:
+        """All parts; behind links those that move."""
+        moving = self.wheel, self.bar, self.crank
+        framed = self.mechanism.spec.has_parts
+        return (*moving, *self.gear_pair, *self.shafts, *self.standing) if framed else moving
+
+    def require(self) -> None:
+        """Raise GenevaError for a part that cannot be built."""
+        for member in self.members:
+            for plate in plates(member.part):
+                require_faces(plate)
+
+    def by_name(self) -> Iterator[NamedParts]:
+        """Yield all parts in the order of a list, as names and functions that build them."""
+        yield "rack", lambda: [self.wheel.part]
+        yield "guide bar", lambda: [self.bar.part]
+        yield "crank", lambda: [self.crank.part]
+        yield "gears", lambda: [one.part for one in self.gear_pair if self.mechanism.spec.has_parts]
+        yield "shafts", lambda: [one.part for one in self.shafts]
+        yield "guide", lambda: [one.part for one in self.guide]
+        yield "frame", lambda: [self.frame.part]

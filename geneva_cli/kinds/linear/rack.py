@@ -1,0 +1,180 @@
+"""The rack of a linear Geneva, and the locking sector of its crank.
+
+In the rack's frame its slots run along x, and the roller is at the origin at mid-motion. The rack's
+edge, by default x = R, passes through the crank's axis: there the roller enters. So the rack sweeps
+over the axis, and no disc can lock it. A ring does, half way round, opposite the roller.
+
+The recesses have the radius rho, and their axes are R from those of the slots. With the crank d
+radians after entry, one recess is y = R (1 - cos d) past the crank's axis, and the end of the ring
+that lies in it is d past the edge. A point of that end, q from the axis, is in the recess if
+
+    q² - 2 q y sin d + y² <= rho²
+
+At q = rho this holds until tan(d/2) = 2 rho/R, past mid-motion for rho > R/2. The least q rises
+with d, up to R - rho at mid-motion. There the ring's end lies along the edge, on which the rack
+covers all but R - rho to R + rho. After it the next recess mirrors the first.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.shapes import Contour, Line, Segment, about, closed
+from geneva_cli.kinds.linear.guide_place import GuidePlace, guide_place
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.parts.sizes.sizes import lock_between, require_lock_between
+from geneva_cli.spec.default_sizes import value_or
+
+
+class RackSizes(NamedTuple):
+    """Sizes of rack and locking sector, mm; radii are 0 without a lock."""
+
+    arm: float  # R, the crank's radius
+    roller: float
+    half_width: float  # of the slot
+    edge: float  # distance of the rack's edge from the deepest roller
+    slot_bottom: float  # clearance between the deepest roller and the slot's end
+    lock: float  # outer radius of the locking sector
+    floor: float  # its inner radius
+    recess: float
+    guide: GuidePlace
+
+    @property
+    def rim(self) -> float:
+        """The edge, for the full turn."""
+        return self.edge
+
+    @property
+    def outer(self) -> float:
+        """0: no part of the rack lies beyond its edge."""
+        return 0.0
+
+    @property
+    def horn(self) -> float:
+        """Thickness of the horn between slot and recess at its thinnest place.
+
+        Without a recess it is half of the wall between two slots.
+        """
+        below = min(self.edge - self.arm, 0.0)  # an edge below the crank's axis has wider horns
+        half_recess = math.sqrt(max(self.recess**2 - below**2, 0.0))
+        return self.arm - self.half_width - half_recess
+
+    @property
+    def back(self) -> float:
+        """The wall between the slots' ends and the rack's back."""
+        return -(self.behind + self.slot_bottom + self.half_width)
+
+    @property
+    def behind(self) -> float:
+        """The x of the rack's back: a tenth of the guide's bar stands out behind it."""
+        return self.guide.back + 0.1 * self.guide.bar
+
+    @property
+    def beyond(self) -> float:
+        """Length of the rack from the last slot's axis to its end."""
+        return 2.0 * self.arm - self.half_width
+
+
+def rack_sizes(mechanism: Mechanism) -> RackSizes:
+    """Return the sizes of a machine's rack. Raises GenevaError, naming the key, if none fit."""
+    size, r = mechanism.spec.size, mechanism.roller_radius_mm
+    arm, allowed = mechanism.ratio * mechanism.center_distance_mm, size.allowances
+    guide = guide_place(mechanism)
+    w = guide.slot
+    if w >= arm:
+        raise GenevaError(
+            f"roller_radius_mm = {r:g}: the slots overlap; half a slot must be below {arm:.6g}, "
+            "half the distance of the slots",
+            ("size", "roller_radius_mm"),
+        )
+    relief = value_or(size.relief_clearance_mm, arm / 200.0)
+    lock = _lock(mechanism, arm, arm - w - allowed.lock_clearance_mm, relief)
+    recess = lock + allowed.lock_clearance_mm if lock else 0.0
+    floor = arm - recess + relief if lock else 0.0
+    edge = value_or(size.wheel_radius_mm, arm)
+    if lock and abs(edge - arm) >= recess:
+        raise GenevaError(
+            f"wheel_radius_mm = {edge:g}: the rack's edge must meet its recesses, between "
+            f"{arm - recess:.6g} and {arm + recess:.6g} mm",
+            ("size", "wheel_radius_mm"),
+        )
+    return RackSizes(arm, r, w, edge, guide.bottom, lock, floor, recess, guide)
+
+
+def _lock(mechanism: Mechanism, arm: float, limit: float, relief: float) -> float:
+    """Return the outer radius of the locking sector, which must be wider than its inner radius."""
+    own, r = mechanism.spec.size.lock_radius_mm, mechanism.roller_radius_mm
+    if own == 0.0:
+        return 0.0
+    least = 0.5 * (arm + relief)
+    if limit <= least:
+        raise GenevaError(
+            f"the locking sector does not fit: roller and clearances limit it to {limit:.4g} mm, "
+            f"and it must reach {least:.4g}; use a smaller roller, or lock_radius_mm = 0",
+            ("size", "lock_radius_mm"),
+        )
+    if own is None:
+        return lock_between(least, limit, r)
+    require_lock_between(own, least, limit)
+    return own
+
+
+def rack_contour(sizes: RackSizes, count: int) -> Contour:
+    """Return a rack of ``count`` slots, counterclockwise; the slot in the middle is at y = 0.
+
+    A recess lies between two slots, and one beyond the last slot on either side.
+    """
+    low, high = rack_ends(sizes, count)
+    back, places = sizes.behind, slot_places(sizes, count)
+    cuts = [slot_walls(sizes, y) for y in places]
+    if sizes.recess:
+        between = places[0] - sizes.arm, *(y + sizes.arm for y in places)
+        recesses = [_recess(sizes, y) for y in between]
+        pairs = zip(recesses, [*cuts, []], strict=True)
+        cuts = [cut for pair in pairs for cut in pair if cut]
+    edge: list[Segment] = []
+    at = (sizes.edge, low)
+    for cut in cuts:
+        edge += [Line(at, cut[0].start), *cut]
+        at = cut[-1].end
+    corners = (sizes.edge, high), (back, high), (back, low), (sizes.edge, low)
+    sides = [Line(at, corners[0])]
+    sides += [Line(a, b) for a, b in zip(corners, corners[1:], strict=False)]
+    return closed("WHEEL", [*edge, *sides])
+
+
+def slot_places(sizes: RackSizes, count: int) -> list[float]:
+    """Return the y of the slots of a rack, from below; that in the middle is at 0."""
+    first = -2.0 * sizes.arm * ((count - 1) // 2)
+    return [first + 2.0 * sizes.arm * k for k in range(count)]
+
+
+def rack_ends(sizes: RackSizes, count: int) -> tuple[float, float]:
+    """Return the y of both ends of a rack of ``count`` slots."""
+    first, *_, last = slot_places(sizes, count)
+    return first - sizes.beyond, last + sizes.beyond
+
+
+def slot_walls(sizes: RackSizes, y: float) -> list[Segment]:
+    """Return the walls of a slot at y, from the lower corner of its mouth to the upper one."""
+    edge, w, bottom = sizes.edge, sizes.half_width, -sizes.slot_bottom
+    end = about((bottom, y), w, -0.5 * math.pi, -math.pi)
+    return [Line((edge, y - w), end.start), end, Line(end.end, (edge, y + w))]
+
+
+def _recess(sizes: RackSizes, y: float) -> list[Segment]:
+    beyond = math.asin((sizes.edge - sizes.arm) / sizes.recess)
+    start, sweep = beyond - 0.5 * math.pi, -math.pi - 2.0 * beyond
+    return [about((sizes.arm, y), sizes.recess, start, sweep)]
+
+
+def locking_sector(sizes: RackSizes) -> Contour | None:
+    """Return the ring opposite the roller, whose direction is x from the axis; None without one."""
+    if not sizes.lock:
+        return None
+    outer = about((0.0, 0.0), sizes.lock, 0.5 * math.pi, math.pi)
+    inner = about((0.0, 0.0), sizes.floor, 1.5 * math.pi, -math.pi)
+    inwards, outwards = Line(outer.end, inner.start), Line(inner.end, outer.start)
+    return closed("CRANK", [outer, inwards, inner, outwards])

@@ -1,0 +1,1 @@
+"""Linkages that carry the roller: four-bars and slider-cranks."""

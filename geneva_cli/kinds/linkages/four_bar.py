@@ -1,0 +1,209 @@
+"""A four-bar linkage in front of the wheel: the roller is a point of its coupler.
+
+Crank a leads from the input's axis to the pin A, and coupler b from A to B. Rocker c leads from B
+to its own pivot, at the distance g from the input's axis. The roller C is at the distance k from A,
+at an angle from the line AB. The wheel's centre is solved for.
+"""
+
+from functools import reduce
+from typing import Annotated, ClassVar, NamedTuple, Self
+
+from geneva_cli.drives.roller_path import PointDisplacement, rounded
+from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.kinds.linkages.linkage import Linkage, Moving, RodPath, refuse_proportions
+from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link
+from geneva_cli.numerics.arrays import larger, library, parameter, smaller
+from geneva_cli.numerics.jet import Jet, sqrt, turned_at
+from geneva_cli.spec.rules import POSITIVE, OneOf, Range
+from geneva_cli.spec.schema import Example
+
+
+class FourBar(Linkage, kw_only=True):
+    """A point of a four-bar's coupler carries the roller.
+
+    Links are in mm; ``point_deg`` is the angle from the coupler's line to the roller's. The wheel
+    that the path can drive is solved for. Building the machine raises GenevaError if the links do
+    not close or their path drives no wheel.
+
+    >>> coupler = FourBar(
+    ...     crank_mm=40, ground_mm=90, coupler_mm=100, rocker_mm=100,
+    ...     point_mm=161.519, point_deg=-36.138, entry_deg=123.3,
+    ... )
+    >>> round(Design(External(4), coupler).mechanism.center_distance_mm, 2)
+    119.49
+    """
+
+    NAME: ClassVar[str] = "four-bar"
+    WORDS: ClassVar[str] = "a point of a four-bar linkage"
+    CARRIER: ClassVar[str] = "coupler"
+    EXAMPLE: ClassVar[Example] = Example(
+        "the roller on a four-bar's coupler",
+        {
+            "wheel": {"z": 4, "held_by": "detent"},
+            "drive": {
+                "crank_mm": 40.0,
+                "ground_mm": 90.0,
+                "coupler_mm": 100.0,
+                "rocker_mm": 100.0,
+                "point_mm": 161.51903573811165,
+                "point_deg": -36.13836508095113,
+                "entry_deg": 123.3,
+            },
+            "size": {"roller_radius_mm": 2.0, "wheel_hub_mm": 0.0},
+        },
+    )
+    crank_mm: Annotated[float, POSITIVE, "length of crank a"]
+    ground_mm: Annotated[float, POSITIVE, "distance g between the fixed pivots"]
+    coupler_mm: Annotated[float, POSITIVE, "length of coupler b, from crank pin A to rocker pin B"]
+    rocker_mm: Annotated[float, POSITIVE, "length of rocker c"]
+    point_mm: Annotated[float, POSITIVE, "distance of roller C from crank pin A"]
+    point_deg: Annotated[float, Range(-360.0, 360.0), "angle BAC, from AB to AC"]
+    branch: Annotated[str, OneOf(("+", "-")), "side of the crank's line the coupler is on"] = "+"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        refuse_proportions(
+            crank_mm=self.crank_mm,
+            ground_mm=self.ground_mm,
+            coupler_mm=self.coupler_mm,
+            rocker_mm=self.rocker_mm,
+            point_mm=self.point_mm,
+        )
+        # Grashof's condition for a full turn: the crank is the shortest link, and with the longest
+        # it is below the sum of the other two.
+        others = [self.ground_mm, self.coupler_mm, self.rocker_mm]
+        limit = smaller(reduce(smaller, others), sum(others) - 2.0 * reduce(larger, others))
+
+        def error() -> GenevaError:
+            below = f"it must be below {limit:.6g}"
+            remedy = below if limit > 0.0 else "change the other links first"
+            return GenevaError(
+                f"crank_mm = {self.crank_mm:g}: the crank cannot make a full turn (Grashof's "
+                f"condition); {remedy}",
+                ("drive", "crank_mm"),
+            )
+
+        refuse(self.crank_mm >= limit, error)
+
+    def backwards(self, plan: Plan) -> Self:
+        """The mirrored linkage: the other branch, the roller across the coupler."""
+        other = "-" if self.branch == "+" else "+"
+        return super().backwards(plan).replace(branch=other, point_deg=0.0 - self.point_deg)
+
+    def layout(self, plan: Plan, sign: float) -> Layout:
+        """Joints at input 0, and lengths of the links."""
+        return (
+            self.placed(plan, "rocker axis", self.ground_mm, 0.0),
+            *self.linked(plan),
+            Dimension("crank a", self.crank_mm, "mm"),
+            Dimension("ground g", self.ground_mm, "mm"),
+            Dimension("coupler b", self.coupler_mm, "mm"),
+            Dimension("rocker c", self.rocker_mm, "mm"),
+            Dimension("roller from A", self.point_mm, "mm"),
+            Dimension("angle BAC", self.point_deg, "deg"),
+            Dimension("branch", self.branch),
+        )
+
+    def holder(self, end: Moving) -> Link:
+        """The rocker, on a pin in the frame."""
+        axis = 0.0 * end[0] + self.ground_mm, 0.0 * end[0]
+        return Link("rocker", (end, axis), (Joint.PIN, Joint.PIN), 3)
+
+    @property
+    def roller_path(self) -> "CouplerPath":
+        """Path of the coupler point that carries the roller."""
+        return CouplerPath(self)
+
+
+class CouplerPath(RodPath):
+    """The path of a point of the coupler.
+
+    d is the vector from A to the rocker's pivot, D = d² and N = sqrt(4 b² D - (b² + D - c²)²). The
+    unit vector from A towards B is e = d k, k = ((D + b² - c²) + i N) / (2 b D). It turns by
+
+        1/2 (1 + (a² - g²) / D) - a g sin phi (1 - (b² - c²) / D) / N
+
+    per radian of the crank, which is the sum of the rotations of d and k. Its numbers are crank,
+    ground, coupler, rocker, and the point's coordinates on the coupler: a, g, b, c, p, q.
+    """
+
+    def __init__(self, keys: FourBar) -> None:
+        lengths = (keys.crank_mm, keys.ground_mm, keys.coupler_mm, keys.rocker_mm)
+        super().__init__(*lengths, reach_mm=keys.point_mm, angle_deg=keys.point_deg)
+        self.side = 1 if keys.branch == "+" else -1
+
+    def carried(
+        self, p: float, q: float, sine: Jet, cosine: Jet, exact: bool = False
+    ) -> tuple[Jet, Jet]:
+        """Vector in the frame with p along the coupler, from A towards B, and q across it."""
+        a, g, b, c, _, _ = self.exact if exact else self.rough
+        order = sine.order
+        sine, cosine = (Jet(x.c[: max(order, 1)]) for x in (sine, cosine))
+        dx, dy = g - cosine.c[0] * a, sine.c[0] * -a
+        D = Jet((dx * dx + dy * dy, *(cosine * (-2 * g * a)).c[1:]))  # a² is constant
+        m, u = (b - c) * (b + c), 1 / D
+        # N² as a product (Heron)
+        N = sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) * self.side
+        along, across = (1 + u.c[0] * m) / (2 * b), N.c[0] * u.c[0] / (2 * b)
+        ex, ey = dx * along - dy * across, dy * along + dx * across
+        x, y = ex * p - ey * q, ex * q + ey * p
+        if not order:
+            return Jet((x,)), Jet((y,))
+        rate = (u * ((a - g) * (a + g)) + 1) / 2 - sine * (a * g) * (1 - u * m) / N
+        return turned_at(rate, x, y, order)
+
+    def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
+        """Coupler length from A to B, and the rocker's direction, in which it pushes or pulls."""
+        a, g, b, c, _, _ = self.rough
+        ex, ey = self.link(sine, cosine)
+        return b, ((cosine * a + ex * b - g) / c, (sine * a + ey * b) / c)
+
+    def about(self, sine: float, cosine: float) -> PointDisplacement:
+        """Displacement since a crank direction.
+
+        Each of A, D, 1/D, N, k and e changes by the change of the one before it.
+        """
+        a, g, b, c, *_ = self.exact
+        x, y = g - cosine * a, sine * -a
+        D = x * x + y * y
+        # only these differences may lose digits, and are taken of exact numbers
+        numbers = sine, cosine, x, D, (b + c) ** 2 - D, D - (b - c) ** 2
+        sine, cosine, x, D, above, below = (rounded(x) for x in numbers)
+        a, g, b, c, p, q = self.rough
+        root = parameter(library(D).sqrt(above * below))
+        sizes = a * sine, a * cosine, x, D, 2.0 * g, above, below, root
+        half = 0.5 / b
+        return CouplerDisplacement(*sizes, half, (b - c) * (b + c) * half, self.side * half, p, q)
+
+
+class CouplerDisplacement(NamedTuple):
+    """Displacement of the coupler's point, from its numbers at one crank angle."""
+
+    s: float  # a sin phi
+    t: float  # a cos phi
+    x0: float  # g - a cos phi: d is (x0, -s)
+    D0: float  # d²
+    span: float  # 2 g
+    high: float  # (b + c)² - D
+    low: float  # D - (b - c)²
+    root: float  # size of N
+    half: float  # 1 / (2 b)
+    by_u: float  # factor of 1 / D in the real part of k
+    by_N: float  # factor of N / D in its imaginary part
+    P: float  # the point's coordinates on the coupler
+    Q: float
+
+    def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
+        """Displacement from sin d and 1 - cos d of the crank's rotation d since then."""
+        x, y = sine * -self.s - versine * self.t, sine * self.t - versine * self.s
+        D = x * -self.span
+        u = 1.0 / (D + self.D0)
+        du = D * u / -self.D0
+        now = sqrt((self.high - D) * (D + self.low))
+        N = D * (self.high - self.low - D) / (now + self.root)
+        k, n = du * self.by_u, (N * u + du * self.root) * self.by_N
+        kk, nn = k + (self.by_u / self.D0 + self.half), n + self.root * self.by_N / self.D0
+        ex = y * nn - x * kk + k * self.x0 + n * self.s
+        ey = n * self.x0 - x * nn - y * kk - k * self.s
+        return x + ex * self.P - ey * self.Q, y + ey * self.P + ex * self.Q

@@ -1,0 +1,170 @@
+"""Four-bars whose coupler carries the roller: for every wheel the one of the best proportions.
+
+The crank turns fully (Grashof), no joint is farther from its axis than allowed, and a roller of
+usual size passes the wheel on its way back. For every four-bar and crank angle at entry,
+``coupler`` gives the point that makes the motion; ``four_bar_search`` does the rest.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator, Sequence
+from functools import partial
+from itertools import islice
+from typing import Any
+
+import numpy as np
+
+from geneva_cli.drives.path_wheels.wheels import followed
+from geneva_cli.drives.paths.pairs import ends_at, newton, residual
+from geneva_cli.errors import GenevaError
+from geneva_cli.kinds.linkages.four_bar import FourBar
+from geneva_cli.kinds.linkages.four_bar_search import (
+    OTHERS,
+    Goal,
+    Pool,
+    WheelGoal,
+    search_four_bars,
+)
+from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.wheels.gearing import Gearing
+from geneva_cli.study.spans import AllowedSpan
+from geneva_cli.study.sweep.constraints import Constraint
+from geneva_cli.study.synth.families.coupler import coupler_drive
+from geneva_cli.study.synth.families.coupler_costs import Costs, is_known
+from geneva_cli.study.synth.families.family import (
+    BARE,
+    Family,
+    allowed_motions,
+    closed_span,
+    is_compatible,
+    machine,
+    natural_deg,
+    only,
+)
+from geneva_cli.study.target import Target
+
+
+def four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
+    """The best four-bar of each wheel, and some others.
+
+    Others are added if the search cannot compute the goal or a bound.
+    """
+    if target.rollers not in (None, 1):
+        return
+    tasks = [task for wheel in wheels if (task := _task(target, wheel))]
+    names = [target.sort.name if target.sort else target.peak, *(b.name for b in target.limits)]
+    count = 1 if all(map(is_known, names)) else 1 + OTHERS
+    for task, pool in zip(tasks, _pools(target, tuple(tasks)), strict=True):
+        if pool and (n := len(pool.cost)):
+            every = Family(partial(_spec, target, task.wheel, pool), 0.0, n - 1.0, several=n)
+            machines = ((x, spec) for x in every.places(n) if (spec := every.at(x)))
+            for x, spec in islice(machines, count):
+                yield every._replace(best=x) if count == 1 else only(spec)
+
+
+def _task(target: Target, wheel: Gearing) -> WheelGoal | None:
+    """The goal of the search for a wheel; None for a wheel that no four-bar drives."""
+    free = closed_span(allowed_motions(target, 1, natural_deg(wheel)), 1)
+    if free is None:
+        return None
+    if not is_compatible(_machine(target, wheel, FourBar(**_EXAMPLE), free.low)):
+        return None
+    frame = target.frame or BARE
+    radius_mm = frame.size.roller_radius_mm
+    # half the usual roller, and at most a third of sin b, which is the crank of a plain wheel
+    roller = min(0.025, (1.0 / 3.0) * math.sin(wheel.step.b))
+    return WheelGoal(
+        wheel, free, roller if radius_mm is None else radius_mm / frame.given_distance_mm
+    )
+
+
+def _pools(target: Target, tasks: tuple[WheelGoal, ...]) -> Sequence[Pool | None]:
+    """The best four-bars, if any, of each wheel.
+
+    If any motion is allowed and there is no goal, the gentlest ones with the plain crank's motion
+    are taken; if none of these keeps the bounds, those of any motion.
+    """
+    if not tasks:
+        return []
+    bounds = tuple(b for b in target.limits if is_known(b.name))
+    goal = Goal(target, tasks, bounds, target.peak)
+    if target.sort:
+        sign, least = target.sort
+        return search_four_bars(goal._replace(least=least, sign=sign) if is_known(least) else goal)
+    if not target.any_motion:
+        return search_four_bars(goal)
+    by_wheel: dict[int, Pool] = {}
+    same = {
+        i: task for i, task in enumerate(map(_as_plain, tasks)) if _in_time(target, task, bounds)
+    }
+    for goals in (same, dict(enumerate(tasks))):
+        left = {i: task for i, task in goals.items() if i not in by_wheel}
+        pools = search_four_bars(goal._replace(wheels=tuple(left.values()))) if left else []
+        by_wheel |= {i: pool for i, pool in zip(left, pools, strict=True) if len(pool.cost)}
+    return [by_wheel.get(i) for i in range(len(tasks))]
+
+
+def _as_plain(task: WheelGoal) -> WheelGoal:
+    """The goal with the plain crank's motion."""
+    natural = natural_deg(task.wheel)
+    return task._replace(motion=AllowedSpan(natural, natural))
+
+
+def _in_time(target: Target, task: WheelGoal, bounds: Sequence[Constraint]) -> bool:
+    """Return True if a motion keeps the bounds that depend on it only."""
+    step, motion = np.array([360.0 / task.wheel.z]), np.array([task.motion.low])
+    of_time = tuple(b for b in bounds if b.name.startswith("timing."))
+    return not Costs(target, step, [], motion).broken(of_time).any()
+
+
+_EXAMPLE: Any = FourBar.EXAMPLE.tables["drive"]
+
+
+def _spec(target: Target, wheel: Gearing, pool: Pool, x: float) -> Spec | None:
+    """The machine of a number in a pool, scaled to the frame's size.
+
+    None if its links differ too much in length, or if the roller leaves its slot.
+    """
+    one = pool.select(np.array([int(x)]))
+    links, (entry, motion, sense, _) = one.links, one.drive
+    b, required, wide = wheel.step.b, float(motion[0, 0]), motion
+    own = _machine(target, wheel, FourBar(**_EXAMPLE), math.degrees(required))
+    scale = (target.frame or BARE).given_distance_mm / float(one.distance[0])
+    for _ in range(4):  # until the motion has its digits
+        w = complex(coupler_drive(links, entry, wide, b, sense).w[0, 0]) * scale
+        crank, ground, coupler, rocker = (float(x[0, 0]) * scale for x in links)
+        try:
+            keys = FourBar(
+                crank_mm=crank,
+                ground_mm=ground,
+                coupler_mm=coupler,
+                rocker_mm=rocker,
+                point_mm=abs(w),
+                point_deg=math.degrees(cmath.phase(w)),
+                entry_deg=math.degrees(math.remainder(float(entry[0, 0]), math.tau)),
+                n_rpm=own.drive.n_rpm,
+            )
+        except GenevaError:
+            return None
+        path, half = keys.roller_path, np.array([[b]])
+        ends = ends_at(path, np.array([0]), np.hstack((entry, entry + wide)))
+        step = newton(ends, residual(ends, half))
+        reached = float(np.diff(ends.at.phi + step)[0, 0])
+        if abs(reached - required) <= 2e-13 * required:  # rounding
+            break
+        wide = wide + (required - reached)  # the part lost to rounding
+    else:
+        return None
+    driven = followed(path, ends.at.phi + step, sense[0])
+    return own.replace(drive=keys) if len(driven.which) else None
+
+
+def _machine(target: Target, wheel: Gearing, drive: FourBar, motion_deg: float) -> Spec:
+    """A machine with the requirement's frame; its centre distance follows from the links."""
+    unlocked = wheel.replace(held_by="detent")  # there is no locking disc
+    spec = machine(target, unlocked, lambda n: drive.replace(n_rpm=n), 1, motion_deg)
+    # the coupler passes below the wheel's axis, where a shaft without a hub ends in the wheel
+    hub = 0.0 if spec.size.wheel_hub_mm is None else spec.size.wheel_hub_mm
+    return spec.replace(size=spec.size.replace(center_distance_mm=None, wheel_hub_mm=hub))

@@ -1,0 +1,150 @@
+"""A slider-crank in front of the wheel: the roller is a point of its connecting rod.
+
+Crank a leads from the input's axis to the pin A, and rod b from A to the slider B. The slider's
+line passes the crank's axis at the height h. The roller C is at the distance k from A, at an angle
+from the line AB. The wheel's centre is solved for.
+"""
+
+from typing import Annotated, ClassVar, NamedTuple, Self
+
+from geneva_cli.drives.roller_path import PointDisplacement, rounded
+from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.kinds.linkages.linkage import Linkage, Moving, RodPath, refuse_proportions
+from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link
+from geneva_cli.numerics.jet import Jet, sqrt
+from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
+from geneva_cli.spec.schema import Example
+
+
+class SliderCrank(Linkage, kw_only=True):
+    """A point of a connecting rod carries the roller.
+
+    Links are in mm; ``point_deg`` is the angle from the rod's line to the roller's. The wheel that
+    the path can drive is solved for. Building the machine raises GenevaError if the rod is too
+    short or the path drives no wheel.
+
+    >>> rod = SliderCrank(crank_mm=40, rod_mm=100, point_mm=80, point_deg=90)
+    >>> round(Design(External(8), rod).mechanism.center_distance_mm, 2)
+    211.92
+    """
+
+    NAME: ClassVar[str] = "slider-crank"
+    WORDS: ClassVar[str] = "a point of a slider-crank"
+    CARRIER: ClassVar[str] = "rod"
+    EXAMPLE: ClassVar[Example] = Example(
+        "the roller on a slider-crank's rod",
+        {
+            "wheel": {"z": 8, "held_by": "detent"},
+            "drive": {"crank_mm": 40.0, "rod_mm": 100.0, "point_mm": 80.0, "point_deg": 90.0},
+            "size": {"roller_radius_mm": 6.0},
+        },
+    )
+    crank_mm: Annotated[float, POSITIVE, "length of crank a"]
+    rod_mm: Annotated[float, POSITIVE, "length of connecting rod b, from crank pin A to slider B"]
+    point_mm: Annotated[float, POSITIVE, "distance of roller C from crank pin A"]
+    point_deg: Annotated[float, Range(-360.0, 360.0), "angle BAC, from AB to AC"]
+    height_mm: Annotated[float, LENGTH, "slider's line from the crank's axis, h"] = 0.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        a, b, h = self.crank_mm, self.rod_mm, self.height_mm
+        refuse_proportions(crank_mm=a, rod_mm=b, point_mm=self.point_mm)
+        refuse(
+            a + abs(h) >= b,
+            lambda: GenevaError(
+                f"crank_mm = {a:g}: the crank cannot make a full turn; it must be below "
+                f"{b - abs(h):.6g}, the rod minus the height of the slider's line",
+                ("drive", "crank_mm"),
+            ),
+        )
+
+    def backwards(self, plan: Plan) -> Self:
+        """The mirrored linkage: the slider's line and the roller on their other sides."""
+        mirrored = {"height_mm": 0.0 - self.height_mm, "point_deg": 0.0 - self.point_deg}
+        return super().backwards(plan).replace(**mirrored)
+
+    def layout(self, plan: Plan, sign: float) -> Layout:
+        """Joints at input 0, two points of the slider's line, and lengths of the links."""
+        return (
+            self.placed(plan, "slider's line, foot", 0.0, self.height_mm),
+            self.placed(plan, "slider's line, ahead", self.rod_mm, self.height_mm),
+            *self.linked(plan),
+            Dimension("crank a", self.crank_mm, "mm"),
+            Dimension("rod b", self.rod_mm, "mm"),
+            Dimension("slider's line from the crank's axis h", self.height_mm, "mm"),
+            Dimension("roller from A", self.point_mm, "mm"),
+            Dimension("angle BAC", self.point_deg, "deg"),
+        )
+
+    def holder(self, end: Moving) -> Link:
+        """The slider's fixed guide: its line as far as the slider can reach."""
+        still = 0.0 * end[0]
+        foot, ahead = still, still + (self.crank_mm + self.rod_mm)
+        line = still + self.height_mm
+        joints = ((foot, line), (ahead, line), end)
+        return Link("guide", joints, (Joint.NONE, Joint.NONE, Joint.SLIDE), 3)
+
+    @property
+    def roller_path(self) -> "SlidingRod":
+        """Path of the rod's point that carries the roller."""
+        lengths = (self.crank_mm, self.rod_mm, self.height_mm)
+        return SlidingRod(*lengths, reach_mm=self.point_mm, angle_deg=self.point_deg)
+
+
+class SlidingRod(RodPath):
+    """The path of a point of the connecting rod.
+
+    Its numbers are crank, rod, height, and the point's coordinates on the rod: a, b, h, p, q.
+    """
+
+    def carried(
+        self, p: float, q: float, sine: Jet, cosine: Jet, exact: bool = False
+    ) -> tuple[Jet, Jet]:
+        """Vector in the frame with p along the rod, from A towards B, and q across it."""
+        a, b, h, _, _ = self.exact if exact else self.rough
+        ey = (h - sine * a) / b
+        ex = sqrt((1 - ey) * (ey + 1))
+        return ex * p - ey * q, ex * q + ey * p
+
+    def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
+        """Rod length from A to B, and the direction of the guide's push, across its line."""
+        _, b, *_ = self.rough
+        return b, (sine * 0.0, cosine * 0.0 + 1.0)
+
+    def about(self, sine: float, cosine: float) -> PointDisplacement:
+        """Displacement since a crank direction.
+
+        The rod's vector changes by (-dy (2 ey + dy) / (ex + ex'), dy).
+        """
+        a, b, h, _, _ = self.exact
+        level = (h - sine * a) / b
+        less, more = 1 - level, 1 + level
+        ex = sqrt(Jet((less * more,))).c[0]
+        numbers = [rounded(x) for x in (sine, cosine, level, ex, less, more)]
+        a, b, _, p, q = self.rough
+        return RodDisplacement._make((*numbers, a, b, p, q))
+
+
+class RodDisplacement(NamedTuple):
+    """Displacement of the rod's point, from the numbers of one crank angle."""
+
+    s: float
+    c: float
+    ey: float
+    ex: float
+    less: float
+    more: float
+    a: float
+    b: float
+    p: float
+    q: float
+
+    def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
+        """Displacement from sin d and 1 - cos d of the crank's rotation d since then."""
+        a, s, c = self.a, self.s, self.c
+        x, y = sine * (-a * s) - versine * (a * c), sine * (a * c) - versine * (a * s)
+        dy = y / -self.b
+        now = sqrt((self.less - dy) * (dy + self.more))
+        dx = dy * (dy + 2.0 * self.ey) / -(now + self.ex)
+        return x + dx * self.p - dy * self.q, y + dy * self.p + dx * self.q

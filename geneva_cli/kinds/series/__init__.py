@@ -1,0 +1,1 @@
+"""Drives in series: one machine turns the input shaft of another."""

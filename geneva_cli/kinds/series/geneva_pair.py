@@ -1,0 +1,186 @@
+"""Two Geneva wheels in series: the first wheel carries the crank of the second.
+
+The second wheel moves during one step of the first, once in a turn of the first wheel. It starts
+from a crank that is itself starting or running. So its jump is the first wheel's speed squared
+times tan b. There is none if both motions begin together, as with four slots on four.
+"""
+
+import math
+from typing import Annotated, ClassVar, NamedTuple
+
+from geneva_cli.drives.pushed import PushedCrank
+from geneva_cli.drives.transmission import LocalTransmission, Transmission
+from geneva_cli.motion.drive import FirstWheel, Plan
+from geneva_cli.motion.engagement import Path, Vector
+from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot
+from geneva_cli.motion.wheels import poses
+from geneva_cli.motion.wheels.gearing import Gearing
+from geneva_cli.numerics.angles import of_each, radians, sin_cos_pi
+from geneva_cli.numerics.arrays import choose, choose_record, library
+from geneva_cli.numerics.jet import (
+    Array,
+    Jet,
+    Number,
+    atan2,
+    sin_cos,
+    sine_versine,
+    sine_versine_of,
+)
+from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
+from geneva_cli.spec.schema import Example
+
+
+class GenevaPair(Transmission, kw_only=True):
+    """An external wheel in front of the crank: one index in many turns of the input.
+
+    ``first_z`` is its number of slots, and the number of input turns for one index.
+
+    >>> Design(External(4), GenevaPair(first_z=4)).timing.cycle_s  # at 60 rpm
+    4.0
+    """
+
+    NAME: ClassVar[str] = "geneva-pair"
+    WORDS: ClassVar[str] = "a crank behind a first Geneva wheel"
+    EXAMPLE: ClassVar[Example] = Example(
+        "two wheels in series: one index in many turns",
+        {
+            "wheel": {"z": 4},
+            "drive": {"first_z": 4},
+        },
+    )
+    ONE_ROLLER: ClassVar[bool] = True
+    INPUT_SENSE: ClassVar[float] = -1.0
+    IN_SERIES: ClassVar[bool] = True
+    LENGTH: ClassVar[str] = "first_distance_mm"
+    first_z: Annotated[int, Range(3, Z_MAX), "number of slots of the first, external wheel"]
+    first_distance_mm: Annotated[
+        float | None, POSITIVE, "first centre distance, for its forces (parts use L by default)"
+    ] = None
+
+    @property
+    def turns(self) -> int:
+        """Number of input turns in one turn of the second crank."""
+        return self.first_z
+
+    @property
+    def reach_deg(self) -> float:
+        """Greatest angle of the second crank from mid-step while it moves its wheel, degrees."""
+        return 180.0 / self.first_z
+
+    def input_axis_mm(self, plan: Plan, sign: float) -> float:
+        """Place of the first crank's axis, mm from the second wheel's."""
+        return plan.center_distance_mm + self._distance_mm(plan.center_distance_mm)
+
+    def layout(self, plan: Plan, sign: float) -> Layout:
+        """Pivots and dimensions of the first pair.
+
+        By default its centre distance equals the second's.
+        """
+        L = plan.center_distance_mm
+        first = self._distance_mm(L)
+        return (
+            Pivot("first crank axis", L + first, 0.0),
+            Dimension("first wheel's slots", self.first_z),
+            Dimension("first centre distance", first, "mm"),
+            Dimension(
+                "first crank radius", first * poses.HalfStep(1, self.first_z).sin_cos[0], "mm"
+            ),
+        )
+
+    def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
+        """The first crank, and the rim of the first wheel, at input angles."""
+        L, step = plan.center_distance_mm, poses.HalfStep(1, self.first_z)
+        turn, still, first = radians(input_deg), 0.0 * input_deg, self._distance_mm(L)
+        m, R, far = library(turn), first * step.sin_cos[0], L + first
+        pin = far - R * m.cos(turn), -sign * R * m.sin(turn)
+        axis, shaft = (still + far, still), Joint.SHAFT
+        return (
+            Link("first crank", (axis, pin), (shaft, Joint.ROLLER), 3),
+            Link("first wheel", ((still + L, still),), (shaft,), 2, first * step.sin_cos[1]),
+        )
+
+    def first_wheel(self, L: float) -> FirstWheel:
+        """Slots of the first wheel, and its centre distance."""
+        return FirstWheel(self.first_z, self._distance_mm(L))
+
+    def _distance_mm(self, L: float) -> float:
+        return L if self.first_distance_mm is None else self.first_distance_mm
+
+    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
+        """Reactions to the first crank's roller, which pushes across the first wheel's slot."""
+        if self.first_distance_mm is None:
+            return None
+        l = poses.HalfStep(1, self.first_z).sin_cos[0]
+        return FirstRoller(l, self.first_distance_mm / L, wheel.SIGN, radians(mid_deg))
+
+    def about(self, crank_deg: float) -> LocalTransmission:
+        """Transmission about an angle of the second crank (degrees) within the first step."""
+        entry, middle, exit_ = poses.radial(1.0, poses.HalfStep(1, self.first_z))
+        reach = self.reach_deg
+        inside = choose(abs(crank_deg) < reach, crank_deg, 0.0)
+        running = _running(middle, _crank_at(self.first_z, inside))
+        ends = choose_record(crank_deg < 0.0, entry, exit_)
+        pose = choose_record(abs(crank_deg) == reach, ends, running)
+        return LocalTransmission(pose.crank_deg, FirstWheelRotation(pose))
+
+
+class FirstRoller(PushedCrank):
+    """The first crank's roller in the first wheel's slot.
+
+    ``l`` is its radius over its centre distance, and ``distance`` is that distance over L. The
+    first crank turns against the first wheel, which turns with the second crank.
+    """
+
+    def __init__(self, l: float, distance: float, sign: float, mid: float) -> None:
+        self.l, self.distance, self.sign, self.mid = l, distance, sign, mid
+
+    def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
+        """Roller position from the first wheel's axis, and the direction across its slot."""
+        s, c = sin_cos(Jet.variable(radians(input_deg) + self.mid, order))
+        x, y = (1.0 - c * self.l) * self.distance, s * (-self.sign * self.l * self.distance)
+        return (x, y), (y * -1.0, x)
+
+
+class FirstWheelRotation(NamedTuple):
+    """The first wheel, which carries the second crank, about a pose of its own roller."""
+
+    pose: poses.PinPose
+
+    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
+        """sin d and 1 - cos d of its rotation d since then, ``tau`` input radians later."""
+        sine, versine = sine_versine(Jet.variable(tau, max(order, 1)))
+        along, across = self.pose.displacement(sine, versine)
+        along = along + self.pose.along
+        rate = atan2(across, along).derivative()
+        return sine_versine_of(rate, across.c[0], along.c[0], order)
+
+
+def _crank_at(first_z: int, wheel_deg: float) -> float:
+    """Angle a of the first crank, radians, with its wheel at psi: sin(a + psi) = sin psi / l.
+
+    With k = l cos(a + psi) = sqrt(sin(b - psi) sin(b + psi)), nothing cancels in
+
+        l sin a = sin psi cos² b / (cos psi + k),   l cos a = k cos psi + sin² psi
+    """
+    if not (isinstance(first_z, int) and isinstance(wheel_deg, float)):
+        each: float = of_each(lambda z, deg: (_crank_at(z, deg),), first_z, wheel_deg)[0]
+        return each
+    step = poses.HalfStep(1, first_z)
+    n, d = wheel_deg.as_integer_ratio()
+    whole = 180 * d * step.q
+    here, less = 180 * d * step.p, n * step.q  # b and psi, in fractions of pi
+    s, c = sin_cos_pi(less, whole)
+    k = math.sqrt(sin_cos_pi(here - less, whole)[0] * sin_cos_pi(here + less, whole)[0])
+    return math.atan2(s * step.sin_cos[1] ** 2 / (c + k), k * c + s * s)
+
+
+def _running(middle: poses.PinPose, a: float) -> poses.PinPose:
+    """Pose of the first crank's pin at an angle a (radians) from mid-motion."""
+    m = library(a, middle.along)
+    l, s, c = middle.bend[0], m.sin(a), m.cos(a)
+    x, y = middle.along + 2.0 * l * m.sin(0.5 * a) ** 2, l * s
+    rho = m.hypot(x, y)
+    u, v = x / rho, y / rho
+    slope = (l * (s * u + c * v), l * (c * u - s * v))
+    bend = (l * (c * u - s * v), -l * (s * u + c * v))
+    return poses.PinPose(m.degrees(a), m.atan2(y, x), rho, slope, bend)

@@ -1,0 +1,1 @@
+"""Spherical machines: the parts of wheels whose shafts meet at an angle."""

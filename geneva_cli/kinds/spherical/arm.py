@@ -1,0 +1,172 @@
+"""The crank arm of a spherical machine: a cap outside the wheel that carries the whole crank.
+
+Every part that turns about an axis through the centre keeps its distance from the centre. So a
+shell outside the wheel's shell never meets the wheel. The arm's boundary is the convex hull of its
+hub, the locking sectors on its inner face, and an eye about each pin and bolt. Pins and bolts point
+at the centre. The hub has flat faces and the bore; it sits in a round hole about the crank's axis.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.round_holes import RoundHole, least_wall
+from geneva_cli.geometry.sphere import Region, dot, place
+from geneva_cli.geometry.sphere_hull import Cap, convex_hull
+from geneva_cli.kinds.spherical.axles import refuse_wide
+from geneva_cli.kinds.spherical.crank import locked
+from geneva_cli.kinds.spherical.wheel import POLE
+from geneva_cli.parts.shafts.bolt_holes import bolt_radius
+from geneva_cli.parts.shafts.bores import Bore, bore_of
+from geneva_cli.parts.sizes.arm_sizes import (
+    hub_and_eye,
+    lock_bolt_directions,
+    pin_hole,
+    wall_of_bolts,
+)
+from geneva_cli.spec.least_wall import eye_about
+
+if TYPE_CHECKING:
+    from geneva_cli.kinds.spherical.shells import Shells
+
+
+class CapArm(NamedTuple):
+    """The arm in the crank's frame; radii in mm, angles in radians."""
+
+    boundary: Region
+    bore: Bore
+    keyway: float  # azimuth about the crank's axis
+    hub: float
+    pins: tuple[RoundHole, ...]
+    bolts: tuple[RoundHole, ...]
+    cap: float  # angle from the crank's axis to the edge, except at the eyes
+    eye: float  # angle
+    reach: float  # angle from the crank's axis to the farthest point
+    wall: float  # the least wall between holes, and to the boundary, on the inner face, mm
+
+    @property
+    def holes(self) -> tuple[RoundHole, ...]:
+        """All round holes: for the hub, the pins and the bolts."""
+        return (RoundHole(POLE, self.hub), *self.pins, *self.bolts)
+
+    def bolts_of(self, sector: int, sectors: int) -> tuple[RoundHole, ...]:
+        """Return the bolts of one of ``sectors`` locking sectors."""
+        each = len(self.bolts) // sectors
+        return self.bolts[sector * each : (sector + 1) * each]
+
+
+def has_arm(parts: Shells) -> bool:
+    """Return True if the machine has an arm: a crank with rollers on pins."""
+    return parts.ball.arm_bore_mm > 0.0
+
+
+def crank_arm(parts: Shells) -> CapArm:
+    """Return the arm of a machine.
+
+    By default each locking sector has as many bolts as leave walls, up to two. Raises GenevaError,
+    naming the key, where the sizes leave no arm around the holes.
+    """
+    own = parts.assembly.full.spec.size.lock_bolts
+    arm = _arm(parts, own or 0)
+    if own is None and parts.crank:
+        size = parts.assembly.full.spec.size
+        least = min(arm.wall, wall_of_bolts(size, parts.sizes.wall_min))
+        bolted = (_arm(parts, count) for count in (2, 1))
+        arm = next((one for one in bolted if one.wall >= least), arm)
+    if arm.wall <= 0.0:
+        raise GenevaError(
+            "the round holes of the crank arm overlap, or cut an edge: reduce lock_bolt_mm, "
+            "arm_hub_mm, pin_mm or lock_bolts, or change lock_bolt_circle_mm",
+            ("size", "lock_bolts" if arm.bolts else "arm_hub_mm"),
+        )
+    return arm
+
+
+def _arm(parts: Shells, bolts_each: int) -> CapArm:
+    """Return the arm with so many bolts in each locking sector."""
+    spec, ball = parts.assembly.full.spec, parts.ball
+    if not has_arm(parts):
+        raise GenevaError("pin_mm = 0: there is no pin for an arm to carry", ("size", "pin_mm"))
+    wall, under = parts.sizes.wall_min, ball.arm_span_mm[0]
+    hole = pin_hole(spec.size, ball.pin_mm)
+    hub, eye = hub_and_eye(
+        spec.size, wall, hole, ball.arm_bore_mm, ball.passing_mm(ball.opening_mm)
+    )
+    _refuse(parts, hub, hole, eye)
+    form = bore_of(spec.size, "crank", ball.arm_bore_mm)
+    around = hub - form.reach  # the hub's wall
+    pins = tuple(RoundHole(place(ball.arm, azimuth), hole) for azimuth in ball.rollers)
+    screwed = _bolts(parts, bolts_each)
+    cap, eye = ball.cap(hub, form.reach, wall), eye / ball.radius_mm
+    caps = [Cap(POLE, cap)]
+    caps += [Cap(pin.axis, eye) for pin in pins]
+    bolted = wall_of_bolts(spec.size, wall)
+    caps += [Cap(b.axis, eye_about(b.radius, bolted) / under) for b in screwed]
+    middle = next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi)
+    arm = CapArm(
+        boundary=convex_hull(caps),
+        bore=form,
+        keyway=middle,
+        hub=hub,
+        pins=pins,
+        bolts=screwed,
+        cap=cap,
+        eye=eye,
+        reach=max(math.acos(dot(one.middle, POLE)) + one.angle for one in caps),
+        wall=0.0,
+    )
+    return arm._replace(wall=min(around, _walls(arm, parts)))
+
+
+def _bolts(parts: Shells, count: int) -> tuple[RoundHole, ...]:
+    """Return the holes of so many bolts in each locking sector, evenly spaced and of one size.
+
+    Raises GenevaError where there are no sectors to fix.
+    """
+    size, ball = parts.assembly.full.spec.size, parts.ball
+    L, own = ball.radius_mm, size.lock_bolt_circle_mm
+    rings = [(math.pi - s.boundary[2].angle, s.boundary[0].angle) for s in parts.crank]
+    rims = [sector.boundary[0] for sector in parts.crank]
+    widths = [(math.atan2(rim.start[1], rim.start[0]), rim.sweep) for rim in rims]
+    narrow = min((0.5 * L * (high - low) for low, high in rings), default=0.0)
+    r, holes = bolt_radius(size.lock_bolt_mm, L, narrow), []
+    for ring, at in zip(rings, lock_bolt_directions(widths, count), strict=False):
+        far = 0.5 * sum(ring) if own is None else math.asin(min(1.0, 0.5 * own / L))
+        holes += [RoundHole(place(far, azimuth), r) for azimuth in at]
+    return tuple(holes)
+
+
+def _refuse(parts: Shells, hub: float, hole: float, eye: float) -> None:
+    """Raise GenevaError, naming the key, for an arm that does not fit on its sphere."""
+    ball = parts.ball
+    under, over = ball.arm_span_mm
+    refuse_wide("arm_hub_mm", hub, under, over)
+    if ball.arm + eye / ball.radius_mm >= 0.5 * math.pi:
+        raise GenevaError(
+            f"arm_eye_mm = {2.0 * eye:g}: the arm would cover more than half of the sphere; "
+            f"it must be below {2.0 * ball.radius_mm * (0.5 * math.pi - ball.arm):.6g}",
+            ("size", "arm_eye_mm"),
+        )
+    limit = under * math.sin(ball.arm - RoundHole(POLE, hole).angle(under))
+    if hub >= limit:
+        name = "arm_hub_mm" if parts.assembly.full.spec.size.arm_hub_mm else "arm_bore_mm"
+        raise GenevaError(
+            f"arm_bore_mm, arm_hub_mm: the hub, {2.0 * hub:.6g} mm in diameter, cuts the pin's "
+            f"hole; it must be below {2.0 * limit:.6g}",
+            ("size", name),
+        )
+
+
+def _walls(arm: CapArm, parts: Shells) -> float:
+    """Return the least wall on the inner faces of the arm and of the bolted sectors.
+
+    It is negative where holes overlap, or cut the boundary of their part.
+    """
+    ball = parts.ball
+    least = least_wall(arm.boundary, arm.holes, ball.arm_span_mm[0])
+    for k, sector in enumerate(parts.crank if arm.bolts else []):
+        own = arm.bolts_of(k, len(parts.crank))
+        least = min(least, least_wall(sector, own, ball.lock_span_mm[0]))
+    return least

@@ -1,0 +1,103 @@
+"""The record of the sizes of a spherical machine, and what follows from them alone."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.geometry.sphere import Vector, place
+from geneva_cli.spec.tables import Size
+
+
+class Ball(NamedTuple):
+    """The sizes of a spherical machine, whose slots are meridians.
+
+    Polar angles are from the wheel's axis; for parts of the crank they are from the crank's axis.
+    """
+
+    radius_mm: float  # of the sphere
+    z: int
+    axes: float  # between the shafts
+    arm: float  # of the rollers, from the crank's axis
+    half_motion: float  # crank angle from entry to mid-motion
+    rollers: tuple[float, ...]  # azimuths about the crank's axis
+    roller: float  # half angle of its cone
+    half_width: float  # of the slots
+    bottom: float  # polar angle of the centre of the slot's round end
+    mouth: float  # polar angle where a roller enters
+    rim: float  # polar angle of the wheel's edge
+    inner: float  # polar angle where the slotted ring ends towards its axis
+    lock: float  # polar angle of the locking sectors' edge, 0 for none
+    recess: float  # polar angle of the recess in the wheel, 0 for none
+    span_mm: tuple[float, float]  # radii of the inner and outer face of wheel and rollers
+    lock_span_mm: tuple[float, float]  # of the locking sectors
+    arm_span_mm: tuple[float, float]  # of the crank arm
+    bore_mm: float  # radius of the wheel's bore, 0 for none
+    hub_mm: float  # radius of its hub, 0 for none
+    pin_mm: float  # radius of the rollers' pins, 0 for none
+    arm_bore_mm: float  # radius of the bore in the arm's hub, 0 without an arm
+    about_crank_mm: float  # radius of the crank's shaft or hub inside the arm, 0 for none
+
+    @property
+    def half_step(self) -> float:
+        """Half a step of the wheel."""
+        return math.pi / self.z
+
+    @property
+    def opening_mm(self) -> float:
+        """The radius of the round hole about the wheel's axis; 0 where its ring stays open."""
+        return max(self.bore_mm, self.hub_mm)
+
+    def passing_mm(self, opening_mm: float) -> float:
+        """Return the radius of the largest eye that passes the wheel's hub, mm on the sphere."""
+        opening = math.asin(min(1.0, opening_mm / self.arm_span_mm[0]))
+        return self.radius_mm * (self.axes - self.arm - opening)
+
+    def cap(self, hub_mm: float, bored_mm: float, wall_mm: float) -> float:
+        """Return the angle of the arm's cap about its sectors, or about its hub and a wall.
+
+        The wall is as thick as that of the hub, whose bore reaches to ``bored_mm``.
+        """
+        edge = hub_mm + max(hub_mm - bored_mm, wall_mm)
+        return max(self.lock, math.asin(min(1.0, edge / self.arm_span_mm[0])))
+
+    def shafts_end_mm(self, size: Size) -> float:
+        """Return where shafts leave the parts that they carry: a distance from the centre."""
+        hub = self.span_mm[1] + (size.wheel_hub_length_mm or 0.0) if self.hub_mm else 0.0
+        return max(self.arm_span_mm[1], hub) + size.washer_mm
+
+    def hub_length_mm(self, size: Size) -> float:
+        """Return the length of the wheel's hub, by default out to the arm's face."""
+        inside, outside = self.span_mm
+        length = size.wheel_hub_length_mm
+        return (self.arm_span_mm[1] if length is None else outside + length) - inside
+
+    @property
+    def slot_end(self) -> float:
+        """The polar angle up to which the slots reach inwards."""
+        return self.bottom - self.half_width
+
+    @property
+    def slot_width_deg(self) -> float:
+        """The angle between the walls of a slot at the sphere's centre."""
+        return math.degrees(2.0 * self.half_width)
+
+    def corner(self) -> float:
+        """Return the azimuth of the slot's corner at the rim, from the slot's middle."""
+        return math.asin(math.sin(self.half_width) / math.sin(self.rim))
+
+    def opened(self) -> float:
+        """Return half the azimuth over which a recess opens the rim, 0 without a recess."""
+        if not self.recess:
+            return 0.0
+        c = math.cos(self.recess) - math.cos(self.rim) * math.cos(self.axes)
+        return math.acos(c / (math.sin(self.rim) * math.sin(self.axes)))
+
+    def crank_axis(self, azimuth: float) -> Vector:
+        """Return the crank's axis when it is at an azimuth about the wheel's axis."""
+        return place(self.axes, azimuth)
+
+
+def inner_edge(slot_end: float, roller: float, hole: float) -> float:
+    """Return the polar angle where the slotted ring ends, between its slots and a hole."""
+    return slot_end - roller if slot_end - roller > hole else 0.5 * (slot_end + hole)

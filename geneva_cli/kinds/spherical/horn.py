@@ -1,0 +1,151 @@
+"""The horn of a spherical wheel: the wall between a slot and a recess, as a tapered cantilever.
+
+Directions are from the sphere's centre. A point of the wheel is at the angle t from the wheel's
+axis along the slot, and at the angle x from the slot's middle, across it:
+
+    p = (cos x sin t, sin x, cos x cos t)
+
+The slot's wall is at x = w. Sections are square to it, along x. The recess is the circle at the
+angle k from the crank's axis c, so that a section ends at
+
+    x_k = d - acos(cos k / K),    K (cos d, sin d) = (p_0 . c, c_y),  p_0 = (sin t, 0, cos t)
+
+and is L (x_k - w) thick. The shell is b thick, half of it inside the sphere of radius L.
+
+The roller presses on the wall at t0, along x, and evenly over b, so that its force F acts at L. A
+section farther inwards bears the moment L (p(t0, w) - q) x F, q being its middle. About q this
+bends the horn in its own surface, by nearly F L sin(t0 - t), and twists it, by F L (1 - cos(t0 -
+t)). About the section's direction it bends the shell. F along the beam presses evenly. Bending and
+pressure are greatest at the section's corners, twist in the middle of its sides: von Mises of both
+is an upper bound.
+
+Friction f F along the wall adds its own moment and tension.
+
+The body that carries the horn is rigid, and notches are neglected, as on a plane. A section is
+taken as even through the shell, at L. On a large sphere the stress is that of the flat horn.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache, partial
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.loads.strength.arm import torsion_MPa
+from geneva_cli.loads.strength.horn_search import (
+    HornStress,
+    SlotEnd,
+    UnitStress,
+    greatest_stress,
+    slot_ends,
+    squeezed,
+)
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.jet import Array
+
+
+class SphereHorn(NamedTuple):
+    """One horn of a slot; angles in radians."""
+
+    at: SlotEnd
+    radius_mm: float  # L, of the sphere
+    crank_axis: tuple[float, float, float]  # c: y towards this horn, z along the wheel's axis
+    half_width: float  # w
+    recess: float  # k
+    half_step: float  # from the slot's middle to the next horn, about the wheel's axis
+
+    @property
+    def mouth(self) -> Array:
+        """The polar angle of the roller at this horn's mouth, (1, 1)."""
+        return self.polar(np.array([[self.at.mouth_deg]]))
+
+    def unit_stress(
+        self, roller: Array, rub: Array, sections: Array, width_mm: float
+    ) -> UnitStress:
+        """Von Mises stress at sections under 1 N, as ``HornSide`` describes."""
+        L, w = self.radius_mm, self.half_width
+        t0, t = self.polar(roller)[..., None], self.polar(sections)
+        thick = self.thickness(t)
+        b, h = width_mm, thick[:, None]
+        with np.errstate(all="ignore"):
+            at, push = _at(t0, w), _across(t0, w)
+            force = push + rub[..., None] * _along(t0)
+            middle = w + 0.5 * thick / L
+            q, across, along = (
+                v[:, :, None] for v in (_at(t, middle), _across(t, middle), _along(t))
+            )
+            arm = L * (at - q)
+            bent, moment = (
+                np.cross(arm, np.broadcast_to(of, arm.shape), axis=0) for of in (push, force)
+            )
+            in_shell = (moment * q).sum(axis=0) * np.sign((bent * q).sum(axis=0))
+            off_shell, twist = (abs((moment * axis).sum(axis=0)) for axis in (across, along))
+            pull = (force * along).sum(axis=0)
+            normal = 6.0 * in_shell / (b * h * h) + 6.0 * off_shell / (h * b * b) + pull / (b * h)
+            shear = torsion_MPa(twist, b + 0.0 * h, h)
+            stress = np.sqrt(np.maximum(normal, 0.0) ** 2 + 3.0 * shear**2)
+            inwards = L * math.cos(w) * (self.mouth - t)
+            stress = np.where((t[:, None] < t0) & np.isfinite(stress), stress, 0.0)
+        return UnitStress(stress, inwards, thick)
+
+    def thickness(self, t: Array) -> Array:
+        """Thickness of the sections at polar angles, mm; infinite where another horn begins."""
+        x, y, z = self.crank_axis
+        along = x * np.sin(t) + z * np.cos(t)
+        with np.errstate(invalid="ignore"):
+            foot = np.arctan2(y, along) - np.arccos(math.cos(self.recess) / np.hypot(along, y))
+        azimuth = np.arctan2(np.sin(foot), np.cos(foot) * np.sin(t))
+        own = azimuth < self.half_step  # False without a foot, too
+        thick: Array = np.where(own, self.radius_mm * (foot - self.half_width), np.inf)
+        return thick
+
+    def polar(self, input_deg: Array) -> Array:
+        """The polar angles of the roller at input angles, (m, k) both."""
+        return np.atleast_2d(self.at.engagement.slot(squeezed(input_deg), 0)[0].c[0])
+
+
+def _at(t: Array, x: Array | float) -> Array:
+    """Points of the unit sphere, (3, ...)."""
+    return np.stack(np.broadcast_arrays(np.cos(x) * np.sin(t), np.sin(x), np.cos(x) * np.cos(t)))
+
+
+def _across(t: Array, x: Array | float) -> Array:
+    """Directions of sections there, away from the slot."""
+    return np.stack(np.broadcast_arrays(-np.sin(x) * np.sin(t), np.cos(x), -np.sin(x) * np.cos(t)))
+
+
+def _along(t: Array) -> Array:
+    """Directions of the horn there, towards its mouth."""
+    return np.stack((np.cos(t), 0.0 * t, -np.sin(t)))
+
+
+def sphere_horns(
+    mechanism: Mechanism, half_width: float, recess: float, axes: float
+) -> list[SphereHorn]:
+    """Both horns of each kind of slot; slot, recess and the angle of the shafts in radians."""
+    L, sides = mechanism.center_distance_mm, []
+    for at in slot_ends(mechanism):
+        half, out = at.engagement.half_step, math.sin(axes)
+        axis = out * math.cos(half), out * math.sin(half), math.cos(axes)
+        sides.append(SphereHorn(at, L, axis, half_width, recess, half))
+    return sides
+
+
+def sphere_stoutness(mechanism: Mechanism, half_width: float, recess: float, axes: float) -> float:
+    """Greatest thickness of a horn at its mouth over the recess's radius."""
+    sides = sphere_horns(mechanism, half_width, recess, axes)
+    most = max(side.thickness(side.mouth).item() for side in sides)
+    return most / (mechanism.center_distance_mm * math.sin(recess))
+
+
+@lru_cache(maxsize=64)
+def sphere_horn(
+    mechanism: Mechanism, half_width: float, recess: float, axes: float, width_mm: float
+) -> HornStress | None:
+    """Greatest stress in the horns of a single spherical machine; None without lock or load."""
+    if not recess:
+        return None
+    sides = partial(sphere_horns, axes=axes)
+    return greatest_stress(sides, mechanism, half_width, recess, width_mm).single

@@ -1,0 +1,180 @@
+"""Default sizes of a spherical machine under a load: thickness, pin, bores, hubs and arm.
+
+They follow one another as on a plane (``load_sizes``). What a shaft bears is exact here, because
+the greatest force and its greatest distance from the bearing are at different angles.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from geneva_cli.kinds.spherical.axles import hub_about
+from geneva_cli.kinds.spherical.ball import Ball, inner_edge
+from geneva_cli.kinds.spherical.horn import sphere_horn
+from geneva_cli.kinds.spherical.stressed import sphere_stressed
+from geneva_cli.loads.strength.lock import dwell_torque_Nm
+from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
+from geneva_cli.loads.strength.shafts import (
+    LoadedShaft,
+    ShaftDimensions,
+    crank_forces,
+    shafts_under_load,
+    wheel_forces,
+)
+from geneva_cli.motion.both_ways import every_way
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.spec import Spec
+from geneva_cli.numerics.arrays import array
+from geneva_cli.numerics.preferred import bores_from, rounded_from
+from geneva_cli.numerics.tolerances import keeps
+from geneva_cli.parts.shafts.bores import reach_or_bore
+from geneva_cli.parts.sizes.arm_sizes import arm_hub, hole_radius, largest_hub, within_hub
+from geneva_cli.parts.sizes.holds import (
+    PinSpace,
+    arm_holds,
+    arm_trials,
+    key_holds,
+    pin_that_holds,
+    shaft_holds,
+)
+from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.materials import wheel_material
+
+if TYPE_CHECKING:
+    from geneva_cli.loads.strength.shafts import ShaftForces
+
+
+def horn_thickness_mm(mechanism: Mechanism, usual: Ball) -> float | None:
+    """Return the wheel's thickness at which its horns hold, at most twice the usual one.
+
+    None where the spec has a thickness, or nothing bends a horn: then it stays as it is.
+    """
+    size = mechanism.spec.size
+    fixed = size.wheel_thickness_mm is not None or size.face_width_mm is not None
+    if fixed or not usual.recess or not all(map(math.isfinite, single_loads(mechanism))):
+        return None
+    allowed = wheel_material(mechanism.spec).allowed_MPa
+    angles = usual.half_width, usual.recess, usual.axes
+    least = usual.span_mm[1] - usual.span_mm[0]
+    # a thicker wheel bends its pins more than its horns
+    for thick in rounded_from(least, 2.0 * least):
+        each = [sphere_horn(way, *angles, thick) for way in every_way(mechanism)]
+        if all(keeps(one.stress_MPa, "at most", allowed) for one in each if one):
+            break
+    return thick
+
+
+def sphere_load_sizes(mechanism: Mechanism, usual: Ball) -> Ball:
+    """Return the sizes of a machine under its load, from the usual ones.
+
+    A load without a bound leaves all sizes.
+    """
+    loads, size = single_loads(mechanism), mechanism.spec.size
+    if not all(map(math.isfinite, loads)):
+        return usual
+    ball = usual._replace(pin_mm=_pin(mechanism, usual, loads))
+    if not ball.arm_bore_mm or size.arm_thickness_mm is not None:
+        return _bored(mechanism, ball, loads)
+    under, _ = ball.arm_span_mm
+    for keyed, thick in arm_trials(size, ball.span_mm[1] - ball.span_mm[0]):
+        thicker = ball._replace(arm_span_mm=(under, under + thick))
+        trial = _bored(mechanism, thicker, loads, keyed)
+        if arm_holds(mechanism.spec, sphere_stressed(mechanism.spec, trial), loads):
+            break
+    return trial
+
+
+def _pin(mechanism: Mechanism, ball: Ball, loads: PartLoads) -> float:
+    """Return the radius of a pin that holds; the arm's eye about it passes the largest hub.
+
+    The arm covers less than half of the sphere.
+    """
+    spec, L = mechanism.spec, ball.radius_mm
+    inside, outside = ball.span_mm
+    end = inside * math.sin(min(ball.slot_end, 0.5 * math.pi))
+    hub = max(ball.opening_mm, largest_hub(end))
+    eye = min(ball.passing_mm(hub), 0.99 * L * (0.5 * math.pi - ball.arm))
+    thinnest = inside * math.sin(ball.roller)
+    space = PinSpace(outside - inside, thinnest, eye - wall_min(spec.size, L))
+    return pin_that_holds(spec, ball.pin_mm, space, loads.pin_N)
+
+
+def _bored(mechanism: Mechanism, ball: Ball, loads: PartLoads, keyed: bool = True) -> Ball:
+    """Return the sizes with bores of wheel and crank whose shafts and keys hold.
+
+    Unless ``keyed``, the crank's bore is not sized by its key.
+    """
+    return _crank_bored(mechanism, _wheel_bored(mechanism, ball, loads), loads, keyed)
+
+
+def _wheel_bored(mechanism: Mechanism, ball: Ball, loads: PartLoads) -> Ball:
+    spec, L = mechanism.spec, ball.radius_mm
+    size = spec.size
+    fixed = size.wheel_bore_mm is not None or spec.shaft.wheel_diameter_mm is not None
+    if fixed or not ball.bore_mm:
+        return ball
+    inside, outside = ball.span_mm
+    end = inside * math.sin(min(ball.slot_end, 0.5 * math.pi))
+    wall = wall_min(size, L)
+    # a hub with flat faces stays in its shell, a hundredth short of the outer sphere
+    widest = min(end - wall, 0.99 * math.sqrt((outside - inside) * (outside + inside)))
+    most = min(end * 2.0 / 3.0, within_hub(size, "wheel"))
+    held = spec.shaft.torsion_factor * dwell_torque_Nm(mechanism).item()
+    trial = ball
+    for d in bores_from(2.0 * ball.bore_mm, 2.0 * most):
+        hub = hub_about(size, L, 0.5 * d, end)
+        if hub > widest:
+            break
+        hole = math.asin(max(0.5 * d, hub) / inside)
+        inner = inner_edge(ball.slot_end, ball.roller, hole)
+        trial = ball._replace(bore_mm=0.5 * d, hub_mm=hub, inner=inner)
+        parts = sphere_stressed(spec, trial)
+        moment = _moment_Nm(mechanism, wheel_forces(mechanism), parts.wheel_shaft.overhang)
+        holds = shaft_holds(spec, "wheel", parts.wheel_shaft.diameter, max(moment, held))
+        if holds and key_holds(spec, parts.wheel_key, loads.wheel_Nm):
+            break
+    return trial
+
+
+def _crank_bored(mechanism: Mechanism, ball: Ball, loads: PartLoads, keyed: bool) -> Ball:
+    spec, size = mechanism.spec, mechanism.spec.size
+    own = (size.crank_bore_mm, size.arm_bore_mm, spec.shaft.crank_diameter_mm)
+    if not ball.arm_bore_mm or any(key is not None for key in own):
+        return ball
+    trial = ball
+    for d in bores_from(2.0 * ball.arm_bore_mm, ball.arm_span_mm[1]):
+        other = ball._replace(arm_bore_mm=0.5 * d)
+        parts = sphere_stressed(spec, other)
+        # the standard has no keys for the largest shafts
+        keyless = size.crank_keyway is not None and math.isnan(float(parts.crank_key.shaft))
+        if d > ball.arm_bore_mm * 2.0 and (keyless or not _hub_fits(spec, other)):
+            break
+        trial = other
+        moment = _moment_Nm(mechanism, crank_forces(spec), parts.crank_shaft.overhang)
+        holds = shaft_holds(spec, "crank", parts.crank_shaft.diameter, moment)
+        if holds and (not keyed or key_holds(spec, parts.crank_key, loads.crank_Nm)):
+            break
+    return trial
+
+
+def _hub_fits(spec: Spec, ball: Ball) -> bool:
+    """Return True if the arm's hub fits: about its bore, in the arm, and past pins and wheel."""
+    size, (under, over) = spec.size, ball.arm_span_mm
+    wall, bored = wall_min(size, ball.radius_mm), reach_or_bore(size, "crank", ball.arm_bore_mm)
+    hub = arm_hub(size, bored, ball.arm_bore_mm, wall)
+    hole = math.asin(min(1.0, hole_radius(size, ball.pin_mm) / under))
+    to_pins = under * math.sin(max(0.0, ball.arm - hole - wall / under))
+    flat = 0.99 * math.sqrt((over - under) * (over + under))
+    passing = ball.arm + ball.passing_mm(ball.opening_mm) / ball.radius_mm
+    cap = ball.cap(hub, bored, wall)
+    return bored + wall <= hub <= min(to_pins, flat) and cap <= passing
+
+
+@lru_cache(maxsize=64)
+def _moment_Nm(mechanism: Mechanism, forces: ShaftForces, overhang_mm: float) -> float:
+    """Return the greatest equivalent torque of a shaft; it needs a search of the whole cycle."""
+    shaft = LoadedShaft(ShaftDimensions(None, overhang_mm, None, None), forces)
+    each = [one for way in every_way(mechanism) for one in shafts_under_load(way, [shaft])]
+    return max(array(one.moment_Nm).item() if one else 0.0 for one in each)

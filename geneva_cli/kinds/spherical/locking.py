@@ -1,0 +1,93 @@
+"""The play of a spherical wheel in its lock during the dwell, for any deviations.
+
+Angles are at the sphere's centre. A recess is cut into the wheel at an angle rho from the crank's
+axis, which is at S from the wheel's. The locking sector reaches to k. The wheel can turn by d until
+one of two contacts stops it.
+
+A corner of a recess, at p from the wheel's axis, meets the sector:
+
+    d = chi(p, rho) - chi(p, k) ,    cos a = cos S cos p + sin S sin p cos chi .
+
+Here chi(p, a) is an azimuth about the wheel's axis, from the crank's axis. It is that of a point at
+p from the wheel's axis and at a from the crank's.
+
+An end of the sector, at q from the wheel's axis, meets the recess, if the recess reaches farther
+round. Then d is chi(q, rho) minus the azimuth of the end.
+
+The two never reach farther round than 90 degrees together, so they do not touch between their ends.
+The recess reaches so far only with shafts beyond 90 degrees. The sector does so only with shafts
+below that, since it is what a motion of 2 acos(tan th / tan S) leaves of a turn.
+
+The radii of ``[tolerance]`` are from the crank's axis, L times the sine of the angle from there.
+The play is computed in the middle of a dwell, as on a plane.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.loads.tolerance.dimensions import Deviations
+from geneva_cli.loads.tolerance.locking import ROUNDING, LockPlay, positive_root
+from geneva_cli.numerics.arrays import array, choose
+from geneva_cli.numerics.jet import Jet, atan2, sqrt
+
+
+class SphereLock(NamedTuple):
+    """One corner of a recess and one locking sector, angles in radians.
+
+    At a right angle, with rim and crank's axis on one great circle, the play is the clearance:
+
+    >>> from geneva_cli.loads.tolerance.dimensions import deviations
+    >>> lock = SphereLock(100.0, 0.5 * math.pi, 0.4, 0.401, 0.5 * math.pi, 0.5 * math.pi)
+    >>> round(lock(deviations([0.0] * 7)).angle.c[0], 12)
+    0.001
+    """
+
+    radius_mm: float  # L, of the sphere
+    axes: float  # S, between the shafts
+    lock: float  # k, sector's edge from the crank's axis
+    recess: float  # rho, recess's edge from the crank's axis
+    corner: float  # p, recess's corner from the wheel's axis
+    half: float  # half the sector, about the crank's axis
+
+    @property
+    def reach(self) -> float:
+        """Half of the recess, as an angle about the crank's axis."""
+        S, rho = self.axes, self.recess
+        cosine = (math.cos(self.corner) - math.cos(S) * math.cos(rho)) / (
+            math.sin(S) * math.sin(rho)
+        )
+        return math.acos(max(-1.0, min(1.0, cosine)))
+
+    def __call__(self, by: Deviations) -> LockPlay:
+        """Play of the wheel to one side."""
+        lock = by.lock_radius_mm / self.radius_mm + math.sin(self.lock)
+        recess = by.recess_radius_mm / self.radius_mm + math.sin(self.recess)
+        lock_cosine, recess_cosine = _cosine(lock), _cosine(recess)
+        if self.reach <= self.half:
+            near, high = math.cos(self.corner), math.sin(self.corner)
+            still = 0.0 * lock
+            angle = self._azimuth(still + near, still + high, recess_cosine)
+            angle = angle - self._azimuth(still + near, still + high, lock_cosine)
+        else:
+            up, ahead = math.cos(self.axes), math.sin(self.axes)
+            x = lock_cosine * ahead - lock * (math.cos(self.half) * up)
+            y = lock * math.sin(self.half)
+            z = lock_cosine * up + lock * (math.cos(self.half) * ahead)
+            angle = self._azimuth(z, sqrt(x * x + y * y), recess_cosine) - atan2(y, x)
+        jams = (array((recess - lock).c[0]) < -ROUNDING) | (array(angle.c[0]) < -ROUNDING)
+        one = bool(jams) if jams.ndim == 0 else jams
+        free = Jet([choose(one, c * 0.0, c) for c in angle.c])
+        return LockPlay(free, jams)
+
+    def _azimuth(self, cosine: Jet, sine: Jet, from_crank: Jet) -> Jet:
+        """Azimuth chi, from the cosine and sine of p, and the cosine of a."""
+        across = sine * math.sin(self.axes)
+        along = from_crank - cosine * math.cos(self.axes)
+        return atan2(positive_root(across * across - along * along), along)
+
+
+def _cosine(sine: Jet) -> Jet:
+    """Cosine of an angle below 90 degrees, from its sine."""
+    return positive_root(1.0 - sine * sine)

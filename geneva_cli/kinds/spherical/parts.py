@@ -1,0 +1,254 @@
+"""All parts of a spherical machine at their positions, at input angle 0, and its wheel's mass.
+
+The sphere's centre is the origin and the wheel's axis is z. The crank's parts are in its frame.
+Each part is built once, on first use. Drawing, solid, list of parts, sheet and the checks of shafts
+are projections of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.mass import MM, MassProperties, added, mass_properties
+from geneva_cli.geometry.plates import Group, Member, Plate, Shell, inwards
+from geneva_cli.geometry.round_holes import RoundHole
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Shape
+from geneva_cli.geometry.sphere import Rotation, axis_frame, place
+from geneva_cli.geometry.sphere_hull import Cap
+from geneva_cli.kinds.spherical.arm import CapArm, crank_arm, has_arm
+from geneva_cli.kinds.spherical.axles import crank_hub, refuse_wide
+from geneva_cli.kinds.spherical.ball import Ball
+from geneva_cli.kinds.spherical.crank import at_mid_motion
+from geneva_cli.kinds.spherical.dial import dial_holes
+from geneva_cli.kinds.spherical.sizes import ball
+from geneva_cli.kinds.spherical.wheel import POLE, web_angle, web_region, wheel_regions
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.parts.missing import NamedParts
+from geneva_cli.parts.parts_of_machine import PartsOfMachine
+from geneva_cli.parts.shafts.bearings import shoulder_length
+from geneva_cli.parts.shafts.bores import bore_of, has_shape
+from geneva_cli.parts.shafts.held_hubs import held_hub
+from geneva_cli.parts.shafts.shaft import Seat, Shaft, shaft_ends
+from geneva_cli.parts.shafts.turned_shafts import turned_shaft
+from geneva_cli.parts.sizes.arm_sizes import refuse_thin_hub
+from geneva_cli.spec.materials import wheel_material
+from geneva_cli.spec.tables import Size
+
+if TYPE_CHECKING:
+    from geneva_cli.kinds.spherical.shells import Shells
+
+
+class SphereParts(PartsOfMachine):
+    """The parts of a machine in the wheel's frame.
+
+    A part that the sizes leave no place for raises GenevaError, naming the key. Drawings of shells
+    laid flat have ``curves``, "arcs" or "cubics", within ``tolerance`` mm.
+    """
+
+    def __init__(self, shells: Shells, tolerance: float = 0.0, curves: str = "arcs") -> None:
+        self.shells, self.ball = shells, shells.ball
+        self.mechanism = shells.assembly.full
+        self.tolerance, self.curves = tolerance, curves
+
+    def within(self, tolerance: float, curves: str) -> SphereParts:
+        """Return these parts, laid flat with curves of a kind within a tolerance, mm."""
+        return SphereParts(self.shells, tolerance, curves)
+
+    @cached_property
+    def wheel(self) -> Member:
+        """The wheel's shell with its hub. Raises GenevaError for one that cannot be made."""
+        size, ball = self.mechanism.spec.size, self.ball
+        hub = wheel_hub(size, ball)
+        shell = wheel_shell(size, ball)
+        return Member(Group("wheel", (Member(shell), *([Member(hub)] if hub else []))))
+
+    @cached_property
+    def arm(self) -> CapArm | None:
+        """The crank arm; None without pins for the rollers."""
+        return crank_arm(self.shells) if has_arm(self.shells) else None
+
+    @cached_property
+    def crank(self) -> Member:
+        """The crank: locking sectors, arm, rollers on their pins, hub."""
+        return Member(crank_group(self.shells, self.arm), frame=at_mid_motion(self.ball))
+
+    @cached_property
+    def shafts(self) -> tuple[Member, ...]:
+        """The shafts of wheel and crank."""
+        return tuple(_shafts(self.shells, self.arm))
+
+    @property
+    def outside_mm(self) -> float | None:
+        """Radius of the wheel's outer face, from which heights count inwards."""
+        return self.ball.span_mm[1]
+
+    @property
+    def horn_mm(self) -> float | None:
+        """Thickness of the horns between slots and recesses; None without a lock."""
+        return self.shells.sizes.horn if self.shells.crank else None
+
+    def hub_radii(self, part: str) -> tuple[float, float]:
+        """Return the radii of the bore and the hub of a part, "wheel" or "crank", mm."""
+        size, ball = self.mechanism.spec.size, self.ball
+        if part == "wheel":
+            return ball.bore_mm, ball.hub_mm
+        return 0.5 * (size.crank_bore_mm or 0.0), crank_hub(size, ball.radius_mm)
+
+    @property
+    def members(self) -> tuple[Member, ...]:
+        """All parts."""
+        return (self.wheel, self.crank, *self.shafts)
+
+    def by_name(self) -> Iterator[NamedParts]:
+        """Yield all parts in the order of a list, as names and functions that build them."""
+        yield "wheel", lambda: [self.wheel.part]
+        yield "crank", lambda: [self.crank.part]
+        yield "shafts", lambda: [one.part for one in self.shafts]
+
+
+def wheel_shell(size: Size, ball: Ball) -> Shell:
+    """Return the wheel's shell, down to the round hole about its axis, if there is one.
+
+    Raises GenevaError where a dial's bolts do not fit.
+    """
+    screwed = dial_holes(size, ball)
+    if not screwed and not ball.opening_mm:
+        return Shell("wheel", "WHEEL", tuple(wheel_regions(ball, ball.inner)), *ball.span_mm)
+    inner = web_angle(ball)
+    regions = *wheel_regions(ball, inner), web_region(ball, inner)
+    holes = RoundHole(POLE, ball.opening_mm), *screwed
+    return Shell("wheel", "WHEEL", regions, *ball.span_mm, holes)
+
+
+def wheel_hub(size: Size, ball: Ball) -> Plate | None:
+    """Return the wheel's hub: in its shell and outside it, by default out to the arm's face.
+
+    Raises GenevaError, naming the key, where it cannot be made.
+    """
+    return held_hub(size, "wheel", _wheel_hub(size, ball), ball.half_step)
+
+
+def _wheel_hub(size: Size, ball: Ball) -> Plate | None:
+    wide = ball.hub_mm > ball.bore_mm
+    if has_shape(size, "wheel") and not (wide and ball.bore_mm):
+        name = "wheel_bore" if size.wheel_keyway is None else "wheel_keyway"
+        raise GenevaError(
+            f"{name}: on a sphere only the wheel's hub has a bore that is not round; set "
+            f"wheel_bore_mm and wheel_hub_mm, or remove {name}",
+            ("size", name),
+        )
+    if not wide:
+        return None
+    inside, outside = ball.span_mm
+    refuse_wide("wheel_hub_mm", ball.hub_mm, inside, outside)
+    form = bore_of(size, "wheel", ball.bore_mm)
+    refuse_thin_hub("wheel", ball.hub_mm, form.reach, ball.bore_mm)
+    long = inside + ball.hub_length_mm(size)
+    bored = (form.shape("BORE", ball.half_step),) if ball.bore_mm else ()
+    return Plate("wheel's hub", "HUB", Circle("HUB", ORIGIN, ball.hub_mm), bored, inside, long)
+
+
+def shell_body(mechanism: Mechanism) -> MassProperties:
+    """Return mass and inertia of the wheel's shell and hub, in closed form.
+
+    Raises GenevaError where the sizes leave no wheel.
+    """
+    size, sizes = mechanism.spec.size, ball(mechanism)
+    density = wheel_material(mechanism.spec).density_kgm3
+    shell, hub = wheel_shell(size, sizes), wheel_hub(size, sizes)
+    mass = density * shell.volume * MM**3
+    rim = MassProperties(mass, (0.0, 0.0), density * shell.inertia(POLE) * MM**5)
+    return added(rim, mass_properties(hub, density)) if hub else rim
+
+
+def crank_group(parts: Shells, arm: CapArm | None) -> Group:
+    """Return the parts that the crank carries, in its frame, and its arm, if there is one."""
+    ball, size = parts.ball, parts.assembly.full.spec.size
+    members = []
+    for k, region in enumerate(parts.crank):
+        screwed = arm.bolts_of(k, len(parts.crank)) if arm else ()
+        sector = Shell("locking sector", "CRANK", (region,), *ball.lock_span_mm, screwed)
+        members.append(Member(sector))
+    members += [Member(one) for one in (arm_solids(ball, arm) if arm else ())]
+    inner, outer = ball.span_mm
+    bored = ball.pin_mm + 0.5 * size.allowances.shaft_fit_mm
+    hole = (RoundHole(POLE, bored),) if arm else ()
+    roller = Shell("roller", "ROLLER", (Cap(POLE, ball.roller).region,), inner, outer, hole)
+    long = Circle("ROLLER", ORIGIN, ball.pin_mm)
+    pin = Plate("pin", "ROLLER", long, (), inner, ball.arm_span_mm[1])
+    for azimuth in ball.rollers:
+        frame = axis_frame(place(ball.arm, azimuth))
+        members += [Member(one, frame=frame) for one in ((roller, pin) if arm else (roller,))]
+    hub = held_hub(size, "crank", _inner_hub(size, ball, arm), arm.keyway if arm else 0.0)
+    return Group("crank", (*members, *([Member(hub)] if hub else [])))
+
+
+def arm_solids(ball: Ball, arm: CapArm) -> tuple[Shell, Plate]:
+    """Return the arm's cap and its hub, which has flat faces and the bore."""
+    cap = Shell("arm", "ARM", (arm.boundary,), *ball.arm_span_mm, arm.holes)
+    bored = arm.bore.shape("BORE", arm.keyway)
+    return cap, Plate(
+        "arm's hub", "ARM", Circle("ARM", ORIGIN, arm.hub), (bored,), *ball.arm_span_mm
+    )
+
+
+def _inner_hub(size: Size, ball: Ball, arm: CapArm | None) -> Plate | None:
+    """Return the crank's hub on the arm's inner face; None unless the spec has one."""
+    radius = crank_hub(size, ball.radius_mm)
+    if not (radius and arm):
+        return None
+    long = size.crank_hub_length_mm
+    high = ball.arm_span_mm[0]
+    low = ball.span_mm[0] if long is None else high - long
+    bored: tuple[Shape, ...] = ()
+    if size.crank_bore_mm:
+        form = bore_of(size, "crank", 0.5 * size.crank_bore_mm)
+        refuse_thin_hub("crank", radius, form.reach, form.radius)
+        bored = (form.shape("BORE", arm.keyway),)
+    return Plate("crank's hub", "HUB", Circle("HUB", ORIGIN, radius), bored, low, high)
+
+
+def _shafts(parts: Shells, arm: CapArm | None) -> Iterator[Member]:
+    """Yield the shafts of wheel and crank: as wide as the bores, and as long as on a plane.
+
+    There is no frame. Shafts end the arm's thickness beyond the parts that they carry, turned ones
+    at the circlip of a bearing there.
+    """
+    ball, size = parts.ball, parts.assembly.full.spec.size
+    outside, (under, over) = ball.span_mm[1], ball.arm_span_mm
+    face = outside - ball.shafts_end_mm(size)
+    lowest = face - (over - under)
+    for one, frame in _axles(parts, arm, lowest):
+        turned = size.shafts == "turned" and one.low <= lowest
+        bearing = face - shoulder_length(size, ball.radius_mm)
+        part = (turned_shaft(size, one, bearing) if turned else one.plain(size)).part
+        yield Member(inwards(part, outside), frame=frame)
+
+
+def _axles(
+    parts: Shells, arm: CapArm | None, lowest: float
+) -> Iterator[tuple[Shaft, Rotation | None]]:
+    """Yield the shafts and the frames of their axes; heights count inwards from the outer sphere.
+
+    ``lowest`` is the height of their outer ends.
+    """
+    ball, size = parts.ball, parts.assembly.full.spec.size
+    (inside, outside), (under, over), at = ball.span_mm, ball.arm_span_mm, (0.0, 0.0)
+    if ball.bore_mm:
+        hub = ball.hub_mm > ball.bore_mm
+        bore, high = bore_of(size, "wheel", ball.bore_mm), outside - inside
+        seat = Seat("wheel", outside - inside - ball.hub_length_mm(size) if hub else 0.0, high)
+        low, high = shaft_ends(size, "wheel", lowest if hub else 0.0, high)
+        one = Shaft("wheel's shaft", "wheel", bore, (seat,), low, high, at, ball.half_step)
+        yield one._replace(ends_here=False), None
+    if arm:
+        inner = _inner_hub(size, ball, arm)
+        through = bool(size.crank_bore_mm)
+        end = (inner.low if inner else ball.lock_span_mm[0]) if through else under
+        seat = Seat("crank", outside - over, outside - end)
+        low, high = shaft_ends(size, "crank", lowest, outside - end)
+        one = Shaft("crank's shaft", "crank", arm.bore, (seat,), low, high, at, arm.keyway)
+        yield one._replace(ends_here=not through), at_mid_motion(ball)

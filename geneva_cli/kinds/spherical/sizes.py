@@ -1,0 +1,201 @@
+"""The sizes of a spherical wheel and its crank: angles at the sphere's centre, in radians.
+
+All walls lead to the centre, and so does the surface of the roller, a cone. Its radius, the slots
+and the clearances are arcs on the sphere of radius ``center_distance_mm``. Radii of the lock and of
+bores are distances from their axes. Below the wheel on a plane is outside the wheel here: a height
+above the wheel's lower face is a distance inwards from its outer sphere.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.rollers import places
+from geneva_cli.motion.spec import Spec
+from geneva_cli.parts.sizes.arm_sizes import (
+    arm_bore,
+    hole_radius,
+    refuse_stepped_shaft,
+    refuse_wide_pin,
+)
+from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses, pin_radius
+from geneva_cli.parts.sizes.sizes import lock_between, refuse_edges, require_lock_between
+from geneva_cli.spec.default_sizes import Thicknesses
+from geneva_cli.spec.tables import Z_DRAWN, Size
+
+if TYPE_CHECKING:
+    from geneva_cli.kinds.spherical.ball import Ball
+
+
+class PartDoesNotFit(GenevaError):
+    """Error for a part that does not fit, but would with a smaller roller."""
+
+
+def ball(mechanism: Mechanism) -> Ball:
+    """Return the sizes of a spherical machine.
+
+    Those that the spec leaves out are as large as its load needs. Raises GenevaError, naming the
+    key, where they leave no wheel or no lock.
+    """
+    spec = mechanism.spec
+    usual = _ball(mechanism, spec.size.wheel_thickness_mm)
+    if not spec.is_loaded:
+        return usual
+    from geneva_cli.kinds.spherical.load_sizes import horn_thickness_mm, sphere_load_sizes
+
+    thick = horn_thickness_mm(mechanism, usual)
+    if thick is not None:
+        usual = _ball(mechanism, thick)
+    return sphere_load_sizes(mechanism, usual)
+
+
+@lru_cache(maxsize=16)
+def sized_ball(mechanism: Mechanism) -> Ball | None:
+    """Return the cached sizes of a spherical machine; None where it has no parts."""
+    spec = mechanism.spec
+    if not (spec.wheel.SHELLS and spec.has_parts):
+        return None
+    try:
+        return ball(mechanism)
+    except GenevaError:
+        return None  # the check of the parts reports the error
+
+
+def _ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
+    """Return the sizes for a thickness of the wheel, or else its default."""
+    from geneva_cli.kinds.spherical.axles import about_crank, wheel_axle
+    from geneva_cli.kinds.spherical.ball import Ball, inner_edge
+
+    spec, L, radius_mm = mechanism.spec, mechanism.center_distance_mm, mechanism.roller_radius_mm
+    size, z = spec.size, spec.wheel.z
+    if z > Z_DRAWN:
+        raise GenevaError(f"z = {z}: parts are drawn up to {Z_DRAWN} slots", ("wheel", "z"))
+    first, *others = places(spec.wheel, spec.drive, spec.given_distance_mm)
+    arm = math.atan2(first.ratio, first.cone)
+    engagement = mechanism.engagements[0]
+    mouth, deepest = (float(engagement.slot(x, 0)[0].c[0]) for x in (engagement.entry_deg, 0.0))
+    axes = deepest + arm
+    roller = radius_mm / L
+    w = roller + size.allowances.slot_clearance_mm / L
+    gap = size.slot_bottom_clearance_mm
+    usual = max(size.allowances.slot_clearance_mm, radius_mm / 20.0)
+    bottom = deepest - (usual if gap is None else gap) / L
+    # the roller touches the wall that faces the crank's axis at the foot of the perpendicular
+    rim = math.acos(math.cos(mouth) * math.cos(w))
+    _refuse_slots(bottom, w, z)
+    thick = drawn_thicknesses(size.replace(wheel_thickness_mm=thickness_mm), L)
+    pin = pin_radius(size, radius_mm)
+    _refuse_thick(thick, size, L, roller, pin)
+    refuse_edges(size, min(thick.wheel, thick.lock, thick.arm))
+    inside, outside = L - 0.5 * thick.wheel, L + 0.5 * thick.wheel
+    under = outside + size.allowances.pin_gap_mm  # the arm's inner face, on which the sectors stand
+    slot_end = bottom - w
+    bore, hub = wheel_axle(spec, L, inside, slot_end)
+    lock = _lock(mechanism, arm - w, abs(axes - rim), roller)
+    many = spec.drive.rollers
+    turns = [p.crank_deg for p in (first, *others)]
+    if len(turns) == 1:
+        turns = [360.0 * i / many for i in range(many)]
+    ball = Ball(
+        radius_mm=L,
+        z=z,
+        axes=axes,
+        arm=arm,
+        half_motion=math.radians(first.half_motion_deg),
+        rollers=tuple(math.radians(t) for t in turns),
+        roller=roller,
+        half_width=w,
+        bottom=bottom,
+        mouth=mouth,
+        rim=rim,
+        inner=inner_edge(slot_end, roller, math.asin(max(bore, hub) / inside)),
+        lock=lock,
+        recess=lock + size.allowances.lock_clearance_mm / L if lock else 0.0,
+        span_mm=(inside, outside),
+        lock_span_mm=(under - thick.lock, under),
+        arm_span_mm=(under, under + thick.arm),
+        bore_mm=bore,
+        hub_mm=hub,
+        pin_mm=pin,
+        arm_bore_mm=_arm_bore(spec, pin, L, arm),
+        about_crank_mm=about_crank(size, L),
+    )
+    _refuse(ball)
+    return ball
+
+
+def _arm_bore(spec: Spec, pin: float, L: float, arm: float) -> float:
+    """Return the radius of the bore in the arm's hub; 0 without a crank, or without pins."""
+    if not (spec.drive.CRANKED and pin):
+        return 0.0
+    disc, space = 0.5 * (spec.size.crank_bore_mm or 0.0), L * arm - hole_radius(spec.size, pin)
+    refuse_stepped_shaft(spec.size, disc, L)
+    return arm_bore(spec, disc, L, space)
+
+
+def _lock(mechanism: Mechanism, limit: float, least: float, roller: float) -> float:
+    """Return the angle of the locking sectors' edge; its sine is ``lock_radius_mm`` over L.
+
+    As on a plane, the default leaves a horn as thick as the roller's radius, or a fifth of the
+    space.
+    """
+    size, L = mechanism.spec.size, mechanism.center_distance_mm
+    if not mechanism.spec.has_lock:
+        return 0.0
+    limit -= size.allowances.lock_clearance_mm / L
+    low, high = (L * math.sin(max(0.0, x)) for x in (least, limit))
+    if limit <= least:
+        raise PartDoesNotFit(
+            f"the locking sector does not fit: lock_radius_mm must be above {low:.4g} to reach the "
+            f"rim, but the roller limits it to {high:.4g}; 0 omits it",
+            ("size", "lock_radius_mm"),
+        )
+    if size.lock_radius_mm is None:
+        return lock_between(least, limit, roller)
+    require_lock_between(size.lock_radius_mm, low, high)
+    return math.asin(size.lock_radius_mm / L)
+
+
+def _refuse_slots(bottom: float, w: float, z: int) -> None:
+    if bottom <= 0.0 or math.sin(bottom) * math.sin(math.pi / z) <= math.sin(w):
+        raise PartDoesNotFit(
+            "the slots meet near their ends: reduce roller_radius_mm, slot_clearance_mm or "
+            f"slot_bottom_clearance_mm, or use fewer than {z} slots",
+            ("size", "roller_radius_mm"),
+        )
+
+
+def _refuse(ball: Ball) -> None:
+    if ball.inner <= 0.0:
+        raise PartDoesNotFit(
+            "the wheel's middle is not open: the slots end within a roller's width of its axis; "
+            "set a wheel_bore_mm or reduce the roller",
+            ("size", "wheel_bore_mm"),
+        )
+    # a horn thinner than a thousandth of half a step counts as none
+    if ball.opened() + ball.corner() > (1.0 - 1e-3) * ball.half_step:
+        raise PartDoesNotFit(
+            "no horn is left between slot and recess at the rim: reduce lock_radius_mm",
+            ("size", "lock_radius_mm"),
+        )
+
+
+def _refuse_thick(thick: Thicknesses, size: Size, L: float, roller: float, pin_mm: float) -> None:
+    if thick.wheel >= L:
+        raise GenevaError(
+            f"wheel_thickness_mm = {thick.wheel:g}: half of it lies inside the sphere of radius "
+            f"{L:g} mm; it must be below {L:g}",
+            ("size", "wheel_thickness_mm"),
+        )
+    most = L + 0.5 * thick.wheel + size.allowances.pin_gap_mm
+    if thick.lock >= most:
+        raise GenevaError(
+            f"lock_thickness_mm = {thick.lock:g}: the locking sectors reach inwards from the arm, "
+            f"which is {most:g} mm from the sphere's centre; it must be below {most:g}",
+            ("size", "lock_thickness_mm"),
+        )
+    refuse_wide_pin(size, pin_mm, (L - 0.5 * thick.wheel) * math.sin(roller))

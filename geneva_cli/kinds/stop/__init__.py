@@ -1,0 +1,1 @@
+"""Geneva stops: a closed recess that blocks the crank."""

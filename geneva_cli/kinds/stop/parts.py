@@ -1,0 +1,99 @@
+"""A Geneva stop: where the convex face in place of a recess blocks the locking disc.
+
+The face is an arc about the wheel's axis, so its place does not depend on the wheel's angle. The
+end of the disc, at radius rk from the crank's axis, reaches the face, at radius ra from the
+wheel's axis, where the triangle of the two axes and the end has the sides L, rk and ra. Its angle
+at the crank's axis is gamma:
+
+    cos gamma = (L² + rk² - ra²) / (2 L rk)
+
+The disc begins at the angle c from the roller. At the crank's angle a from mid-motion, its end is
+c - a from the line of centres. It approaches, and meets the face at a = c - gamma. The way back is
+the mirror image. So from stop to stop the crank turns by 360° (z - 1) + 2 (c - gamma).
+
+The relief is hollow with a smaller radius than the face's, or straight towards the crank's axis. So
+no other point of the disc comes as near to the wheel's axis as its end.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.parts.turn.gaps import Gaps
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.outlines.outlines import Outlines
+
+
+class WheelStop(NamedTuple):
+    """Both stops of a crank: input angles from the middle of its first engagement, degrees."""
+
+    first_deg: float
+    last_deg: float
+    drawn_deg: float  # input angle 0 of the drawings, after the middle of the first engagement
+    lever_mm: float  # of the force between disc and face about the crank's axis
+    face_mm: float  # along the face, from the contact to the nearer mouth; negative in the mouth
+    overlap_mm: float  # of the circles of disc and face, if nothing stopped them
+    crank_deg: float  # of the crank at its last stop, from the middle of that engagement
+
+    @property
+    def turns(self) -> float:
+        """Turns of the input from stop to stop."""
+        return (self.last_deg - self.first_deg) / 360.0
+
+
+def wheel_stop(outlines: Outlines) -> WheelStop | None:
+    """Return the stops of a wheel with a convex face; None without one."""
+    assembly, sizes = outlines.assembly, outlines.sizes
+    z = assembly.full.spec.wheel.z
+    if not assembly.full.spec.wheel.stopped:
+        return None
+    L, rk, ra = assembly.L, sizes.lock, sizes.rim
+    gamma = math.acos((L * L + rk * rk - ra * ra) / (2.0 * L * rk))
+    crank = _disc_begins(outlines) - gamma
+    delta = math.asin(rk * math.sin(gamma) / ra)  # of the contact, from the line of centres
+    at = np.array([math.degrees(crank)])
+    from_middle = math.pi / z - delta - float(assembly.wheel(at)[0])
+    half_face = math.pi / z - math.asin(sizes.half_width / ra)
+    last = assembly.to_input(math.degrees(crank))
+    return WheelStop(
+        assembly.to_input(-math.degrees(crank)),
+        360.0 * (z - 1) + last,
+        360.0 * (z // 2),
+        L * math.sin(delta),
+        ra * (half_face - abs(from_middle)),
+        rk + ra - L,
+        math.degrees(crank),
+    )
+
+
+def clearances_before(outlines: Outlines, stop: WheelStop, past_deg: float = 0.0) -> Array:
+    """Return the gaps of disc and face, mm, at crank angles up to either stop and a little past it.
+
+    It is an array (2, n) of positions half a degree apart, from half a turn before a stop. The
+    first row is the way to the first stop.
+    """
+    assembly = outlines.assembly
+    parts = Gaps(assembly, outlines.sizes, outlines.wheel, outlines.crank)
+    z = assembly.full.spec.wheel.z
+    turns = np.array([-(z // 2), z - 1 - z // 2])  # of the two engagements, in the drawings
+    before_deg = np.linspace(stop.crank_deg - 180.0, stop.crank_deg + past_deg, 361)
+    at = 360.0 * turns[:, None] + np.array([[-1.0], [1.0]]) * before_deg
+    return parts.locking(parts.pose(at.ravel())).reshape(at.shape)
+
+
+def _disc_begins(outlines: Outlines) -> float:
+    """Return the angle from the roller to the first end of the locking disc, radians."""
+    ends = [piece.start for contour in outlines.crank for piece in contour.segments]
+    lock = outlines.sizes.lock
+    on_disc = [
+        abs(math.atan2(y, x))
+        for x, y in ends
+        if abs(math.hypot(x, y) - lock) < SAME_LENGTH * outlines.assembly.L
+    ]
+    return min(on_disc)

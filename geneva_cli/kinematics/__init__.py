@@ -1,1 +1,0 @@
-"""Pin path, slot and motion: any two give the third."""

@@ -1,1 +1,0 @@
-"""Sizes and positions of the parts, before any outline is drawn."""

@@ -1,0 +1,104 @@
+"""Inertia and resisting torque of everything that the wheel turns, at the wheel's shaft."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from geneva_cli.spec.tables import Mass
+
+if TYPE_CHECKING:
+    from geneva_cli.motion.spec import Spec
+
+G = 9.80665  # standard gravity, m/s²
+MM = 1e-3  # metres
+
+
+def weight_kg(mass: Mass) -> float:
+    """The mass of one body of a ``[[mass]]``, kg."""
+    if mass.mass_kg is not None:
+        return mass.mass_kg
+    assert mass.density_kgm3 is not None and mass.thickness_mm is not None  # Mass has checked this
+    return mass.density_kgm3 * _face_m2(mass) * mass.thickness_mm * MM
+
+
+def _face_m2(mass: Mass) -> float:
+    """Area of a body's face, perpendicular to the wheel's axis, m²."""
+    D, d = (mass.diameter_mm or 0.0) * MM, (mass.bore_mm or 0.0) * MM
+    a, c = (mass.length_mm or 0.0) * MM, (mass.width_mm or 0.0) * MM
+    return a * c if a else 0.25 * math.pi * (D - d) * (D + d)
+
+
+def body_inertia_kgm2(mass: Mass) -> float:
+    """Inertia of one body about its own axis: m (D² + d²)/8; of a block m (a² + c²)/12."""
+    D, d = (mass.diameter_mm or 0.0) * MM, (mass.bore_mm or 0.0) * MM
+    a, c = (mass.length_mm or 0.0) * MM, (mass.width_mm or 0.0) * MM
+    return weight_kg(mass) * ((D * D + d * d) / 8.0 + (a * a + c * c) / 12.0)
+
+
+def mass_inertia_kgm2(mass: Mass) -> float:
+    """Inertia of all bodies of a ``[[mass]]`` about the table's axis, by Steiner's theorem."""
+    e = mass.radius_mm * MM
+    return mass.count * (body_inertia_kgm2(mass) + weight_kg(mass) * e * e)
+
+
+def inertia_kgm2(spec: Spec) -> float:
+    """Inertia of everything the wheel turns, at the wheel's shaft.
+
+    It is ``inertia_kgm2`` of [load], plus the masses behind the support's gears. A rack has m R²,
+    as it is driven through a pinion of the crank's radius R.
+    """
+    ratio, lever = spec.support.gear_ratio, spec.given_distance_mm * MM
+    own = spec.load.inertia_kgm2 + spec.load.mass_kg * (lever * lever)
+    return own + ratio * ratio * sum(map(mass_inertia_kgm2, spec.mass))
+
+
+def unbalance_kgm(spec: Spec) -> tuple[float, float]:
+    """Mass times distance from the wheel's axis of single bodies, kg m, as a vector.
+
+    x is along the first slot, which holds the finger at mid-motion, and y turns ahead of it. Two or
+    more equal bodies are spaced evenly, and balance each other.
+    """
+    along = across = 0.0
+    for mass in spec.mass:
+        if mass.to_one_side:
+            moment, turn = weight_kg(mass) * mass.radius_mm * MM, math.radians(mass.angle_deg)
+            along += moment * math.cos(turn)
+            across += moment * math.sin(turn)
+    return along, across
+
+
+def carried_kg(spec: Spec) -> float:
+    """The mass of all bodies on the table, kg."""
+    return sum(mass.count * weight_kg(mass) for mass in spec.mass)
+
+
+def farthest_mm(spec: Spec) -> float:
+    """Radius about the wheel's axis that contains all bodies on the table; 0 without bodies."""
+    return max((one.radius_mm + _reach_mm(one) for one in spec.mass), default=0.0)
+
+
+def _reach_mm(mass: Mass) -> float:
+    """Radius about a body's own axis that contains it."""
+    sides = mass.length_mm or 0.0, mass.width_mm or 0.0
+    return 0.5 * max(mass.diameter_mm or 0.0, math.hypot(*sides))
+
+
+def support_torque_Nm(spec: Spec) -> float:
+    """Friction of the table's support at the wheel's shaft: mu (m g + F) r, through the gears."""
+    support = spec.support
+    pressed = carried_kg(spec) * G + support.force_N
+    return support.gear_ratio * support.friction * pressed * support.radius_mm * MM
+
+
+def working_torque_Nm(spec: Spec) -> float:
+    """Torque of the work at the wheel's shaft, N m.
+
+    A rack's force F has the torque F R about the pinion.
+    """
+    return spec.load.torque_Nm + spec.load.force_N * (spec.given_distance_mm * MM)
+
+
+def resisting_torque_Nm(spec: Spec) -> float:
+    """Torque that resists while the wheel turns: the load's plus the support's friction, N m."""
+    return working_torque_Nm(spec) + support_torque_Nm(spec)

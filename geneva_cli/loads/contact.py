@@ -1,0 +1,257 @@
+"""The roller in its slot at one or many input angles: levers, sliding speed, curvature.
+
+Jets by the input angle in radians; lengths are in units of the centre distance L. The slot's
+tangent t points away from the wheel's axis: M . t > 0, M being the roller's centre in the wheel.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Generic, NamedTuple
+
+from geneva_cli.motion.engagement import Engagement, Vector
+from geneva_cli.numerics.arrays import Whole, all_true, choose, library
+from geneva_cli.numerics.jet import Array, Jet, Number, V, piecewise, sin_cos, sqrt
+
+NEAR_CUSP = 1e-4  # fraction of a half motion: nearer to a cusp, slopes are lost to rounding
+
+
+class Contact(NamedTuple, Generic[V]):
+    """The state of roller and slot that the loads depend on: jets of one order, or values."""
+
+    velocity: V
+    acceleration: V
+    lever: V  # M . t: of the walls' normal about the wheel's axis
+    offset: V  # M x t: of the slot's tangent from the wheel's axis
+    along: V  # the roller centre's speed along t
+    curvature: V  # of the pitch curve, positive to the left of t: 0 in a straight slot
+    spin: V  # rate of the roller's body relative to the wheel
+    arm: V  # of friction at the wall about the wheel's axis, beyond M's: over the radius
+    touches: V  # 0 while gears drive and no roller does, else 1
+    crank: V  # rate of the shaft that carries the crank
+    # Reactions of the joints of the roller's body (the crank's shaft, a guide) to a force of 1
+    # along the normal i t, to one along t, and to a couple of 1; None where there is only a shaft.
+    reactions: tuple[tuple[tuple[V, V], tuple[V, V]], ...] | None = None
+    # Sine and cosine of the wheel's angle since the first mid-motion; None where no load needs it.
+    heading: tuple[V, V] | None = None
+
+
+def contacts(engagement: Engagement, input_deg: Array) -> Contact[Array]:
+    """The values of the contact at ascending input angles (k,), degrees from mid-motion.
+
+    Mirrored values are computed once, and closed forms are used.
+    """
+    if is_straight(engagement):
+        rates = Jet(engagement.motion.derivatives(input_deg, (1, 2)))
+        at = _moving(engagement, input_deg, 0, rates)
+    else:
+        at = contact(engagement, input_deg)
+    return contact_values(at)
+
+
+def contact_values(at: Contact[Jet]) -> Contact[Array]:
+    """The values of a contact's jets."""
+    *jets, joints, heading = at
+    reactions = joints and [[(x.c[0], y.c[0]) for x, y in pair] for pair in joints]
+    turned = heading and tuple(jet.c[0] for jet in heading)
+    return Contact._make([*[jet.c[0] for jet in jets], reactions, turned])
+
+
+def column(at: Contact[Jet], number: int) -> Contact[Jet]:
+    """The contact at one of the places (n, k) of each design: (n, 1)."""
+
+    def of(c: Array) -> Array:
+        return c if c.shape[-1] == 1 else c[..., number : number + 1 or None]
+
+    return _changed(at, of)
+
+
+def rows(at: Contact[Jet], which: Whole) -> Contact[Jet]:
+    """The contact of some designs, at all its places."""
+    return _changed(at, lambda c: c[which] if len(c) > 1 else c)
+
+
+def _changed(at: Contact[Jet], change: Callable[[Array], Array]) -> Contact[Jet]:
+    """The contact with a change applied to every array."""
+
+    def of(jet: Jet) -> Jet:
+        return Jet([c if isinstance(c, float) else change(c) for c in jet.c])
+
+    *jets, joints, heading = at
+    turned = heading and tuple(map(of, heading))
+    reactions = joints and tuple(((of(a), of(b)), (of(c), of(d))) for (a, b), (c, d) in joints)
+    return Contact._make([*map(of, jets), reactions, turned])
+
+
+def contact(
+    engagement: Engagement,
+    input_deg: Number,
+    order: int = 0,
+    reactions: bool = True,
+) -> Contact[Jet]:
+    """The contact at input angles, degrees from an engagement's mid-motion, one or an array.
+
+    Without ``reactions`` those of the joints are None. At mid-motion of a curved slot only the
+    values have a limit, that of entry: there ``order`` must be 0.
+    """
+    if is_straight(engagement) or all_true(input_deg != 0.0):
+        return _moving(engagement, input_deg, order, reactions=reactions)
+
+    def moving(x: Number) -> Jet:
+        at = _moving(engagement, x, order, reactions=False)
+        return Jet([c for jet in at[:-2] for c in jet.c])
+
+    def middle(x: Number) -> Jet:
+        assert order == 0
+        return Jet([x * 0.0 + c for c in _middle(engagement)])
+
+    # one piece on each side of mid-motion, and mid-motion itself
+    every = piecewise(input_deg, (-5e-324, 0.0), (moving, middle, moving)).c
+    jets = [Jet(every[i : i + order + 1]) for i in range(0, len(every), order + 1)]
+    joints = _reactions(engagement, input_deg, jets[2], jets[3]) if reactions else None
+    return Contact._make([*jets, joints, None])
+
+
+def is_straight(engagement: Engagement) -> bool:
+    """Return True if the engagement's slot is straight."""
+    return not engagement.slot.curved
+
+
+def _moving(
+    engagement: Engagement,
+    x: Number,
+    order: int,
+    rates: Jet | None = None,
+    reactions: bool = True,
+) -> Contact[Jet]:
+    """The contact where the pin moves in its slot, or where the slot is straight.
+
+    ``rates`` is the jet of the wheel's velocity, one order higher, if known.
+    """
+    if rates is None:
+        rates = engagement.motion.rate(x, order + 1)
+    velocity, acceleration = _to_order(rates, order), rates.derivative()
+    constant = Jet((velocity.c[0] * 0.0, *[0.0] * order))
+    straight_axis = engagement.slot.axis(x, order)
+    if straight_axis:
+        lever, along = straight_axis
+        offset, curvature = constant + engagement.slot.offset, constant
+    else:
+        lever, offset, along, curvature = _curved(engagement, x, order, rates)
+    upright = engagement.slot.upright(x, order)
+    touches = constant + engagement.slot.touches(x)
+    body = engagement.carrier(x, order)
+    spin = (body - velocity * upright) * touches
+    crank = constant + (body if engagement.on_arm else engagement.shaft_rate(x, order))
+    arm = (constant + upright) * touches
+    joints = _reactions(engagement, x, lever, offset) if reactions else None
+    heading = None
+    if engagement.mid_angle is not None:
+        heading = sin_cos(engagement.motion(x, order) + engagement.mid_angle)
+    slot = lever, offset, along, curvature
+    return Contact(velocity, acceleration, *slot, spin, arm, touches, crank, joints, heading)
+
+
+def _curved(engagement: Engagement, x: Number, order: int, rates: Jet) -> tuple[Jet, Jet, Jet, Jet]:
+    """Lever, offset, speed along and curvature of a curved slot, from the path p on the wheel.
+
+    The axes are the fixed ones at the instant. Each vector's rate is its own less the wheel's
+    rotation. Products of two vectors are equal in all axes, so the wheel's angle is not needed.
+    """
+    path = engagement.path(x, order + 2)
+    dx, dy = (jet.derivative() for jet in path)
+    px, py = (_to_order(jet, order + 1) for jet in path)
+    ux, uy = dx + py * rates, dy - px * rates
+    turn = _to_order(rates, order)
+    bend_x, bend_y = ux.derivative(), uy.derivative()
+    px, py, dx, dy, ux, uy = (_to_order(jet, order) for jet in (px, py, dx, dy, ux, uy))
+    outward = px * dx + py * dy
+    square = ux * ux + uy * uy
+    along = sqrt(square) * library(outward.c[0]).copysign(1.0, outward.c[0])
+    curvature = (ux * bend_y - uy * bend_x - square * turn) / (square * along)
+    return outward / along, (px * uy - py * ux) / along, along, curvature
+
+
+def _reactions(
+    engagement: Engagement, x: Number, lever: Jet, offset: Jet
+) -> tuple[tuple[Vector, Vector], ...] | None:
+    """The reactions of joints to three unit loads at the pin."""
+    if engagement.reactions is None:
+        return None
+    path = engagement.path(x, lever.order + 1)
+    touches = engagement.slot.touches(x)
+    if not all_true(touches == 1.0):  # gears push at their pitch point, which stands still
+        apart = Jet((*lever.c, 0.0)) * (1.0 - touches)
+        path = path[0] * touches + apart, path[1] * touches
+    px, py = (_to_order(jet, lever.order) for jet in path)
+    square = px * px + py * py
+    # the tangent, whose M . t and M x t are known
+    tx, ty = (px * lever - py * offset) / square, (py * lever + px * offset) / square
+    none = px * 0.0
+    normal, tangent = (ty * -1.0, tx), (tx, ty)
+    loads: tuple[tuple[Vector, Jet], ...] = (
+        (normal, none),
+        (tangent, none),
+        ((none, none), none + 1.0),
+    )
+    return tuple(engagement.reactions(x, path, loads))
+
+
+def _middle(engagement: Engagement) -> list[Number]:
+    """The contact at mid-motion of a curved slot, where the pin crosses the radius or reverses."""
+    from geneva_cli.motion.pitch_curve import retraces
+
+    back = retraces(engagement)
+    if isinstance(back, bool):
+        return _cusp(engagement) if back else _crossing(engagement)
+    import numpy as np
+
+    with np.errstate(all="ignore"):  # each formula holds for its own designs
+        both = zip(_cusp(engagement), _crossing(engagement), strict=True)
+        return [choose(back, cusp, crossing) for cusp, crossing in both]
+
+
+def _crossing(engagement: Engagement) -> list[Number]:
+    """The contact where the pin crosses the radius.
+
+    The lever is 0 there, so the sign of the tangent is rounding; next to it, the sign is known.
+    """
+    values, before = (
+        [jet.c[0] for jet in _moving(engagement, x, 0, reactions=False)[:-2]]
+        for x in (0.0, NEAR_CUSP * engagement.entry_deg)
+    )
+    lever, along = (Contact._fields.index(name) for name in ("lever", "along"))
+    turned = values[along] * before[along] < 0.0
+    for name in ("offset", "along", "curvature"):
+        i = Contact._fields.index(name)
+        values[i] = choose(turned, -values[i], values[i])
+    values[lever] = 0.0
+    return values
+
+
+def _cusp(engagement: Engagement) -> list[Number]:
+    """The contact where the pin reverses in a cusp of its pitch curve."""
+    from geneva_cli.motion.pitch_curve import pitch_at_retrace
+
+    at = pitch_at_retrace(engagement)
+    m = library(at.x)
+    lever = at.x * at.tangent_x + at.y * at.tangent_y
+    sense = m.copysign(1.0, lever)
+    offset = sense * (at.x * at.tangent_y - at.y * at.tangent_x)
+    _, v, a = engagement.motion(0.0, 2).derivatives()
+    body = engagement.carrier(0.0).c[0]
+    crank = body if engagement.on_arm else engagement.shaft_rate(0.0).c[0]
+    # A slot that turns by less than 1e-9 has equal entry and exit paths: its curvature is that next
+    # to the cusp.
+    curvature = choose(
+        at.turning * at.turning > 1e-9 * 1e-9,
+        m.copysign(math.inf, sense * at.turning),
+        _moving(engagement, NEAR_CUSP * engagement.entry_deg, 0, reactions=False).curvature.c[0],
+    )
+    return [v, a, sense * lever, offset, 0.0, curvature, body - v, 1.0, 1.0, crank]
+
+
+def _to_order(jet: Jet, order: int) -> Jet:
+    """The jet without its derivatives above an order."""
+    return Jet(jet.c[: order + 1])

@@ -1,0 +1,338 @@
+"""Forces between roller and slot, as formulas for jets of one angle or of many.
+
+t is the unit tangent of the slot, away from the wheel's axis. The normal n = d i t points towards
+the wall that bears: d is 1 if the torque T drives the wheel, and -1 if it holds the wheel back. The
+contact point is C = M + r n. The wheel's balance about its axis is
+
+    |T| = N |C x n + f s C x t| = N [M . t + f s (d (M x t) - r)]
+
+with M x t = 0 in a radial slot. s is the sign of v, the speed at which the roller, fixed to its
+body, rubs along the wall:
+
+    v = M' . t - d r (rate of that body - rate of the wheel).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Generic, NamedTuple
+
+import numpy as np
+
+from geneva_cli.kinds.linear.guide_place import guide_place
+from geneva_cli.loads.carried import MM, inertia_kgm2, resisting_torque_Nm, unbalance_kgm
+from geneva_cli.loads.contact import Contact
+from geneva_cli.loads.strength.pin import pin_diameter_mm
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.angles import omega
+from geneva_cli.numerics.arrays import Mask, N, Whole, all_true, choose, designs_of, library
+from geneva_cli.numerics.jet import Jet, Number, V
+from geneva_cli.spec.default_sizes import value_or
+from geneva_cli.spec.materials import roller_material, wheel_material
+from geneva_cli.spec.workshops import Stock
+
+NEGLIGIBLE = 1e-12  # fraction of a torque, of a motion, or of a lever over L that is rounding
+
+
+class LoadCase(NamedTuple):
+    """The data that the loads depend on besides the motion; floats, or (m, 1) for m designs."""
+
+    speed_rad_s: float  # of the input
+    inertia_Nm: float  # inertia times the square of the input speed
+    resists_Nm: float  # torque at the wheel that resists its motion
+    L: float  # metres
+    radius: float  # of the roller, over L
+    friction: float  # ratio of the force along the wall to the force on it
+    efficiency: float
+    # square of the stress on a flat wall, MPa² per newton; None without a face width
+    hertz: float | None
+    # turns of the wheel's frame in one turn of the input, positive as the wheel turns in it
+    frame: float = 0.0
+    # moment of a body off the axis of a wheel on a carrier, times L w²: along the first slot, and
+    # ahead of it
+    along_Nm: float = 0.0
+    across_Nm: float = 0.0
+    # of a rack: friction of its guide, 0 without one; x of the guide's middle from the deepest
+    # roller, and half its length, over L
+    guide_friction: float = 0.0
+    guide_middle: float = 0.0
+    guide_half: float = 1.0
+    design: int | Whole = 0  # the design's number in its batch: (m, 1) in a batch
+
+    @property
+    def designs(self) -> int:
+        """The number of designs in the load case."""
+        return designs_of(self.design)
+
+    def at_speed(self, ratio: float) -> LoadCase:
+        """Return the case at another speed, over its own: inertia grows with the square."""
+        square = ratio * ratio
+        return self._replace(
+            inertia_Nm=self.inertia_Nm * square,
+            along_Nm=self.along_Nm * square,
+            across_Nm=self.across_Nm * square,
+        )
+
+    @property
+    def rubs(self) -> bool:
+        """Return True if there is friction along the wall in any of the designs."""
+        return not all_true(self.friction == 0.0)
+
+    @property
+    def frictionless(self) -> LoadCase:
+        """Return the case without friction."""
+        return self._replace(friction=0.0, guide_friction=0.0)
+
+    @property
+    def guided(self) -> bool:
+        """Return True if there is friction in a rack's guide in any of the designs."""
+        return not all_true(self.guide_friction == 0.0)
+
+    @property
+    def all_friction(self) -> float:
+        """A number that is above 0 for a design with any friction, which may hold the wheel."""
+        return self.friction + self.guide_friction
+
+
+def load_case(mechanism: Mechanism) -> LoadCase:
+    """The load case of a machine's spec."""
+    spec = mechanism.spec
+    load, size = spec.load, spec.size
+    w = omega(spec.drive.n_rpm)
+    hertz = None
+    if size.face_width_mm is not None:
+        # p0² = N E* / (pi b R_e)
+        modulus = contact_modulus_GPa(wheel_material(spec), roller_material(spec)) * 1e3
+        hertz = modulus / (math.pi * size.face_width_mm * mechanism.roller_radius_mm)
+    if spec.wheel.JUMPS:  # forces without a bound are not searched for
+        inertia_Nm, resists_Nm = 0.0, 0.0
+    else:
+        inertia_Nm, resists_Nm = inertia_kgm2(spec) * w * w, resisting_torque_Nm(spec)
+    return LoadCase(
+        w,
+        inertia_Nm,
+        resists_Nm,
+        mechanism.center_distance_mm / 1000.0,
+        mechanism.roller_radius_mm / mechanism.center_distance_mm,
+        rubbing(mechanism),
+        load.efficiency,
+        hertz,
+        mechanism.frame,
+        *unbalance_Nm(mechanism),
+        *_guide(mechanism),
+        mechanism.design,
+    )
+
+
+def _guide(mechanism: Mechanism) -> tuple[float, float, float]:
+    """The friction of a rack's guide, its middle and half its length, over L.
+
+    A wheel has none, nor has a rack whose slots leave no space for one.
+    """
+    spec, L = mechanism.spec, mechanism.center_distance_mm
+    if not spec.guided:
+        return 0.0, 0.0, 1.0
+    place = guide_place(mechanism)
+    friction = value_or(spec.load.guide_friction, spec.load.friction)
+    there = place.half > 0.0
+    return choose(there, friction, 0.0), place.middle / L, choose(there, place.half / L, 1.0)
+
+
+def unbalance_Nm(mechanism: Mechanism) -> tuple[float, float]:
+    """The centrifugal moment of bodies off the axis of a wheel on a carrier, as a vector, N m.
+
+    Its parts are along the first slot, which points at the carrier's axis at mid-motion, and ahead
+    of it. On the ground it is 0.
+    """
+    spec = mechanism.spec
+    w = omega(spec.drive.n_rpm)
+    factor = abs(mechanism.frame) * mechanism.center_distance_mm * MM * w * w
+    along, across = unbalance_kgm(spec)
+    return along * factor, across * factor
+
+
+def rubbing(mechanism: Mechanism) -> float:
+    """Ratio of the force along the wall to the force on it, for a roller that moves along it.
+
+    A roller fixed to its pin rubs in the slot, with the coefficient itself. A roller that turns on
+    its pin rolls, held back by the pin. The load passes a circle with the pin's radius times sin
+    rho, tan rho being the coefficient (the friction circle of a journal). So its angle to the
+    wall's normal has the sine: sin rho times pin over roller. The sliding speed on the pin is
+    smaller in the same ratio. In either case the friction work is N times the speed along the wall
+    times the value returned here.
+
+    >>> from geneva_cli import External, Load
+    >>> from geneva_cli.motion.mechanism import build
+    >>> from geneva_cli.motion.spec import Spec
+    >>> turning = Load(torque_Nm=1.0, friction=0.1, friction_at="pin")  # on a pin half as thick
+    >>> round(rubbing(build(Spec(External(6), load=turning))), 6)
+    0.049814
+    """
+    load = mechanism.spec.load
+    if all_true(load.friction == 0.0) or load.rubs_in_slot:
+        return load.friction
+    thickness = 0.5 * pin_diameter_mm(mechanism) / mechanism.roller_radius_mm
+    m = library(thickness, load.friction)
+    sine = thickness * load.friction / m.hypot(1.0, load.friction)
+    turning = sine / m.sqrt((1.0 - sine) * (1.0 + sine))
+    coefficient: float = choose(thickness == 1.0, load.friction, turning)
+    return coefficient
+
+
+def contact_modulus_GPa(one: Stock, other: Stock) -> float:
+    """E* of two materials in contact, 1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2."""
+    each = ((1.0 - m.poisson_ratio**2) / m.youngs_modulus_GPa for m in (one, other))
+    return 1.0 / sum(each)
+
+
+def hertz_MPa(modulus_GPa: float, line_N_mm: N, radius_mm: float) -> N:
+    """Hertz stress on a line, from E*, the force per length and the effective radius.
+
+    p0² = F E* / (pi b R)
+    """
+    modulus = modulus_GPa * 1e3
+    out: N = library(line_N_mm, radius_mm).sqrt(line_N_mm * modulus / (math.pi * radius_mm))
+    return out
+
+
+class QuantityValue(NamedTuple, Generic[V]):
+    """A quantity, and the margin that must be above 0 for the quantity to be bounded.
+
+    Without a margin the quantity is always bounded. ``sign`` is that of the infinity that replaces
+    an unbounded value.
+    """
+
+    value: V
+    margin: V | None = None
+    sign: Number = 1.0
+
+
+def value(quantity: V) -> Number:
+    """The value of a jet; a value unchanged."""
+    return quantity.c[0] if isinstance(quantity, Jet) else quantity
+
+
+def sliding(at: Contact[V], drives: Number, radius: float) -> V:
+    """Speed at which the roller rubs along the wall, over L, per input radian."""
+    return at.along - at.spin * (drives * radius)
+
+
+def wheel_torque(case: LoadCase, at: Contact[V]) -> V:
+    """The torque that the wheel needs for inertia and resistance, N m.
+
+    On a carrier, the centrifugal force of a body off the wheel's axis points away from the
+    carrier's axis. Its moment helps the wheel, times the sine of the body's angle from there.
+    """
+    torque = at.acceleration * case.inertia_Nm + case.resists_Nm
+    if at.heading is None:
+        return torque
+    _, across = _centrifugal_Nm(case, at.heading)
+    return torque - across
+
+
+def is_loaded(case: LoadCase, engagement: Engagement, torque: Number) -> Mask:
+    """Return True where a torque at the wheel is more than rounding."""
+    usual = case.inertia_Nm * engagement.usual_acceleration + case.resists_Nm
+    loaded: Mask = np.abs(torque) > NEGLIGIBLE * usual
+    return loaded
+
+
+def frame_torque(case: LoadCase, at: Contact[V]) -> V:
+    """The torque on the carrier that does not go through the wheel's slot, N m.
+
+    It speeds the wheel up against the ground. A body off the wheel's axis also moves away from the
+    carrier's axis and back (Coriolis).
+    """
+    torque = at.acceleration * (case.inertia_Nm * case.frame)
+    if at.heading is None:
+        return torque
+    towards, across = _centrifugal_Nm(case, at.heading)
+    turning = at.velocity * (at.velocity * case.frame + 2.0)
+    return torque + across * turning - towards * at.acceleration * case.frame
+
+
+def _centrifugal_Nm(case: LoadCase, heading: tuple[V, V]) -> tuple[V, V]:
+    """The unbalance times L w², towards the carrier's axis and across."""
+    sine, cosine = heading
+    return (
+        cosine * case.along_Nm - sine * case.across_Nm,
+        sine * case.along_Nm + cosine * case.across_Nm,
+    )
+
+
+def gain(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+    """Ratio of the input torque to the wheel's, times ``grip``, so that it is always finite."""
+    lost = sliding(at, drives, case.radius) * at.touches * (case.friction * slides * drives)
+    return at.velocity * _slot_grip(case, at, drives, slides) + lost
+
+
+def wheel_grip(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+    """Torque on the wheel over L times the pin force."""
+    grip = _slot_grip(case, at, drives, slides)
+    return grip - guide_drag(case, at, drives, slides) * drives if case.guided else grip
+
+
+def _slot_grip(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+    """The grip without friction in a guide."""
+    if not case.rubs:
+        return at.lever
+    rub = at.touches * (case.friction * slides)
+    return at.lever + rub * (at.offset * drives - at.arm * case.radius)
+
+
+def guide_lever(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+    """Lever of the force on a rack about its guide's middle, over L, for a roller that drives.
+
+    The formula is that of ``kinds.linear.guide_forces``, over d. The crank turns against the rack,
+    at the rate ``spin``, so that cos a is -velocity/spin, and sin a -along/spin.
+    """
+    lever = at.velocity / at.spin + (1.0 - case.guide_middle)
+    if not case.rubs:
+        return lever
+    height = drives * case.radius - at.along / at.spin
+    return lever - height * (case.friction * slides * drives)
+
+
+def leaning(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+    """A value above 0 where the rack bears on opposite sides of its guide's ends: smooth."""
+    lever = guide_lever(case, at, drives, slides)
+    return lever * lever - (case.friction * case.guide_half) ** 2
+
+
+def guide_drag(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+    """Friction in a rack's guide over the pin's force: nu (|N1| + |N2|)/F.
+
+    The forces at both ends add up to mu F across the travel, and their moment about the guide's
+    middle is that of the roller. So |N1| + |N2| is the greater of |M|/h and mu F.
+    """
+    turns = guide_lever(case, at, drives, slides) * (1.0 / case.guide_half)
+    both = lesser(turns * -1.0, turns)  # less their size
+    least = turns * 0.0 - case.friction
+    return lesser(both, least) * (0.0 - case.guide_friction)
+
+
+def feeding(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+    """A value with the sign of the input torque: 1 where the input drives, -1 where it is driven.
+
+    The value is always finite, and smooth between changes of the other two signs.
+    """
+    ratio = gain(case, at, drives, slides)
+    if all_true(case.frame == 0.0):
+        return ratio * drives
+    own = frame_torque(case, at)
+    return wheel_torque(case, at) * ratio + own * wheel_grip(case, at, drives, slides)
+
+
+def stress_margin(friction: V | None, edge: V | None) -> V | None:
+    """The lesser of the known margins that bound the contact stress: of friction and of edges."""
+    return edge if friction is None or edge is None else lesser(friction, edge)
+
+
+def lesser(a: V, b: V) -> V:
+    """The lesser of two jets, or of their values, element by element."""
+    first = value(a) < value(b)
+    if not isinstance(a, Jet) or not isinstance(b, Jet):
+        out: V = choose(first, a, b)
+        return out
+    return type(a)([choose(first, c, d) for c, d in zip(a.c, b.c, strict=True)])

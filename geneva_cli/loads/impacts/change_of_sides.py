@@ -1,0 +1,208 @@
+"""The change of sides: the wheel coasts through its play and is struck at its end.
+
+If the wheel's torque changes its sign, the roller leaves one wall for the other. The wheel coasts
+through the play and is struck at its difference in speed.
+
+Speeds are in units of the input's. Wheel angles are in radians, input angles in degrees from the
+engagement's own mid-motion.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.loads.carried import inertia_kgm2, resisting_torque_Nm
+from geneva_cli.motion.engagement import Engagement, WheelMotion
+from geneva_cli.motion.many import taken
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.peak_search import braking, landmarks
+from geneva_cli.numerics.angles import DEGREE, omega
+from geneva_cli.numerics.arrays import Mask, Whole, blocks, choose, joined, larger
+from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.newton import find_roots
+from geneva_cli.numerics.quadrature import rule
+from geneva_cli.numerics.tolerances import ROUNDED
+
+
+class WallImpacts(NamedTuple):
+    """Impacts at changes of sides: the angles at which wheels coast and are struck, and the speeds.
+
+    (k,) each; NaN if the play is not used up in the motion.
+    """
+
+    from_deg: Array
+    at_deg: Array
+    speed: Array  # of the wheel against the slot, over the input's speed
+
+
+class _Coasts(NamedTuple):
+    """Impacts, and a mask of the wheels that cross their play.
+
+    The others may be struck by the wall that they left.
+    """
+
+    from_deg: Array
+    at_deg: Array
+    speed: Array
+    crosses: Mask
+
+
+class Changes(NamedTuple):
+    """Sign changes of torques, k of them: the designs, and the input angles."""
+
+    which: Whole
+    x: Array
+
+
+def changes(engagement: Engagement, drag: Array) -> Changes:
+    """Input angles inside a motion at which the wheel's torque changes sign: psi2 = -drag, (m, 1).
+
+    There are none if a drag holds the roller on one wall.
+    """
+    motion, m = engagement.motion, len(drag)
+    if engagement.paired:  # gears hold the wheel until another roller stops it
+        begins = np.broadcast_to(np.ravel(motion.breaks_deg[-2]), m)
+        return Changes(np.arange(m), begins.astype(float))
+    which, x, torque = landmarks(motion, "acceleration", m)
+    torque = torque + drag[which, 0]
+    most = np.zeros(m)
+    np.maximum.at(most, which, abs(torque))
+    # a law may run at constant speed for a while
+    kept = abs(torque) > ROUNDED * most[which]
+    which, x, torque = which[kept], x[kept], torque[kept]
+    before = np.flatnonzero((torque[:-1] * torque[1:] < 0.0) & (which[:-1] == which[1:]))
+    of = which[before]
+
+    def over(place: Array, live: Whole) -> tuple[Array, Array]:
+        _, _, a, j = taken(motion, of[live])(place[:, None], 3).arrays()
+        return (a + drag[of[live]])[:, 0], (j * DEGREE + 0.0 * place[:, None])[:, 0]
+
+    # after a Newton step of 1e-9 of the bracket the rest is rounding
+    roots = find_roots(over, x[before], x[before + 1], 1e-9)
+    # a change of sign within 1e-12 degrees of mid-motion is at mid-motion
+    return Changes(of, np.where(abs(roots) < 1e-12, 0.0, roots))
+
+
+def impacts_of(engagement: Engagement, at: Changes, play: Array, drag: Array) -> WallImpacts:
+    """Impacts after the changes of sides ``at``, for the play of each, (k,) in radians.
+
+    ``drag`` is M_r / (I w²), (m, 1). A wheel coasts from the place where psi2 = -drag, slowed only
+    by the drag. It is struck when it is ahead of the slot by the play, or behind if the torque
+    returns. If the torque returns before that, the wall that it left strikes it.
+
+        >>> from geneva_cli import Design, External
+        >>> [engagement] = Design(External(3)).mechanism.engagements
+        >>> drag = np.array([[0.0]])
+        >>> impacts_of(engagement, changes(engagement, drag), np.array([1e-4]), drag).at_deg
+        array([0.55220712])
+    """
+    if not len(at.x):
+        return WallImpacts(at.x, at.x, at.x)
+    end = np.ravel(taken(engagement.motion, at.which).exit_deg + 0.0 * at.x[:, None])
+    follows = np.append(at.which[1:] == at.which[:-1], False)
+    until = np.where(follows, np.append(at.x[1:], 0.0), end)
+    parts = []
+    for part in blocks(len(at.x), 256):  # the integrals of so many fit in the cache
+        here = Changes(at.which[part], at.x[part])
+        parts.append(_impacts(engagement, here, until[part], play[part], drag))
+    coasts = joined(parts)
+    # a wheel that has not crossed its play leaves no other wall at the next change
+    coasts.speed[1:][follows[:-1] & ~coasts.crosses[:-1]] = np.nan
+    return WallImpacts(*coasts[:3])
+
+
+def _impacts(
+    engagement: Engagement, at: Changes, until: Array, play: Array, drag: Array
+) -> _Coasts:
+    """Coasts from changes of sides; ``until`` are the next changes, or exits."""
+    start = at.x[:, None]
+
+    def gained(x: Array, live: Whole) -> tuple[Array, Array]:
+        of = at.which[live]
+        return _gained(taken(engagement.motion, of), start[live], drag[of], x[:, None])
+
+    with np.errstate(all="ignore"):
+        every = np.arange(len(at.x))
+        span = ((taken(engagement.motion, at.which).exit_deg - start) * DEGREE)[:, 0]
+        # a wheel runs ahead of the slot, or behind, until the next change
+        turn = (until - at.x) * DEGREE
+        sense = np.copysign(1.0, gained(turn, every)[0])
+
+        def faster(x: Array, live: Whole) -> tuple[Array, Array]:
+            of = at.which[live]
+            place = start[live] + x[:, None] / DEGREE
+            torque = (taken(engagement.motion, of)(place, 2).arrays()[2] + drag[of])[:, 0]
+            return sense[live] * gained(x, live)[1], -sense[live] * torque
+
+        ahead_at_exit, speed_at_exit = gained(span, every)
+        slows = np.flatnonzero(sense * speed_at_exit < 0.0)
+        most = span.copy()  # where it is farthest from the wall that it left
+        most[slows] = find_roots(partial(_of, faster, slows), turn[slows], span[slows])
+        crosses = (play > 0.0) & (play <= sense * gained(most, every)[0])
+        returns = (play > 0.0) & ~crosses & (sense * ahead_at_exit < 0.0)
+        there = np.flatnonzero(crosses | returns)
+        gap = np.where(crosses, play, 0.0)
+
+        def over(x: Array, live: Whole) -> tuple[Array, Array]:
+            ahead, speed = gained(x, there[live])
+            side = sense[there[live]]
+            return side * ahead - gap[there[live]], side * speed
+
+        x, speed = np.full((2, len(span)), np.nan)
+        if len(there):
+            low = np.where(crosses, 0.0, most)[there]
+            high = np.where(crosses, most, span)[there]
+            x[there] = find_roots(over, low, high)
+            speed[there] = abs(gained(x[there], there)[1])
+    return _Coasts(at.x, at.x + x / DEGREE, speed, crosses)
+
+
+def _of(
+    function: Callable[[Array, Whole], tuple[Array, Array]], some: Whole, x: Array, live: Whole
+) -> tuple[Array, Array]:
+    """The function of some of the wheels, numbered anew."""
+    return function(x, some[live])
+
+
+def _gained(motion: WheelMotion, start: Array, drag: Array, x: Array) -> tuple[Array, Array]:
+    """Lead of wheels over their slots, and difference in speed, x radians after they coast: (k,).
+
+    d = -int (x - t) (psi2 + drag) dt, which loses no digits even for a small play.
+    """
+    end = start + x / DEGREE
+    inner = [start, *[np.clip(b, start, end) for b in motion.breaks_deg], end]
+    halves = [0.5 * (b - a) for a, b in zip(inner[:-1], inner[1:], strict=True)]
+    parts = zip(inner[:-1], inner[1:], halves, strict=True)
+    nodes, weights = rule(24)  # exact to a double over half a motion
+    t = np.hstack([0.5 * (a + b) + half * nodes for a, b, half in parts])
+    weight = np.hstack([half * (DEGREE * weights) for half in halves])
+    torque = np.where(weight > 0.0, (motion(t, 2).arrays()[2] + drag) * weight, 0.0)
+    return -(torque * ((end - t) * DEGREE)).sum(axis=1), -torque.sum(axis=1)
+
+
+def drag_over(mechanism: Mechanism) -> float:
+    """M_r / (I w²) of the spec's load; infinite without an inertia, as then nothing coasts."""
+    inertia = inertia_kgm2(mechanism.spec)
+    w = omega(mechanism.spec.drive.n_rpm)
+    heavy = inertia > 0.0
+    drag = resisting_torque_Nm(mechanism.spec) / (choose(heavy, inertia, 1.0) * w * w)
+    out: float = choose(heavy, drag, math.inf)
+    return out
+
+
+def lasting_drag_Nm(mechanism: Mechanism) -> float:
+    """Torque to add for the roller to stay on one wall: I w² max(-psi2) - M_r.
+
+    0 if it stays there already; (m, 1) for m designs.
+    """
+    inertia = inertia_kgm2(mechanism.spec)
+    w = omega(mechanism.spec.drive.n_rpm)
+    most = braking(mechanism.engagements[0])
+    for engagement in mechanism.engagements[1:]:
+        most = larger(most, braking(engagement))
+    return larger(inertia * w * w * most - resisting_torque_Nm(mechanism.spec), 0.0)

@@ -1,0 +1,195 @@
+"""The impacts of a machine's roller at the worst of its tolerances, and their forces."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.loads.contact import contact as touching
+from geneva_cli.loads.impacts.change_of_sides import changes, drag_over, impacts_of
+from geneva_cli.loads.impacts.mouth import mouth_contacts
+from geneva_cli.loads.impacts.shock import FirstContacts, RestingAxis, first_contacts
+from geneva_cli.loads.impacts.shock_force import forces_N, impulse_Nms
+from geneva_cli.loads.strength.pin import pin_diameter_mm
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.many import taken
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Number, all_true, choose, library, only_of, parameter
+from geneva_cli.numerics.jet import Array
+
+
+class Impact(NamedTuple):
+    """A jump of the wheel's velocity over the input's, with its force and moment.
+
+    Both are None without an inertia; ``force_N`` is None without a ``face_width_mm`` too.
+    """
+
+    at_deg: float
+    jump: float
+    force_N: float | None
+    moment_Nms: float | None
+
+
+class Impacts(NamedTuple):
+    """Impacts of m designs, (m,) each; NaN if there is none, or if it is not known."""
+
+    at_deg: Array
+    jump: Array
+    force_N: Array
+    moment_Nms: Array
+
+    @property
+    def only(self) -> Impact | None:
+        """Impact of a single design, or None."""
+        at_deg, jump, *force = only_of(self)
+        return None if at_deg is None or jump is None else Impact(at_deg, jump, *force)
+
+
+def entry_impacts(
+    mechanism: Mechanism, fraction: float = 1.0, pin_mm: Number | None = None
+) -> Impacts:
+    """Impacts at entry of m designs with a ``fraction`` of the cranks' greatest errors.
+
+    ``pin_mm`` is the pin's diameter as drawn; without it, the pin is that without a load.
+    The roller meets the slot's axis. If the slot is too narrow for it to enter off the axis, it
+    meets a corner of the mouth. The jump is negative if the wheel is struck backwards.
+    """
+    best = np.full((2, 1), np.nan)
+    for engagement in mechanism.engagements:
+        every = [first_contacts(engagement, *e) for e in _errors(mechanism, engagement, fraction)]
+        for contacts in (*every, *_on_mouth(mechanism, engagement, fraction)):
+            if contacts is not None:
+                best = _harder(best, _shown(mechanism, engagement, *contacts))
+    return _with_force(mechanism, best, pin_mm)
+
+
+def start_impacts(mechanism: Mechanism) -> Impacts:
+    """Impacts at entry of m designs whose wheels' speed jumps.
+
+    The pinions of a counter that start at once are one mass behind the first driver's tooth.
+    """
+    engagement, *_ = mechanism.engagements
+    at_deg, jump = np.ravel(engagement.entry_deg), np.ravel(engagement.motion.jump)
+    impacts = _shown(mechanism, engagement, at_deg, jump)
+    return _with_force(mechanism, impacts, wheels=mechanism.spec.wheel.pinions)
+
+
+def _errors(
+    mechanism: Mechanism, engagement: Engagement, fraction: float
+) -> Iterator[tuple[float, float]]:
+    """Greatest relative errors of R and L that act across the slot, in both directions.
+
+    A longer crank acts as a shorter centre distance. It acts as a longer one where the slot misses
+    the wheel's centre by so much that the crank's axis lies between both.
+    """
+    spec, L, axis = mechanism.spec, mechanism.center_distance_mm, RestingAxis.of(engagement)
+    if axis is None:  # a slot that is solved for has no contacts
+        return
+    arm = arm_mm(mechanism, engagement)
+    crank = fraction * spec.tolerance.crank_radius_mm / arm if spec.drive.ONE_ARM else 0.0
+    center = fraction * spec.tolerance.center_distance_mm / L if spec.wheel.FLAT else 0.0
+    between = axis.hub_offset * (axis.hub_offset + axis.engagement.slot.offset) < 0.0
+    center = choose(between, -center, center)
+    if not all_true((crank == 0.0) & (center == 0.0)):
+        yield crank, -center
+        yield -crank, center
+
+
+def arm_mm(mechanism: Mechanism, engagement: Engagement) -> float:
+    """Crank radius at an engagement, mm; its rollers' arms may differ."""
+    L = mechanism.center_distance_mm
+    if not mechanism.spec.wheel.FLAT:
+        return mechanism.ratio * L
+    x, y = (z.c[0] for z in engagement.path(0.0, 0))
+    return parameter(L * library(x, y).hypot(x - engagement.hub, y))
+
+
+def _on_mouth(
+    mechanism: Mechanism, engagement: Engagement, fraction: float
+) -> list[FirstContacts | None]:
+    """First contacts with the mouth's corners, for the largest roller in the narrowest slot."""
+    tolerance, L = mechanism.spec.tolerance, mechanism.center_distance_mm
+    clear = mechanism.spec.size.allowances.slot_clearance_mm
+    lost = 0.5 * fraction * (tolerance.roller_diameter_mm + tolerance.slot_width_mm)
+    spare = parameter(np.maximum(clear - lost, 0.0)) / L
+    roller = mechanism.roller_radius_mm / L
+    errors = _errors(mechanism, engagement, fraction)
+    return [mouth_contacts(engagement, *error, roller, spare) for error in errors]
+
+
+def mouth_jumps_worst(mechanism: Mechanism) -> Array:
+    """Sizes of the worst jumps on a mouth's corner, (m,); 0 if no roller touches a corner."""
+    every = [on for one in mechanism.engagements for on in _on_mouth(mechanism, one, 1.0)]
+    sizes = [np.nan_to_num(abs(one.jump)) for one in every if one is not None]
+    worst: Array = np.max(np.broadcast_arrays(np.zeros(1), *sizes), axis=0)
+    return worst
+
+
+def clearance_mm(mechanism: Mechanism) -> float:
+    """Clearance between roller and slot per side, for the smallest roller in the widest slot."""
+    tolerance = mechanism.spec.tolerance
+    both = tolerance.roller_diameter_mm + tolerance.slot_width_mm
+    return mechanism.spec.size.allowances.slot_clearance_mm + 0.5 * both
+
+
+def reversal_impacts(mechanism: Mechanism, pin_mm: Number | None = None) -> Impacts:
+    """Hardest impacts of m designs at a change of sides with the greatest play.
+
+    ``pin_mm`` is the pin's diameter as drawn; without it, the pin is that without a load.
+    The play is the clearance over the lever where the wheel begins to coast. Without an inertia no
+    wheel coasts. With a drag above ``lasting_drag_Nm`` the roller never changes sides.
+    """
+    best = np.full((2, 1), np.nan)
+    none = (drag_over(mechanism) == np.inf) | (clearance_mm(mechanism) == 0.0)
+    # a body off a carried wheel's axis drives the wheel where it would coast
+    none = none | mechanism.unbalanced
+    for engagement in () if all_true(none) else mechanism.engagements:
+        best = _harder(best, _reversal(mechanism, engagement))
+    return _with_force(mechanism, best, pin_mm)
+
+
+def _reversal(mechanism: Mechanism, engagement: Engagement) -> Array:
+    """Displayed input angles and jumps of one engagement's hardest impacts, (2, m)."""
+    numbers = mechanism.center_distance_mm, drag_over(mechanism), clearance_mm(mechanism)
+    L, drag, clearance = (np.broadcast_to(x, (mechanism.designs, 1)) for x in numbers)
+    at = changes(engagement, drag)
+    out = np.full((2, mechanism.designs), np.nan)
+    if not len(at.x):
+        return out
+    lever = abs(touching(taken(engagement, at.which), at.x[:, None]).lever.arrays()[0][:, 0])
+    least = 1e-6  # of the centre distance: where the slot lies across the path, play is unbounded
+    sine = clearance[at.which, 0] / (np.maximum(lever, least) * L[at.which, 0])
+    play = np.where(lever > least, engagement.slot.play(np.minimum(sine, 1.0)), 0.0)
+    struck = impacts_of(engagement, at, play, drag)
+    # hardest of each design; of equal ones the first
+    order = np.lexsort((np.nan_to_num(-struck.speed, nan=np.inf), at.which))
+    which, first = np.unique(at.which[order], return_index=True)
+    out[:, which] = struck.at_deg[order][first], struck.speed[order][first]
+    return _shown(mechanism, engagement, *out)
+
+
+def _shown(mechanism: Mechanism, engagement: Engagement, at_deg: Array, jump: Array) -> Array:
+    """Displayed input angles, and jumps: (2, m)."""
+    shown = mechanism.shown_deg(parameter(engagement.mid_deg + at_deg[:, None]))
+    return np.stack(np.broadcast_arrays(np.ravel(shown), jump))
+
+
+def _harder(one: Array, other: Array) -> Array:
+    """The harder of two impacts in each design; the first if they are equal."""
+    more = abs(other[1]) > np.nan_to_num(abs(one[1]), nan=-1.0)
+    return np.where(more, other, one)
+
+
+def _with_force(
+    mechanism: Mechanism, impacts: Array, pin_mm: Number | None = None, wheels: float = 1
+) -> Impacts:
+    """Impacts with their forces and moments, from angles and jumps (2, m) of equal wheels."""
+    at_deg, jump = impacts
+    moment = np.ravel(wheels * impulse_Nms(mechanism, jump[:, None]))
+    pin_mm = pin_diameter_mm(mechanism) if pin_mm is None else pin_mm
+    force = forces_N(mechanism, jump[:, None] * np.sqrt(wheels), pin_mm)
+    force = np.full(len(moment), np.nan) if force is None else force
+    moment = np.where(moment == 0.0, np.nan, moment)
+    return Impacts(*np.broadcast_arrays(at_deg, jump, force, moment))

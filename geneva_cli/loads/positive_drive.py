@@ -1,0 +1,78 @@
+"""Positive drive: the input angles at which a curved slot lacks the wall that its load needs.
+
+The roller passes each radius of the wheel twice, in and out. Both tracks are equal only if the odd
+part of the motion is the straight slot's (the one-track theorem). Otherwise the slot has two
+branches, and each keeps only its outer wall. Where the other wall would have to carry the torque,
+only the play between the branches limits the wheel.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.loads.forces import load_case
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.pitch_curve import opposites
+from geneva_cli.numerics.arrays import Array, Mask
+
+
+class PositiveDrives(NamedTuple):
+    """Where m designs' slots lack the needed wall, and the distance of their branches, (m,) each.
+
+    ``loose`` (m, k) is a mask of the places ``input_deg`` without positive drive.
+    """
+
+    fraction: Array  # of the motion without it
+    gap_mm: Array  # greatest distance of the two branches, along the wheel's circumference
+    gap_at_deg: Array
+    loose_gap_mm: Array  # the greatest where the needed wall is missing
+    input_deg: Array
+    loose: Mask
+
+    @property
+    def loose_deg(self) -> list[tuple[float, float]]:
+        """Intervals of a single design without the needed wall, input angles in degrees."""
+        ((at,), (loose,)) = self.input_deg, self.loose
+        step = (at[1] - at[0]).item()
+        out: list[tuple[float, float]] = []
+        for x in at[loose].tolist():  # each is half a step wide on both sides
+            low, high = x - 0.5 * step, x + 0.5 * step
+            if out and low - out[-1][1] < 0.1 * step:
+                out[-1] = (out[-1][0], high)
+            else:
+                out.append((low, high))
+        return out
+
+
+def positive_drives(mechanism: Mechanism) -> PositiveDrives | None:
+    """The positive drive of m designs; None for straight slots.
+
+    The torque is inertia plus resistance. The wall ahead is needed where the torque is positive. A
+    branch keeps that wall where its roller leads the other branch at the same radius.
+    """
+    engagement, L = mechanism.engagements[0], mechanism.center_distance_mm
+    if not engagement.slot.curved:
+        return None
+    case = load_case(mechanism)
+    samples = 1440  # midpoints of a grid that includes mid-motion, where the branches meet
+    start, end = np.atleast_2d(engagement.entry_deg, engagement.exit_deg)
+    x = start + (end - start) * (np.arange(samples) + 0.5) / samples
+    with np.errstate(invalid="ignore"):  # a longer branch has no opposite at its end
+        (ax, ay), (bx, by) = (engagement.slot(at, 0) for at in (x, opposites(engagement, x)))
+        lead = np.arctan2(ay.c[0], ax.c[0]) - np.arctan2(by.c[0], bx.c[0])
+    gap = np.nan_to_num(L * np.hypot(ax.c[0], ay.c[0]) * np.abs(lead))
+    torque = engagement.motion(x, 2).arrays()[2] * case.inertia_Nm + case.resists_Nm
+    # branches nearer than 0.01 mm are one slot, as machined
+    played = gap > 0.01 + 2.0 * mechanism.spec.size.allowances.slot_clearance_mm
+    loose, gap, x = np.broadcast_arrays(played & (lead * torque < 0.0), gap, x)
+    every, worst = np.arange(len(gap)), np.argmax(np.where(x < 0.0, gap, 0.0), axis=1)
+    return PositiveDrives(
+        loose.mean(axis=1),
+        gap[every, worst],
+        x[every, worst],
+        np.where(loose, gap, 0.0).max(axis=1),
+        x,
+        loose,
+    )

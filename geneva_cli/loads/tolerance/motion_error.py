@@ -1,0 +1,123 @@
+"""The error of the wheel's angle during a motion of a straight slot, for any deviations.
+
+Deviations dL of the centre distance and dR of the crank's radius move the roller's centre from p to
+p + (dL, 0) + dR/R (p - hub). The slot follows it, off by the error of its own angle. It is also off
+by the clearance c between roller and wall, on one side or the other:
+
+    psi = arg p + asin((e + c) / |p|),    dpsi/dR = L sin(phi) / |p|²,  dpsi/dL = -R sin(phi) / |p|²
+
+The slopes are those of a plain crank. e is the distance of the slot's axis from the wheel's centre.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.loads.impacts.impacts import arm_mm
+from geneva_cli.loads.tolerance.dimensions import Deviations
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.spec import Spec
+from geneva_cli.numerics.arrays import array, choose, choose_record, parameter, size
+from geneva_cli.numerics.jet import Array, Jet, Number, atan2, sqrt
+
+MOTION_SAMPLES = 361  # input angles at which a motion is sampled
+
+
+class MotionError(NamedTuple):
+    """The error of one engagement's motion as a function of deviations; lengths in mm."""
+
+    engagement: Engagement
+    L: float
+    arm: float  # R; without effect if no crank's arm carries the roller
+    clearance: float  # roller to slot, per side
+
+    def __call__(self, by: Deviations, input_deg: Number, side: Number) -> Jet:
+        """Wheel angle minus its true one, radians; ``side`` (1, -1) is the wall that bears."""
+        x, y = (self.L * z.c[0] for z in self.engagement.path(input_deg, 0))
+        offset = self.L * self.engagement.slot.offset
+        scale = by.crank_radius_mm * (1.0 / self.arm)
+        moved = scale * (x - self.L * self.engagement.hub) + by.center_distance_mm
+        px, py = moved + x, scale * y + y
+        free = self.play_mm(by)
+        free = free * choose(free.c[0] > 0.0, 1.0, 0.0)
+        turned = atan2(scale * y * x - moved * y, px * x + py * y)
+        height = free * side + offset
+        tilt = atan2(height, sqrt(px * px + py * py - height * height))
+        true = np.arcsin(offset / np.hypot(x, y))
+        out: Jet = turned + (tilt - true) + by.slot_angle_deg
+        return out
+
+    def play_mm(self, by: Deviations) -> Jet:
+        """Clearance per side, mm; negative if the roller does not fit into the slot."""
+        return (by.slot_width_mm - by.roller_diameter_mm) * 0.5 + self.clearance
+
+    def margin_mm(self, spec: Spec, use: Mapping[str, float]) -> float:
+        """Greatest sum of errors of L and R that every random machine allows, mm.
+
+        With larger errors the roller may reach the wheel's axis, or the crank's. A normal
+        distribution has tails: deviations lie within three times the plus or minus, which is nine
+        standard deviations.
+        """
+        times = 3.0 if spec.tolerance.distribution == "normal" else 1.0
+        play = 0.5 * (use["roller_diameter_mm"] + use["slot_width_mm"])
+        e = self.engagement
+        entry, exit_ = (np.ravel(x) for x in (e.entry_deg, e.exit_deg))
+        x, y = e.path(np.linspace(entry, exit_, MOTION_SAMPLES, axis=-1), 0)
+        near = np.atleast_2d(np.hypot(x.c[0], y.c[0])).min(axis=-1, keepdims=True)
+        nearest = self.L * (near - size(e.slot.offset))
+        margin = np.minimum((nearest - self.clearance) / times - play, self.arm / times)
+        return parameter(margin if margin.size > 1 else float(margin[0, 0]))
+
+    def greatest(self, by: Deviations) -> WorstErrors:
+        """Greatest error of any of the machines: (n,) for n designs, or (1,) for one.
+
+        The machines are a first axis of the deviations, (k,) or for n designs (k, n, 1).
+        """
+        each = Deviations(*[Jet([_machines_first(z) for z in jet.c]) for jet in by])
+        entry, exit_ = (np.ravel(x) for x in (self.engagement.entry_deg, self.engagement.exit_deg))
+        best: WorstErrors | None = None
+        for side in (1.0, -1.0):
+            low, high = entry, exit_
+            # eleven more samplings, each about the greatest of the last and a tenth as wide
+            for count in (MOTION_SAMPLES, *[41] * 11):
+                at = np.linspace(low, high, count, axis=-1)
+                off = (array(self(each, at, side).c[0]) * side).max(axis=0)
+                at, every = np.broadcast_to(at, off.shape), np.arange(len(off))
+                i = np.argmax(off, axis=1)
+                here = WorstErrors(off[every, i], at[every, i], np.full(len(off), side))
+                best = here if best is None else here.beyond(best)
+                step = (at[:, 1] - at[:, 0]) * count / 20.0
+                low = np.maximum(entry, here.at_deg - step)
+                high = np.minimum(exit_, here.at_deg + step)
+        assert best is not None
+        return best
+
+
+class WorstErrors(NamedTuple):
+    """Greatest errors of n designs, radians, with their input angles and sides: (n,) each."""
+
+    error: Array
+    at_deg: Array
+    side: Array
+
+    def beyond(self, other: WorstErrors) -> WorstErrors:
+        """Select the greater error of this and another result, in each design."""
+        more = self.error > other.error
+        return choose_record(more, self, other)
+
+
+def _machines_first(z: Number) -> Array:
+    """Deviations of machines as (k, n, 1), with n = 1 for one design."""
+    return np.reshape(z, (np.shape(z)[0] if np.ndim(z) else 1, -1, 1))
+
+
+def motion_errors(mechanism: Mechanism) -> list[MotionError]:
+    """Motion error of each engagement; none for curved slots, which are solved for."""
+    L, clearance = mechanism.center_distance_mm, mechanism.spec.size.allowances.slot_clearance_mm
+    if mechanism.engagements[0].slot.curved:
+        return []
+    return [MotionError(e, L, arm_mm(mechanism, e), clearance) for e in mechanism.engagements]

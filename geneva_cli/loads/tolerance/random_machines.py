@@ -1,0 +1,119 @@
+"""Machines with random deviations, block by block; worst case, RSS and Monte Carlo of an angle."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.kinds.spherical.locking import SphereLock
+from geneva_cli.loads.tolerance.dimensions import Deviations, deviations, slope_of
+from geneva_cli.loads.tolerance.draws import Draws
+from geneva_cli.loads.tolerance.entry_jump import EntryJumpFunction
+from geneva_cli.loads.tolerance.locking import Lock
+from geneva_cli.loads.tolerance.motion_error import MotionError
+from geneva_cli.numerics.jet import Array, Jet, Number
+from geneva_cli.progress import tracked
+
+BLOCK = 32768  # machines at once: they stay in the processor's cache
+
+
+class RandomMachines(NamedTuple):
+    """Errors of n machines with random dimensions: arrays (n,), 0 for what is not requested."""
+
+    dwell: Array  # error of the wheel's angle in the dwell, radians
+    motion: Array  # error of the wheel's angle at one input angle of a motion, radians
+    jump: Array  # jump of the wheel's velocity at entry, over the input's speed
+    missed: float  # fraction whose roller misses the slot's axis
+    jams: float | None  # fraction that does not fit together; None without a lock and a motion
+
+
+def random_machines(
+    machines: Draws,
+    samples: int,
+    lock: Lock | SphereLock | None,
+    error: tuple[MotionError, float, float] | None,
+    entry: EntryJumpFunction | None,
+) -> RandomMachines:
+    """Errors of ``samples`` machines: the play of a lock, the error of a motion, the jump at entry.
+
+    ``error`` is one engagement's motion error, the input angle in degrees, and the side of the slot
+    (1 or -1) on which the roller bears. Arguments that are None are left out.
+    """
+    start = 0
+    dwell, motion, jump = (np.zeros(samples) for _ in range(3))
+    missed = jams = 0
+    for by in tracked(machines.blocks(samples, BLOCK), "blocks of machines", -(-samples // BLOCK)):
+        part = slice(start, start + BLOCK)
+        jam = np.zeros(len(dwell[part]), dtype=bool)
+        if lock:
+            play = lock(by)
+            dwell[part] = (play.angle + by.slot_angle_deg).c[0]
+            jam |= play.jams
+        if error:
+            one, at, side = error
+            motion[part] = one(by, at, side).c[0] * side
+            jam |= one.play_mm(by).c[0] < -1e-12  # mm: less is rounding
+        if entry:
+            jump[part], misses = entry(by)
+            missed += int(np.broadcast_to(misses, jam.shape).sum())
+        jams += int(jam.sum())
+        start += BLOCK
+    known = lock or error
+    return RandomMachines(dwell, motion, jump, missed / samples, jams / samples if known else None)
+
+
+class Spread(NamedTuple):
+    """Error of the wheel's angle towards one side, degrees.
+
+    ``mean`` and ``std`` are of that angle with its sign. ``p997`` is the size that 99.7 % of the
+    machines keep. ``parts`` has the contribution of each dimension's plus or minus. ``shape`` is
+    the histogram of the random machines: the middles of its bins, and the fraction of the machines
+    in each.
+    """
+
+    worst: float
+    rss: float
+    mean: float
+    std: float
+    p997: float
+    parts: tuple[float, ...]
+    shape: tuple[tuple[float, float], ...] = ()
+
+    @property
+    def fractions(self) -> tuple[float, ...]:
+        """Each dimension's fraction of the squares; 0 if nothing deviates."""
+        total = math.fsum(part * part for part in self.parts)
+        return tuple(part * part / total if total else 0.0 for part in self.parts)
+
+
+def spread(
+    angle: Callable[[Deviations], Jet], sizes: list[float], worst: float, drawn: Array
+) -> Spread:
+    """Spread of an angle in radians; ``drawn`` has it for random machines."""
+    at_rest = _one(angle(deviations([0.0] * len(sizes))).c[0])
+    parts = [_one(angle(slope_of(i)).c[1]) * size if size else 0.0 for i, size in enumerate(sizes)]
+    rss = abs(at_rest) + math.sqrt(math.fsum(part * part for part in parts))
+    # the place of p997 among the sizes in order
+    k = min(math.ceil(0.997 * len(drawn)), len(drawn)) - 1
+    return Spread(
+        math.degrees(worst),
+        math.degrees(rss),
+        math.degrees(drawn.mean()),
+        math.degrees(drawn.std()),
+        math.degrees(np.partition(abs(drawn), k)[k]),
+        tuple(math.degrees(abs(part)) for part in parts),
+        _shape(drawn),
+    )
+
+
+def _shape(drawn: Array) -> tuple[tuple[float, float], ...]:
+    counts, edges = np.histogram(np.degrees(drawn), bins=60)
+    middles = 0.5 * (edges[:-1] + edges[1:])
+    return tuple(zip(middles.tolist(), (counts / len(drawn)).tolist(), strict=True))
+
+
+def _one(value: Number) -> float:
+    return float(np.asarray(value).reshape(-1)[0])

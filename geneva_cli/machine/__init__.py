@@ -1,1 +1,0 @@
-"""The machine: engagements of pin path, slot and motion, of which two give the third."""

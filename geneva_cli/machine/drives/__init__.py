@@ -1,1 +1,0 @@
-"""The drives: what turns the crank or moves the roller. One file a kind, and what several share."""

@@ -1,0 +1,223 @@
+"""The base of the drives, which turn the crank or move the roller."""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from collections.abc import Callable
+from enum import Enum
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
+
+from geneva_cli.motion.engagement import Displacement, Engagement
+from geneva_cli.motion.pivots import Layout, Link
+from geneva_cli.spec.rules import SPEED, Z_MAX, Range
+from geneva_cli.spec.schema import Example, SpecTable
+
+if TYPE_CHECKING:
+    from geneva_cli.motion.laws.law import Law
+    from geneva_cli.motion.motion import Motion
+    from geneva_cli.motion.wheels.gearing import Gearing
+    from geneva_cli.numerics.arrays import Array
+    from geneva_cli.numerics.spline import Doubt
+
+
+class Needs(Enum):
+    """Need of a drive for a motion law: none allowed, optional, or required."""
+
+    NO_LAW = "no law"
+    MAY = "may"
+    LAW = "law"
+
+
+class Plan(NamedTuple):
+    """The engagements of a machine's period, and the proportions that were solved for."""
+
+    engagements: tuple[Engagement, ...]
+    period_deg: float  # input angle after which the engagements repeat
+    ratio: float  # l = R/L at mid-motion
+    rollers_max: int  # greatest number of evenly spaced rollers that do not jam
+    center_distance_mm: float
+
+
+class Gears(NamedTuple):
+    """A pair of gears: the distance of their axes, and the crank's rotation from input angle 0."""
+
+    distance_mm: float
+    advance: Displacement
+
+
+class FirstWheel(NamedTuple):
+    """A wheel in front of the crank: its slots, and the distance of its axis from its own crank."""
+
+    z: int
+    distance_mm: float
+
+
+class Drive(SpecTable, kw_only=True):
+    """A kind of drive; its fields are the keys of ``[drive]``."""
+
+    TABLE: ClassVar[str] = "drive"
+    NAME: ClassVar[str]
+    # name of the drive in a sentence
+    WORDS: ClassVar[str]
+    # example spec, without its kind
+    EXAMPLE: ClassVar[Example]
+    # the only gearings that it drives; empty for any
+    GEARINGS: ClassVar[tuple[str, ...]] = ()
+    LAW: ClassVar[Needs]
+    # True if it carries one roller only; else any number, also unevenly spaced
+    ONE_ROLLER: ClassVar[bool] = False
+    # True if the roller stays as far from the crank's axis as at mid-motion
+    ONE_ARM: ClassVar[bool] = True
+    # True if its slots must be radial and its steps equal
+    RADIAL: ClassVar[bool] = False
+    # True if all rollers on its crank move the wheel alike
+    ALIKE: ClassVar[bool] = False
+    # True if its crank can carry a locking disc about the line of centres
+    LOCKS: ClassVar[bool] = True
+    # True if a crank carries the roller, so that a plain crank drive could replace it
+    CRANKED: ClassVar[bool] = False
+    # True for a pair of noncircular gears, which have pitch curves
+    GEARED: ClassVar[bool] = False
+    # True if it has other gears, with pitch circles
+    TOOTHED: ClassVar[bool] = False
+    # what turns the input shaft of another drive, in [drive.before]; empty if it cannot
+    IN_FRONT: ClassVar[str] = ""
+    # reason why no drive may stand before it; empty if one may
+    FIRST: ClassVar[str] = ""
+    # 1 if its own input shaft turns as the crank does, -1 if against it
+    INPUT_SENSE: ClassVar[float] = 1.0
+    # True if a first Geneva wheel turns its crank
+    IN_SERIES: ClassVar[bool] = False
+    # key of [drive] that its link reactions need; empty if none
+    LENGTH: ClassVar[str] = ""
+    n_rpm: Annotated[
+        float,
+        SPEED,
+        "constant speed of the input shaft; to turn it the other way: both_ways, --reverse",
+    ] = 60.0
+    rollers: Annotated[int, Range(1, Z_MAX), "number of rollers (pins) on the crank, m"] = 1
+    roller_angles_deg: Annotated[
+        tuple[float, ...] | None,
+        Range(0.0, 360.0, "[)"),
+        "angles of the rollers on the crank, if not evenly spaced or with equal dwells",
+    ] = None
+    both_ways: Annotated[
+        bool, None, "the input shaft turns in either direction, forwards or in reverse"
+    ] = False
+
+    @property
+    def turns(self) -> int:
+        """Number of input turns in one turn of the crank."""
+        return 1
+
+    def backwards(self, plan: Plan) -> Self:
+        """The drive that turns the other way, as seen from its other side.
+
+        ``plan`` is the plan of the machine that turns forwards.
+
+        >>> crank = Crank(roller_angles_deg=(0.0, 130.0))
+        >>> crank.backwards(Design(External(6), crank).mechanism.plan).roller_angles_deg
+        (0.0, 230.0)
+        """
+        if not self.roller_angles_deg:
+            return self
+        others = self.roller_angles_deg[:0:-1]
+        return self.replace(roller_angles_deg=(0.0, *(360.0 - angle for angle in others)))
+
+    @property
+    def direct(self) -> bool:
+        """True if the input shaft carries the crank, so that the classic closed forms hold."""
+        return False
+
+    @property
+    def turned_at_crank(self) -> bool:
+        """True if its own input shaft turns about the crank's axis, as the crank or another arm.
+
+        >>> Crank().turned_at_crank, SideCrank(A=0.6).turned_at_crank
+        (True, False)
+        """
+        return self.direct or not self.CRANKED
+
+    @property
+    def wheels_on_carrier(self) -> int:
+        """Number of wheels that orbit on a carrier, which the input turns; 0 without a carrier."""
+        return 0
+
+    @property
+    def cranks(self) -> tuple[float, ...]:
+        """Places of the cranks about the wheel, in steps from the first one; (0,) for one crank."""
+        return (0.0,)
+
+    @property
+    def gears(self) -> Gears | None:
+        """Noncircular gears between input and crank; None for a drive without."""
+        return None
+
+    def first_wheel(self, L: float) -> FirstWheel | None:
+        """External wheel that turns the crank, or None; L is the second wheel's centre distance."""
+        return None
+
+    def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
+        """R/L at which curved slots have a finite pressure angle at mid-motion; NaN if none."""
+        return math.nan
+
+    def may_vary(self, table: str, key: str) -> bool:
+        """True if a number of a table may be an array along a design axis with this drive."""
+        return True
+
+    def doubt(self, input_deg: float) -> Doubt | None:
+        """Uncertainty of the crank's jerk from the decimals of a ratio file.
+
+        It holds the number of decimals, and the change by rounding of the ratio's second
+        derivative. That change is a fraction of the ratio at an input angle. None without a file.
+        """
+        return None
+
+    def input_deg(self, crank_deg: float) -> float:
+        """Input angle from mid-motion at a crank angle from mid-motion, degrees."""
+        return crank_deg
+
+    def input_axis_mm(self, plan: Plan, sign: float) -> float:
+        """Place of its own input shaft on the line of centres, mm from the wheel's axis.
+
+        >>> SideCrank(A=0.6).input_axis_mm(Design(External(6)).mechanism.plan, 1.0)
+        70.0
+        """
+        return plan.center_distance_mm
+
+    def layout(self, plan: Plan, sign: float) -> Layout:
+        """Pivots and dimensions of this kind of drive; ``sign`` is the wheel's (-1 inside).
+
+        >>> SideCrank(A=0.6).layout(Design(External(6)).mechanism.plan, 1.0)[0]
+        Pivot(name='input crank axis', x_mm=70.0, y_mm=0.0)
+        """
+        return ()
+
+    def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
+        """Links that turn the crank or carry the roller, at input angles from mid-motion.
+
+        >>> from numpy import array
+        >>> drive, plan = SideCrank(A=0.6), Design(External(6)).mechanism.plan
+        >>> [float(v[0]) for v in drive.links(plan, 1.0, array([0.0]))[0].joints[1]]
+        [20.0, 0.0]
+        """
+        return ()
+
+    def exact_advance(
+        self, half: tuple[float, float], exact: Callable[[float], float]
+    ) -> Displacement | None:
+        """Rotation of the crank about a crank angle, in numbers of any kind, for certificates.
+
+        ``half`` has sine and cosine of half that angle. ``exact`` converts a number of the spec.
+        None for a drive whose proportions are solved for in doubles.
+        """
+        return None
+
+    @abstractmethod
+    def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
+        """Engagements and proportions of a machine; without a motion its slots are straight.
+
+        ``L`` is the centre distance, mm, where the drive does not solve for it. Raises GenevaError
+        for impossible values.
+        """

@@ -1,0 +1,503 @@
+"""One index of the wheel: pin path, slot and motion; any two determine the third.
+
+An engagement is one roller's passage through one slot. Input angles are in degrees from its own
+mid-motion. Wheel angles are in radians from the middle of the step. Lengths are in units of the
+centre distance L. The wheel's axis is the origin, the crank's axis is at (1, 0).
+"""
+
+from __future__ import annotations
+
+import copy
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
+
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.arrays import Array, Batchable, all_true, array, blocks, library
+from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
+
+if TYPE_CHECKING:
+    from geneva_cli.motion.laws.law import Law
+
+K = TypeVar("K", float, "Array")
+
+BLOCK = 12288  # angles: their jets stay in the processor's cache
+
+
+class Path(Protocol):
+    """The roller centre's position in the fixed frame, as the input turns."""
+
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+        """Pin (x, y) with its derivatives by the input angle in radians."""
+
+
+class SlotAxis(NamedTuple):
+    """Lever of a straight slot's normal about the wheel's axis, and the pin's speed along the slot.
+
+    Both are over L.
+    """
+
+    lever: Jet
+    along: Jet
+
+
+class Groove(Protocol):
+    """A fixed groove about the crank's axis, which guides the roller along the crank."""
+
+    @property
+    def sign(self) -> float:
+        """1.0 for an external wheel, -1.0 for an internal one."""
+
+    @property
+    def motion(self) -> WheelMotion:
+        """Motion of the wheel, from which the groove follows."""
+
+    def distances(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+        """Roller distances from the wheel's axis and from the crank's, in units of L."""
+
+    def groove(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+        """Pitch curve (x, y) of the groove about the crank's axis."""
+
+    @property
+    def ends(self) -> tuple[Sequence[Number], Sequence[Number]]:
+        """Roller distance from the crank's axis with two derivatives, at entry and exit.
+
+        Derivatives are by the input angle in radians.
+        """
+
+
+class CarrierVelocity(Protocol):
+    """Angular velocity of the body that carries the roller, if that is not the crank's arm."""
+
+    def __call__(self, tau: Number, order: int) -> Jet:
+        """Rate in radians per input radian, positive with the wheel, ``tau`` after mid-motion."""
+
+
+Vector: TypeAlias = tuple[Jet, Jet]
+
+
+class Reactions(Protocol):
+    """Reactions on the body that carries the roller, held by links without mass or friction."""
+
+    def __call__(
+        self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
+    ) -> list[tuple[Vector, Vector]]:
+        """Two reactions to each load: on the crank's shaft, and on the body's other guide.
+
+        A load is a force at the pin's centre and a couple, both on the roller's body. ``path`` is
+        the pin's path, one order higher than the loads. The guide is a rocker, slider, groove or
+        fixed gear. Forces are in any unit, couples in that unit times L. Meshing gears push along
+        the common tangent of their pitch circles.
+        """
+
+
+def cross(a: Vector, b: Vector) -> Jet:
+    """Third component of the vector product of two plane vectors."""
+    return a[0] * b[1] - a[1] * b[0]
+
+
+class ConstantRate(NamedTuple):
+    """A body that turns at a constant rate, radians per input radian, positive with the wheel."""
+
+    rate: float
+
+    def __call__(self, tau: Number, order: int) -> Jet:
+        """Constant rate as a jet."""
+        return Jet((tau * 0.0 + self.rate, *[0.0] * order))
+
+
+class Level(Protocol):
+    """A pin's position along the wheel's axis, as the input turns."""
+
+    @property
+    def hub(self) -> float:
+        """Position of the centre of the pin's circle."""
+
+    def __call__(self, tau: Number, order: int) -> Jet:
+        """Position ``tau`` input radians after mid-motion."""
+
+
+class Slot(Batchable, ABC):
+    """The curve in the wheel's own frame along which the pin runs: the slot's pitch curve."""
+
+    # True for a curve that was solved for: it has two branches and its own walls.
+    curved = False
+    # True if its two branches are mirror images when the motion is symmetric.
+    mirrored = True
+    # True if something other than the roller drives the wheel for part of the motion.
+    relieved = False
+    # e: distance between a straight slot's axis and the wheel's centre, over L.
+    offset: float = 0.0
+    # The pin's position along the wheel's axis on a sphere, where the path is a projection.
+    height: Level | None = None
+
+    @property
+    def walls_flat(self) -> bool:
+        """True if the roller presses on a straight wall throughout."""
+        return not (self.curved or self.relieved)
+
+    @abstractmethod
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+        """Pin (x, y) in the wheel's frame; on a sphere its polar angle in the flat development."""
+
+    @property
+    def seams_deg(self) -> tuple[float, ...]:
+        """Input angles, degrees, at which another formula takes over, but for the motion's own."""
+        return ()
+
+    def axis(self, input_deg: Number, order: int = 0) -> SlotAxis | None:
+        """Lever and speed of a straight slot at input angles; None for a curved slot."""
+        return None
+
+    def upright(self, input_deg: Number, order: int = 0) -> Jet | float:
+        """Cosine of the angle between the roller's axis and the wheel's."""
+        return 1.0
+
+    def play(self, clearance: Number) -> Number:
+        """Free angle of the wheel, radians, for a clearance per side over the lever."""
+        angle: Number = 2.0 * library(clearance).asin(clearance)
+        return angle
+
+    def touches(self, input_deg: Number) -> Number:
+        """1 where the roller drives the wheel, 0 where something else does."""
+        return 1.0
+
+
+class Peak(NamedTuple, Generic[K]):
+    """Greatest size of a quantity, and the signed input angle of its first occurrence, degrees.
+
+    Floats of one design, arrays of a batch.
+    """
+
+    max: K
+    at_deg: K
+
+
+class ClosedPeaks(Protocol):
+    """Peaks in closed form, or by a search that is faster than the general one."""
+
+    def __call__(self, quantity: str) -> Peak[float] | None:
+        """Peak of a quantity, or None if it needs the general search."""
+
+
+class RoughMotion(Protocol):
+    """A wheel's motion for a first search."""
+
+    def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
+        """Approximate speed and its derivatives at arrays of angles."""
+
+
+class WheelMotion(Batchable, ABC):
+    """The wheel's angle as the input turns, from rest to rest."""
+
+    # motion law, if a law gives the motion
+    law: Law | None = None
+    # False if the two halves of the path differ
+    mirrored = True
+    # peaks that need no general search
+    closed_peaks: ClosedPeaks | None = None
+    # Greatest error of ``rough_rates``, as a fraction of the greatest rate; 0 for exact ones.
+    ROUGH_TO: ClassVar[float] = 0.0
+    # Greatest error of the breaks within, as a fraction of the motion; 0 for exact ones.
+    BREAKS_TO: ClassVar[float] = 0.0
+
+    def __init__(self, entry_deg: float, exit_deg: float, half_step: float) -> None:
+        self.entry_deg = entry_deg  # from mid-motion, negative
+        self.exit_deg = exit_deg
+        self.half_step = half_step  # b: the wheel turns from -b to b
+
+    @abstractmethod
+    def __call__(self, input_deg: Number, order: int = 3) -> Jet:
+        """Wheel angle with its derivatives by the input angle in radians."""
+
+    def rate(self, input_deg: Number, order: int = 2) -> Jet:
+        """Wheel speed over input speed, with derivatives, computed without the angle itself."""
+        return self(input_deg, order + 1).derivative()
+
+    @property
+    def rough(self) -> RoughMotion:
+        """The part of the motion that ``rough_rates`` needs: less of it is copied for a search."""
+        return self
+
+    def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
+        """Approximate speed and its derivatives at arrays of angles, for a first search.
+
+        The error is at most ``ROUGH_TO`` times the greatest value of each.
+        """
+        return self(input_deg, order + 1).arrays()[1:]
+
+    @property
+    def entry(self) -> Anchor | None:
+        """Pin at entry, about which its path is written if the slot follows the pin; else None."""
+        return None
+
+    @property
+    def jump(self) -> float:
+        """Jump of the wheel's velocity at entry, and back at exit, over the input's."""
+        return 0.0
+
+    @property
+    def symmetric(self) -> bool:
+        """True if the second half mirrors the first."""
+        return self.mirrored and all_true(self.entry_deg == -self.exit_deg)
+
+    @property
+    def breaks_deg(self) -> tuple[float, ...]:
+        """Entry, places where a derivative may jump, mid-motion, and exit, in degrees."""
+        return (self.entry_deg, 0.0, self.exit_deg)
+
+    def breaks(self, m: int) -> list[Array]:
+        """The places of ``breaks_deg`` as arrays of m designs, (m, 1) each."""
+        import numpy as np
+
+        return [np.broadcast_to(np.asarray(x, dtype=float), (m, 1)) for x in self.breaks_deg]
+
+    @property
+    def seams_deg(self) -> tuple[float, ...]:
+        """Entry, every place where another formula takes over, and exit, in degrees.
+
+        Between two of them, in order, the motion is one analytic formula. For one design.
+        """
+        return self.breaks_deg
+
+    def closed_peak(self, quantity: str) -> Peak[float] | None:
+        """Peak of a quantity in closed form, or by a search that is faster than the general one.
+
+        None if there is neither; in a batch NaN for each design that has neither.
+        """
+        return None
+
+    def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
+        """Wheel angle and its derivatives at many ascending input angles (k,).
+
+        A symmetric motion at symmetric angles is computed once and mirrored. For n designs the
+        values are (n, k).
+        """
+        import numpy as np
+
+        count = len(input_deg)
+        mirrored = self.symmetric and bool((input_deg == -input_deg[::-1]).all())
+        out: list[Array] = []
+        for block in blocks((count + 1) // 2 if mirrored else count, BLOCK):
+            values = self._requested(input_deg[block], orders)
+            out = out or [np.empty((*value.shape[:-1], count)) for value in values]
+            for whole, value, order in zip(out, values, orders, strict=True):
+                if mirrored:  # even orders change their sign
+                    image = whole[..., count - block.stop : count - block.start][..., ::-1]
+                    image[:] = value if order % 2 else -value
+                whole[..., block] = value
+        return out
+
+    def _requested(self, input_deg: Array, orders: Sequence[int]) -> list[Array]:
+        """Derivatives at angles; without the wheel's angle if that is not among them."""
+        if 0 in orders:
+            values = self(input_deg, max(orders)).derivatives()
+            return [array(values[k]) for k in orders]
+        rates = self.rate(input_deg, max(orders) - 1).derivatives()
+        return [array(rates[k - 1]) for k in orders]
+
+
+class Carrier(NamedTuple):
+    """Body and guide of a roller; by default the crank's arm alone.
+
+    ``body`` carries the roller where the crank's arm does not, and ``reactions`` hold that body.
+    ``crank_sense`` is then the crank's direction: -1 with the wheel, 1 against it. It is 0 if the
+    roller is on the arm. ``groove`` is the path if a fixed groove guides the roller along the
+    crank. ``hub`` is the arm's centre of rotation on the line of centres: 1, except on a sphere.
+    """
+
+    crank_sense: float = 0.0
+    body: CarrierVelocity | None = None
+    reactions: Reactions | None = None
+    groove: Groove | None = None
+    hub: float = 1.0
+
+
+ARM = Carrier()
+
+
+class Engagement(Batchable):
+    """Pin path, slot and motion of one roller in one slot.
+
+    ``mid_deg`` is the machine's input angle at its mid-motion. ``mid_angle`` is the wheel's angle
+    there, radians from the first mid-motion, if the loads depend on it (``Mechanism.unbalanced``).
+    """
+
+    mid_angle: float | None = None
+
+    def __init__(
+        self, mid_deg: float, path: Path, slot: Slot, motion: WheelMotion, carrier: Carrier = ARM
+    ) -> None:
+        self.mid_deg = mid_deg
+        self.path, self.slot, self.motion = path, slot, motion
+        self.crank_sense, self.body, self.reactions, self.groove, self.hub = carrier
+
+    @property
+    def entry_deg(self) -> float:
+        """Input angle at which the motion begins, degrees from mid-motion."""
+        return self.motion.entry_deg
+
+    @property
+    def exit_deg(self) -> float:
+        """Input angle at which the motion ends, degrees from mid-motion."""
+        return self.motion.exit_deg
+
+    def end_deg(self, end: float) -> float:
+        """Input angle at entry, where ``end`` is -1, or at exit, where it is 1."""
+        return self.entry_deg if end < 0.0 else self.exit_deg
+
+    @property
+    def half_step(self) -> float:
+        """Half the wheel's step, radians."""
+        return self.motion.half_step
+
+    @property
+    def motion_deg(self) -> float:
+        """Input angle of the motion, degrees."""
+        return self.exit_deg - self.entry_deg
+
+    @property
+    def usual_acceleration(self) -> float:
+        """The step over the square of the motion, of which the greatest acceleration is a multiple.
+
+        It is an invariant, and the measure of what is rounding.
+        """
+        motion = radians(self.motion_deg)
+        return 2.0 * self.half_step / (motion * motion)
+
+    @property
+    def mirrored(self) -> bool:
+        """True if motion, slot and loads are symmetric about mid-motion."""
+        return self.motion.symmetric and self.slot.mirrored and self.mid_angle is None
+
+    def later(self, mid_deg: float, mid_angle: float) -> Engagement:
+        """The same engagement at a later mid-motion, at another angle of the wheel."""
+        other = copy.copy(self)
+        other.mid_deg, other.mid_angle = mid_deg, mid_angle
+        return other
+
+    @cached_property
+    def entry_reach(self) -> Number:
+        """Pin distance from the wheel's axis at entry, in units of L."""
+        return self._reach(self.entry_deg)
+
+    @cached_property
+    def exit_reach(self) -> Number:
+        """Pin distance from the wheel's axis at exit, in units of L."""
+        return self._reach(self.exit_deg)
+
+    def _reach(self, input_deg: float) -> Number:
+        x, y = self.slot(input_deg, 0)
+        return library(x.c[0], y.c[0]).hypot(x.c[0], y.c[0])
+
+    def carrier(self, input_deg: Number, order: int = 0) -> Jet:
+        """Rate at which the body that carries the roller turns, positive with the wheel.
+
+        About the roller's own axis, in radians per input radian.
+        """
+        if self.body:
+            return self.body(radians(input_deg), order)
+        x, y = self.path(input_deg, order + 1)
+        return turning(x - 1.0, y)
+
+    @property
+    def on_arm(self) -> bool:
+        """True if the crank's arm carries the roller, and so turns as ``carrier`` does."""
+        return all_true(self.crank_sense == 0.0)
+
+    def shaft_rate(self, input_deg: Number, order: int = 0) -> Jet:
+        """Rate of the drive's own input shaft, in radians per input radian."""
+        return Jet((input_deg * 0.0 + 1.0, *[0.0] * order))
+
+    def own_deg(self, input_deg: Array) -> Array:
+        """Angle of the drive's own input shaft at input angles from mid-motion, degrees."""
+        return input_deg
+
+    def inputs_deg(self, own_deg: Array) -> Array:
+        """Input angles from mid-motion at angles of the drive's own input shaft, degrees."""
+        return own_deg
+
+    @property
+    def own(self) -> Engagement:
+        """The engagement by the angle of the drive's own input shaft; itself without another."""
+        return self
+
+    @property
+    def through(self) -> Engagement:
+        """Engagement whose roller runs through the whole slot: itself, except for gear sectors."""
+        return self
+
+    @property
+    def ahead_deg(self) -> tuple[float, ...]:
+        """Angles by which each of its rollers leads the input in ``through``; (0,) for one roller.
+
+        If gears drive between them, one roller starts the wheel and another stops it.
+        """
+        return (0.0,)
+
+    @property
+    def passages(self) -> tuple[tuple[Engagement, float], ...]:
+        """Passage of each roller through a whole slot, and the input angle by which it leads."""
+        return tuple((self.through, ahead) for ahead in self.ahead_deg)
+
+    @property
+    def paired(self) -> bool:
+        """True if one roller starts the wheel and another stops it, each in its own slot."""
+        return len(self.ahead_deg) > 1
+
+    @property
+    def apart(self) -> float:
+        """Half the angle between the slots of those rollers in the wheel, radians."""
+        return self.half_step - self.through.half_step
+
+    @property
+    def overtaking(self) -> float:
+        """Angle by which a roller would lead its slot while something else drives, radians."""
+        return 0.0
+
+
+class Anchor(NamedTuple):
+    """An input angle about which the pin's path is written without cancellation."""
+
+    input_deg: float
+    wheel: float  # direction of the ray from the wheel's axis to the pin there, radians
+    along: float  # distance from the wheel's axis to the pin there
+    displacement: PinDisplacement
+
+    @property
+    def seams_deg(self) -> list[float]:
+        """Input angles at which another formula of the displacement takes over, degrees."""
+        return [self.input_deg + math.degrees(cut) for cut in self.displacement.cuts]
+
+    def displacement_at(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
+        """Pin displacement (along the ray, across it) at an input angle in degrees."""
+        return self.displacement(radians(input_deg - self.input_deg), order)
+
+    def place(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
+        """Pin position (along the anchor's ray, across it) at an input angle in degrees."""
+        along, across = self.displacement_at(input_deg, order)
+        return along + self.along, across
+
+
+class Displacement(Protocol):
+    """The pin's displacement since an anchor."""
+
+    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
+        """Displacement along the anchor's ray and across it, ``tau`` input radians later."""
+
+
+class PinDisplacement(Displacement, Protocol):
+    """A displacement with the places where another formula takes over."""
+
+    @property
+    def cuts(self) -> Sequence[float]:
+        """Input radians since the anchor, in order; none for one formula throughout."""
+
+
+def in_wheel(path: tuple[Jet, Jet], wheel: Jet) -> tuple[Jet, Jet]:
+    """Transform a vector from the fixed frame to that of a wheel at angle ``wheel``, radians."""
+    x, y = path
+    s, c = sin_cos(wheel)
+    return x * c + y * s, y * c - x * s

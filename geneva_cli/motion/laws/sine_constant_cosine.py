@@ -1,0 +1,102 @@
+"""One family of laws: the acceleration rises as a sine, is constant, and falls as a cosine.
+
+R. L. Norton, Cam Design and Manufacturing Handbook, "The SCCA family". The quarter sine, the
+constant and the quarter cosine take the fractions b, c and d of the time in which a law
+accelerates: b + c + d = 1. The other half of the motion mirrors it. Modified constant velocity adds
+a middle fraction v of the whole motion without acceleration.
+"""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.motion.laws.law import from_velocity
+from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.jet import Jet, Number, piecewise, sin
+
+
+def peak(b: float, d: float, pi: float = math.pi) -> float:
+    """Greatest acceleration without a middle at constant velocity; c is 1 - b - d.
+
+    Ca = 4 pi² / ((pi² - 8)(b² - d²) - 2 pi (pi - 2) b + pi²), Norton's closed form.
+    """
+    bends = (pi * pi - 8.0) * (b - d) * (b + d)
+    return 4.0 * pi * pi / (bends - 2.0 * pi * (pi - 2.0) * b + pi * pi)
+
+
+def breaks(b: float, d: float, v: float = 0.0) -> tuple[float, ...]:
+    """Values of u inside the motion at which a derivative up to the fourth jumps."""
+    sine, constant, rise = _ends(b, d, v)
+    flat = sine < constant
+    joints = set()
+    if b and (flat or d != b):
+        joints.add(sine)
+    if d and flat:
+        joints.add(constant)
+    if v or not d:
+        joints.add(rise)
+    return tuple(sorted({*joints, *[1.0 - x for x in joints]}))
+
+
+def _ends(b: float, d: float, v: float) -> tuple[float, float, float]:
+    """Times at which sine, constant and cosine end; then constant velocity until the middle."""
+    rise = 0.5 * (1.0 - v)
+    return rise * b, max(rise * (1.0 - d), rise * b), rise
+
+
+def first_half(u: Number, order: int, b: float, d: float, v: float = 0.0) -> Jet:
+    """Fraction s on 0 <= u <= 1/2, with its derivatives; c is 1 - b - d."""
+    ends = _ends(b, d, v)
+    sine, constant, cosine = ends[0], ends[1] - ends[0], ends[2] - ends[1]
+    # v only stretches the time: top speed V of the rise alone, in 1 - v of its time
+    m = library(u)
+    pi, greatest = m.pi, peak(b, d, m.pi)
+    alone = greatest * ((b + d) / pi + 0.5 * (1.0 - b - d))
+    top = alone / (1.0 - v + v * alone)
+    a = greatest * top / alone / (1.0 - v)
+
+    v_1 = a * sine * 2.0 / pi  # after the sine
+    s_1 = v_1 * sine * (1.0 - 2.0 / pi)
+    v_2 = v_1 + a * constant  # before the cosine
+    s_2 = s_1 + constant * (v_1 + 0.5 * a * constant)
+
+    def start(x: Number) -> Jet:
+        rate = 0.5 * pi / sine
+
+        def velocity(x: Jet) -> Jet:
+            half = sin(x * (0.5 * rate))
+            return half * half * (2.0 * a / rate)
+
+        return from_velocity(x, order, lambda x: a / rate * (x - m.sin(rate * x) / rate), velocity)
+
+    def flat(x: Number) -> Jet:
+        t = x - sine
+        return from_velocity(
+            x,
+            order,
+            lambda x: s_1 + t * (v_1 + 0.5 * a * t),
+            lambda x: (x - sine) * a + v_1,
+        )
+
+    def end(x: Number) -> Jet:
+        rate = 0.5 * pi / cosine
+        t = x - ends[1]
+
+        def position(x: Number) -> Number:
+            return s_2 + v_2 * t + 2.0 * a * (m.sin(0.5 * rate * t) / rate) ** 2
+
+        return from_velocity(
+            x,
+            order,
+            position,
+            lambda x: sin((x - ends[1]) * rate) * (a / rate) + v_2,
+        )
+
+    def middle(x: Number) -> Jet:
+        return from_velocity(x, order, lambda x: 0.5 - top * (0.5 - x), lambda x: x * 0.0 + top)
+
+    lasting = ((sine, start), (constant, flat), (cosine, end), (0.5 * v, middle))
+    pieces = [(until, piece) for until, (t, piece) in zip((*ends, 0.5), lasting, strict=True) if t]
+    if len(pieces) == 1:
+        return pieces[0][1](u)
+    return piecewise(u, [until for until, _ in pieces[:-1]], [piece for _, piece in pieces])

@@ -1,0 +1,209 @@
+"""The common set of motion laws of VDI 2143, MCV50, and the sine group of Krasniqi."""
+
+from typing import Annotated, ClassVar
+
+from geneva_cli.motion.laws.law import Law, from_velocity
+from geneva_cli.motion.laws.sine_constant_cosine import breaks, first_half
+from geneva_cli.numerics.arrays import Truth, library
+from geneva_cli.numerics.jet import Jet, Number, sin, sin_cos
+from geneva_cli.spec.rules import Range
+
+
+class Harmonic(Law):
+    """Simple sine line: ds/du = (pi/2) sin(pi u).
+
+    Acceleration jumps at both ends, by pi²/2.
+
+    >>> round(Harmonic()(0.5).c[1], 6)  # ds/du at its greatest
+    1.570796
+    """
+
+    NAME: ClassVar[str] = "harmonic"
+    ABOUT: ClassVar[str] = "simple sine line; its acceleration jumps at both ends"
+
+    def first(self, u: Number, order: int) -> Jet:
+        """Fraction s = sin²(pi u / 2)."""
+        m = library(u)
+        return from_velocity(
+            u,
+            order,
+            lambda u: m.sin(m.pi / 2.0 * u) ** 2,
+            lambda u: sin(u * m.pi) * (m.pi / 2.0),
+        )
+
+
+class Cycloidal(Law):
+    """Inclined sine line: ds/du = 2 sin²(pi u).
+
+    Acceleration starts and ends at 0.
+
+    >>> round(Cycloidal()(0.5).c[1], 6)  # ds/du at its greatest
+    2.0
+    """
+
+    NAME: ClassVar[str] = "cycloidal"
+    ABOUT: ClassVar[str] = "inclined sine line; no jump in acceleration"
+
+    def first(self, u: Number, order: int) -> Jet:
+        """Fraction s = u - sin(2 pi u) / (2 pi)."""
+        m = library(u)
+
+        def velocity(u: Jet) -> Jet:
+            s = sin(u * m.pi)
+            return s * s * 2.0
+
+        return from_velocity(u, order, lambda u: u - m.sin(2.0 * m.pi * u) / (2.0 * m.pi), velocity)
+
+
+class _ScaledLaw(Law):
+    """A law whose acceleration is a sine, a constant and a cosine in fixed time fractions."""
+
+    # fractions of the sine and the cosine, and of constant velocity in the middle
+    FRACTIONS: ClassVar[tuple[float, float, float]]
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Values of u at which the pieces meet."""
+        return breaks(*self.FRACTIONS)
+
+    def first(self, u: Number, order: int) -> Jet:
+        """First half of s, in which the wheel gains speed."""
+        return first_half(u, order, *self.FRACTIONS)
+
+
+class ModifiedTrapezoid(_ScaledLaw):
+    """Modified acceleration trapezoid: constant acceleration, joined by quarter sines.
+
+    It has the lowest acceleration peak of the laws here, 4.888.
+
+    >>> round(ModifiedTrapezoid()(0.5).c[1], 6)  # ds/du at its greatest
+    2.0
+    """
+
+    NAME: ClassVar[str] = "modified-trapezoid"
+    ABOUT: ClassVar[str] = "constant acceleration joined by sines; the lowest peak without a jump"
+    # a sine to u = 1/8, constant acceleration to 3/8, a cosine to the middle
+    FRACTIONS: ClassVar[tuple[float, float, float]] = (0.25, 0.25, 0.0)
+
+
+class ModifiedSine(_ScaledLaw):
+    """Modified sine line: sine acceleration of period 1/2 for u < 1/8, then of period 3/2.
+
+    It has the lowest velocity peak, 1.760, of the laws here without a jump in acceleration.
+
+    >>> round(ModifiedSine()(0.5).c[1], 6)  # ds/du at its greatest
+    1.759603
+    """
+
+    NAME: ClassVar[str] = "modified-sine"
+    ABOUT: ClassVar[str] = "sines of two periods; a low peak of velocity and of torque"
+    # the fast sine to u = 1/8, the slow one to the middle
+    FRACTIONS: ClassVar[tuple[float, float, float]] = (0.25, 0.75, 0.0)
+
+
+class ModifiedConstantVelocity(_ScaledLaw):
+    """MCV50: the modified sine's acceleration in half the time, constant velocity between.
+
+    It has the lowest velocity peak of the laws here, and the greatest jerk.
+
+    >>> [round(c, 5) for c in ModifiedConstantVelocity()(0.5, 2).derivatives()]
+    [0.5, 1.27526, 0.0]
+    """
+
+    NAME: ClassVar[str] = "mcv50"
+    ABOUT: ClassVar[str] = "modified sine with constant velocity for half the time"
+    # the fast sine to u = 1/16, the slow one to 1/4, constant velocity to the middle
+    FRACTIONS: ClassVar[tuple[float, float, float]] = (0.25, 0.75, 0.5)
+
+
+class Polynomial345(Law):
+    """Polynomial 3-4-5: ds/du = 30 u² (1-u)².
+
+    Acceleration starts and ends at 0.
+
+    >>> round(Polynomial345()(0.5).c[1], 6)  # ds/du at its greatest
+    1.875
+    """
+
+    NAME: ClassVar[str] = "3-4-5"
+    ABOUT: ClassVar[str] = "polynomial of degree 5; no jump in acceleration"
+
+    def first(self, u: Number, order: int) -> Jet:
+        """Fraction s = 10 u³ - 15 u⁴ + 6 u⁵."""
+
+        def velocity(u: Jet) -> Jet:
+            w = u * (1.0 - u)
+            return w * w * 30.0
+
+        return from_velocity(u, order, lambda u: u**3 * (10.0 - u * (15.0 - 6.0 * u)), velocity)
+
+
+class Polynomial4567(Law):
+    """Polynomial 4-5-6-7: ds/du = 140 u³ (1-u)³.
+
+    Jerk starts and ends at 0.
+
+    >>> round(Polynomial4567()(0.5).c[1], 6)  # ds/du at its greatest
+    2.1875
+    """
+
+    NAME: ClassVar[str] = "4-5-6-7"
+    ABOUT: ClassVar[str] = "polynomial of degree 7; no jump in jerk"
+
+    def first(self, u: Number, order: int) -> Jet:
+        """Fraction s = 35 u⁴ - 84 u⁵ + 70 u⁶ - 20 u⁷."""
+
+        def position(u: Number) -> Number:
+            return u**4 * (35.0 - u * (84.0 - u * (70.0 - 20.0 * u)))
+
+        def velocity(u: Jet) -> Jet:
+            w = u * (1.0 - u)
+            return w * w * w * 140.0
+
+        return from_velocity(u, order, position, velocity)
+
+
+class SineGroup(Law):
+    """Krasniqi's law: ds/du = (8/3) sin⁴ x (1 - 8 lambda cos x), x = pi u.
+
+    All derivatives from velocity to snap vanish at both ends. The wheel turns back if |lambda| >
+    1/8.
+
+    >>> round(SineGroup(0.1)(0.5).c[1], 6)
+    2.666667
+    """
+
+    NAME: ClassVar[str] = "sine-group"
+    ABOUT: ClassVar[str] = "four sines; no jump up to snap; lambda tilts it, |lambda| <= 1/8"
+    TURNS_BACK: ClassVar[str] = "the sine group turns back for |lambda| > 1/8"
+    lambda_: Annotated[float, Range(-10.0, 10.0), "shape parameter of the sine-group law"] = 0.0
+
+    @property
+    def symmetric(self) -> Truth:
+        """True without a tilt."""
+        return self.lambda_ == 0.0
+
+    def first(self, u: Number, order: int) -> Jet:
+        """Fraction s in closed form, from its velocity."""
+        return _tilted(u, order, self.lambda_)
+
+    def second(self, w: Number, order: int) -> Jet:
+        """Remainder 1 - s: the formula of ``first`` with the opposite tilt."""
+        return _tilted(w, order, -self.lambda_)
+
+
+def _tilted(u: Number, order: int, shape: Number) -> Jet:
+    m = library(u)
+
+    def position(u: Number) -> Number:
+        x = m.pi * u
+        even = x - 2.0 / 3.0 * m.sin(2.0 * x) + m.sin(4.0 * x) / 12.0
+        return (even - 64.0 / 15.0 * shape * m.sin(x) ** 5) / m.pi
+
+    def velocity(u: Jet) -> Jet:
+        s, c = sin_cos(u * m.pi)
+        squared = s * s
+        out: Jet = squared * squared * (1.0 - c * (8.0 * shape)) * (8.0 / 3.0)
+        return out
+
+    return from_velocity(u, order, position, velocity)

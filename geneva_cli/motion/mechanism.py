@@ -1,0 +1,261 @@
+"""The machine of a design: its engagements over a full period, built from a spec."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.motion import compatible
+from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.laws.law import Law
+from geneva_cli.motion.pivots import AxisPlace, Layout, Pivot, crank_places, wheel_places
+from geneva_cli.motion.size_rules import refuse_sizes, refuse_tolerances
+from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.wheels.gearing import Output
+from geneva_cli.numerics.arrays import N, Whole, choose, designs_of, larger, library
+from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
+
+
+class ShaftPlace(NamedTuple):
+    """A shaft on the line of centres."""
+
+    x_mm: float  # from the wheel's axis
+    sense: float  # 1 if it turns counterclockwise, else -1
+
+    @property
+    def at(self) -> tuple[float, float]:
+        """Its axis."""
+        return self.x_mm, 0.0
+
+
+class Mechanism(NamedTuple):
+    """A Geneva mechanism.
+
+    ``engagements`` holds one for each kind of motion in a period. Rollers that all move the wheel
+    alike share one engagement, and the period is then one index.
+    """
+
+    spec: Spec
+    engagements: tuple[Engagement, ...]
+    period_deg: float  # input angle after which the sequence of engagements repeats
+    ratio: float  # l = R/L
+    rollers_max: int  # most evenly spaced rollers that do not jam
+    center_distance_mm: float  # L, from the spec or solved for
+    # The number of the design in its batch, for a batch of m designs (m, 1). So a batch keeps its
+    # size if nothing else varies.
+    design: int | Whole = 0
+
+    @property
+    def designs(self) -> int:
+        """Number of designs in the batch; 1 for a single design."""
+        return designs_of(self.design)
+
+    @property
+    def plan(self) -> Plan:
+        """Engagements, period, R/L, roller limit and centre distance, as the drive planned them.
+
+        The engagements are by the angle of the drive's own input shaft.
+        """
+        plan = Plan(*self[1:-1])
+        return plan._replace(engagements=tuple(one.own for one in self.engagements))
+
+    @property
+    def crank_shaft(self) -> ShaftPlace:
+        """The crank's shaft, which turns against an external wheel and with an internal one."""
+        sense = self.engagements[0].crank_sense or self.spec.wheel.SIGN
+        return ShaftPlace(self.center_distance_mm, -sense)
+
+    @property
+    def own_shaft(self) -> ShaftPlace:
+        """The input shaft of the drive itself, which a drive before it turns."""
+        drive, at = self.spec.drive, self.crank_shaft
+        return ShaftPlace(
+            drive.input_axis_mm(self.plan, self.spec.wheel.SIGN), at.sense * drive.INPUT_SENSE
+        )
+
+    @property
+    def gear_shaft(self) -> ShaftPlace:
+        """The shaft of the driven one of noncircular gears."""
+        before = self.spec.drive_before
+        return self.own_shaft if before and before.GEARED else self.crank_shaft
+
+    @property
+    def layout(self) -> Layout:
+        """Pivots and dimensions of the drive, and of the one before it about the crank's axis.
+
+        Of several cranks it has the axes behind the first. Pivots have places only in a plane that
+        also has the axes of wheel and crank.
+        """
+        spec, layout = self.spec, self._whole_layout
+        if spec.wheel.axes(self.center_distance_mm):
+            return layout
+        return tuple(one for one in layout if not isinstance(one, Pivot))
+
+    @property
+    def _whole_layout(self) -> Layout:
+        """The layout, with all pivots."""
+        spec, plan = self.spec, self.plan
+        own = spec.drive.layout(plan, spec.wheel.SIGN)
+        _, *others = self.crank_places
+        own = (*own, *(Pivot(f"axis of crank {place.number}", *place.at) for place in others))
+        if spec.drive_before is None:
+            return own
+        shift, names = self.own_shaft.x_mm - self.center_distance_mm, {one.name for one in own}
+        for one in spec.drive_before.layout(plan, spec.wheel.SIGN):
+            here = one._replace(name=f"first {one.name}" if one.name in names else one.name)
+            if isinstance(here, Pivot):
+                here = here._replace(x_mm=here.x_mm + shift)
+            own = (*own, here)
+        return own
+
+    def own_deg(self, input_deg: Array) -> Array:
+        """Angle of the drive's own input shaft at input angles within half a period of mid-motion.
+
+        It is the input angle itself, but behind another drive.
+        """
+        return self.engagements[0].own_deg(input_deg)
+
+    @property
+    def law(self) -> Law | None:
+        """Motion law by the angle of the drive's own input shaft; None for straight slots."""
+        return self.engagements[0].own.motion.law
+
+    @property
+    def output(self) -> Output:
+        """What the wheel gives out, with its unit."""
+        return self.spec.output
+
+    @property
+    def roller_radius_mm(self) -> float:
+        """Roller radius r in millimetres, by default L/20."""
+        return self.spec.roller_radius_mm(self.center_distance_mm)
+
+    @property
+    def matched_ratio(self) -> float | None:
+        """R/L at which the pressure angle of curved slots stays finite at mid-motion.
+
+        It does not depend on the machine's own R/L. None for straight slots, or if no R/L below 1
+        has this property. For a single design only.
+        """
+        law = self.law
+        if law is None:
+            return None
+        motion_deg = self.engagements[0].own.motion_deg
+        matched = self.spec.drive.matched_ratio(self.spec.wheel, law, motion_deg)
+        return None if math.isnan(matched) else float(matched)
+
+    @property
+    def whole_deg(self) -> float:
+        """Input angle after which all is as before: a turn of the crank.
+
+        Under load that of an unbalanced wheel on a carrier is its period.
+        """
+        if self.engagements[0].mid_angle is not None:
+            return self.period_deg
+        return 360.0 * self.spec.turns
+
+    def shown_deg(self, input_deg: float) -> float:
+        """Input angle for display: between -180 and 180 degrees from mid-motion.
+
+        Over a period of several turns it is counted from the first engagement's entry.
+        """
+        whole = self.whole_deg
+        m = library(input_deg, whole)
+        entry = self.engagements[0].mid_deg + self.engagements[0].entry_deg
+        # Rounding may put an angle just before the entry: count it as the entry.
+        periods = m.floor((input_deg - entry + SAME_INPUT_DEG) / whole)
+        counted = larger(input_deg - periods * whole, entry)
+        if isinstance(input_deg, (float, int)) and isinstance(whole, float):
+            return math.remainder(input_deg, whole) if whole == 360.0 else counted
+        # as math.remainder, and exact for angles of a few turns
+        shown: float = choose(
+            whole == 360.0, input_deg - 360.0 * m.rint(input_deg / 360.0), counted
+        )
+        return shown
+
+    @property
+    def frame(self) -> float:
+        """Turns of the wheel's frame in one turn of the input, positive as the wheel turns in it.
+
+        It is 0 but for wheels on a carrier.
+        """
+        return self.spec.wheel.SIGN if self.spec.drive.wheels_on_carrier else 0.0
+
+    @property
+    def unbalanced(self) -> bool:
+        """True if the loads differ in each motion: a body stands off a carried wheel's axis."""
+        return bool(self.spec.drive.wheels_on_carrier) and self.spec.unbalanced
+
+    def absolute_deg(self, input_deg: N, wheel_deg: N) -> N:
+        """Angle from the ground of a wheel on a carrier, positive as the carrier turns."""
+        return input_deg + self.spec.wheel.SIGN * wheel_deg
+
+    @property
+    def wheel_places(self) -> tuple[AxisPlace, ...]:
+        """Places of all wheels; more than one only on a carrier."""
+        count = max(1, self.spec.drive.wheels_on_carrier)
+        return wheel_places(count, self.spec.wheel.SIGN, self.center_distance_mm)
+
+    @property
+    def crank_places(self) -> tuple[AxisPlace, ...]:
+        """Places of all cranks about the wheel; more than one with ``crank_steps``."""
+        spec = self.spec
+        return crank_places(spec.drive.cranks, spec.wheel.z, self.center_distance_mm)
+
+    @property
+    def under_load(self) -> Mechanism:
+        """The machine with the period of its loads: up to the entry of the next wheel.
+
+        If a body stands off the axis of a wheel on a carrier, it is a whole turn of all wheels, as
+        the body's direction is another one in each motion.
+        """
+        wheels, own = self.spec.drive.wheels_on_carrier, self.engagements
+        if not self.unbalanced:
+            return self._replace(period_deg=360.0 / wheels) if wheels > 1 else self
+        if own[0].mid_angle is not None:  # it is under load already
+            return self
+        z, count = self.spec.wheel.z, len(own)
+        angles, angle = [], 0.0  # the wheel's angle at each mid-motion of its turn
+        for i in range(z):
+            angles.append(angle)
+            angle += own[i % count].half_step + own[(i + 1) % count].half_step
+        spacing, each = self.period_deg / wheels, []
+        # each finger meets the wheel in every direction that it can
+        for k in range(math.lcm(z, count, self.spec.drive.rollers) * wheels):
+            number, behind = divmod(k, count)
+            mid_deg = own[behind].mid_deg + number * spacing
+            each.append(own[behind].later(mid_deg, angles[k // wheels % z]))
+        return self._replace(engagements=tuple(each), period_deg=spacing * len(each) / count)
+
+    def index_deg(self, i: int) -> float:
+        """Wheel step of engagement i, in degrees; unequal steps repeat."""
+        wheel = self.spec.wheel
+        return wheel.index_deg(i % len(wheel.steps) if wheel.steps else i)
+
+    def dwell_deg(self, i: int) -> float:
+        """Input angle in degrees from the exit of engagement i to the next entry."""
+        here = self.engagements[i]
+        after = self.engagements[(i + 1) % len(self.engagements)]
+        turns = self.period_deg if i + 1 == len(self.engagements) else 0.0
+        dwell = turns + (after.mid_deg + after.entry_deg) - (here.mid_deg + here.exit_deg)
+        # Rollers may follow each other without a dwell; then only rounding is left.
+        out: float = choose(abs(dwell) > 1e-9, dwell, 0.0)
+        return out
+
+
+def build(spec: Spec) -> Mechanism:
+    """Build the mechanism of a spec.
+
+    Raises GenevaError, naming the key, if the values do not make a machine together.
+    """
+    compatible.refuse_conflicts(spec)
+    plan = spec.drive.plan(spec.wheel, spec.motion, spec.given_distance_mm)
+    if spec.drive_before:
+        from geneva_cli.kinds.series.retimed import retimed  # few machines have drives in series
+
+        plan = retimed(plan, spec, spec.drive_before)
+    refuse_sizes(spec, plan.center_distance_mm, plan.ratio)
+    refuse_tolerances(spec, plan.center_distance_mm, plan.ratio)
+    return Mechanism(spec, *plan)

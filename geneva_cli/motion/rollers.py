@@ -1,0 +1,88 @@
+"""The rollers on the crank: the place of each, and the step of the wheel that it drives."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.motion.wheels.classic import refuse_jam
+from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
+from geneva_cli.motion.wheels.poses import HalfStep
+
+if TYPE_CHECKING:
+    from geneva_cli.motion.drive import Drive
+
+
+ANGLES_KEY = ("drive", "roller_angles_deg")
+
+
+def places(wheel: Gearing, drive: Drive, L: float) -> list[RollerPlace]:
+    """Rollers of a machine with straight slots, in the order in which they move the wheel.
+
+    Rollers that move the wheel alike are returned as one. Raises GenevaError if rollers would jam.
+    """
+    m = drive.rollers
+    angles = drive.roller_angles_deg
+    if wheel.steps:
+        rollers = _of_steps(wheel, L)
+        return _at_angles(angles, rollers) if angles else _equal_dwells(rollers)
+    one = wheel.place(wheel.step, L)
+    if angles:
+        return _at_angles(angles, [one] * len(angles))
+    refuse_jam(m, 2.0 * one.half_motion_deg, wheel.SIGN < 0.0)
+    return [one._replace(crank_deg=360.0 * j / m) for j in range(1 if drive.ALIKE else m)]
+
+
+def _at_angles(angles: tuple[float, ...], rollers: list[RollerPlace]) -> list[RollerPlace]:
+    """Rollers at the angles of the spec, each gap wide enough for half of both adjacent motions."""
+    if list(angles) != sorted(set(angles)) or angles[0] != 0.0 or angles[-1] >= 360.0:
+        raise GenevaError("roller_angles_deg must rise from 0 to below 360", ANGLES_KEY)
+    following = (*angles[1:], 360.0), (*rollers[1:], rollers[0])
+    for a, one, b, after in zip(angles, rollers, *following, strict=True):
+        motions = one.half_motion_deg + after.half_motion_deg
+        refuse(b - a < motions, partial(_too_near, a, b, motions))
+    _refuse_no_dwell(rollers, ANGLES_KEY)
+    return [one._replace(crank_deg=a) for a, one in zip(angles, rollers, strict=True)]
+
+
+def _too_near(a: float, b: float, motions: float) -> GenevaError:
+    return GenevaError(
+        f"the rollers at {a:g} and {b % 360.0:g} deg jam: half of both motions takes "
+        f"{motions:.6g} deg, and they are {b - a:.6g} deg apart",
+        ANGLES_KEY,
+    )
+
+
+def _refuse_no_dwell(rollers: list[RollerPlace], key: tuple[str, str]) -> None:
+    """Raise GenevaError if the motions of all rollers take a whole turn."""
+    total = sum(2.0 * one.half_motion_deg for one in rollers)
+    refuse(
+        total >= 360.0,
+        lambda: GenevaError(
+            f"the {len(rollers)} motions together take {total:.6g} deg of a turn and leave no "
+            "dwell: use fewer rollers, or a shorter pattern of steps",
+            key,
+        ),
+    )
+
+
+def _of_steps(wheel: Gearing, L: float) -> list[RollerPlace]:
+    """Rollers of unequal steps, on different arms: R_i = L sin b_i."""
+    ratios = (degrees.as_integer_ratio() for degrees in wheel.steps)
+    rollers = [wheel.place(HalfStep(p, 360 * q), L) for p, q in ratios]
+    _refuse_no_dwell(rollers, ("wheel", "steps_deg"))
+    return rollers
+
+
+def _equal_dwells(rollers: list[RollerPlace]) -> list[RollerPlace]:
+    """Rollers placed so that the dwells between their motions are equal."""
+    total = math.fsum(2.0 * one.half_motion_deg for one in rollers)
+    dwell = (360.0 - total) / len(rollers)
+    out, at = rollers[:1], 0.0
+    for before, one in pairwise(rollers):
+        at += before.half_motion_deg + dwell + one.half_motion_deg
+        out.append(one._replace(crank_deg=at))
+    return out

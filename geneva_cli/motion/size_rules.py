@@ -1,0 +1,142 @@
+"""Sizes and tolerances that make no machine: every command refuses them when it builds the machine.
+
+A size is refused here only if no choice of the other sizes can mend it. Examples are a roller as
+large as its crank, or a hub inside its bore. ``sizes`` and the checks decide if the other parts are
+well made.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import partial
+
+from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.motion.spec import Spec
+from geneva_cli.numerics.arrays import choose, smaller
+from geneva_cli.spec.tables import Size
+
+
+def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
+    """Raise GenevaError, naming the key, for a size that makes no machine with this R/L."""
+    size = spec.size
+    for key, value, below, what in _bounds(spec, L, ratio):
+        refuse(value >= below, partial(_too_large, key, value, below, what))
+    edges = 2.0 * size.edge_mm
+    if size.face_width_mm is not None and size.wheel_thickness_mm is not None:
+        refuse(size.face_width_mm + edges > size.wheel_thickness_mm, partial(_thin, size))
+    for part in ("wheel", "crank"):
+        bore, hub = getattr(size, f"{part}_bore_mm"), getattr(size, f"{part}_hub_mm")
+        if bore is not None and hub is not None:
+            refuse((hub > 0.0) & (hub < bore), partial(_hub_in_bore, part, hub, bore))
+
+
+def _too_large(key: str, value: float, below: float, what: str) -> GenevaError:
+    return GenevaError(
+        f"{key} = {value:g}: it must be below {below:.6g}, {what}",
+        ("size", key),
+    )
+
+
+def _thin(size: Size) -> GenevaError:
+    return GenevaError(
+        f"wheel_thickness_mm = {size.wheel_thickness_mm:g}: the contact line cannot be longer than "
+        f"the wheel is thick; use at least face_width_mm = {size.face_width_mm:g}"
+        + (f" and two edges of {size.edge_mm:g}" if size.edge_mm > 0.0 else ""),
+        ("size", "wheel_thickness_mm"),
+    )
+
+
+def _hub_in_bore(part: str, hub: float, bore: float) -> GenevaError:
+    return GenevaError(
+        f"{part}_hub_mm = {hub:g}: a hub must be larger than its bore: at least "
+        f"{part}_bore_mm = {bore:g}, or 0 for none",
+        ("size", f"{part}_hub_mm"),
+    )
+
+
+def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[tuple[str, float, float, str]]:
+    """Each size that is set: its key, its value, an upper limit, and the meaning of the limit."""
+    size, r, distance = spec.size, spec.roller_radius_mm(L), f"the {spec.wheel.DISTANCE}"
+    farthest = "the roller's greatest distance from the wheel's axis"
+    if not spec.output.turns:  # a rack has no axis: where its roller is farthest from the deepest
+        farthest = f"twice {distance}"
+    ratios = [math.sin(math.radians(0.5 * step)) for step in spec.wheel.steps] or [ratio]
+    short, long = L * min(ratios), L * max(ratios)
+    narrow, what = short, "the crank's arm"
+    if not spec.drive.ONE_ARM:
+        short = long = narrow = L  # a roller whose arm changes has no fixed arm length
+        what = distance
+    elif spec.wheel.FLAT and spec.wheel.SIGN > 0.0:
+        narrow = smaller(short, L - long)
+        what = "the smaller of the crank radius R and the rest of the centre distance, L - R"
+    bounds = (
+        (narrow, what, ("roller_radius_mm", "slot_clearance_mm")),
+        (short, "the crank's arm", ("lock_radius_mm", "lock_clearance_mm")),
+        (L, distance, ("slot_bottom_clearance_mm", "relief_clearance_mm")),
+        (L + long, farthest, ("wheel_radius_mm",)),
+        (
+            2.0 * L,
+            f"twice {distance}",
+            (
+                *("wheel_bore_mm", "wheel_hub_mm", "arm_hub_mm", "arm_eye_mm", "dial_bolt_mm"),
+                *("gear_bolt_mm", "link_pin_mm", "link_bore_mm", "link_width_mm"),
+            ),
+        ),
+        (
+            2.0 * short,
+            "twice the crank's arm",
+            (
+                *("crank_bore_mm", "crank_hub_mm", "arm_bore_mm"),
+                *("lock_bolt_mm", "lock_bolt_circle_mm"),
+            ),
+        ),
+        (2.0 * r, "the roller's diameter", ("pin_mm", "press_fit_mm", "shaft_fit_mm")),
+        (4.0 * L, f"four times {distance}", ("dial_bolt_circle_mm", "gear_bolt_circle_mm")),
+    )
+    allowed = size.allowances._asdict()  # from the process, where a key is left out
+    for below, meaning, keys in bounds:
+        for key in keys:
+            own = getattr(size, key)
+            value = allowed.get(key, own)
+            if value is not None:
+                by = "" if own is not None else f'; the value comes from process = "{size.process}"'
+                yield key, value, below, meaning + by
+
+
+def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
+    """Raise GenevaError, naming the key, for a tolerance that is too large or has no dimension."""
+    values, lock = spec.tolerance.as_dict(), spec.size.lock_radius_mm
+    unlocked = (not spec.drive.LOCKS) | (lock == 0.0)
+    for key in ("lock_radius_mm", "recess_radius_mm"):
+        refuse(unlocked & (values[key] != 0.0), partial(_no_lock, key, values[key]))
+    steps = spec.wheel.steps
+    arm = L * (math.sin(math.radians(0.5 * min(steps))) if steps else ratio)
+    step = min(steps) if steps else 360.0 / spec.wheel.z
+    roller = 2.0 * spec.roller_radius_mm(L)
+    slot = roller + 2.0 * spec.size.allowances.slot_clearance_mm
+    disc = arm if lock is None else choose(lock == 0.0, arm, lock)
+    for key, below, what in (
+        ("center_distance_mm", L, "the centre distance"),
+        ("crank_radius_mm", arm, "the crank's radius"),
+        ("roller_diameter_mm", roller, "the roller's diameter"),
+        ("slot_width_mm", slot, "the slot's width"),
+        ("slot_angle_deg", 0.5 * step, "half the wheel's step"),
+        ("lock_radius_mm", disc, "the locking disc's radius, or the crank's"),
+        ("recess_radius_mm", disc, "the locking disc's radius, or the crank's"),
+    ):
+        refuse(values[key] >= below, partial(_as_large, key, values[key], below, what))
+
+
+def _no_lock(key: str, value: float) -> GenevaError:
+    return GenevaError(
+        f"{key} = {value:g}: this machine has no locking disc; remove it", ("tolerance", key)
+    )
+
+
+def _as_large(key: str, value: float, below: float, what: str) -> GenevaError:
+    return GenevaError(
+        f"{key} = ±{value:g} is as large as the dimension itself: it must be below "
+        f"{below:.6g}, {what}",
+        ("tolerance", key),
+    )

@@ -1,0 +1,166 @@
+"""Engagements with a known straight slot and motion, whose roller path is solved for.
+
+The roller slides along the crank, and a fixed groove guides it. With the wheel at psi and the crank
+at phi, the law of sines gives the roller's distances. From the crank's axis it is R = L sin psi /
+sin(phi + psi), from the wheel's axis rho = L sin phi / sin(phi + psi). For an internal wheel phi +
+psi becomes phi - psi.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import cached_property, partial
+
+from geneva_cli.motion.engagement import Slot, SlotAxis
+from geneva_cli.motion.law_motion import LawMotion
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.arrays import Batchable
+from geneva_cli.numerics.jet import Jet, Number, piecewise, sin, sin_cos
+from geneva_cli.numerics.latest import Latest
+
+# Where psi and phi nearly vanish together, a series of psi / phi serves. Within this fraction of
+# the motion its first terms are exact to a double, even for a law with five waves. Beyond it the
+# quotient of the sines keeps enough digits in its derivatives. A spline's series has five terms.
+NEAR, TERMS = 1.0 / 30.0, 15
+NEAR_SPLINE_DEG, SPLINE_TERMS = 0.06, 5
+
+
+class SolvedPath(Batchable):
+    """The roller's path in the fixed frame; ``sign`` is +1 outside, -1 inside."""
+
+    def __init__(self, motion: LawMotion, sign: float) -> None:
+        self.motion, self.sign = motion, sign
+        self._latest = Latest()
+
+    @cached_property
+    def seams_deg(self) -> tuple[float, float]:
+        """Input angles between which the series about mid-motion is used, degrees."""
+        motion = self.motion
+        wide = motion.exit_deg - motion.entry_deg
+        near = NEAR * wide if motion.law.ANALYTIC else NEAR_SPLINE_DEG
+        return -near, near
+
+    def distances(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+        """Roller distances from the wheel's axis and from the crank's, in units of L."""
+        rho, R = self._latest(self._distances, input_deg, order)
+        return rho, R
+
+    def _distances(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
+        whole, middle = (partial(f, order=order) for f in (self._by_sines, self._by_series))
+        both = piecewise(input_deg, self.seams_deg, (whole, middle, whole)).c
+        return Jet(both[: order + 1]), Jet(both[order + 1 :])
+
+    def _by_sines(self, x: Number, order: int) -> Jet:
+        phi, psi = Jet.variable(radians(x), order), self.motion(x, order)
+        below = sin(phi + psi * self.sign)
+        return _stacked(sin(phi) / below, sin(psi) / below)
+
+    @cached_property
+    def _series(self) -> Sequence[Number]:
+        """Coefficients of psi in powers of phi, about mid-motion."""
+        return self.motion(0.0, TERMS if self.motion.law.ANALYTIC else SPLINE_TERMS).c
+
+    def _by_series(self, x: Number, order: int) -> Jet:
+        """Both distances near mid-motion, where both sines vanish: each is first divided by phi."""
+        t, c = Jet.variable(radians(x), order), self._series[1:]
+        # psi / phi, each coefficient of its jet a polynomial of the angle
+        slope = Jet(
+            [
+                _polynomial([math.comb(j, k) * c[j] for j in range(k, len(c))], t.c[0])
+                for k in range(order + 1)
+            ]
+        )
+        psi = slope * t
+        angle = slope * self.sign + 1.0  # (phi +- psi) / phi
+        below = angle * _sinc(angle * t)
+        return _stacked(_sinc(t) / below, slope * _sinc(psi) / below)
+
+    @property
+    def crossing(self) -> Number:
+        """Roller distance from the crank's axis at mid-motion, on the line of centres.
+
+        There psi and phi vanish together, and the distance is the limit of the quotient of their
+        sines.
+        """
+        slope = self.motion(0.0, 1).c[1]
+        return slope / (slope * self.sign + 1.0)
+
+    @cached_property
+    def ends(self) -> tuple[Sequence[Number], Sequence[Number]]:
+        """Roller distance from the crank's axis with two derivatives, at entry and exit."""
+        entry, exit_ = (
+            self.distances(end, 2)[1].derivatives()
+            for end in (self.motion.entry_deg, self.motion.exit_deg)
+        )
+        return entry, exit_
+
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+        """Roller (x, y) in its straight slot, which stands at the wheel's angle."""
+        rho, _ = self.distances(input_deg, order)
+        s, c = sin_cos(self.motion(input_deg, order))
+        return rho * c, rho * s
+
+    def groove(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+        """Pitch curve (x, y) of the fixed groove about the crank's axis."""
+        _, R = self.distances(input_deg, order)
+        s, c = sin_cos(Jet.variable(radians(input_deg), order))
+        # At mid-motion the crank points towards the wheel's axis (outside) or away from it
+        # (inside).
+        return R * c * -self.sign, R * s
+
+
+class SolvedPathSlot(Slot):
+    """The straight radial slot of a solved path."""
+
+    def __init__(self, path: SolvedPath) -> None:
+        self.path = path
+
+    @property
+    def seams_deg(self) -> tuple[float, ...]:
+        """Input angles at which another formula of the path takes over, degrees."""
+        return self.path.seams_deg
+
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+        """Pin (x, y) in the wheel, on the slot's straight axis."""
+        rho, _ = self.path.distances(input_deg, order)
+        return rho, rho * 0.0
+
+    def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
+        """Lever (the pin's distance from the wheel's axis) and the pin's speed along the slot."""
+        rho, _ = self.path.distances(input_deg, order + 1)
+        return SlotAxis(rho.lower, rho.derivative())
+
+
+def _stacked(a: Jet, b: Jet) -> Jet:
+    return Jet((*a.c, *b.c))
+
+
+def _polynomial(c: Sequence[Number], x: Number) -> Number:
+    total = x * 0.0
+    for a in reversed(c):
+        total = total * x + a
+    return total
+
+
+def _sinc(x: Jet) -> Jet:
+    """Jet of sin x / x for small x, from its series about the value of x.
+
+    Each derivative has enough terms to be exact to a double up to x = 1/2.
+    """
+    at, order = x.c[0], x.order
+    square = at * at
+    step = Jet((at * 0.0, *x.c[1:]))
+    total = step * 0.0
+    for k in range(order, -1, -1):
+        first = (k + 1) // 2  # the lowest power of the square that is left after k derivatives
+        # k-th derivative of (-1)^j x^2j / (2j + 1)!, over k!
+        term = _polynomial(
+            [
+                (-1.0) ** j * math.comb(2 * j, k) / math.factorial(2 * j + 1)
+                for j in range(first, first + 9)
+            ],
+            square,
+        )
+        total = total * step + (term * at if k % 2 else term)
+    return total

@@ -1,0 +1,385 @@
+"""A whole spec: the wheel, its drive, its motion, and the tables of sizes, loads and limits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Any, Self
+
+from geneva_cli.drives.crank import Crank
+from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.motion.drive import Drive, Gears
+from geneva_cli.motion.motion import Motion
+from geneva_cli.motion.wheels.gearing import Gearing, Output
+from geneva_cli.numerics.arrays import all_true
+from geneva_cli.spec.schema import SpecTable, copied, hash_once, refuse_kind, without_hash
+from geneva_cli.spec.tables import (
+    DISTANCE_MM,
+    LISTS,
+    PLAIN,
+    Z_DRAWN,
+    Limits,
+    Load,
+    Mass,
+    Motor,
+    Product,
+    RollerMaterial,
+    Shaft,
+    Size,
+    Support,
+    TitleBlock,
+    Tolerance,
+    WheelMaterial,
+)
+
+BEFORE = "drive.before"  # table of the drive that turns the input shaft of [drive]
+# limits that need a load
+LOADED = (
+    "pin_force_max_N",
+    "input_torque_max_Nm",
+    "contact_stress_max_MPa",
+    "pv_max_W_m2",
+    "roller_life_min_h",
+    "slot_wear_max_mm_per_million",
+)
+# limits that need another key, with its table and its meaning
+NEEDED = {
+    **dict.fromkeys(
+        (
+            "contact_stress_max_MPa",
+            "pv_max_W_m2",
+            "lock_stress_max_MPa",
+            "stop_stress_max_MPa",
+            "lock_deflection_max_deg",
+        ),
+        ("face_width_mm", "size", "the length of the line of contact"),
+    ),
+    "slot_wear_max_mm_per_million": ("wear_mm3_Nm", "material.wheel", "its material's wear"),
+    "roller_life_min_h": ("dynamic_capacity_N", "material.roller", "the roller's capacity"),
+}
+
+
+def attribute(table: str) -> str:
+    """Name of the ``Spec`` field that holds a table of the file."""
+    return table.replace(".", "_")
+
+
+# Fields of ``Spec`` that hold a table, their type, and an example for the error message.
+_TABLE_TYPES: tuple[tuple[str, type, str], ...] = (
+    ("wheel", Gearing, "External(6)"),
+    ("drive", Drive, "Crank(n_rpm=60)"),
+    ("drive_before", Drive, "SideCrank(A=0.6)"),
+    ("motion", Motion, "Motion(Cycloidal())"),
+    *(
+        (attribute(n), table, f"{table.__name__}(...)")
+        for n, table in PLAIN.items()
+        if n not in LISTS
+    ),
+)
+
+
+def _no_load(key: str, keys: str) -> GenevaError:
+    return GenevaError(
+        f"{key} needs a load, and without one there is nothing to limit: set {keys}",
+        ("limits", key),
+    )
+
+
+@dataclass(frozen=True)
+class Spec:
+    """All values from which a machine is built, as in the spec's file.
+
+    ``path`` is that file, for messages; ``files`` are the CSV files of its points. ``drive_before``
+    turns the input shaft of ``drive``.
+
+    >>> Spec(External(6)).drive.n_rpm
+    60.0
+    """
+
+    wheel: Gearing
+    drive: Drive = field(default_factory=Crank)
+    motion: Motion | None = None
+    size: Size = field(default_factory=Size)
+    load: Load = field(default_factory=Load)
+    mass: tuple[Mass, ...] = ()
+    support: Support = field(default_factory=Support)
+    motor: Motor = field(default_factory=Motor)
+    shaft: Shaft = field(default_factory=Shaft)
+    material_wheel: WheelMaterial = field(default_factory=WheelMaterial)
+    material_roller: RollerMaterial = field(default_factory=RollerMaterial)
+    tolerance: Tolerance = field(default_factory=Tolerance)
+    product: Product = field(default_factory=Product)
+    limits: Limits = field(default_factory=Limits)
+    drawing: TitleBlock = field(default_factory=TitleBlock)
+    title: str = ""
+    path: str = ""
+    files: tuple[str, ...] = ()
+    drive_before: Drive | None = None
+
+    def __post_init__(self) -> None:
+        for name, kind, example in _TABLE_TYPES:
+            value = vars(self)[name]
+            if value is not None or name not in ("drive_before", "motion"):
+                refuse_kind(value, name, kind, example)
+        if not isinstance(self.mass, tuple):
+            object.__setattr__(self, "mass", tuple(self.mass))
+        if not all(isinstance(one, Mass) for one in self.mass):
+            raise GenevaError('mass must be a list of objects like Mass("disc", ...)')
+        limits = vars(self.limits)
+        for limit, (key, of, what) in NEEDED.items():
+            if limits[limit] is not None and self.table(of)[key] is None:
+                raise GenevaError(f"{limit} needs {what}: set {key} in [{of}]", ("limits", limit))
+        if self.limits.product_acceleration_max_m_s2 is not None and not self.product.lies:
+            raise GenevaError(
+                "product_acceleration_max_m_s2 needs the product's place: set radius_mm in "
+                "[product]",
+                ("limits", "product_acceleration_max_m_s2"),
+            )
+        for key in LOADED:
+            if limits[key] is not None:
+                refuse(self._unloaded, partial(_no_load, key, self.load_keys))
+
+    def __hash__(self) -> int:
+        return hash_once(self)
+
+    def __getstate__(self) -> dict[str, object]:
+        return without_hash(self)
+
+    def replace(self, **changes: Any) -> Self:
+        """Return a copy with some tables changed.
+
+        >>> Spec(External(6)).replace(wheel=Internal(6)).wheel.NAME
+        'internal'
+        """
+        return copied(self, changes)
+
+    def table(self, name: str) -> dict[str, Any]:
+        """Values of a table by key; those of ``motion`` include the keys of its law.
+
+        A table that the spec does not have is empty.
+
+        >>> Spec(External(6)).table("wheel")
+        {'z': 6, 'held_by': None, 'offset_mm': 0.0, 'steps_deg': None, 'stop': False}
+        """
+        if name == "motion":
+            return {} if self.motion is None else self.motion.law.as_dict() | self.motion.as_dict()
+        part = self._part(name)
+        return {} if part is None else part.as_dict()
+
+    def _part(self, name: str) -> SpecTable | None:
+        """Table by its name in the file (``mass.0`` is the first of a list), or None if absent."""
+        if name in ("wheel", "drive", BEFORE, "motion"):
+            part: SpecTable | None = vars(self)[attribute(name)]
+            return part
+        if name in PLAIN and name not in LISTS:
+            plain: SpecTable = vars(self)[attribute(name)]
+            return plain
+        table, _, number = name.partition(".")
+        several = vars(self)[table] if table in LISTS else ()
+        return several[int(number)] if number.isdecimal() and int(number) < len(several) else None
+
+    def with_(self, key: str, value: object) -> Self:
+        """Return a copy with one key changed, written ``table.key``; None sets its default.
+
+        Raises GenevaError for a key that this spec's kinds do not have, or a value out of range.
+
+        >>> Spec(External(6)).with_("wheel.z", 8).wheel.z
+        8
+        """
+        table, _, name = key.rpartition(".")
+        part = self._part(table)
+        if part is None:
+            missing = table or key
+            raise GenevaError(f"{key}: this spec has no [{missing}]", tuple(key.split(".")))
+        changed = part.with_key(name, value)
+        one_of, _, number = table.partition(".")
+        if one_of not in LISTS:
+            return self.replace(**{attribute(table): changed})
+        several, at = vars(self)[one_of], int(number)
+        return self.replace(**{one_of: (*several[:at], changed, *several[at + 1 :])})
+
+    @property
+    def turns(self) -> int:
+        """Number of input turns in one turn of the crank.
+
+        >>> Spec(External(4), GenevaPair(first_z=5)).turns
+        5
+        """
+        before = self.drive_before
+        return self.drive.turns * (1 if before is None else before.turns)
+
+    @property
+    def gears(self) -> Gears | None:
+        """Noncircular gears of the drive, or of the one before it; None without.
+
+        >>> Spec(External(6), NoncircularGears(A=0.5)).gears.distance_mm
+        100.0
+        """
+        before = self.drive_before
+        return (before and before.gears) or self.drive.gears
+
+    def input_deg(self, crank_deg: float) -> float:
+        """Input angle from mid-motion at a crank angle from mid-motion, degrees.
+
+        >>> round(Spec(External(6), SideCrank(A=0.5)).input_deg(90.0), 9)
+        120.0
+        """
+        shaft_deg = self.drive.input_deg(crank_deg)
+        before = self.drive_before
+        return shaft_deg if before is None else before.input_deg(shaft_deg)
+
+    @property
+    def has_lock(self) -> bool:
+        """True if the crank has a part that locks the wheel in the dwell.
+
+        >>> Spec(External(6)).has_lock, Spec(External(6), size=Size(lock_radius_mm=0.0)).has_lock
+        (True, False)
+        """
+        return self.drive.LOCKS and self.size.lock_radius_mm != 0.0
+
+    @property
+    def dwell_holder(self) -> str | None:
+        """What holds the wheel in the dwell; None if nothing does.
+
+        >>> Spec(External(6)).dwell_holder, Spec(Counter(4)).dwell_holder
+        ('locking disc', 'locking rim')
+        """
+        return self.wheel.held_by or (self.wheel.LOCK if self.has_lock else None)
+
+    @property
+    def is_loaded(self) -> bool:
+        """True if the spec has a load whose forces are computed: an inertia, a torque or friction.
+
+        It is never so for a wheel whose speed jumps.
+
+        >>> Spec(External(6)).is_loaded, Spec(External(6), load=Load(torque_Nm=2.0)).is_loaded
+        (False, True)
+        """
+        return not all_true(self._unloaded)
+
+    @property
+    def load_keys(self) -> str:
+        """Keys that set a load of this kind of wheel, in words.
+
+        >>> Spec(Linear(6)).load_keys
+        'mass_kg or force_N in [load]'
+        """
+        return self.output.load_keys
+
+    @property
+    def output(self) -> Output:
+        """What the wheel gives out, with its units.
+
+        >>> Spec(External(6)).output.column, Spec(Linear(6)).output.column
+        ('wheel_deg', 'rack_mm')
+        """
+        return self.wheel.output(self.given_distance_mm)
+
+    @property
+    def _unloaded(self) -> bool:
+        if self.wheel.JUMPS:
+            return True
+        load = self.load
+        nothing = (load.inertia_kgm2 == 0.0) & (load.torque_Nm == 0.0)
+        nothing = nothing & (load.mass_kg == 0.0) & (load.force_N == 0.0)
+        return nothing & (self.support.own_torque_Nm == 0.0) & (not self.mass)
+
+    @property
+    def unbalanced(self) -> bool:
+        """True if a single body stands off the wheel's axis.
+
+        >>> Spec(External(6), mass=(Mass("point", mass_kg=1.0, radius_mm=50.0),)).unbalanced
+        True
+        """
+        return any(one.to_one_side for one in self.mass)
+
+    @property
+    def is_flat(self) -> bool:
+        """True if wheel and crank are flat outlines and the wheel has few enough slots to be drawn.
+
+        >>> Spec(External(6)).is_flat, Spec(Spherical(6)).is_flat
+        (True, False)
+        """
+        return self.wheel.FLAT and self.has_parts
+
+    @property
+    def has_parts(self) -> bool:
+        """True if wheel and crank have outlines, on flat plates or on the shells of a sphere.
+
+        >>> Spec(Spherical(6)).has_parts, Spec(External(400)).has_parts
+        (True, False)
+        """
+        return not self.no_parts
+
+    @property
+    def guided(self) -> bool:
+        """True if a rack slides in a guide, which stands on the frame of its crank.
+
+        >>> Spec(Linear(6)).guided, Spec(External(6)).guided
+        (True, False)
+        """
+        return not self.output.turns and (self.drive.direct or self.drive.GEARED)
+
+    @property
+    def is_turned(self) -> bool:
+        """True if wheel and crank can be checked for collisions in a full turn of the crank.
+
+        >>> Spec(Linear(6)).is_turned, Spec(External(400)).is_turned
+        (True, False)
+        """
+        # Teeth have checks of their own: their free angles.
+        if not self.wheel.PARTS or self.wheel.toothed:
+            return False
+        # A rack of any length is checked by the slots that the crank reaches in a turn.
+        return not self.output.turns or self.wheel.z <= Z_DRAWN
+
+    @property
+    def no_parts(self) -> str:
+        """The reason why wheel and crank have no outlines; empty if they have.
+
+        >>> Spec(External(400)).no_parts
+        'wheels of more than 360 slots are not drawn'
+        """
+        if not self.wheel.PARTS:
+            return f'shafts and frame of gearing = "{self.wheel.NAME}" are not built'
+        before = self.drive_before
+        if before is not None and len(self.drive.cranks) > 1:
+            return f'the gears between several cranks and kind = "{before.NAME}" are not built'
+        if before is not None and before.GEARED and self.drive.GEARED:
+            return (
+                f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '
+                "built: one pair of noncircular-gears with the ratio of both does the same"
+            )
+        if before is not None and not (before.GEARED or self.drive.turned_at_crank):
+            return (
+                f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '
+                "built: the shaft between them has no bearing, since the input crank turns below it"
+            )
+        if not (self.output.turns or self.guided):
+            return (
+                f"frame and guide of a rack behind {self.drive.WORDS} are not built: the crank's "
+                "shaft has no bearing between the rack above it and the input crank below it"
+            )
+        if self.wheel.z > Z_DRAWN:
+            return f"wheels of more than {Z_DRAWN} slots are not drawn"
+        return ""
+
+    def roller_radius_mm(self, center_distance_mm: float) -> float:
+        """Roller radius r in millimetres, by default L/20.
+
+        >>> Spec(External(6)).roller_radius_mm(160.0)
+        8.0
+        """
+        return self.size.roller_radius(center_distance_mm)
+
+    @property
+    def given_distance_mm(self) -> float:
+        """Centre distance L in millimetres from the spec, or its default.
+
+        Some drives solve for another one.
+
+        >>> Spec(External(6)).given_distance_mm
+        100.0
+        """
+        distance = self.size.center_distance_mm
+        return DISTANCE_MM if distance is None else distance

@@ -1,0 +1,77 @@
+"""Timing of each motion and each dwell."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+from geneva_cli.numerics.arrays import choose
+
+if TYPE_CHECKING:
+    from geneva_cli.motion.mechanism import Mechanism
+
+
+class Timing(NamedTuple):
+    """One cycle: a motion and the dwell after it. Angles are of the input, index_deg of the wheel.
+
+    ``index_mm`` is a rack's step, which has no angle; None for a wheel.
+
+    k = motion / dwell (the work coefficient), tau = motion / cycle. For a batch each is a number or
+    an array (n, 1).
+    """
+
+    motion_deg: float
+    dwell_deg: float
+    index_deg: float | None
+    k: float
+    tau: float
+    motion_s: float
+    dwell_s: float
+    cycle_s: float
+    index_mm: float | None = None
+
+    @property
+    def step(self) -> float:
+        """The step in the output's unit: a wheel's in degrees, or a rack's in millimetres."""
+        own = self.index_mm if self.index_deg is None else self.index_deg
+        assert own is not None  # a machine has one of them
+        return own
+
+
+def timing(
+    motion_deg: float,
+    dwell_deg: float,
+    index_deg: float | None,
+    n_rpm: float,
+    index_mm: float | None = None,
+) -> Timing:
+    """The timing of one cycle at a steady input speed."""
+    second = 6.0 * n_rpm  # degrees of input a second
+    cycle = motion_deg + dwell_deg
+    pause = dwell_deg != 0.0
+    return Timing(
+        motion_deg,
+        dwell_deg,
+        index_deg,
+        choose(pause, motion_deg / choose(pause, dwell_deg, math.nan), math.inf),
+        motion_deg / cycle,
+        motion_deg / second,
+        dwell_deg / second,
+        cycle / second,
+        index_mm,
+    )
+
+
+def timings(mechanism: Mechanism) -> list[Timing]:
+    """The timing of every engagement, in order."""
+    output = mechanism.output
+    return [
+        timing(
+            engagement.motion_deg,
+            mechanism.dwell_deg(i),
+            mechanism.index_deg(i) if output.turns else None,
+            mechanism.spec.drive.n_rpm,
+            None if output.turns else 2.0 * engagement.half_step * output.per_radian,
+        )
+        for i, engagement in enumerate(mechanism.engagements)
+    ]

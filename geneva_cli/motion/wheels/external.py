@@ -1,0 +1,167 @@
+"""External wheels: radial slots, offset slots, unequal steps."""
+
+import math
+from collections.abc import Callable
+from typing import Annotated, ClassVar, Self
+
+from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.motion.engagement import Displacement, Slot, WheelMotion
+from geneva_cli.motion.path_and_slot import AnchoredPath
+from geneva_cli.motion.pivots import Dimension, Layout
+from geneva_cli.motion.wheels import classic, poses
+from geneva_cli.motion.wheels.gearing import FollowedRate, Gearing, RollerPlace
+from geneva_cli.motion.wheels.poses import HalfStep
+from geneva_cli.numerics.arrays import choose
+from geneva_cli.spec.rules import LENGTH, Range
+from geneva_cli.spec.schema import Example
+
+
+class External(Gearing):
+    """The crank turns outside the wheel: less motion than dwell.
+
+    ``z`` is the number of slots, 3 or more. ``offset_mm`` is the distance by which the slots' axes
+    miss the wheel's axis. ``steps_deg`` are unequal steps, a pattern that repeats over a turn. With
+    ``stop`` one recess is left convex, so that the crank is blocked after z - 1 turns.
+
+    >>> Design(External(6)).timing.motion_deg
+    120.0
+    >>> Design(External(6, steps_deg=(72, 48))).timing.index_deg
+    72.0
+    """
+
+    NAME: ClassVar[str] = "external"
+    EXAMPLE: ClassVar[Example] = Example("an external wheel, straight slots", {"wheel": {"z": 6}})
+    offset_mm: Annotated[
+        float, LENGTH, "distance from the slots' axes to the wheel's; > 0 enters gently"
+    ] = 0.0
+    steps_deg: Annotated[
+        tuple[float, ...] | None, Range(0.0, 360.0, "()"), "unequal steps, as a repeating pattern"
+    ] = None
+    stop: Annotated[bool, None, "a convex face in place of a recess stops the crank"] = False
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.steps_deg:
+            refuse(
+                self.offset_mm != 0.0,
+                lambda: GenevaError(
+                    "offset_mm and steps_deg cannot be combined: remove one of them",
+                    ("wheel", "offset_mm"),
+                ),
+            )
+            self._refuse_steps(self.steps_deg)
+
+    def _refuse_steps(self, steps: tuple[float, ...]) -> None:
+        """Raise GenevaError if the pattern does not close over the wheel."""
+        z, key = self.z, ("wheel", "steps_deg")
+        refuse(
+            z % len(steps) != 0,
+            lambda: GenevaError(
+                f"z = {z} is not a multiple of the {len(steps)} steps in the pattern: "
+                f"use {_multiples(z, len(steps))}",
+                key,
+            ),
+        )
+        turn = math.fsum(steps) * z / len(steps)
+        refuse(
+            abs(turn - 360.0) > 1e-9,
+            lambda: GenevaError(
+                f"{z // len(steps)} times the pattern is {turn:.12g} deg, not 360: "
+                f"its steps must add up to {360.0 * len(steps) / z:.12g}",
+                key,
+            ),
+        )
+        if max(steps) >= 180.0:
+            raise GenevaError(f"a step of {max(steps):g} deg is too large; below 180", key)
+
+    @property
+    def steps(self) -> tuple[float, ...]:
+        """Repeating pattern of unequal steps in degrees; empty if all are equal."""
+        return self.steps_deg or ()
+
+    @property
+    def stopped(self) -> bool:
+        """True if a convex face in place of a recess stops the crank at both ends."""
+        return self.stop
+
+    @property
+    def skewed(self) -> bool:
+        """True if slots are not radial or not all alike."""
+        return True if self.steps_deg else self.offset_mm != 0.0
+
+    @property
+    def backwards(self) -> Self:
+        """The wheel with the opposite offset, and its steps in reverse order after the first."""
+        steps = (self.steps[0], *self.steps[:0:-1]) if self.steps else None
+        return self.replace(offset_mm=0.0 - self.offset_mm, steps_deg=steps)
+
+    def half_motion_deg(self, step: HalfStep) -> float:
+        """Crank angle in degrees from entry to the line of centres: 90° - b."""
+        return classic.half_motion_deg(self.SIGN, *step)
+
+    @property
+    def layout(self) -> Layout:
+        """Distance by which the slots' axes miss the wheel's axis."""
+        return (Dimension("slots' axes offset from the wheel's", self.offset_mm, "mm"),)
+
+    def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
+        """Place of a roller; GenevaError if an offset slot cannot be entered without shock."""
+        half = self.half_motion_deg(step)
+        e = self.offset_mm / center_distance_mm
+        if isinstance(e, float) and not e:
+            return RollerPlace(step, half, poses.radial(self.SIGN, step), step.sin_cos[0])
+
+        from geneva_cli.motion.wheels.skew import margin, skew
+
+        def error() -> GenevaError:
+            # b + |d| < 90 degrees means |e| < 1 - l; at the limit e = cos b sin d, d = 90 deg - b
+            limit = step.sin_cos[1] ** 2 * center_distance_mm
+            return GenevaError(
+                f"offset_mm = {self.offset_mm:g}: the roller cannot enter this slot without "
+                f"shock: its size must be below {limit:.6g}",
+                ("wheel", "offset_mm"),
+            )
+
+        spare = margin(step, e)
+        refuse(spare <= 0.0, error)
+        slot = skew(step, e, spare)
+        return RollerPlace(step, half, slot.poses, slot.poses[2].slope[0], slot)
+
+    def follow(
+        self, path: AnchoredPath, place: RollerPlace, turn: Displacement
+    ) -> tuple[Slot, WheelMotion]:
+        """Radial or offset slot for a roller's path, and the motion that follows."""
+        if place.skew is None:
+            return super().follow(path, place, turn)
+        from geneva_cli.motion.wheels.offset_slot import OffsetSlot, OffsetSlotMotion
+
+        slot = OffsetSlot(path, place.skew)
+        return slot, OffsetSlotMotion(path, place.step.b, place.skew)
+
+    def exact_rate(
+        self, step: tuple[float, float], L: float, exact: Callable[[float], float]
+    ) -> FollowedRate:
+        """Rate of a wheel with radial or offset slots, as in ``Gearing.exact_rate``."""
+        if not self.offset_mm:
+            return super().exact_rate(step, L, exact)
+        from geneva_cli.motion.wheels.offset_slot import exact_rate
+
+        return exact_rate(exact(self.offset_mm) / exact(L), *step)
+
+    def closed_form(self, place: RollerPlace) -> tuple[float, float, float] | None:
+        """Sign, l = sin b and 1 - l for the closed forms of radial slots; None for others."""
+        if place.skew is not None:
+            return None
+        return self.SIGN, place.step.sin_cos[0], classic.gap(1.0, *place.step)
+
+    def matched_ratio(self, v: float) -> float:
+        """R/L of the mid condition psi1(0) = l/(1-l) f1(0), with the transmission's ratio f1."""
+        able = v > 0.0
+        ratio: float = choose(able, v, math.nan) / (1.0 + choose(able, v, 0.0))
+        return ratio
+
+
+def _multiples(z: int, n: int) -> str:
+    """Nearest multiples of n below and above z, if they are possible numbers of slots."""
+    near = [m for m in (z // n * n, (z // n + 1) * n) if m >= 3]
+    return " or ".join(str(m) for m in near)

@@ -1,0 +1,282 @@
+"""The base of the gearings: external, internal and spherical wheels, and racks."""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from collections.abc import Callable
+from dataclasses import field
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self, TypeAlias
+
+from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
+from geneva_cli.motion.pivots import Layout, Pivot
+from geneva_cli.motion.wheels.poses import HalfStep, PinPose
+from geneva_cli.numerics.arrays import larger
+from geneva_cli.numerics.jet import Jet, turning
+from geneva_cli.spec.rules import Z_MAX, OneOf, Range
+from geneva_cli.spec.schema import Example, SpecTable
+
+if TYPE_CHECKING:
+    from geneva_cli.motion.engagement import CarrierVelocity, Displacement, Slot, WheelMotion
+    from geneva_cli.motion.plane_motion import PlaneMotion
+    from geneva_cli.motion.wheels.skew import Skew
+
+
+# The wheel's rate from sin d and 1 - cos d of the crank's rotation d since mid-motion.
+FollowedRate: TypeAlias = Callable[[Jet, Jet], Jet]
+
+
+class Output(NamedTuple):
+    """What a wheel gives out: an angle, or the travel of a rack, with the units of its rates.
+
+    ``loads`` are quantities by name, each with one of a wheel's shaft and the ratio to it.
+    ``lacks`` are quantities that only a wheel with a shaft has.
+    """
+
+    noun: str  # of the part that moves
+    column: str  # name of its position in tables
+    unit: str
+    per_radian: float  # in that unit
+    rate_unit: str
+    rate_per_radian: float  # in that unit
+    load_keys: str  # what sets a load
+    loads: dict[str, tuple[str, float]]
+    lacks: tuple[str, ...] = ()
+    invariants: str = "relative to the input"  # what velocity, acceleration and jerk are
+
+    @property
+    def turns(self) -> bool:
+        """True if it is an angle."""
+        return self.unit == "deg"
+
+    def from_deg(self, wheel_deg: float) -> float:
+        """Return an angle of the wheel, or of a rack's pinion, in the unit of the output."""
+        return wheel_deg if self.turns else math.radians(wheel_deg) * self.per_radian
+
+
+class RollerPlace(NamedTuple):
+    """A roller on the crank, and its passage through a straight slot.
+
+    ``crank_deg`` is the crank angle at which it crosses the line of centres. ``poses`` are entry,
+    middle and exit on its circle, with crank angles counted from there. ``ratio`` is its arm over
+    the centre distance. ``skew`` describes an offset slot.
+
+    On a sphere ``height`` is the pin's position along the wheel's axis: (top, fall) for top - fall
+    (1 - cos a). ``cone`` is the cosine of the pin's cone.
+    """
+
+    step: HalfStep
+    half_motion_deg: float
+    poses: tuple[PinPose, PinPose, PinPose]
+    ratio: float
+    skew: Skew | None = None
+    crank_deg: float = 0.0
+    height: tuple[float, float] | None = None
+    cone: float = 1.0
+
+    @property
+    def reach_deg(self) -> float:
+        """Greatest crank angle from the line of centres at which it moves the wheel, degrees."""
+        farthest: float = larger(-self.poses[0].crank_deg, self.poses[2].crank_deg)
+        return farthest
+
+
+class Gearing(SpecTable):
+    """A wheel; its fields are the keys of ``[wheel]``. Raises GenevaError for impossible values."""
+
+    TABLE: ClassVar[str] = "wheel"
+    NAME: ClassVar[str]
+    # example spec, without its gearing
+    EXAMPLE: ClassVar[Example]
+    # usual keys of [load] and of [limits] in a new spec
+    USUAL_LOAD: ClassVar[dict[str, float]] = {"inertia_kgm2": 0.05, "torque_Nm": 2}
+    USUAL_LIMITS: ClassVar[dict[str, float]] = {"acceleration_max": 1.5, "pin_force_max_N": 600}
+    # +1 if the crank's axis is outside the wheel, -1 if inside
+    SIGN: ClassVar[float] = 1.0
+    # True if wheel and crank are flat parts on parallel shafts
+    FLAT: ClassVar[bool] = True
+    # True if they are shells of a sphere, on shafts that meet at its centre
+    SHELLS: ClassVar[bool] = False
+    # how all parts are built: "flat" about two axes, "ball" about a point, "rack" along a line,
+    # "counter" as gears, or "" if they are not built
+    PARTS: ClassVar[str] = "flat"
+    # meaning of center_distance_mm
+    DISTANCE: ClassVar[str] = "centre distance"
+    # what locks it in the dwell, on a crank
+    LOCK: ClassVar[str] = "locking disc"
+    # True if its speed jumps at entry and exit, so that forces have no bound
+    JUMPS: ClassVar[bool] = False
+    # stiffness of a pair of steel teeth that drive it, over their width; 0 for a roller
+    TOOTH_N_mm2: ClassVar[float] = 0.0
+    # the only drives that it has; empty for any
+    DRIVES: ClassVar[tuple[str, ...]] = ()
+    z: Annotated[int, Range(3, Z_MAX), "number of slots"]
+    held_by: Annotated[
+        str | None,
+        OneOf(("brake", "detent", "pin")),
+        "device that holds the wheel at rest, if no locking disc does",
+    ] = field(default=None, kw_only=True)
+
+    @property
+    def step(self) -> HalfStep:
+        """Half the wheel's step as an exact fraction, for equal steps."""
+        return HalfStep(1, self.z)
+
+    @property
+    def steps(self) -> tuple[float, ...]:
+        """Repeating pattern of unequal steps in degrees; empty if all are equal."""
+        return ()
+
+    @property
+    def stopped(self) -> bool:
+        """True if a convex face in place of a recess stops the crank at both ends."""
+        return False
+
+    @property
+    def skewed(self) -> bool:
+        """True if slots are not radial or not all alike, which some drives and laws cannot use.
+
+        An array of truth values for a batch.
+        """
+        return False
+
+    @property
+    def backwards(self) -> Self:
+        """The wheel that turns the other way, as seen from its other side.
+
+        >>> External(6, offset_mm=12.0).backwards.offset_mm
+        -12.0
+        """
+        return self
+
+    @property
+    def toothed(self) -> bool:
+        """True if teeth drive it, and no roller.
+
+        >>> External(6).toothed, Counter(4).toothed
+        (False, True)
+        """
+        return self.TOOTH_N_mm2 > 0.0
+
+    @property
+    def pinions(self) -> int:
+        """Number of a counter's pinions, which may start at once; 0 for a wheel."""
+        return 0
+
+    @property
+    def layout(self) -> Layout:
+        """Dimensions of this kind of wheel, in addition to its number of slots.
+
+        >>> External(6, offset_mm=12.0).layout
+        (Dimension(name="slots' axes offset from the wheel's", value=12.0, unit='mm'),)
+        """
+        return ()
+
+    @property
+    def title(self) -> str:
+        """The title of a design without one of its own.
+
+        >>> External(6).title
+        'Geneva wheel of 6 slots'
+        """
+        return f"Geneva wheel of {self.z} slots"
+
+    def axes(self, L: float) -> tuple[Pivot, ...]:
+        """Axes of wheel and crank in the plane of the parts, for a centre distance in mm.
+
+        >>> [axis.name for axis in External(6).axes(100.0)], Linear(6).axes(50.0)
+        (['wheel axis', 'crank axis'], (Pivot(name='crank axis', x_mm=50.0, y_mm=0.0),))
+        """
+        return Pivot("wheel axis", 0.0, 0.0), Pivot("crank axis", L, 0.0)
+
+    def words(self, slots: str) -> str:
+        """The wheel in words; ``slots`` is the kind of its slots.
+
+        >>> External(6).words("straight radial")
+        'external wheel of 6 straight radial slots'
+        """
+        return f"{self.NAME} wheel of {self.z} {slots} slots"
+
+    def driven_by(self, drive: str, behind: str, rollers: str) -> str:
+        """What drives the wheel in words: a drive, what is in front of it, and its rollers.
+
+        >>> External(6).driven_by("a crank", "", "one roller")
+        'a crank with one roller'
+        """
+        return f"{drive}{behind} with {rollers}"
+
+    @property
+    def own_sizes(self) -> dict[str, float]:
+        """Values by name that a report shows for this kind of wheel only."""
+        return {}
+
+    def output(self, center_distance_mm: float) -> Output:
+        """What the wheel gives out: its angle, in degrees."""
+        keys = "inertia_kgm2 or torque_Nm in [load], or a [[mass]]"
+        return Output("wheel", "wheel_deg", "deg", 180.0 / math.pi, "rad", 1.0, keys, {})
+
+    def index_deg(self, i: int) -> float:
+        """The wheel's step at its i-th engagement, degrees."""
+        return self.steps[i] if self.steps else 360.0 / self.z
+
+    @abstractmethod
+    def half_motion_deg(self, step: HalfStep) -> float:
+        """Crank angle in degrees from entry to the line of centres, for an entry without shock."""
+
+    @abstractmethod
+    def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
+        """Place of a roller in a straight slot. Raises GenevaError if it is impossible."""
+
+    def rest(self, ratio: float) -> float:
+        """Least distance of a pin on any circle from the wheel's axis: 1 - l, inside 1 + l."""
+        return 1.0 - self.SIGN * ratio
+
+    def follow(
+        self, path: AnchoredPath, place: RollerPlace, turn: Displacement
+    ) -> tuple[Slot, WheelMotion]:
+        """Straight slot for a roller's path, and the motion that follows.
+
+        ``turn`` is the crank's rotation from mid-motion, as its sine and versine.
+        """
+        return RadialSlot(path), StraightSlotMotion(path, place.step.b)
+
+    def plane_motion(self, center_distance_mm: float) -> PlaneMotion:
+        """How the wheel moves in its plane, for lengths in millimetres."""
+        # imported here, as `table` starts without NumPy
+        from geneva_cli.motion.plane_motion import Turning
+
+        return Turning()
+
+    def body(self, place: RollerPlace, turn: Displacement) -> CarrierVelocity | None:
+        """Angular velocity of the roller's carrier; None for a crank arm in the plane."""
+        return None
+
+    def hub(self, place: RollerPlace) -> float:
+        """Distance over L from the wheel's axis to the point about which the crank's arm turns."""
+        return 1.0
+
+    def closed_form(self, place: RollerPlace) -> tuple[float, float, float] | None:
+        """Sign, l and 1 - l for the closed forms of a plain crank; None if there are none."""
+        return None
+
+    def exact_rate(
+        self, step: tuple[float, float], L: float, exact: Callable[[float], float]
+    ) -> FollowedRate:
+        """Rate of a wheel with straight slots, in numbers of any kind, for certificates.
+
+        ``step`` has sine and cosine of half the index angle. ``L`` is the centre distance, mm.
+        ``exact`` converts a number of the spec. Differences lose digits of doubles.
+        """
+        l = step[0]
+
+        def rate(sine: Jet, versine: Jet) -> Jet:
+            return turning(versine * (self.SIGN * l) + self.rest(l), sine * l)
+
+        return rate
+
+    def matched_ratio(self, v: float) -> float:
+        """R/L at which the pin crosses the line of centres as fast as the wheel's slot does there.
+
+        ``v`` is the wheel's speed over the crank's. NaN if no R/L below 1 has this property.
+        """
+        return math.nan

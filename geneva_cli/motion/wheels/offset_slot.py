@@ -1,0 +1,130 @@
+"""Slots of offset e, and the motion that they give; ``skew`` has their proportions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+from geneva_cli.motion.engagement import Anchor, Slot, SlotAxis
+from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion, turned
+from geneva_cli.motion.wheels.skew import Skew
+from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.jet import Array, Jet, Number, integral, moment, piecewise, sqrt
+
+
+class OffsetSlot(Slot):
+    """A straight slot whose axis misses the wheel's centre."""
+
+    def __init__(self, path: AnchoredPath, skew: Skew) -> None:
+        self.path, self.skew, self.offset = path, skew, skew.e
+
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+        """Pin (x, y) in the wheel, on the slot's straight axis."""
+        depth = self._depth(input_deg, order)
+        return turned(depth, depth * 0.0 - self.offset, self.skew.tilt)
+
+    def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
+        """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
+        depth = self._depth(input_deg, order + 1)
+        return SlotAxis(depth.lower, depth.derivative())
+
+    def _depth(self, input_deg: Number, order: int) -> Jet:
+        return _depth(self.skew, self.path.middle.displacement_at(input_deg, order)[0])[0]
+
+
+class OffsetSlotMotion(StraightSlotMotion):
+    """Motion of a wheel whose offset slot follows the pin."""
+
+    def __init__(self, path: AnchoredPath, half_step: float, skew: Skew) -> None:
+        super().__init__(path, half_step)
+        self.skew = skew
+
+    def __call__(self, input_deg: Number, order: int = 3) -> Jet:
+        """Wheel angle from the slot's direction at the nearest anchor; at rest at both ends."""
+        return self._angle_or_rate(input_deg, order, angle=True)
+
+    def rate(self, input_deg: Number, order: int = 2) -> Jet:
+        """Rate at which the slot's direction turns, computed without an arc tangent."""
+        return self._angle_or_rate(input_deg, order + 1, angle=False)
+
+    def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
+        """Speed and its derivatives at arrays of angles, computed from mid-motion only."""
+        return self._inside(input_deg, order + 1, angle=False).arrays()
+
+    def _angle_or_rate(self, input_deg: Number, order: int, *, angle: bool) -> Jet:
+        """Wheel angle, or its rate, which is one order lower."""
+        entry, _, exit_ = self.path.anchors
+        first, last = (
+            partial(self._from_end, end, order=order, angle=angle) for end in (entry, exit_)
+        )
+        inside = partial(self._inside, order=order, angle=angle)
+        return piecewise(input_deg, self.path.cuts, [first, inside, last])
+
+    def _from_end(self, anchor: Anchor, x: Number, order: int, angle: bool) -> Jet:
+        """Wheel angle or rate near entry or exit.
+
+        The pin is at (along, -e) in the slot's frame there. The slot's axis passes the pin at (s,
+        -e) with s² = rho² - e². The excess of s over ``along`` is written so that it vanishes with
+        ``across``. The wheel's angle and speed then vanish too.
+        """
+        e = self.skew.e
+        along, across = anchor.place(x, order)
+        more = across * (across - 2.0 * e)  # s² - along²
+        square = along * along + more
+        s = sqrt(square)
+        gain = more / (s + along)
+        rate = _turning(along, across, gain * e, square + e * e)
+        if not angle:
+            return rate
+        a, b, g, s0 = along.c[0], across.c[0], gain.c[0], s.c[0]
+        value = library(a, b, e).atan2(b * s0 - g * e, a * s0 - (b - e) * e) + anchor.wheel
+        return integral(rate, value)
+
+    def _inside(self, x: Number, order: int, angle: bool) -> Jet:
+        """Wheel angle or rate near mid-motion: the pin's direction minus the slot's angle to it."""
+        e, deepest, mid = self.skew.e, self.skew.deepest, self.path.middle
+        toward, across = mid.displacement_at(x, order)
+        s, rho2 = _depth(self.skew, toward)
+        along = toward + mid.along
+        rate = _turning(along, across, s * e, rho2)
+        if not angle:
+            return rate
+        m, u, depth = library(across.c[0], toward.c[0], e), toward.c[0], s.c[0]
+        value = m.atan2(across.c[0], along.c[0]) + mid.wheel
+        # atan2(e, deepest) - atan2(e, s)
+        value -= m.atan2(2.0 * u / (depth + deepest) * e, depth * deepest + e * e)
+        return integral(rate, value)
+
+
+def _depth(skew: Skew, toward: Jet) -> tuple[Jet, Jet]:
+    """Coordinate s of the pin along its slot's axis, and rho² = s² + e².
+
+    From mid-motion the pin moves by u = l (1 - cos a) along the line of centres. So s² = deepest² +
+    2 u is a sum of positive terms.
+    """
+    square = toward * 2.0 + skew.deepest**2
+    return sqrt(square), square + skew.e**2
+
+
+def exact_rate(e: float, sin_b: float, cos_b: float) -> Callable[[Jet, Jet], Jet]:
+    """Rate of a wheel with slots of offset e, in numbers in which differences lose no digits.
+
+    It is a function of sin d and 1 - cos d of the crank's rotation d since mid-motion.
+    """
+    sin_d = e / cos_b
+    cos_d = library(sin_d).sqrt((1.0 - sin_d) * (1.0 + sin_d))
+    l, deepest = sin_b * cos_d, cos_d - sin_b
+
+    def rate(sine: Jet, versine: Jet) -> Jet:
+        toward = versine * l
+        square = toward * 2.0 + deepest * deepest
+        return _turning(toward + (1.0 - l), sine * l, sqrt(square) * e, square + e * e)
+
+    return rate
+
+
+def _turning(x: Jet, y: Jet, lever: Jet, rho2: Jet) -> Jet:
+    """Rate of a wheel, (x y' - y x' - e s') / rho², for ``lever`` = e s; one order lower."""
+    if not x.order:
+        return Jet(())
+    return (moment(x, y) - lever.derivative()) / rho2.lower

@@ -1,0 +1,75 @@
+"""The pin's circle as seen from the wheel, for external and internal wheels.
+
+The wheel's axis is the origin, the crank's axis at (1, 0): lengths are in units of the centre
+distance L. Half the index angle is b = pi/z, and l = R/L the crank radius.
+
+A pose is one moment of the motion. Its x axis is the ray from the wheel's centre to the pin at that
+moment. From there the pin moves by
+
+    sin(d) * slope + (1 - cos(d)) * bend        (d: crank angle since the pose)
+
+without cancellation. At entry and exit the pin moves only along the ray, so the slope across it is
+exactly zero. So are the wheel's angle and velocity there.
+"""
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.motion.wheels.classic import gap, half_motion_deg
+from geneva_cli.numerics.angles import sin_cos_pi
+from geneva_cli.numerics.jet import Jet
+
+
+class PinPose(NamedTuple):
+    """One moment of the pin's motion on its circle; vectors are (along the ray, across it)."""
+
+    crank_deg: float
+    wheel: float  # wheel angle, radians
+    along: float  # distance from the wheel's centre to the pin
+    slope: tuple[float, float]  # d(position)/d(crank angle)
+    bend: tuple[float, float]  # second derivative
+
+    def displacement(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
+        """Displacement since the pose, from sin d and 1 - cos d of the crank's rotation d."""
+        u = sine * self.slope[0] + versine * self.bend[0]
+        v = sine * self.slope[1] + versine * self.bend[1]
+        return u, v
+
+
+class HalfStep(NamedTuple):
+    """Half an index angle as the exact fraction b = pi p / q; equal steps have p/q = 1/z.
+
+    In a batch p or q is an array; p may then be in degrees, with q = 180.
+    """
+
+    p: int
+    q: int
+
+    @property
+    def b(self) -> float:
+        """Half the index angle, radians."""
+        return math.pi * self.p / self.q
+
+    @property
+    def sin_cos(self) -> tuple[float, float]:
+        """sin b and cos b."""
+        return sin_cos_pi(self.p, self.q)
+
+
+def middle(sign: float, l: float, gap: float) -> PinPose:
+    """Pose of the pin on the line of centres, ``gap`` from the wheel's axis.
+
+    It holds for any crank radius l.
+    """
+    return PinPose(0.0, 0.0, gap, (0.0, l), (sign * l, 0.0))
+
+
+def radial(sign: float, step: HalfStep) -> tuple[PinPose, PinPose, PinPose]:
+    """Entry, middle and exit of a straight radial slot entered without shock: l = sin b."""
+    l, cos_b = step.sin_cos
+    half = half_motion_deg(sign, *step)
+    return (
+        PinPose(-half, -step.b, cos_b, (-sign * l, 0.0), (0.0, l)),
+        middle(sign, l, gap(sign, *step)),
+        PinPose(half, step.b, cos_b, (sign * l, 0.0), (0.0, -l)),
+    )

@@ -1,0 +1,209 @@
+"""Spherical wheels: shafts that meet at an angle, slots on meridians of a sphere."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Annotated, ClassVar, NamedTuple
+
+from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.motion.engagement import Displacement, Slot
+from geneva_cli.motion.path_and_slot import AnchoredPath, MeridianSlot, StraightSlotMotion
+from geneva_cli.motion.pivots import Dimension, Layout, Pivot
+from geneva_cli.motion.wheels.gearing import FollowedRate, Gearing, RollerPlace
+from geneva_cli.motion.wheels.poses import HalfStep, PinPose
+from geneva_cli.numerics.angles import radians, sin_cos_deg
+from geneva_cli.numerics.arrays import choose, library
+from geneva_cli.numerics.jet import Jet, Number, turning
+from geneva_cli.spec.rules import Range
+from geneva_cli.spec.schema import Example
+
+
+class Spherical(Gearing):
+    """Wheel and crank on shafts that meet; at 90 degrees motion and dwell are equal.
+
+    ``z`` is the number of slots, 3 or more; ``axes_deg`` is the angle between the two shafts.
+
+    >>> Design(Spherical(6)).timing.k
+    1.0
+    >>> round(Design(Spherical(6, axes_deg=60)).timing.motion_deg, 6)
+    147.795772
+    """
+
+    NAME: ClassVar[str] = "spherical"
+    EXAMPLE: ClassVar[Example] = Example(
+        "a spherical wheel: shafts that meet, motion and dwell equal", {"wheel": {"z": 6}}
+    )
+    FLAT: ClassVar[bool] = False
+    SHELLS: ClassVar[bool] = True
+    PARTS: ClassVar[str] = "ball"
+    DISTANCE: ClassVar[str] = "sphere's radius"
+    axes_deg: Annotated[
+        float, Range(0.0, 180.0, "()"), "spherical: angle between the two shafts"
+    ] = 90.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        least = 1e-6  # degrees
+        refuse(
+            (self.axes_deg < least) | (self.axes_deg > 180.0 - least),
+            lambda: GenevaError(
+                f"axes_deg = {self.axes_deg:g}: the shafts are practically parallel: it must "
+                f"be at least {least:g} away from 0 and 180, or choose gearing "
+                '"external" or "internal"',
+                ("wheel", "axes_deg"),
+            ),
+        )
+
+    @property
+    def own_sizes(self) -> dict[str, float]:
+        """Angle between the shafts, for the report."""
+        return {"axes_deg": self.axes_deg}
+
+    def axes(self, L: float) -> tuple[Pivot, ...]:
+        """None: both axes meet at the sphere's centre."""
+        return ()
+
+    @property
+    def layout(self) -> Layout:
+        """Angle between the shafts, as a dimension."""
+        return (Dimension("angle of the shafts", self.axes_deg, "deg"),)
+
+    def half_motion_deg(self, step: HalfStep) -> float:
+        """Crank angle in degrees from entry to mid-motion."""
+        return sphere(step, self.axes_deg).half_motion_deg
+
+    def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
+        """Place of a roller in a meridian slot; its arm is over the sphere's radius."""
+        ball = sphere(step, self.axes_deg)
+        top = ball.cos_S * ball.cos_th + ball.sin_S * ball.sin_th  # cos(S - th)
+        fall = ball.sin_S * ball.sin_th
+        return RollerPlace(
+            step,
+            ball.half_motion_deg,
+            poses(step, ball),
+            ball.sin_th,
+            height=(top, fall),
+            cone=ball.cos_th,
+        )
+
+    def follow(
+        self, path: AnchoredPath, place: RollerPlace, turn: Displacement
+    ) -> tuple[Slot, StraightSlotMotion]:
+        """Meridian slot with the pin's coordinate along the wheel's axis, and the motion."""
+        assert place.height is not None  # it is a place on a sphere
+        slot = MeridianSlot(path, Height(*place.height, turn))
+        return slot, StraightSlotMotion(path, place.step.b)
+
+    def exact_rate(
+        self, step: tuple[float, float], L: float, exact: Callable[[float], float]
+    ) -> FollowedRate:
+        """Rate of a spherical wheel, as in ``Gearing.exact_rate``."""
+        angle = radians(exact(self.axes_deg))
+        m = library(angle)
+        sin_S, cos_S = m.sin(angle), m.cos(angle)
+        sin_th = sin_S * step[0]
+        cos_th = m.hypot(cos_S, sin_S * step[1])
+        least = sin_S * cos_th - cos_S * sin_th
+
+        def rate(sine: Jet, versine: Jet) -> Jet:
+            return turning(versine * (sin_th * cos_S) + least, sine * sin_th)
+
+        return rate
+
+    def body(self, place: RollerPlace, turn: Displacement) -> CrankCone:
+        """Angular velocity of the crank, whose axis differs from the roller's."""
+        return CrankCone(turn, place.cone)
+
+    def hub(self, place: RollerPlace) -> float:
+        """Distance from the wheel's axis to the crank's axis in the arm's plane, over L.
+
+        That plane is perpendicular to the crank's axis, cos th from the sphere's centre.
+        """
+        return sin_cos_deg(self.axes_deg)[0] * place.cone
+
+
+class CrankCone(NamedTuple):
+    """Rotation of a spherical crank about the axis of its roller, which it carries on a cone."""
+
+    turn: Displacement
+    cos_th: float
+
+    def __call__(self, tau: Number, order: int) -> Jet:
+        """Rate, positive with the wheel, ``tau`` input radians after mid-motion."""
+        sine, versine = self.turn(tau, order + 1)
+        out: Jet = turning(1.0 - versine, sine) * -self.cos_th
+        return out
+
+
+class Height(NamedTuple):
+    """The pin's position along the wheel's axis: top - fall (1 - cos a)."""
+
+    top: float
+    fall: float
+    turn: Displacement
+
+    def __call__(self, tau: Number, order: int) -> Jet:
+        """Position ``tau`` input radians after mid-motion."""
+        out: Jet = self.top - self.turn(tau, order)[1] * self.fall
+        return out
+
+    @property
+    def hub(self) -> float:
+        """Position of the centre of the pin's circle."""
+        return self.top - self.fall
+
+
+class Sphere(NamedTuple):
+    """A spherical wheel: shafts at the angle S, the pin on a cone of half angle th.
+
+    sin th = sin S sin b, so that the pin enters its meridian slot along it. Projected along the
+    wheel's axis, the pin's path is an ellipse: cos th (sin S - tan th cos S cos a, tan th sin a).
+    """
+
+    sin_S: float
+    cos_S: float
+    sin_th: float
+    cos_th: float
+    cos_a: float  # cosine of the half motion angle: tan th / tan S
+    sin_a: float
+
+    @property
+    def half_motion_deg(self) -> float:
+        """Crank angle in degrees from entry to mid-motion."""
+        m = library(self.sin_a)
+        half: float = m.degrees(m.atan2(self.sin_a, self.cos_a))
+        return half
+
+
+def sphere(step: HalfStep, axes_deg: float) -> Sphere:
+    """Proportions of a spherical wheel with shafts at ``axes_deg``."""
+    sin_b, cos_b = step.sin_cos
+    sin_S, cos_S = sin_cos_deg(axes_deg)
+    sin_th = sin_S * sin_b
+    # cos² th = cos² S + sin² S cos² b: a sum of positive terms
+    cos_th = library(sin_th).hypot(cos_S, sin_S * cos_b)
+    return Sphere(sin_S, cos_S, sin_th, cos_th, sin_b * cos_S / cos_th, cos_b / cos_th)
+
+
+def poses(step: HalfStep, ball: Sphere) -> tuple[PinPose, PinPose, PinPose]:
+    """Entry, middle and exit of a spherical wheel's pin, projected along the wheel's axis.
+
+    Lengths are in units of the sphere's radius.
+    """
+    sin_b, cos_b = step.sin_cos
+    half = ball.half_motion_deg
+    # derivatives of the pin's position by the crank angle a
+    across, along = ball.sin_th * ball.cos_S, ball.sin_th
+    mouth = library(along).hypot(ball.sin_S * ball.cos_th - across * ball.cos_a, along * ball.sin_a)
+    slope = across * ball.sin_a * cos_b + along * ball.cos_a * sin_b
+    inward = across * ball.cos_a * cos_b - along * ball.sin_a * sin_b
+    sideways = across * ball.cos_a * sin_b + along * ball.sin_a * cos_b
+    # sin(S - th); if both terms are positive, as sin² S cos² b / sin(S + th)
+    far = ball.sin_S * ball.cos_th
+    positive = (ball.sin_S * cos_b) ** 2 / (far + abs(across))
+    middle_ = choose(across > 0.0, positive, far - across)
+    return (
+        PinPose(-half, -step.b, mouth, (-slope, 0.0), (inward, sideways)),
+        PinPose(0.0, 0.0, middle_, (0.0, along), (across, 0.0)),
+        PinPose(half, step.b, mouth, (slope, 0.0), (inward, -sideways)),
+    )

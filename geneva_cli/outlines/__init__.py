@@ -1,1 +1,0 @@
-"""Outlines of wheel and crank, and bounds of the gaps between them."""

@@ -1,0 +1,165 @@
+"""The scene: drawings that move with the input angle, for a page or a picture.
+
+Millimetres and radians, y up, with the wheel's axis as origin. The input's angle is in degrees from
+the scene's start.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+if TYPE_CHECKING:
+    from geneva_cli.figure import Figure
+    from geneva_cli.geometry.shapes import Shape
+
+
+class Track(NamedTuple):
+    """A value that moves: cubics between knots with these values and slopes, per degree.
+
+    A single knot is a constant value. A turn of the scene adds ``gain``.
+    """
+
+    at: tuple[float, ...]
+    value: tuple[float, ...]
+    slope: tuple[float, ...]
+    gain: float = 0.0
+
+
+def value_at(track: Track, t: float) -> float:
+    """A track's value at an input angle, as the page's script computes it.
+
+    >>> from geneva_cli.output.scene import Track, value_at
+    >>> value_at(Track((0.0, 2.0), (0.0, 8.0), (0.0, 12.0)), 1.0)  # t³
+    1.0
+    """
+    if len(track.at) == 1:
+        return track.value[0]
+    i = min(max(bisect_right(track.at, t) - 1, 0), len(track.at) - 2)
+    h = track.at[i + 1] - track.at[i]
+    if not h > 0.0:
+        return track.value[i + 1]
+    u = min(1.0, max(0.0, (t - track.at[i]) / h))
+    w = 1.0 - u
+    return (
+        w * w * (1.0 + 2.0 * u) * track.value[i]
+        + u * u * (1.0 + 2.0 * w) * track.value[i + 1]
+        + u * w * h * (w * track.slope[i] - u * track.slope[i + 1])
+    )
+
+
+Place: TypeAlias = tuple[Track, Track]
+Box: TypeAlias = tuple[float, float, float, float]  # least x and y, greatest x and y
+
+
+class Body(NamedTuple):
+    """Shapes in its own frame, which turns about a point. A rack's frame moves along y instead.
+
+    A counter's pinion moves in the scene's first turn and in each turn number ``every`` after it;
+    it rests in the others.
+    """
+
+    name: str
+    shapes: tuple[Shape, ...]
+    centre: tuple[float, float]
+    angle: Track  # counterclockwise
+    travel: Track | None = None  # along y, mm
+    every: int = 1
+
+
+class Rotation(NamedTuple):
+    """A rotation of everything in the picture about a fixed point, counterclockwise."""
+
+    centre: tuple[float, float]
+    angle: Track
+
+
+def body_pose(body: Body, t: float) -> tuple[float, float, float]:
+    """The position of a body's frame at an input angle, and its rotation in radians.
+
+    >>> from geneva_cli.output.scene import Body, Track, body_pose
+    >>> one, two = (Track((0.0,), (x,), (0.0,)) for x in (1.0, 2.0))
+    >>> body_pose(Body("rack", (), (5.0, 0.0), one, two), 0.0)
+    (5.0, 2.0, 1.0)
+    """
+    x, y = body.centre
+    return x, y + (value_at(body.travel, t) if body.travel else 0.0), value_at(body.angle, t)
+
+
+class CarriedShapes(NamedTuple):
+    """Shapes that a link carries: their origin is at a joint, their x away from the first joint."""
+
+    joint: int
+    shapes: tuple[Shape, ...]
+
+
+class Bar(NamedTuple):
+    """A link between joints, or with a radius a circle about its one joint.
+
+    ``plates`` are the link itself, from its first joint towards the second, and the blocks that
+    slide in it. Without plates it is shown as a bar.
+    """
+
+    name: str
+    joints: tuple[Place, ...]
+    radius: float = 0.0
+    plates: tuple[CarriedShapes, ...] = ()
+
+
+def place_at(place: Place, t: float) -> tuple[float, float]:
+    """The position of a place at an input angle."""
+    return value_at(place[0], t), value_at(place[1], t)
+
+
+def pose(bar: Bar, plate: CarriedShapes, t: float) -> tuple[float, float, float]:
+    """The position of a link's plate or block at an input angle, and its rotation in radians.
+
+    >>> from geneva_cli.output.scene import Bar, CarriedShapes, Track, pose
+    >>> one, two, four, six = (Track((0.0,), (x,), (0.0,)) for x in (1.0, 2.0, 4.0, 6.0))
+    >>> pose(Bar("", ((one, two), (four, six))), CarriedShapes(0, ()), 0.0)
+    (1.0, 2.0, 0.9272952180016122)
+    """
+    (x0, y0), (x1, y1) = (place_at(bar.joints[j], t) for j in (0, plate.joint or 1))
+    return *place_at(bar.joints[plate.joint], t), math.atan2(y1 - y0, x1 - x0)
+
+
+class Push(NamedTuple):
+    """The contact point of a roller on the wheel, and its force, N; linear between samples."""
+
+    at: tuple[float, ...]
+    x: tuple[float, ...]
+    y: tuple[float, ...]
+    force_x: tuple[float, ...]
+    force_y: tuple[float, ...]
+
+
+class Phase(NamedTuple):
+    """A stretch of the input in which the wheel moves or rests, described in words."""
+
+    start: float
+    end: float
+    moves: bool
+    words: str
+
+
+class Scene(NamedTuple):
+    """A machine over the turn after which its position repeats, except for the wheel's steps."""
+
+    title: str
+    caption: str
+    spec: str  # as text
+    start_deg: float  # the input's angle at the start, as displayed
+    turn_deg: float
+    seconds: float  # of that turn
+    bodies: tuple[Body, ...]  # the wheel first
+    bars: tuple[Bar, ...]
+    rollers: tuple[Place, ...]
+    roller_radius: float
+    pushes: tuple[Push, ...]
+    states: tuple[Phase, ...]
+    figure: Figure
+    box: Box  # of all shapes during the turn
+    stops: tuple[float, float] | None = None  # from the start: the machine goes back and forth
+    # rotation of the frame in which all positions are written: of a carrier
+    frame: Rotation | None = None

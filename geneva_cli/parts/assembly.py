@@ -1,0 +1,256 @@
+"""The assembly of a machine: positions of wheel, crank and rollers through a whole turn.
+
+Outlines are drawn in it, and the full turn is checked with it. Lengths are in millimetres, angles
+in radians. The wheel's axis is the origin, and the crank's axis is at (L, 0). A drive in front of
+the crank changes when the crank reaches a position, but not which positions it goes through. So
+such a machine is turned by its crank, like a plain one.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.drives.crank import Crank
+from geneva_cli.errors import GenevaError
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.numerics.arrays import Array, Mask
+from geneva_cli.spec.tables import Z_DRAWN
+
+if TYPE_CHECKING:
+    from geneva_cli.motion.plane_motion import PlaneMotion
+
+
+class Passage(NamedTuple):
+    """A roller's passage through a slot: its engagement, and the input angle of mid-motion."""
+
+    engagement: Engagement
+    mid: float  # degrees
+
+    @property
+    def entry(self) -> float:
+        """Input angle at which the roller enters, degrees."""
+        return self.mid + self.engagement.entry_deg
+
+    @property
+    def exit(self) -> float:
+        """Input angle at which the roller leaves, degrees."""
+        return self.mid + self.engagement.exit_deg
+
+
+class Assembly(NamedTuple):
+    """Positions of a machine's parts by the input angle, in degrees: mostly of a plain crank.
+
+    ``motions`` are those of a turn, and ``rollers`` has the passage of each roller. There is one
+    roller for each motion, but two where gears drive between them. ``slots`` has engagement and
+    direction of each slot of the wheel, or of each pair of slots, counterclockwise from the first.
+    ``rests`` are the directions of the crank's axis, seen from the wheel, while the wheel rests.
+    Each lies half-way between two slots.
+    """
+
+    mechanism: Mechanism
+    L: float
+    sign: float  # +1 external, -1 internal
+    turn_deg: float  # input angle in a whole turn of the crank
+    span_deg: float  # input angle over which the parts are checked: a whole turn, or one motion
+    motions: tuple[Passage, ...]
+    rollers: tuple[Passage, ...]
+    slots: tuple[tuple[Engagement, float], ...]
+    rests: tuple[float, ...]
+    full: Mechanism  # the machine of the spec, with the drive of its crank
+    to_input: Callable[[float], float]  # input angle of the plain crank -> of ``full``, degrees
+    plane_motion: PlaneMotion  # of the wheel
+
+    def shown_deg(self, input_deg: float) -> float:
+        """Return the input angle as commands show it, for an input angle of the assembly."""
+        return self.full.shown_deg(self.to_input(input_deg))
+
+    def place_deg(self, shown_deg: float) -> float:
+        """Return the inverse of ``shown_deg``, to a hundredth of a degree."""
+        low, high = self.start_deg, self.start_deg + self.turn_deg
+        period = 360.0 * self.full.spec.turns
+        best = low
+        for _ in range(3):
+            grid = np.linspace(low, high, 361)
+            off = [abs(math.remainder(self.to_input(x) - shown_deg, period)) for x in grid]
+            best = float(grid[int(np.argmin(off))])
+            step = (high - low) / 180.0
+            low, high = best - step, best + step
+        return best
+
+    def pin(self, number: int, input_deg: Array) -> Array:
+        """Return a roller's centre, mm, at input angles in degrees (n,): an array (n, 2)."""
+        return self._path(*self.rollers[number], input_deg)
+
+    def driving(self, number: int, input_deg: Array) -> Array:
+        """Return the centre of the roller that drives a motion, mm, (n, 2).
+
+        While gears drive the wheel, it is the roller that drove it before or will drive it after.
+        """
+        return self._path(*self.motions[number], input_deg)
+
+    def in_wheel(self, motion: int, input_deg: Array) -> Array:
+        """Return the centre of a motion's roller in the wheel's frame, mm, (n, 2)."""
+        return self.plane_motion.into(self.driving(motion, input_deg), self.wheel(input_deg))
+
+    def geared(self, input_deg: Array) -> Mask:
+        """Return a mask (n,) of the input angles at which gears drive the wheel, not a roller."""
+        mask = np.zeros(len(input_deg), dtype=bool)
+        for engagement, behind in self.motions:
+            mask |= engagement.slot.touches(self.from_mid(input_deg, behind)) == 0.0
+        return mask
+
+    def from_mid(self, input_deg: Array, mid: float) -> Array:
+        """Return input angles from a mid-motion, in degrees, within half a turn of it."""
+        half = 0.5 * self.turn_deg
+        return (input_deg - mid + half) % self.turn_deg - half
+
+    def _path(self, engagement: Engagement, behind: float, input_deg: Array) -> Array:
+        at = self.from_mid(input_deg, behind)
+        if engagement.groove is not None:
+            from geneva_cli.parts.slots.groove import roller_in_groove
+
+            return self.L * roller_in_groove(engagement.groove, engagement.own_deg(at))
+        x, y = engagement.path(at, 0)
+        return self.L * np.column_stack((x.c[0] + 0.0 * at, y.c[0] + 0.0 * at))
+
+    def crank(self, input_deg: Array, first: Array | None = None) -> Array:
+        """Return the crank's direction, radians: that of its first roller at input angle 0.
+
+        ``first`` has the first roller's centres at these angles, mm (n, 2), if they are known.
+        """
+        engagement = self.rollers[0][0]
+        if engagement.crank_sense:
+            return self._ahead - self.sign * engagement.crank_sense * np.radians(input_deg)
+        x, y = ((self.pin(0, input_deg) if first is None else first) - (self.L, 0.0)).T
+        # in long numbers, since processors differ in the last bit of doubles' arc tangents
+        return np.arctan2(y.astype(np.longdouble), x).astype(np.float64)
+
+    @property
+    def _ahead(self) -> float:
+        """The crank's direction at input 0: to the wheel's axis if external, away if internal."""
+        return math.pi if self.sign > 0.0 else 0.0
+
+    def lock(self, input_deg: float) -> float:
+        """Return the wheel's direction from the crank's axis, radians, in the crank's frame."""
+        return self._ahead - float(self.crank(np.array([input_deg]))[0])
+
+    def wheel(self, input_deg: Array) -> Array:
+        """Return the wheel's angle at input angles (n,), degrees; it adds up over the turns."""
+        turns = np.floor((input_deg - self.start_deg) / self.turn_deg)
+        within = input_deg - turns * self.turn_deg
+        out = 2.0 * sum(engagement.half_step for engagement, _ in self.motions) * turns
+        turned = 0.0
+        for i, (engagement, mid) in enumerate(self.motions):
+            begins = mid + engagement.entry_deg
+            after = self.motions[i + 1] if i + 1 < len(self.motions) else None
+            ends = after[1] + after[0].entry_deg if after else np.inf
+            here = (within >= begins) & (within < ends)
+            if i == 0:  # rounding may put an angle before the turn
+                here |= within < begins
+            at = np.maximum(within[here] - mid, engagement.entry_deg)
+            at = np.minimum(at, engagement.exit_deg)
+            out[here] += turned + engagement.motion(at, 0).c[0]
+            turned += engagement.half_step + (after[0].half_step if after else 0.0)
+        return out
+
+    @property
+    def kinds(self) -> tuple[Engagement, ...]:
+        """The kinds of slots, each once; most wheels have one kind."""
+        return tuple(dict.fromkeys(engagement for engagement, _ in self.slots))
+
+    @property
+    def start_deg(self) -> float:
+        """Input angle of the first engagement's entry, where a whole turn starts."""
+        return self.motions[0][0].entry_deg
+
+
+@lru_cache(maxsize=16)
+def assembly(mechanism: Mechanism) -> Assembly:
+    """Return the assembly of a mechanism with flat parts, cached for its sizes and its parts.
+
+    Raises GenevaError for a machine whose parts are not flat outlines.
+    """
+    spec = mechanism.spec
+    if not spec.wheel.FLAT:
+        raise GenevaError(
+            f'gearing = "{spec.wheel.NAME}": its parts are not flat outlines about two axes; write '
+            "`--part wheel`, `crank` or `assembly` as .dxf, .svg or .step, or -o FILE.csv",
+            ("wheel", "gearing"),
+        )
+    if spec.wheel.z > Z_DRAWN:
+        raise GenevaError(
+            f"z = {spec.wheel.z}: parts are drawn for up to {Z_DRAWN} slots", ("wheel", "z")
+        )
+    return assembled(mechanism)
+
+
+def input_of(mechanism: Mechanism) -> Callable[[float], float]:
+    """Return the function of an assembly's input angle that is the machine's, both in degrees."""
+    spec = mechanism.spec
+    if mechanism.law is None and spec.drive.CRANKED:  # it is turned by a plain crank
+        return spec.input_deg
+    return spec.drive_before.input_deg if spec.drive_before else _same
+
+
+def assembled(mechanism: Mechanism) -> Assembly:
+    """Return the assembly of any machine; on a sphere ``pin`` is seen along the wheel's axis."""
+    full, spec, to_input = mechanism, mechanism.spec, input_of(mechanism)
+    no_gears = spec.size.replace(gear_module_mm=None, gear_teeth=None, gear_shift=None)
+    if mechanism.law is None and spec.drive.CRANKED:
+        keep = spec.drive
+        crank = Crank(
+            n_rpm=keep.n_rpm, rollers=keep.rollers, roller_angles_deg=keep.roller_angles_deg
+        )
+        mechanism = build(spec.replace(drive=crank, drive_before=None, size=no_gears))
+    elif spec.drive_before:  # slots and path are by the angle of the drive's own input shaft
+        mechanism = build(spec.replace(drive_before=None, size=no_gears))
+    return _turned(mechanism, full, to_input)
+
+
+def assembled_by_input(mechanism: Mechanism) -> Assembly:
+    """Return the assembly of a machine by the angle of its own input shaft."""
+    return _turned(mechanism, mechanism, _same)
+
+
+def _turned(mechanism: Mechanism, full: Mechanism, to_input: Callable[[float], float]) -> Assembly:
+    turn = 360.0 * mechanism.spec.turns
+    periods = round(turn / mechanism.period_deg)
+    motions = tuple(
+        Passage(engagement, engagement.mid_deg + k * mechanism.period_deg)
+        for k in range(periods)
+        for engagement in mechanism.engagements
+    )
+    rollers = tuple(
+        Passage(passage, behind - ahead)
+        for engagement, behind in motions
+        for passage, ahead in engagement.passages
+    )
+    L, wheel = mechanism.center_distance_mm, mechanism.spec.wheel
+    around, moves = _around(mechanism), wheel.plane_motion(L)
+    return Assembly(
+        mechanism, L, wheel.SIGN, turn, turn, motions, rollers, *around, full, to_input, moves
+    )
+
+
+def _same(input_deg: float) -> float:
+    return input_deg
+
+
+def _around(mechanism: Mechanism) -> tuple[tuple[tuple[Engagement, float], ...], tuple[float, ...]]:
+    """Return slots and rests around the wheel, counterclockwise; later slots follow clockwise."""
+    engagements, z = mechanism.engagements, mechanism.spec.wheel.z
+    steps = mechanism.spec.wheel.steps
+    kinds_ = [engagements[k % len(engagements)] if steps else engagements[0] for k in range(z)]
+    slots, rests, at = [], [], 0.0
+    for k, engagement in enumerate(kinds_):
+        slots.append((engagement, at % math.tau))
+        rests.append((at - engagement.half_step) % math.tau)
+        at -= engagement.half_step + kinds_[(k + 1) % z].half_step
+    order = sorted(range(z), key=lambda k: slots[k][1])
+    return tuple(slots[k] for k in order), tuple(sorted(rests))

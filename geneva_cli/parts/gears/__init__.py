@@ -1,0 +1,1 @@
+"""Gears: pitch curves, meshes, teeth and blanks."""

@@ -1,0 +1,1 @@
+"""Links: positions, sizes, plates, pins, shafts and planes."""

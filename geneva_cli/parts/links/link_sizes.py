@@ -1,0 +1,206 @@
+"""The sizes of links: those of the spec, or defaults that leave walls between their holes.
+
+They are radii, in millimetres, where a key of the spec is a diameter or a width.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.shapes import Point
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.pivots import Joint, Link
+from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.preferred import bore_radius, rounded_radius
+from geneva_cli.parts.arm import has_arm
+from geneva_cli.parts.links.link_positions import links_at
+from geneva_cli.parts.outlines.outline_sizes import sized
+from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.sizes.arm_sizes import HUB, pin_hole
+from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses, half_or, pin_radius, plane_span
+from geneva_cli.spec.least_wall import eye_about, wall_min
+from geneva_cli.spec.tables import Size
+
+SLOT_MARGIN = 0.25  # distance from a block to the end of its slot, as a fraction of the pin's hole
+
+
+class LinkSizes(NamedTuple):
+    """Radii of holes and of the plate around them; thicknesses along the axis; all mm."""
+
+    wall: float  # the least wall that `check` lets pass
+    pin: float
+    roller_stands: float  # radius of a roller's pin; 0 if the spec has none
+    roller_pin: float  # radius of its hole
+    eye: float  # radius of the plate around a pin
+    roller_eye: float
+    shaft: float | None  # of the spec, or as a load needs it, for shafts that carry only links
+    crank_shaft: float | None  # of the spec, or of the arm on it
+    thickness: float
+    arm: float  # thickness of arm or link in the first plane
+    gap: float  # from the wheel to the first plane
+    washer: float
+    shaft_fit: float  # diameter of a hole minus that of the pin in it
+
+    @property
+    def ring(self) -> float:
+        """The radius of washers and spacers on a pin."""
+        return 0.5 * (self.pin + self.eye)
+
+    def hole(self, kind: Joint) -> float:
+        """Return the radius of a pin's hole; for shafts see ``bore``."""
+        own = kind in (Joint.ROLLER, Joint.CARRIED)
+        return self.roller_pin if own and self.roller_pin else self.pin
+
+    def block(self, hole: float) -> tuple[float, float]:
+        """Return half a sliding block's width, and the offset of its round ends' centres."""
+        half = max(1.6 * hole, hole + self.wall)  # as wide as a hub about its pin
+        return half, 0.5 * half  # half as long again as it is wide
+
+    def bore(self, space: float, L: float) -> float:
+        """Return the radius of a shaft ``space`` mm from the nearest hole; 0 if it is too thin."""
+        if self.shaft is not None:
+            return self.shaft
+        radius = bore_radius(min(L / 20.0, 0.35 * space))  # leaves most of the space as a wall
+        return radius if radius >= 0.01 * L else 0.0
+
+    def hub(self, bore: float) -> float:
+        """Return the radius of a link's plate around a bore, or on a shaft's end."""
+        return max(rounded_radius(HUB * bore), bore + self.wall)
+
+    def span(self, plane: int) -> tuple[float, float]:
+        """Return lower and upper end, along the axis, of links in a plane below the wheel's."""
+        return plane_span(plane, self.gap, self.arm, self.thickness, self.washer)
+
+
+def link_sizes(
+    mechanism: Mechanism, links: Iterable[Link], parts: Outlines | None = None
+) -> LinkSizes:
+    """Return the sizes of links, whose joints are known at many input angles.
+
+    ``parts`` are the machine's outlines, if it has any. Raises GenevaError, naming the key, where
+    no hole is left for the roller's pin, or no plate around a pin.
+    """
+    spec, L = mechanism.spec, mechanism.center_distance_mm
+    size, links = spec.size, [link for link in links if not link.radius_mm]
+    drawn = parts.sizes if parts else None
+    wall, thick = wall_min(size, L), drawn_thicknesses(size, L, drawn)
+    first = None
+    if drawn and spec.is_loaded:
+        # without a load none is needed
+        from geneva_cli.parts.sizes.first_sizes import first_sizes
+
+        first = first_sizes(mechanism, sized)
+    stands = first.pin if first else pin_radius(size, mechanism.roller_radius_mm, drawn)
+    own = None if size.link_bore_mm is None else 0.5 * size.link_bore_mm
+    roller = pin_hole(size, stands) if stands else 0.0
+    pin, eye = _pin_and_eye(size, links, wall, L)
+    limit = _eye_limit(mechanism, links)
+    arm = thick.arm if spec.drive.ONE_ARM else thick.link
+    return LinkSizes(
+        wall=wall,
+        pin=pin,
+        roller_stands=stands,
+        roller_pin=roller,
+        eye=eye,
+        roller_eye=eye_about(roller, wall, limit) if roller else eye,
+        shaft=first.shaft if first else own,
+        crank_shaft=_crank_shaft(mechanism, parts),
+        thickness=thick.link,
+        arm=arm,
+        gap=size.allowances.pin_gap_mm,
+        washer=size.washer_mm,
+        shaft_fit=size.allowances.shaft_fit_mm,
+    )
+
+
+def _pin_and_eye(size: Size, links: Iterable[Link], wall: float, L: float) -> tuple[float, float]:
+    """Return the radii of the pins between links, and of the plate around them."""
+    nearest = min((distance for link in links for distance in _pin_distances(link)), default=L)
+    # a fifth of the distance to the next joint leaves eyes and a gap between
+    pin = half_or(size.link_pin_mm, rounded_radius(min(L / 40.0, 0.2 * nearest)))
+    eye = half_or(size.link_width_mm, eye_about(pin, wall))
+    if eye <= pin:
+        raise GenevaError(
+            f"link_width_mm = {2.0 * eye:g}: it must be above {2.0 * pin:.6g}, the pins' diameter",
+            ("size", "link_width_mm"),
+        )
+    if pin <= 0.5 * size.allowances.shaft_fit_mm:
+        raise GenevaError(
+            f"shaft_fit_mm = {size.allowances.shaft_fit_mm:g}: it leaves no pin in the links' "
+            f"holes of {2.0 * pin:.6g} mm",
+            ("size", "shaft_fit_mm"),
+        )
+    return pin, eye
+
+
+def _crank_shaft(mechanism: Mechanism, parts: Outlines | None) -> float | None:
+    """Return the radius of the crank's shaft: of arm, locking disc or spec; None for none.
+
+    Raises GenevaError for a hexagonal one.
+    """
+    refuse_hexagon(mechanism.spec.size, "crank")
+    if parts and has_arm(parts):
+        return parts.sizes.arm_bore
+    if parts and parts.sizes.crank_bore:
+        return parts.sizes.crank_bore
+    diameter = mechanism.spec.shaft.crank_diameter_mm
+    return None if diameter is None else 0.5 * diameter
+
+
+def places(link: Link) -> list[Array]:
+    """Return the joints of a link as complex numbers x + iy (n,), by the input angle."""
+    still = 0.0 * link.joints[0][0]
+    return [np.asarray(x + still + 1j * (y + still)) for x, y in link.joints]
+
+
+def point_at_zero(path: Array) -> Point:
+    """Return the point of a path at input angle 0, in the middle of its angles."""
+    z = complex(path[len(path) // 2])
+    return z.real, z.imag
+
+
+def roller_pins(mechanism: Mechanism) -> Iterator[tuple[Link, Point]]:
+    """Yield the links that carry rollers, with the centre of each roller at input angle 0."""
+    for link in links_at(mechanism, np.zeros(1)):
+        for joint, kind in zip(places(link), link.kinds, strict=True):
+            if kind in (Joint.ROLLER, Joint.CARRIED):
+                yield link, point_at_zero(joint)
+
+
+def _pin_distances(link: Link) -> Iterator[float]:
+    """Yield the least distance of each pin of a link from its other joints."""
+    for (p, a), (q, b) in combinations(zip(places(link), link.kinds, strict=True), 2):
+        if {a, b} & {Joint.PIN, Joint.SLIDE} and Joint.NONE not in (a, b):
+            yield float(np.abs(p - q).min())
+
+
+def _eye_limit(mechanism: Mechanism, links: Iterable[Link]) -> float:
+    """Return a link's largest radius about the roller's pin that clears the wheel's hub."""
+    size = mechanism.spec.size
+    near = [
+        float(np.abs(at).min())
+        for link in links
+        for at, kind in zip(places(link), link.kinds, strict=True)
+        if kind is Joint.ROLLER
+    ]
+    if not near:
+        return math.inf
+    w = mechanism.roller_radius_mm * 1.05 + size.allowances.slot_clearance_mm
+    hub = 0.75 * (min(near) - w) if size.wheel_hub_mm is None else 0.5 * size.wheel_hub_mm
+    return min(near) - hub
+
+
+def refuse_hexagon(size: Size, part: str) -> None:
+    """Raise GenevaError for a hexagonal shaft with links or gears, whose bores are round."""
+    if vars(size)[f"{part}_bore"] == "hex":
+        raise GenevaError(
+            f'{part}_bore = "hex": links or gears on the {part}\'s shaft have round bores; use '
+            '"round" or "D"',
+            ("size", f"{part}_bore"),
+        )

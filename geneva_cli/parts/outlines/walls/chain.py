@@ -1,0 +1,144 @@
+"""The boundary of a curved slot: the outer boundary of all positions of its roller.
+
+The roller comes along its circle while the wheel still rests. It runs into the slot and out again,
+and leaves along its circle. Each of these paths has a wall on either side. Where the roller turns
+back, its own outline is a wall too. Of all walls only those stretches remain that no other position
+of the roller covers. Of these only the chain from one corner of the mouth round the bottom to the
+other remains. An island between the paths in and out falls out of the wheel.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.roots import boundary_by_sections
+from geneva_cli.parts.assembly import Assembly
+from geneva_cli.parts.outlines.walls.joint import WallPlace, joint, points_at, runs
+from geneva_cli.parts.outlines.walls.path_walls import Wall, walls
+from geneva_cli.parts.sizes.plain_sizes import Sizes
+
+
+class WallPiece(NamedTuple):
+    """A part of a wall between two parameters, in either direction."""
+
+    wall: Wall
+    start: float
+    end: float
+
+
+def chain(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[WallPiece]:
+    """Return the pieces of walls that bound a slot, from the mouth's lower corner to its upper."""
+    around = walls(assembly, sizes, engagement)
+    rim = _Rim(assembly, sizes)
+    crossings = [c for wall in around for c in rim.crossings(wall)]
+    if not crossings:
+        raise _lost()
+    place, t = min(crossings, key=lambda c: math.atan2(*points_at(c[0].wall, c[1])[0][::-1]))
+    pieces: list[WallPiece] = []
+    for _ in range(64):  # many times the walls of any slot
+        last, leaves = _run(rim, place)
+        if leaves is not None:
+            pieces.append(WallPiece(place.wall, t, leaves))
+            # shorter pieces are rounding
+            return [piece for piece in pieces if _long(piece, 1e-7 * assembly.L)]
+        following = _next(around, last)
+        end, begin = joint(last, following)
+        pieces.append(WallPiece(place.wall, t, end))
+        place, t = following, begin
+    raise _lost()
+
+
+def _long(piece: WallPiece, least: float) -> bool:
+    return math.dist(*points_at(piece.wall, piece.start, piece.end)) > least
+
+
+def _lost() -> GenevaError:
+    return GenevaError(
+        "the walls of this slot do not close: the roller is too large, or the rim too small; "
+        "reduce roller_radius_mm or increase wheel_radius_mm",
+        ("size", "roller_radius_mm"),
+    )
+
+
+class _Rim:
+    """The wheel's rim, as a test of the side on which points lie; on the rim counts as inside."""
+
+    def __init__(self, assembly: Assembly, sizes: Sizes) -> None:
+        self.sign, self.radius, self.close = assembly.sign, sizes.rim, 1e-9 * assembly.L
+
+    def depth(self, points: Array) -> Array:
+        """Return how far points lie inside the wheel."""
+        return self.sign * (self.radius - np.hypot(points[..., 0], points[..., 1]))
+
+    def crossings(self, wall: Wall) -> Iterator[tuple[WallPlace, float]]:
+        """Yield where a wall enters the wheel: its first sample inside, and the parameter."""
+        depth = self.depth(wall.points)
+        inside = (depth > -self.close) & wall.free
+        outside, last = depth <= -self.close, len(depth) - 1
+        rises = np.flatnonzero(outside[:-1] & inside[1:]) + 1
+        falls = np.flatnonzero(inside[:-1] & outside[1:])[::-1]
+        for sense, first, entries in ((1, 0, rises), (-1, last, falls)):
+            if inside[first] and depth[first] < self.close < depth[first + sense]:
+                yield WallPlace(wall, first, sense), float(wall.t[first])
+            for i in entries.tolist():
+                yield WallPlace(wall, i, sense), self.crossing(wall, wall.t[i - sense], wall.t[i])
+
+    def crossing(self, wall: Wall, outside: float, inside: float) -> float:
+        """Return the parameter at which a wall crosses the rim."""
+
+        return boundary_by_sections(
+            lambda t: self.depth(wall.curve(t)[0]), float(inside), float(outside)
+        )
+
+
+def _run(rim: _Rim, place: WallPlace) -> tuple[WallPlace, float | None]:
+    """Return the last free sample from a place on, and the parameter of leaving the rim, if so."""
+    wall, i, sense = place
+    depth, free = rim.depth(wall.points).tolist(), wall.free.tolist()
+    while True:
+        after = i + sense
+        if not 0 <= after < len(wall.t):
+            leaves = float(wall.t[i]) if depth[i] < rim.close and i != place.i else None
+            return WallPlace(wall, i, sense), leaves
+        if depth[after] <= -rim.close:
+            return WallPlace(wall, i, sense), rim.crossing(wall, wall.t[after], wall.t[i])
+        if not free[after]:
+            return WallPlace(wall, i, sense), None
+        i = after
+
+
+def _next(around: list[Wall], last: WallPlace) -> WallPlace:
+    """Return the place where the next wall continues: on the nearest free wall but this one."""
+    here = last.wall.points[last.i]
+    travel = last.sense * last.wall.tangents[last.i]
+    ahead = []
+    for wall in around:
+        for start, end in runs(wall):
+            if wall is last.wall and start <= last.i <= end:
+                continue
+            away = np.hypot(*(wall.points[start : end + 1] - here).T)
+            i = int(np.argmin(away))
+            ahead.append((float(away[i]), wall, start, start + i, end))
+    best: tuple[float, int] | None = None
+    place = None
+    for far, wall, start, i, end in sorted(ahead, key=lambda one: one[0]):
+        if best is not None and far > best[0]:
+            break
+        along = float((wall.tangents[i] * travel).sum())
+        sense = 1 if i == start else -1 if i == end else (1 if along > 0.0 else -1)
+        rest_of_run = end - i if sense > 0 else i - start
+        score = (far, -rest_of_run)
+        # Never turn back: walls that merge end in one point, in opposite directions.
+        back = sense * along < -0.999
+        if rest_of_run and not back and (best is None or score < best):
+            best, place = score, WallPlace(wall, i, sense)
+    if place is None:
+        raise _lost()
+    return place

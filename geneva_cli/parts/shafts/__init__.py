@@ -1,0 +1,1 @@
+"""Shafts, bearings, bores, keys, screws and hubs."""

@@ -1,0 +1,197 @@
+"""The sizes of a crank arm, flat or on a sphere: radii, mm, along the surface."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.motion.spec import Spec
+from geneva_cli.numerics.preferred import bore_radius, rounded_radius
+from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.parts.assembly import Assembly
+from geneva_cli.parts.shafts.bores import bore_of, has_shape, reach_or_bore
+from geneva_cli.parts.sizes.plain_sizes import Sizes, half_or
+from geneva_cli.spec.least_wall import eye_about
+from geneva_cli.spec.tables import Size
+
+HUB = 1.6  # outside diameter of a hub, as a multiple of its bore
+
+
+def hub_and_eye(
+    size: Size, wall: float, hole: float, bore: float, passing: float, standing: float = 0.0
+) -> tuple[float, float]:
+    """Return the radii of an arm about the ``bore`` of its shaft and about the ``hole`` of a pin.
+
+    ``passing`` is the largest eye that passes the wheel, ``standing`` the radius of a disc on the
+    hub. Raises GenevaError, naming the key, where hub or eye leave nothing around a hole.
+    """
+    deep = bore_of(size, "crank", bore).reach
+    hub = arm_hub(size, deep, bore, wall, standing)
+    eye = half_or(size.arm_eye_mm, eye_about(hole, wall, passing))
+    if hub <= deep:
+        raise GenevaError(
+            f"arm_hub_mm = {2.0 * hub:g}: the hub must be above {2.0 * deep:.6g}, the diameter "
+            "over its bore and keyway",
+            ("size", "arm_hub_mm"),
+        )
+    if eye <= hole:
+        raise GenevaError(
+            f"arm_eye_mm = {2.0 * eye:g}: the eye must be above {2.0 * hole:.6g}, the pin's hole",
+            ("size", "arm_eye_mm"),
+        )
+    return hub, eye
+
+
+def arm_hub(size: Size, bored: float, bore: float, wall: float, standing: float = 0.0) -> float:
+    """Return the arm's radius about a bore that reaches to ``bored`` with its keyway."""
+    return half_or(size.arm_hub_mm, max(rounded_radius(HUB * bore), bored + wall, standing))
+
+
+def arm_passing(assembly: Assembly, sizes: Sizes, length: float) -> float:
+    """Return the radius of the largest eye that passes the wheel's hub below the wheel."""
+    passing = assembly.L - length - max(sizes.wheel_bore, sizes.wheel_hub)
+    return passing if assembly.sign > 0.0 else math.inf
+
+
+def hole_radius(size: Size, pin: float) -> float:
+    """Return the radius of the hole of a pin, 0 or less where the fit leaves none."""
+    return pin - 0.5 * size.allowances.press_fit_mm
+
+
+def pin_hole(size: Size, pin: float) -> float:
+    """Return the radius of the hole that holds a pin. Raises GenevaError where none is left."""
+    fit, hole = size.allowances.press_fit_mm, hole_radius(size, pin)
+    if hole <= 0.0:
+        raise GenevaError(
+            f"there is no hole for a pin of pin_mm = {2.0 * pin:g} with press_fit_mm = {fit:g}; "
+            "the pin must be the larger",
+            ("size", "press_fit_mm" if pin else "pin_mm"),
+        )
+    return hole
+
+
+def refuse_wide_pin(size: Size, pin: float, roller: float) -> None:
+    """Raise GenevaError, naming the key, for a pin whose hole leaves nothing of the roller.
+
+    ``roller`` is the roller's radius, of a cone where it is thinnest.
+    """
+    loose = size.allowances.shaft_fit_mm
+    if pin and 2.0 * pin + loose >= 2.0 * roller:
+        raise GenevaError(
+            f"pin_mm = {2.0 * pin:g}: it must be below {2.0 * roller - loose:.6g}, the roller's "
+            "least diameter less shaft_fit_mm",
+            ("size", "pin_mm"),
+        )
+
+
+def arm_bore(spec: Spec, disc: float, L: float, space: float) -> float:
+    """Return the radius of the arm's bore: of the spec, of the ``disc`` on it, or of the shaft.
+
+    By default it leaves most of the space up to the nearest pin's hole, ``space``.
+    """
+    diameter = spec.size.arm_bore_mm or 2.0 * disc or spec.shaft.crank_diameter_mm
+    return half_or(diameter, bore_radius(min(L / 20.0, 0.35 * space)))
+
+
+def refuse_stepped_shaft(size: Size, crank_bore: float, L: float) -> None:
+    """Raise GenevaError, naming the key, where the arm's bore is not as wide as the crank's.
+
+    One shaft runs through both. A ``crank_bore`` of 0 ends it in the arm.
+    """
+    own = size.arm_bore_mm
+    if own and crank_bore and abs(0.5 * own - crank_bore) > SAME_LENGTH * L:
+        raise GenevaError(
+            f"arm_bore_mm = {own:g}: the shaft runs through the arm and on, so crank_bore_mm = "
+            f"{2.0 * crank_bore:g} must be equal, or 0 to end it in the arm",
+            ("size", "arm_bore_mm"),
+        )
+
+
+def within_hub(size: Size, part: str) -> float:
+    """Return the largest default bore in the hub of a part, infinite without a hub."""
+    hub_mm: float | None = vars(size)[f"{part}_hub_mm"]
+    # a keyway is up to 0.39 of the bore's radius deep, and a hexagon's corner less
+    return ((0.5 / 1.6) if has_shape(size, part) else 0.4) * hub_mm if hub_mm else math.inf
+
+
+def wheel_bore(spec: Spec, end: float, wall: float, L: float) -> float:
+    """Return the radius of the wheel's bore: of the spec, of its shaft, or the default.
+
+    ``end`` is the distance of the slots' ends from the axis. Shaft and default leave a wall to
+    them, and the default one in the hub.
+    """
+    size, shaft = spec.size, spec.shaft.wheel_diameter_mm
+    if size.wheel_bore_mm is None and shaft is not None and 0.5 * shaft <= end - wall:
+        return 0.5 * shaft
+    usual = bore_radius(min(L / 12.0, 0.4 * end, end - wall, within_hub(size, "wheel")))
+    return half_or(size.wheel_bore_mm, usual)
+
+
+def refuse_thin_hub(part: str, hub: float, bored: float, bore: float) -> None:
+    """Raise GenevaError, naming the key, for a hub that its bore with its shape cuts through.
+
+    The bore reaches to ``bored`` with its keyway. A hub no wider than the round bore is none.
+    """
+    if bore < hub <= bored:
+        raise GenevaError(
+            f"{part}_hub_mm = {2.0 * hub:g}: it must be above {2.0 * bored:.6g}, the diameter "
+            f"over bore and keyway; a smaller {part}_bore_mm leaves more of it",
+            ("size", f"{part}_hub_mm"),
+        )
+
+
+def wheel_reach_and_hub(size: Size, bore: float, wall: float, end: float) -> tuple[float, float]:
+    """Return how far the wheel's bore reaches with its shape, and the radius of its hub.
+
+    ``end`` is the distance of the slots' ends from the axis.
+    """
+    return _reach_and_hub(size, "wheel", bore, wall, min(HUB * bore, largest_hub(end)))
+
+
+def largest_hub(end: float) -> float:
+    """Return the radius of a wheel's largest default hub, for slots that end at the radius ``end``.
+
+    A quarter of the wheel up to its slots stays free.
+    """
+    return 0.75 * end
+
+
+def crank_reach_and_hub(size: Size, bore: float, wall: float) -> tuple[float, float]:
+    """Return how far the crank's bore reaches with its shape, and the radius of its hub."""
+    return _reach_and_hub(size, "crank", bore, wall, 1.5 * bore)
+
+
+def _reach_and_hub(
+    size: Size, part: str, bore: float, wall: float, usual: float
+) -> tuple[float, float]:
+    """Return reach and hub; by default the usual radius, or a wall around the bore's keyway."""
+    reach, usual = reach_or_bore(size, part, bore), rounded_radius(usual)
+    default = max(usual, reach + wall) if reach > bore else usual
+    return reach, half_or(vars(size)[f"{part}_hub_mm"], default)
+
+
+def wall_of_bolts(size: Size, wall: float) -> float:
+    """Return the wall about the bolts of the lock that is left between chamfered or round edges.
+
+    >>> wall_of_bolts(Size(edge_chamfer_mm=1.0), 0.5)
+    2.5
+    """
+    return wall + 2.0 * size.edge_mm
+
+
+def lock_bolt_directions(sectors: Iterable[tuple[float, float]], count: int) -> list[list[float]]:
+    """Return the directions of the bolts that fix locking sectors to the arm.
+
+    Each sector is its start and width, radians; its ``count`` bolts are evenly spaced. Raises
+    GenevaError where there are bolts and no sectors.
+    """
+    directions = [
+        [start + width * (k + 0.5) / count for k in range(count)] for start, width in sectors
+    ]
+    if count and not directions:
+        raise GenevaError(
+            "lock_bolts: there is no locking disc to fix; remove it", ("size", "lock_bolts")
+        )
+
+    return directions if count else []

@@ -1,0 +1,250 @@
+"""The usual sizes of the parts, in millimetres: those of the spec, or defaults without a load.
+
+Default bores are those of standard bearings, other default sizes rounded numbers. The rim is where
+the roller enters. On a smaller wheel the roller would lose its slot, on a larger one it would touch
+the rim. The locking disc reaches past the rim and leaves a horn next to the slot.
+"""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.motion.spec import Spec
+from geneva_cli.numerics.preferred import bore_radius
+from geneva_cli.parts.assembly import Assembly
+from geneva_cli.parts.outlines.reliefs import arc_floor, has_arcs
+from geneva_cli.parts.sizes.arm_sizes import (
+    arm_bore,
+    crank_reach_and_hub,
+    hole_radius,
+    refuse_stepped_shaft,
+    refuse_thin_hub,
+    refuse_wide_pin,
+    wheel_bore,
+    wheel_reach_and_hub,
+    within_hub,
+)
+from geneva_cli.parts.sizes.plain_sizes import Sizes, drawn_thicknesses, pin_radius
+from geneva_cli.parts.slots.roller_paths import RollerPaths, mouth, roller_reaches
+from geneva_cli.spec.default_sizes import value_or
+from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.tables import Size
+
+
+def usual_sizes(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
+    """Return the sizes without a load, and the radius about the crank's axis inside the relief."""
+    spec, L, kinds = assembly.mechanism.spec, assembly.L, assembly.kinds
+    size, r = spec.size, assembly.mechanism.roller_radius_mm
+    allowed = size.allowances
+    w = r + allowed.slot_clearance_mm
+    outside = assembly.sign > 0.0
+    rim = value_or(size.wheel_radius_mm, max(mouth(assembly, s, r) for s in kinds))
+    bottom = value_or(size.slot_bottom_clearance_mm, max(allowed.slot_clearance_mm, r / 20.0))
+    gaps = [0.0 if s.slot.curved else bottom for s in kinds]
+    ends = (
+        assembly.sign * _bottom(deepest, L * s.through.slot.offset, assembly.sign * gap)
+        for s, deepest, gap in zip(kinds, path.ends, gaps, strict=True)
+    )
+    end = (min(ends) - w) * assembly.sign
+    arm = path.arm
+    lock = _lock(assembly, arm, w, rim)
+    depth = abs(L - rim)
+    relief = value_or(size.relief_clearance_mm, min(L / 200.0, depth / 4.0))
+    space = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
+    if any(s.apart for s in kinds):  # gears between rollers widen the relief
+        space = min(space, arc_floor(assembly, lock)) if has_arcs(assembly, lock) else math.inf
+    within = min(space, depth - relief)
+    bore = _crank_bore(assembly.full.spec, within, L) if spec.drive.LOCKS else 0.0
+    wall = wall_min(size, L)
+    axle = wheel_bore(assembly.full.spec, end, wall, L) if outside or size.wheel_bore_mm else 0.0
+    wheel_reach, wheel_hub = wheel_reach_and_hub(size, axle, wall, end)
+    crank_reach, crank_hub = crank_reach_and_hub(size, bore, wall)
+    thick, pin = drawn_thicknesses(size, L), pin_radius(size, r)
+    usual = Sizes(
+        roller=r,
+        half_width=w,
+        rim=rim,
+        outer=0.0 if outside else value_or(size.wheel_outer_radius_mm, end + max(r, L / 20.0)),
+        slot_bottom=bottom,
+        slot_end=end,
+        arm=arm,
+        lock=lock,
+        recess=lock + allowed.lock_clearance_mm if lock else 0.0,
+        relief=relief,
+        wall_min=wall,
+        wheel_bore=axle,
+        wheel_reach=wheel_reach,
+        wheel_hub=wheel_hub,
+        crank_bore=bore,
+        crank_reach=crank_reach,
+        crank_hub=crank_hub,
+        pin=pin,
+        arm_bore=_arm_bore(assembly, pin, bore),
+        wheel_thickness=thick.wheel,
+        lock_thickness=thick.lock,
+        arm_thickness=thick.arm,
+        link_thickness=thick.link,
+    )
+    return usual, within
+
+
+def _arm_bore(assembly: Assembly, pin: float, disc: float) -> float:
+    """Return the radius of the arm's bore, where a disc has a bore of radius ``disc``; or 0."""
+    spec = assembly.full.spec
+    if not (spec.drive.ONE_ARM and pin):  # without pins there is no arm
+        return 0.0
+    space = min(roller_reaches(assembly)) - hole_radius(spec.size, pin)
+    return arm_bore(spec, disc, assembly.L, space)
+
+
+def _crank_bore(spec: Spec, space: float, L: float) -> float:
+    """Return the crank's bore: that of the arm, which has the same shaft, or half of ``space``.
+
+    It is 0 where ``space``, the radius inside the relief, is too small. Then the shaft ends in the
+    arm.
+    """
+    size = spec.size
+    if size.crank_bore_mm is not None:
+        return 0.5 * size.crank_bore_mm
+    own = size.arm_bore_mm if spec.drive.ONE_ARM else None
+    if own is None:
+        own = spec.shaft.crank_diameter_mm
+    if own is not None:
+        # a larger bore leaves no space for its default hub, of 1.5 bores
+        return 0.5 * own if 0.5 * own <= 0.6 * space else 0.0
+    within = within_hub(size, "crank")
+    return bore_radius(min(0.45 * space, within)) if 0.45 * space >= L / 40.0 else 0.0
+
+
+def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
+    """Return the locking disc's radius: it leaves a horn as thick as the roller's radius.
+
+    The horn is at most a fifth of the available radius. 0 for no disc; linkages have none.
+    """
+    spec, size = assembly.mechanism.spec, assembly.mechanism.spec.size
+    if not spec.has_lock:
+        return 0.0
+    limit = arm - w - size.allowances.lock_clearance_mm
+    least, r = max(assembly.L - rim, 0.0), assembly.mechanism.roller_radius_mm
+    if limit <= least:
+        raise GenevaError(
+            f"the locking disc does not fit: it must be above {least:.4g} mm to reach the rim, but "
+            f"roller and clearances limit it to {limit:.4g}; use "
+            + (f"a roller below {r + limit - least:.4g} mm, or " if r + limit > least else "")
+            + "lock_radius_mm = 0",
+            ("size", "lock_radius_mm"),
+        )
+    if size.lock_radius_mm is None:
+        return lock_between(least, limit, r)
+    require_lock_between(size.lock_radius_mm, least, limit)
+    return size.lock_radius_mm
+
+
+def lock_between(least: float, limit: float, roller: float) -> float:
+    """Return the default reach of a lock: into the rim, and a horn's thickness off the slot."""
+    return max(limit - min(roller, limit / 5.0), 0.5 * (limit + least))
+
+
+def require_lock_between(lock_radius_mm: float, least: float, limit: float) -> None:
+    """Raise GenevaError where the spec's lock does not reach the rim, or leaves no horn."""
+    if not least < lock_radius_mm < limit:
+        raise GenevaError(
+            f"lock_radius_mm = {lock_radius_mm:g}: it must be above {least:.6g} to reach the rim, "
+            f"and below {limit:.6g} to leave a horn; 0 means no lock",
+            ("size", "lock_radius_mm"),
+        )
+
+
+def _bottom(deepest: float, offset: float, gap: float) -> float:
+    """Return the distance of the centre of a slot's round end from the wheel's axis, mm.
+
+    The gap between it and the deepest roller is along the slot, whose axis may be offset from the
+    wheel's. Beyond the wheel's axis the distance is negative.
+    """
+    along = math.sqrt(max(deepest * deepest - offset * offset, 0.0)) - gap
+    return math.copysign(math.hypot(along, offset), along)
+
+
+def refuse_sizes(assembly: Assembly, sizes: Sizes) -> None:
+    """Raise GenevaError, naming the key, where a size leaves no wheel or no lock."""
+    _refuse_plates(assembly, sizes)
+    _refuse_hubs(assembly.mechanism.spec.size, sizes)
+
+
+def _refuse_plates(assembly: Assembly, sizes: Sizes) -> None:
+    outside = assembly.sign > 0.0
+    if sizes.lock and not abs(assembly.L - sizes.rim) < sizes.recess:
+        raise GenevaError(
+            f"wheel_radius_mm = {sizes.rim:g}: the rim lies beyond the locking disc's reach; it "
+            f"must be below {assembly.L + sizes.recess:.6g}",
+            ("size", "wheel_radius_mm"),
+        )
+    if outside and sizes.slot_end <= 0.0:
+        raise GenevaError(
+            "the slots meet in the wheel's centre: reduce roller_radius_mm, slot_clearance_mm and "
+            f"slot_bottom_clearance_mm together by more than {-sizes.slot_end:.4g} mm",
+            ("size", "roller_radius_mm"),
+        )
+    if outside and sizes.wheel_bore >= sizes.slot_end:
+        raise GenevaError(
+            f"wheel_bore_mm = {2.0 * sizes.wheel_bore:g}: the slots reach down to "
+            f"{sizes.slot_end:.6g} mm; it must be below {2.0 * sizes.slot_end:.6g}",
+            ("size", "wheel_bore_mm"),
+        )
+    if assembly.full.spec.drive.ONE_ARM:
+        refuse_stepped_shaft(assembly.mechanism.spec.size, sizes.crank_bore, assembly.L)
+    if sizes.lock and sizes.crank_bore >= sizes.lock:
+        raise GenevaError(
+            f"crank_bore_mm = {2.0 * sizes.crank_bore:g}: it must be below the locking disc's "
+            f"{2.0 * sizes.lock:.6g}",
+            ("size", "crank_bore_mm"),
+        )
+    refuse_edges(
+        assembly.mechanism.spec.size,
+        min(sizes.wheel_thickness, sizes.lock_thickness, sizes.arm_thickness),
+    )
+    refuse_wide_pin(assembly.mechanism.spec.size, sizes.pin, sizes.roller)
+    if not outside and sizes.outer <= max(sizes.slot_end, assembly.L + sizes.recess):
+        raise GenevaError(
+            f"wheel_outer_radius_mm = {sizes.outer:g}: it must be larger: the slots reach "
+            f"{sizes.slot_end:.6g} mm",
+            ("size", "wheel_outer_radius_mm"),
+        )
+    if outside and assembly.mechanism.spec.size.wheel_outer_radius_mm is not None:
+        raise GenevaError(
+            "wheel_outer_radius_mm is for internal wheels only; here set wheel_radius_mm",
+            ("size", "wheel_outer_radius_mm"),
+        )
+
+
+def refuse_edges(size: Size, thin: float) -> None:
+    """Raise GenevaError, naming the key, for edges that leave nothing of a plate so thin, mm."""
+    chamfer = size.edge_chamfer_mm is not None
+    if chamfer and size.edge_fillet_mm is not None:
+        raise GenevaError(
+            "edge_fillet_mm: edges are either chamfered or rounded; remove one of edge_chamfer_mm "
+            "and edge_fillet_mm",
+            ("size", "edge_fillet_mm"),
+        )
+    if 2.0 * size.edge_mm >= thin:
+        key = "edge_chamfer_mm" if chamfer else "edge_fillet_mm"
+        raise GenevaError(
+            f"{key} = {size.edge_mm:g}: it must be below {0.5 * thin:.6g}, half of the thinnest "
+            "plate",
+            ("size", key),
+        )
+
+
+def _refuse_hubs(size: Size, sizes: Sizes) -> None:
+    """Raise GenevaError, naming the key, for parts on an open wheel, and for hubs cut through."""
+    shaft = "wheel_shaft_low_mm", "wheel_shaft_high_mm"
+    axle = "wheel_bore_mm", "wheel_hub_mm", "wheel_hub_length_mm", *shaft
+    on_axis = [key for key in axle if vars(size)[key]]
+    if sizes.outer and on_axis:
+        raise GenevaError(
+            f"{on_axis[0]}: an internal wheel is open in the middle; remove it",
+            ("size", on_axis[0]),
+        )
+    refuse_thin_hub("wheel", sizes.wheel_hub, sizes.wheel_reach, sizes.wheel_bore)
+    refuse_thin_hub("crank", sizes.crank_hub, sizes.crank_reach, sizes.crank_bore)

@@ -1,0 +1,178 @@
+"""The dimensions of the parts that their strength depends on: pin, shafts, arm and keys.
+
+A shaft's bearing is in the middle of the frame, below all that turns. Its overhang is the distance
+of that bearing from the middle of the wheel's thickness, unless the spec has one.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.loads.strength.arm import ArmDimensions
+from geneva_cli.loads.strength.keys import KeyDimensions
+from geneva_cli.loads.tolerance.locking import Lock, loosest
+from geneva_cli.motion.spec import Spec
+from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.parts.assembly import Assembly
+from geneva_cli.parts.links.link_positions import gear_plane, links_at
+from geneva_cli.parts.outlines.reliefs import Mouths, Relief, is_whole, reliefs, sectors, widened
+from geneva_cli.parts.shafts.bores import reach_or_bore
+from geneva_cli.parts.shafts.keyways import key
+from geneva_cli.parts.sizes.arm_sizes import arm_hub, arm_passing, hole_radius
+from geneva_cli.parts.sizes.plain_sizes import Sizes, half_or, plane_span
+from geneva_cli.parts.slots.roller_paths import mouth_corners, roller_reaches
+from geneva_cli.spec.default_sizes import value_or
+from geneva_cli.spec.least_wall import eye_about
+
+
+class ShaftSize(NamedTuple):
+    """Diameter and overhang of a shaft, mm; NaN for none."""
+
+    diameter: float
+    overhang: float
+
+
+class Stressed(NamedTuple):
+    """Dimensions of stressed parts, mm; NaN where a part does not exist."""
+
+    contact: float  # length of the contact line, by default the wheel's thickness
+    pin: float  # diameter; 0 for a roller that is its own pin
+    wheel_shaft: ShaftSize
+    crank_shaft: ShaftSize
+    arm: ArmDimensions
+    wheel_key: KeyDimensions
+    crank_key: KeyDimensions
+
+
+def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
+    """Return the dimensions of a machine's parts, for parts of these sizes."""
+    spec = assembly.full.spec
+    size = spec.size
+    contact = value_or(size.face_width_mm, sizes.wheel_thickness)
+    crank = sizes.arm_bore or sizes.crank_bore
+    requested = size.wheel_hub_mm is not None or size.wheel_hub_length_mm is not None
+    length = 0.0  # of the wheel's hub
+    if requested and sizes.wheel_hub > sizes.wheel_bore:
+        usual = size.allowances.pin_gap_mm + sizes.arm_thickness
+        length = value_or(size.wheel_hub_length_mm, usual)
+    end = ShaftEnd(_to_frame(assembly, sizes, length), sizes.arm_thickness, assembly.L)
+    return Stressed(
+        contact,
+        2.0 * sizes.pin,
+        shaft_of(spec, "wheel", sizes.wheel_bore, end),
+        shaft_of(spec, "crank", crank, end),
+        _arm(assembly, sizes, contact),
+        key_of(size.wheel_keyway, sizes.wheel_bore, sizes.wheel_thickness + length),
+        key_of(size.crank_keyway, sizes.arm_bore, sizes.arm_thickness),
+    )
+
+
+class ShaftEnd(NamedTuple):
+    """Where shafts leave the machine, mm: from the contact's middle to the frame of plain shafts.
+
+    ``thick`` is that frame's thickness.
+    """
+
+    to_frame: float
+    thick: float
+    L: float
+
+
+def shaft_of(spec: Spec, part: str, bore: float, end: ShaftEnd) -> ShaftSize:
+    """Return a shaft of the spec's dimensions, or else as it is in its bearing; NaN for none.
+
+    A plain shaft is as wide as its bore, and borne in the middle of the frame. A turned one is as
+    wide as its bearing's bore, whose middle is half its width below the frame's upper face.
+    """
+    size, table = spec.size, vars(spec.shaft)
+    diameter, overhang = 2.0 * bore or math.nan, end.to_frame + 0.5 * end.thick
+    if size.shafts == "turned":
+        from geneva_cli.parts.shafts.bearings import bearing_within, shoulder_length
+
+        if bearing := bearing_within(diameter):
+            diameter = bearing.bore
+            overhang = end.to_frame + shoulder_length(size, end.L) + 0.5 * bearing.width
+    own = table[f"{part}_diameter_mm"], table[f"{part}_overhang_mm"]
+    return ShaftSize(value_or(own[0], diameter), value_or(own[1], overhang))
+
+
+def _to_frame(assembly: Assembly, sizes: Sizes, hub_mm: float) -> float:
+    """Return the distance of the frame's upper face from the middle of the wheel's thickness.
+
+    The frame lies a washer below the lowest of the wheel's hub, which is ``hub_mm`` long, the arm,
+    links, gears, and the base of a groove's plate.
+    """
+    machine, spec = assembly.full, assembly.full.spec
+    gap, arm, washer = spec.size.allowances.pin_gap_mm, sizes.arm_thickness, spec.size.washer_mm
+    first = arm if spec.drive.ONE_ARM else sizes.link_thickness
+
+    def low(plane: int) -> float:
+        return plane_span(plane, gap, first, sizes.link_thickness, washer)[0]
+
+    lows = [-hub_mm, -gap - (arm if sizes.arm_bore else 0.0)]
+    lows += [low(link.plane) for link in links_at(machine, np.zeros(1))]
+    if spec.gears:
+        lows.append(low(gear_plane(machine)))
+    if machine.engagements[0].groove is not None:  # as ``groove_plate`` has its base
+        lows.append(low(3) if spec.drive_before else low(2) - arm)
+    return 0.5 * sizes.wheel_thickness - min(lows) + washer
+
+
+def _arm(assembly: Assembly, sizes: Sizes, contact: float) -> ArmDimensions:
+    """Return the arm's dimensions; NaN without an arm."""
+    size = assembly.full.spec.size
+    if not (sizes.arm_bore and sizes.pin):
+        return ArmDimensions.none()
+    length = max(roller_reaches(assembly))
+    passing = arm_passing(assembly, sizes, length)
+    standing = 0.0 if is_whole(assembly, sizes) else sizes.lock
+    hole = hole_radius(size, sizes.pin)
+    bored = reach_or_bore(size, "crank", sizes.arm_bore)
+    hub = arm_hub(size, bored, sizes.arm_bore, sizes.wall_min, standing)
+    eye = half_or(size.arm_eye_mm, eye_about(hole, sizes.wall_min, passing))
+    offset = 0.5 * (contact + sizes.arm_thickness) + size.allowances.pin_gap_mm
+    rows = length, hub, eye, bored, hole, sizes.arm_thickness, offset
+    return ArmDimensions(*map(np.asarray, rows))
+
+
+def lock_of(where: Assembly, size: Sizes, cut: Sequence[float] = ()) -> Lock:
+    """Return the lock of parts of these sizes, in its narrowest sector between two reliefs.
+
+    Its corner is that of the mouth that leaves the most play. ``cut`` has half the angles of the
+    crank's locking arcs, radians, if they are known and may be narrower.
+    """
+    mouths = mouth_corners(where, size.roller, size.recess, size.rim)
+    locking = sectors(_reliefs(where, size, mouths))
+    half = min((*(0.5 * (end - start) for start, end in locking), *cut), default=math.nan)
+    edge = where.full.spec.size.lock_edge_mm or 0.0
+    lock = Lock(where.L, where.sign, size.lock, size.recess, size.rim, half, edge)
+    corners = [radius for mouth in mouths.values() for radius in mouth]
+    if max(corners) - min(corners) < SAME_LENGTH * where.L:
+        return lock
+    near, far = abs(where.L - size.recess), where.L + size.recess
+    tried = [lock._replace(corner=r) for r in sorted(corners) if near < r < far]
+    return loosest(tried) if tried else lock
+
+
+def _reliefs(where: Assembly, size: Sizes, mouths: Mouths) -> list[Relief]:
+    """Return the reliefs as they are cut: arcs end where the motions do."""
+    if not is_whole(where, size) or where.mechanism.spec.size.relief == "arc":
+        return reliefs(where)
+    return widened(where, size, mouths)
+
+
+def key_of(standard: str | None, bore: float, length: float) -> KeyDimensions:
+    """Return the dimensions of a key in a bore; NaN without one."""
+    try:
+        fitted = key(standard, bore) if bore else None
+    except GenevaError:  # reported where the part is cut
+        fitted = None
+    if fitted is None:
+        return KeyDimensions.none()
+    bearing = fitted.height - fitted.in_shaft
+    return KeyDimensions(*map(np.asarray, (2.0 * bore, fitted.width, bearing, length)))

@@ -1,0 +1,1 @@
+"""Slots and grooves: paths of the rollers, profiles and their samples."""

@@ -1,0 +1,241 @@
+"""The fixed groove of a cam-Geneva: its pitch curve, both flanks, pressure angle and curvature."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.geometry import chords
+from geneva_cli.motion.engagement import Groove
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.pitch_curve import WALLED
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.arrays import Array, Number, scalar, smaller
+from geneva_cli.numerics.roots import boundary_by_sections, greatest_at
+from geneva_cli.table import Table
+
+NAMES = ("input_deg", "radius_mm", *WALLED)
+GRID = 3600  # positions all round, between which the greatest pressure angle is searched
+EASED_DEG = 30.0  # of the input: range in which the groove joins its arc in the dwell
+
+
+def distance(groove: Groove, input_deg: Array) -> Array:
+    """Return the roller's distance from the crank's axis over a whole turn, in units of L."""
+    return _distances(groove, input_deg, 0)[0]
+
+
+def roller_in_groove(groove: Groove, input_deg: Array) -> Array:
+    """Return the roller's centre over a whole turn, in units of L from the wheel's axis: (n, 2)."""
+    R, angle = distance(groove, input_deg), np.radians(input_deg)
+    return np.column_stack((1.0 - groove.sign * R * np.cos(angle), R * np.sin(angle)))
+
+
+def dwell_rates(groove: Groove) -> tuple[float, float]:
+    """Return bounds of the sizes of a roller path's two derivatives in the dwell, in units of L.
+
+    They are those of the parts that ``_back`` adds, each at its greatest: u (1 - u)² reaches 4/27,
+    (1 - u) (1 - 3 u) lies between -1/3 and 1, and the step's derivatives reach 15/8 and 10/sqrt(3).
+    """
+    span = radians(360.0 - (groove.motion.exit_deg - groove.motion.entry_deg))
+    eased = smaller(math.radians(EASED_DEG), span / 3.0)
+    none, far, slope, bend = np.zeros(1), 0.0, 0.0, 0.0
+    levels = []
+    for end, sense in zip(groove.ends, (-1.0, 1.0), strict=True):
+        R, first, second = (scalar(x) for x in end)
+        levels.append(scalar(_eased(end, eased, none, sense)[3]))
+        m = abs(second) * eased
+        far = max(far, abs(R)) + eased * (abs(first) + m)
+        slope = max(slope, abs(first) + 4.0 / 27.0 * m)
+        bend = max(bend, (1.5 * abs(first) + m) / eased)
+    rise, length = abs(levels[0] - levels[1]), span - 2.0 * eased
+    slope = max(slope, 1.875 * rise / length)
+    bend = max(bend, 10.0 / math.sqrt(3.0) * rise / length**2)
+    return math.hypot(slope, far), bend + 2.0 * slope + far
+
+
+def groove_curve(groove: Groove, L: float, offset: float) -> Callable[[Array], tuple[Array, Array]]:
+    """Return the groove, or a flank ``offset`` mm to its left, as points in mm and unit tangents.
+
+    They are functions of the input angle, degrees, over a whole turn, in the frame of the groove's
+    table.
+    """
+
+    def curve(t: Array) -> tuple[Array, Array]:
+        R, slope, _ = _distances(groove, t)
+        c, s = -groove.sign * np.cos(np.radians(t)), np.sin(np.radians(t))
+        x1, y1 = slope * c + groove.sign * R * s, slope * s - groove.sign * R * c
+        tangents = np.column_stack((x1, y1)) / np.hypot(x1, y1)[:, None]
+        normals = np.column_stack((-tangents[:, 1], tangents[:, 0]))
+        return L * np.column_stack((R * c, R * s)) + offset * normals, tangents
+
+    return curve
+
+
+def _distances(groove: Groove, input_deg: Array, order: int = 2) -> list[Array]:
+    """Return the roller's distance from the crank's axis, with derivatives by the input in radians.
+
+    There are ``order`` derivatives, at most two. In the dwell the slope fades over some degrees
+    beyond either end; between, the groove is an arc about the crank's axis. If the two ends lead to
+    different arcs, a 3-4-5 curve joins them. The second derivative is continuous all round.
+    """
+    at = (input_deg - groove.motion.entry_deg) % 360.0 + groove.motion.entry_deg
+    moving = at <= groove.motion.exit_deg
+    out = [np.empty(len(at)) for _ in range(order + 1)]
+    for here, distances in ((moving, _moving), (~moving, _back)):
+        if here.any():
+            for column, values in zip(out, distances(groove, at[here], order), strict=True):
+                column[here] = values
+    return out
+
+
+def _moving(groove: Groove, input_deg: Array, order: int) -> list[Array]:
+    """Return distance and derivatives at input angles in the motion; see ``_distances``."""
+    return [*groove.distances(input_deg, order)[1].arrays()]
+
+
+def _back(groove: Groove, input_deg: Array, order: int) -> list[Array]:
+    """Return distance and derivatives at input angles in the dwell; see ``_distances``."""
+    span = radians(360.0 - (groove.motion.exit_deg - groove.motion.entry_deg))
+    eased = smaller(math.radians(EASED_DEG), span / 3.0)
+    t = np.radians(input_deg - groove.motion.exit_deg)
+    entry, exit_ = groove.ends
+    after = _eased(exit_, eased, t, 1.0)
+    before = _eased(entry, eased, span - t, -1.0)
+    # Each fades to a constant before the other begins; the step goes from one level to the other.
+    length, rise = span - 2.0 * eased, before[3] - after[3]
+    u = np.clip((t - eased) / length, 0.0, 1.0)
+    step = (
+        u**3 * (10.0 - 15.0 * u + 6.0 * u * u),
+        30.0 * (u * (1.0 - u)) ** 2 / length,
+        60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / length**2,
+    )
+    out = [a + b + rise * s for a, b, s in zip(after[:3], before[:3], step, strict=True)]
+    out[0] -= before[3]
+    return out[: order + 1]
+
+
+def _eased(
+    end: Sequence[Number], length: float, t: Array, sense: float
+) -> tuple[Array, Array, Array, Number]:
+    """Return distance and two derivatives ``t`` beyond an end, and the distance it fades to.
+
+    The slope is a cubic. At the end it has the end's value and derivative, at ``length`` both are
+    0.
+    """
+    R, slope, bend = end[0], sense * end[1], end[2]
+    u = np.minimum(t / length, 1.0)
+    m = bend * length
+    run = slope * (u - u**3 + 0.5 * u**4) + m * (0.5 * u**2 - 2.0 / 3.0 * u**3 + 0.25 * u**4)
+    rate = slope * (1.0 - u) ** 2 * (1.0 + 2.0 * u) + m * u * (1.0 - u) ** 2
+    turn = (-6.0 * slope * u * (1.0 - u) + m * (1.0 - u) * (1.0 - 3.0 * u)) / length
+    level = R + length * (0.5 * slope + m / 12.0)
+    return R + length * run, sense * rate, turn, level
+
+
+class GrooveExtremes(NamedTuple):
+    """Extremes of the grooves of m designs over sampled positions, (m,) each.
+
+    ``nearest`` is the roller's least distance from the crank's axis, over L, ``pressure_deg`` the
+    greatest pressure angle.
+    """
+
+    nearest: Array
+    pressure_deg: Array
+
+
+def sampled_extremes(groove: Groove, input_deg: Array) -> GrooveExtremes:
+    """Return the extremes of a batch of grooves, or of one, over sampled positions.
+
+    The motion is sampled at ``input_deg`` (m, k), the dwell at 360 positions.
+    """
+    dwell = 360.0 - (groove.motion.exit_deg - groove.motion.entry_deg)
+    rest = groove.motion.exit_deg + dwell * (np.arange(360) / 360)
+    moving = groove.distances(input_deg, 1)[1].derivatives()
+    resting = _back(groove, np.atleast_2d(rest), 1)
+    R, slope = (np.hstack(pair) for pair in zip(moving, resting, strict=True))
+    steep = np.abs(slope) / R
+    return GrooveExtremes(R.min(axis=1), np.degrees(np.arctan(steep.max(axis=1))))
+
+
+def greatest_pressure(groove: Groove) -> tuple[float, float]:
+    """Return the groove's greatest pressure angle, degrees, and its input angle.
+
+    Its tangent is |R'/R|, for both signs of R'. It is greatest where R R'' = R'².
+    """
+    grid = groove.motion.entry_deg + 360.0 * np.arange(GRID) / GRID
+    R, slope, _ = _distances(groove, grid)
+    steep = np.abs(slope) / R
+    tops = (steep >= np.roll(steep, 1)) & (steep >= np.roll(steep, -1))
+    # the grid is fine enough that lower local maxima need no refinement
+    tops &= steep > 0.99 * steep.max()
+    middle = 0.5 * (groove.motion.entry_deg + groove.motion.exit_deg)
+    # a groove is as steep before the motion as after it: start in the middle of the dwell
+    places = sorted(math.remainder(x - middle, 360.0) + middle for x in grid[tops])
+    candidates = [_steepest(groove, x) for x in places]
+    tangent, at_deg = greatest_at(candidates)
+    return math.degrees(math.atan(tangent)), at_deg
+
+
+def _steepest(groove: Groove, about: float) -> tuple[float, float]:
+    """Return the greatest tangent near a position of the grid, and its input angle."""
+    step = 360.0 / GRID
+    sense = math.copysign(1.0, _distances(groove, np.array([about]))[1][0])
+
+    def rise(x: Array) -> Array:
+        r, dr, ddr = _distances(groove, x)
+        return sense * (r * ddr - dr * dr)
+
+    # a corner of the groove, or a smooth maximum
+    at_deg = boundary_by_sections(rise, about - step, about + step)
+    r, dr, _ = _distances(groove, np.array([at_deg]))
+    return float(abs(dr[0]) / r[0]), at_deg
+
+
+def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
+    """Return the groove over the motion: for a chord tolerance, or at ``samples`` even angles.
+
+    The crank's axis is the origin, and x points away from the wheel's axis. Left and right are the
+    flanks in the roller's direction of travel. The pressure angle is between the groove's normal
+    and the crank's arm, atan(R'/R).
+    """
+    engagement = mechanism.engagements[0]
+    groove = engagement.groove
+    if groove is None:
+        raise GenevaError(
+            f'--part groove: kind = "{mechanism.spec.drive.NAME}" has no groove; "cam" has one'
+        )
+    clearance = mechanism.spec.size.allowances.slot_clearance_mm
+    L, offset = mechanism.center_distance_mm, mechanism.roller_radius_mm + clearance
+    ends = groove.motion.entry_deg, 0.0, groove.motion.exit_deg
+    if samples is None:
+        lines = [groove_curve(groove, L, side) for side in (0.0, offset, -offset)]
+        x = chords.nodes(lambda at: [line(at)[0] for line in lines], ends, tolerance_mm)
+    else:
+        x = np.linspace(ends[0], ends[-1], samples)
+    R, slope = (L * c for c in groove.distances(x, 2)[1].c[:2])
+    px, py = groove.groove(x, 2)
+    (x0, x1, x2), (y0, y1, y2) = px.derivatives(), py.derivatives()
+    speed = np.hypot(x1, y1)
+    turning = x1 * y2 - y1 * x2
+    with np.errstate(divide="ignore"):
+        # The roller enters along the slot, while the wheel still rests: a straight line.
+        straight = np.abs(turning) < 1e-12 * speed * speed
+        radius = np.where(straight, np.inf, L * speed**3 / turning)
+    nx, ny = -y1 / speed * offset, x1 / speed * offset
+    columns = [
+        engagement.inputs_deg(x),
+        R,
+        L * x0,
+        L * y0,
+        L * x0 + nx,
+        L * y0 + ny,
+        L * x0 - nx,
+        L * y0 - ny,
+        np.degrees(np.arctan2(np.abs(slope), R)),
+        radius,
+    ]
+    return Table(NAMES, columns)

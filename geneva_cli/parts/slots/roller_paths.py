@@ -1,0 +1,138 @@
+"""The paths of the rollers' centres, and the slots' mouths, in the wheel and about the crank."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.geometry.shapes import Point
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.numerics.arrays import Array, scalar
+from geneva_cli.parts.assembly import Assembly
+
+TURN_SAMPLES = 720  # input angles at which a path is sampled
+
+
+class RollerPaths(NamedTuple):
+    """Least distances of the rollers' centres from the axes, mm, whatever the rollers' radius."""
+
+    # least distance of each kind of slot from the wheel's axis; greatest for internal wheels
+    ends: tuple[float, ...]
+    arm: float  # least distance of the rollers, and of the adjacent slots, from the crank's axis
+
+
+def roller_paths(assembly: Assembly) -> RollerPaths:
+    """Return the paths of a machine's rollers."""
+    kinds = [s.through for s in assembly.kinds]
+    paths = [_pitch(assembly, s) for s in kinds]
+    reach = [np.hypot(*points.T) for points in paths]
+    ends = tuple(float(r.min() if assembly.sign > 0.0 else r.max()) for r in reach)
+    adjacent = [_to_slot(assembly, s, points) for s, points in zip(kinds, paths, strict=True)]
+    return RollerPaths(ends, min(_arm(assembly), *adjacent))
+
+
+def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
+    """Return the rim's radius, where a roller of radius r enters and leaves a slot.
+
+    There the roller touches the wall that faces the crank's axis, at the foot of the perpendicular
+    from that axis. If it enters and leaves at two radii, no wall may stand in its way at either.
+    """
+    if not engagement.slot.offset:
+        nearest = min if assembly.sign > 0.0 else max
+        reaches = (scalar(reach) for reach in (engagement.entry_reach, engagement.exit_reach))
+        return math.hypot(assembly.L * nearest(reaches), r)
+    return max(math.hypot(*corner(assembly, engagement, end, r)) for end in (-1.0, 1.0))
+
+
+def corner(assembly: Assembly, engagement: Engagement, end: float, r: float) -> tuple[float, float]:
+    """Return the mouth's corner on the crank axis' side at entry (-1) or exit (1), mm."""
+    x, y = engagement.slot(engagement.end_deg(end), 0)
+    px, py = assembly.L * scalar(x.c[0]), assembly.L * scalar(y.c[0])
+    cx, cy = rest(assembly, engagement, end)
+    ratio = r / math.dist((px, py), (cx, cy))
+    return px + ratio * (cx - px), py + ratio * (cy - py)
+
+
+def least_mouth(L: float, recess: float, rim: float) -> float:
+    """Return the radius to which lower mouths are extended, mm.
+
+    It is a fifth of the way from the recess to the rim. The disc then has an arc to lock, and the
+    relief needs to clear little more.
+    """
+    reach = L - recess
+    return reach + 0.2 * (rim - reach)
+
+
+def mouth_corners(
+    assembly: Assembly, r: float, recess: float, rim: float
+) -> dict[Engagement, tuple[float, float]]:
+    """Return the radii of each mouth's corners where the roller comes and goes, mm.
+
+    The mouths of offset slots and of unequal steps end at different radii. If the spec sets the
+    rim, it moves all mouths by as much as the widest one.
+    """
+    widest = {kind: mouth(assembly, kind, r) for kind in assembly.kinds}
+    shift = rim - max(widest.values())
+    least = least_mouth(assembly.L, recess, rim) if assembly.sign > 0.0 else 0.0
+
+    def own(kind: Engagement, end: float) -> float:
+        offset = kind.slot.offset
+        at = math.hypot(*corner(assembly, kind, end, r)) if offset else widest[kind]
+        return max(at + shift, least)
+
+    return {kind: (own(kind, -1.0), own(kind, 1.0)) for kind in widest}
+
+
+def rest(assembly: Assembly, engagement: Engagement, end: float) -> tuple[float, float]:
+    """Return the crank's axis in the wheel's frame before (-1) and after (1) a motion."""
+    b = -end * engagement.half_step
+    return assembly.L * math.cos(b), assembly.L * math.sin(b)
+
+
+@lru_cache(maxsize=16)  # the sizes under a load try many bores of one machine
+def roller_centres(assembly: Assembly) -> tuple[Point, ...]:
+    """Return the centres of the rollers on the crank, each at its mid-motion.
+
+    Of several equal cranks, each has one roller: they are those on the first crank.
+    """
+    centres = []
+    on_first = slice(1) if len(assembly.full.crank_places) > 1 else slice(None)
+    for number, (_, behind) in enumerate(assembly.rollers[on_first]):
+        at = np.array([behind])
+        x, y = (assembly.pin(number, at) - (assembly.L, 0.0))[0]
+        angle = math.atan2(y, x) - float(assembly.crank(at)[0])
+        reach = math.hypot(x, y)
+        centres.append((reach * math.cos(angle), reach * math.sin(angle)))
+    return tuple(centres)
+
+
+def roller_reaches(assembly: Assembly) -> list[float]:
+    """Return the distances of the rollers' centres from the crank's axis, at mid-motion."""
+    return [math.hypot(*centre) for centre in roller_centres(assembly)]
+
+
+def _pitch(assembly: Assembly, engagement: Engagement) -> Array:
+    """Return points of a slot's pitch curve, (n, 2)."""
+    x, y = engagement.slot(
+        np.linspace(engagement.entry_deg, engagement.exit_deg, TURN_SAMPLES + 1), 0
+    )
+    return assembly.L * np.column_stack((x.c[0], y.c[0] + 0.0 * x.c[0]))
+
+
+def _arm(assembly: Assembly) -> float:
+    """Return the least distance of the rollers from the crank's axis."""
+    turn = np.linspace(0.0, assembly.turn_deg, TURN_SAMPLES, endpoint=False)
+    leaders = {engagement: i for i, (engagement, _) in reversed([*enumerate(assembly.rollers)])}
+    # others follow their leaders
+    far = [assembly.pin(i, turn) - (assembly.L, 0.0) for i in leaders.values()]
+    return float(min(np.hypot(*p.T).min() for p in far))
+
+
+def _to_slot(assembly: Assembly, engagement: Engagement, points: Array) -> float:
+    """Return the least distance from the crank's axis to adjacent slots while the wheel rests."""
+    return float(
+        min(np.hypot(*(points - rest(assembly, engagement, e)).T).min() for e in (-1.0, 1.0))
+    )

@@ -1,1 +1,0 @@
-"""Wheel and crank on shafts that meet: shells of a sphere, and their cones laid flat."""

@@ -1,0 +1,142 @@
+"""Interfaces of a machine's parts, plates or shells, that a full turn works with."""
+
+from __future__ import annotations
+
+from collections.abc import Sized
+from typing import TYPE_CHECKING, NamedTuple, Protocol, Self
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.numerics.arrays import Array
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.assembly import Assembly
+    from geneva_cli.parts.turn.pairs import Pairs, Pose
+
+
+class WorkLimit(GenevaError):
+    """Error for a full turn that would take too long."""
+
+
+class Stop(NamedTuple):
+    """The stop of the wheel in one direction, from n poses."""
+
+    lead: Array  # (n,) radians: angle that the wheel turns until it stops
+    pressure: Array  # (n,) radians: pressure angle of a roller that stops it, 0 for anything else
+
+
+class Clearances(Protocol):
+    """The clearances between wheel, crank and rollers, mm, negative where they overlap.
+
+    All are computed in n poses, with the wheel turned on by ``lead`` radians. Clearances wider than
+    ``near`` mm are returned as ``near``.
+    """
+
+    @property
+    def near(self) -> float:
+        """The widest clearance that is distinguished from wider ones, mm."""
+
+    def begin(self) -> None:
+        """Count work from here on; raise WorkLimit when it exceeds the limit."""
+
+    def pose(self, input_deg: Array) -> Pose:
+        """Return the positions at input angles (n,), degrees."""
+
+    def rollers(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
+        """Return the clearance of each roller to the wheel, (n, m)."""
+
+    def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
+        """Return the clearance between the crank's locking surfaces and the wheel, (n,)."""
+
+    def repeats(self, count: int) -> bool:
+        """Return True if the parts coincide with themselves after one slot and 1/``count`` turn."""
+
+    def stops(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
+        """Return the stops of the wheel, turned back and turned on from n poses.
+
+        The parts overlap nowhere by ``close`` mm at first. The wheel turns until some do, or by
+        ``most`` radians.
+        """
+
+
+def smallest_clearance(gaps: Clearances, pose: Pose, lead: Array, near: float) -> Array:
+    """Return the smallest clearance of all parts in each pose, (n,)."""
+    rolling = gaps.rollers(pose, lead, near).min(axis=1)
+    return np.minimum(gaps.locking(pose, lead, near), rolling)
+
+
+class Lengths(Protocol):
+    """Lengths of the parts, mm; on a sphere arc lengths, except ``rim``."""
+
+    @property
+    def roller(self) -> float:
+        """Radius of the roller."""
+
+    @property
+    def half_width(self) -> float:
+        """Half the width of a slot."""
+
+    @property
+    def rim(self) -> float:
+        """Distance of the rim from the wheel's axis; of a rack's edge from the origin."""
+
+    @property
+    def outer(self) -> float:
+        """Radius of the wheel where it extends beyond its rim, or 0."""
+
+    @property
+    def arm(self) -> float:
+        """Distance of the rollers from the crank's axis."""
+
+    @property
+    def horn(self) -> float:
+        """Thickness of the horn between slot and recess."""
+
+
+def rim_lever(parts: MachineParts) -> float:
+    """Return how far the wheel's rim moves a radian, mm."""
+    return parts.assembly.plane_motion.lever(parts.sizes.rim)
+
+
+class MachineParts(Protocol):
+    """The parts of a machine, with what a full turn needs of them."""
+
+    @property
+    def assembly(self) -> Assembly:
+        """Positions of the parts at any input angle."""
+
+    @property
+    def sizes(self) -> Lengths:
+        """Lengths of the parts."""
+
+    @property
+    def gaps(self) -> Clearances:
+        """Clearances between the parts."""
+
+    @property
+    def crank(self) -> Sized:
+        """The locking surfaces of the crank; empty if there are none."""
+
+    @property
+    def close(self) -> float:
+        """The overlap, mm, that counts as rounding or as the walls' tolerance."""
+
+    @property
+    def contact(self) -> float:
+        """The overlap, mm, up to which parts count as touching."""
+
+    def over(self, assembly: Assembly) -> Self:
+        """Return these parts with another assembly."""
+
+    def pairs(self, target: float) -> Pairs:
+        """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
+
+    def in_wheel(self, motion: int, at: Array) -> Array:
+        """Return the centre of a motion's roller in the wheel's frame at input angles (n,).
+
+        It is an array (n, 2), mm, or on a sphere (n, 3), directions.
+        """
+
+    def past_mouth(self, motion: int, at: Array) -> Array:
+        """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""

@@ -1,0 +1,167 @@
+"""Certificate of the full turn: a proved lower bound of the gap at every input angle.
+
+The sampled full turn gives the smallest gap. The certificate proves that no gap is smaller by more
+than a tolerance, by halving intervals. It takes distances at single positions as exact, up to their
+rounding.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.numerics.arrays import Array
+from geneva_cli.parts.turn.machine_parts import Clearances, MachineParts
+from geneva_cli.parts.turn.one_motion import one_motion
+from geneva_cli.parts.turn.pairs import Intervals, Pair, Window
+from geneva_cli.parts.turn.play import windows
+
+MOST = 20_000  # intervals of one pair of parts: ten times what the designs take; under a second
+
+
+class Open(NamedTuple):
+    """An interval of input angles, degrees, on which the gap was not proved.
+
+    ``gap_mm`` is the gap in its middle, ``least_mm`` the proved lower bound on it.
+    """
+
+    start_deg: float
+    end_deg: float
+    gap_mm: float
+    least_mm: float
+
+
+class Settled(NamedTuple):
+    """A lower bound of the gap, mm, the number of intervals, and one that was left, if any."""
+
+    least: float
+    intervals: int
+    open: Open | None
+
+
+def settled(gaps: Clearances, pair: Pair, ends: tuple[float, float], target: float) -> Settled:
+    """Return a lower bound of a pair's gap between two input angles, at least ``target`` mm.
+
+    Intervals are halved until the bound on each is at least ``target``. Without success the most
+    doubtful interval is returned as open.
+    """
+    # 32 intervals at first
+    cuts = np.linspace(*ends, 33)
+    start, end = cuts[:-1], cuts[1:]
+    least, count = math.inf, 0
+    while len(start):
+        count += len(start)
+        bounds = pair(intervals(gaps, start, end))
+        closed = bounds.least >= target
+        least = min(least, float(bounds.least[closed].min(initial=math.inf)))
+        start, end = start[~closed], end[~closed]
+        collides = bounds.middle[~closed] < target
+        if collides.any() or count + 2 * len(start) > MOST:
+            known = bounds.middle if collides.any() else bounds.least
+            i = int(np.argmin(known[~closed]))
+            values = (float(each[~closed][i]) for each in bounds)
+            return Settled(least, count, Open(float(start[i]), float(end[i]), *values))
+        middle = 0.5 * (start + end)
+        start, end = np.concatenate((start, middle)), np.concatenate((middle, end))
+    return Settled(least, count, None)
+
+
+def intervals(gaps: Clearances, start: Array, end: Array) -> Intervals:
+    """Return intervals of the input angle, with the turn of crank and wheel on them, and poses.
+
+    Where the wheel turns back, the ends do not bound its turn. A whole turn does: no point moves
+    farther than twice its radius.
+    """
+    pose = gaps.pose(np.concatenate((start, 0.5 * (start + end), end)))
+    crank = np.unwrap(pose.crank.reshape(3, -1), axis=0)
+    steps = np.diff(pose.wheel.reshape(3, -1), axis=0)
+    # the wheel's angle is rounded by less than 1e-12 radians
+    turn = np.where((steps < -1e-12).any(axis=0), math.tau, steps.max(axis=0))
+    count = len(start)
+    poses = [pose.at(slice(i * count, (i + 1) * count)) for i in range(3)]
+    return Intervals(start, end, np.abs(np.diff(crank, axis=0)).max(axis=0), turn, *poses)
+
+
+class Certificate(NamedTuple):
+    """A proved lower bound of the gap in a full turn, ``least_mm``.
+
+    If an interval is ``open``, it holds elsewhere only. ``between`` names the parts there.
+    """
+
+    least_mm: float
+    intervals: int
+    open: Open | None = None
+    between: str = ""
+
+    @property
+    def proved(self) -> bool:
+        """True if no interval is open."""
+        return self.open is None
+
+
+def tolerance_mm(parts: MachineParts) -> float:
+    """Return the tolerance of a certificate by default: how far it is from the smallest gap."""
+    # 1 um, or twice the overlap that counts as touching, if that is more
+    return max(1e-3, 2.0 * parts.contact)
+
+
+def certificate(parts: MachineParts, gap_mm: float, to_mm: float) -> Certificate:
+    """Return the certificate that no gap in a full turn is smaller than the smallest by ``to_mm``.
+
+    ``gap_mm`` is the smallest gap of the sampled full turn; an overlap counts as 0. Raises
+    WorkLimit.
+    """
+    parts = one_motion(parts)
+    parts.gaps.begin()
+    # the greatest rounding of a distance; doubles carry 2e-16
+    spare = 1e-11 * parts.assembly.L
+    target = max(gap_mm, 0.0) - to_mm + spare
+    least, count = math.inf, 0
+    for between, bound in _gaps(parts, target):
+        least, count = min(least, bound.least - spare), count + bound.intervals
+        if bound.open:
+            start, end = (parts.assembly.shown_deg(x) for x in bound.open[:2])
+            shown = bound.open._replace(start_deg=start, end_deg=end)
+            return Certificate(least, count, shown, between)
+    return Certificate(least, count)
+
+
+def _gaps(parts: MachineParts, target: float) -> Iterator[tuple[str, Settled]]:
+    """Yield the proved bound of each pair of parts in each motion and dwell."""
+    pairs = parts.pairs(target)
+    for window in windows(parts):
+        ends = window.start, window.end
+        if len(parts.crank):
+            yield "locking disc and wheel", settled(parts.gaps, pairs.lock(window), ends, target)
+        for span, driver in spans(parts, window):
+            for roller in range(len(parts.assembly.rollers)):
+                driving = roller == driver
+                pair = pairs.driving(roller, span) if driving else pairs.free(roller, window)
+                between = "roller and slot" if driving else "roller and wheel"
+                yield between, settled(parts.gaps, pair, span, target)
+
+
+def spans(parts: MachineParts, window: Window) -> Iterator[tuple[tuple[float, float], int | None]]:
+    """Yield the spans of a motion or dwell, each with the roller that is in its slot, or None.
+
+    Where gears drive between two rollers, each of them is in its slot up to its deepest position,
+    or from there.
+    """
+    motion, start, end = window.motion, window.start, window.end
+    engagement, _ = parts.assembly.motions[motion]
+    if window.rests:
+        yield (start, end), None
+    elif not engagement.paired:
+        yield (start, end), motion
+    else:
+        first, last = 2 * motion, 2 * motion + 1
+        turn = parts.assembly.turn_deg
+        leaves, meets = (
+            start + (parts.assembly.rollers[i][1] - start) % turn for i in (first, last)
+        )
+        yield (start, leaves), first
+        yield (leaves, meets), None
+        yield (meets, end), last

@@ -1,0 +1,275 @@
+"""The search for machines that meet a requirement, with their costs, the best first."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import partial
+from typing import NamedTuple
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.wheels.classic import rollers_max
+from geneva_cli.progress import tracked
+from geneva_cli.study.batches import numbers
+from geneva_cli.study.pool import cores, mapped
+from geneva_cli.study.sweep.constraints import Constraint, is_number
+from geneva_cli.study.synth.best import best
+from geneva_cli.study.synth.families import closed
+from geneva_cli.study.synth.families.every import Kind, families, kinds
+from geneva_cli.study.synth.families.family import natural_deg, pieces
+from geneva_cli.study.synth.limited import (
+    breaks_limit,
+    first_of_each,
+    frame_limits,
+    with_replacements,
+)
+from geneva_cli.study.synth.quantities import bounded, with_batch_values
+from geneva_cli.study.synth.replacements import replacement_rows
+from geneva_cli.study.synth.rows import MachineRow, rows
+from geneva_cli.study.target import TURNS, Target
+from geneva_cli.verdict.quantities.names import in_batch
+
+TURNED = 20  # rows whose parts are turned by default
+
+
+class Ranking(NamedTuple):
+    """The rows that meet a requirement, in order, and the requirement itself."""
+
+    rows: list[MachineRow]
+    target: Target  # with its bounds on times as ranges
+    requested: Target
+
+    def rank(self, row: MachineRow) -> tuple[object, ...]:
+        """The sort key of a row."""
+        return _rank(self.requested, row)
+
+    def in_turn(self, row: MachineRow) -> MachineRow | None:
+        """A row with the requested quantities; None if it breaks a bound on them."""
+        if not self.requested.names:
+            return row
+        try:
+            return bounded(self.requested, with_batch_values(self.requested.names, [row]))[0]
+        except GenevaError:
+            return None
+
+
+class _KindRows(NamedTuple):
+    """The rows of one kind of machine, and whether one of its machines keeps the bounds."""
+
+    rows: list[MachineRow]
+    keeps: bool
+    errors: list[str]
+
+
+def search(target: Target) -> Ranking:
+    """The machines that meet the requirement, in order; no part has been turned yet.
+
+    Raises GenevaError, saying what is within reach, if there is none.
+    """
+    narrowed = target.with_times()
+    narrowed.refuse_contradictions()
+    by_kind = _all_kinds(narrowed, target.names)
+    # the error message says how near they come
+    if target.acceleration_max is None and not any(kind.keeps for kind in by_kind):
+        by_kind = _all_kinds(target, target.names, how_near=True)
+    errors = [error for kind in by_kind for error in kind.errors]
+    every = [row for kind in by_kind for row in kind.rows]
+    if not every:
+        if target.acceleration_max is not None:
+            return search(target.by_bounds)  # its message says how near they come
+        raise GenevaError(_out_of_reach(target, errors))
+    ranked = _ranked(target, every)
+    if frame_limits(target) and narrowed.motion_for(1) and any(map(breaks_limit, ranked)):
+        which = [any(map(breaks_limit, kind.rows)) for kind in by_kind]
+        within = _within_limits(target, narrowed, which)
+        ranked = with_replacements(ranked, within)
+        ranked.sort(key=partial(_rank, target))
+    ranking = Ranking(ranked, narrowed, target)
+    others = map(ranking.in_turn, replacement_rows(narrowed, ranked[:TURNED], ranked))
+    ranked.extend(row for row in others if row)
+    ranked.sort(key=ranking.rank)
+    return ranking
+
+
+def _ranked(target: Target, machines: list[MachineRow]) -> list[MachineRow]:
+    """The rows that keep the bounds, in order."""
+    if target.names:
+        machines = bounded(target, machines)
+    machines = _worthwhile(target, machines)
+    machines.sort(key=partial(_rank, target))
+    return first_of_each(machines, linkages=in_batch(target.quantities))
+
+
+def _within_limits(target: Target, narrowed: Target, which: Sequence[bool]) -> list[MachineRow]:
+    """The rows of those kinds whose machines keep the frame's limits too.
+
+    ``narrowed`` is the requirement with its bounds on times as ranges.
+    """
+    strict = narrowed._replace(bounds=(*narrowed.bounds, *frame_limits(target)))
+    by_kind = _all_kinds(strict, target.names, which=which)
+    kept = [row for kind in by_kind for row in kind.rows if not breaks_limit(row)]
+    try:
+        return _ranked(target, kept)
+    except GenevaError:  # none keeps the bounds as well
+        return []
+
+
+def _all_kinds(
+    target: Target,
+    names: Sequence[str],
+    how_near: bool = False,
+    which: Sequence[bool] = (),
+) -> list[_KindRows]:
+    """The results of all kinds of machines, or of ``which``, in order, from all cores."""
+    tasks = [task for i, task in enumerate(kinds(target)) if not which or which[i]]
+    wheels = len(target.gearings) * len(target.z) * len(target.laws)
+    many = which or wheels > 6  # a smaller search ends before a second process has started
+    workers = min(len(tasks), cores()) if many else 1
+    work = partial(_kind_rows, names=names, how_near=how_near)
+    done = mapped(work, tasks, workers, "machines")
+    return list(tracked(done, "kinds of machines", len(tasks)))
+
+
+def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) -> _KindRows:
+    kind, target = task
+    errors: list[str] = []
+    of_kind = [*families(kind, target)]
+    if not in_batch(target.quantities):
+        # the search cannot see them: they are computed for the best of several pieces of a family
+        of_kind = pieces(of_kind, 120)
+    one_each, near = best(of_kind, target, how_near)
+    of = {one.spec: one.family for one in reversed([*one_each, *near])}
+    keeps, kept, broken = _divided(
+        target.known_bounds, [*dict.fromkeys(one.spec for one in one_each)]
+    )
+    shown = [*kept, *broken, *(one.spec for one in near)] if how_near else kept
+    built_rows = [
+        row._replace(family=of[spec].whole) if of[spec].is_free else row
+        for spec, row in zip(shown, rows(target, shown, errors), strict=True)
+        if row
+    ]
+    return _KindRows(with_batch_values(names, built_rows), keeps, errors)
+
+
+def _divided(
+    bounds: Sequence[Constraint], specs: list[Spec]
+) -> tuple[bool, list[Spec], list[Spec]]:
+    """Divide specs by the bounds that do not depend on the roller.
+
+    Returns whether one of them is known to keep all, the specs that may keep them, and the others.
+    """
+    whatever = [b for b in bounds if not b.name.startswith("loads.")]
+    if not whatever:
+        return bool(specs), specs, []
+    values = numbers(specs, [b.name for b in whatever])
+    broken = [
+        own is not None and not all(b.kept(x) for b, x in zip(whatever, own, strict=True))
+        for own in values
+    ]
+    keeps = any(own and not out for own, out in zip(values, broken, strict=True))
+    kept = [spec for spec, out in zip(specs, broken, strict=True) if not out]
+    return keeps, kept, [spec for spec, out in zip(specs, broken, strict=True) if out]
+
+
+def _rank(target: Target, row: MachineRow) -> tuple[object, ...]:
+    """The sort key of a row: the goal's quantity, then peaks.
+
+    Numbers that differ only by rounding are equal.
+    """
+    candidate = row.candidate
+    first: tuple[object, ...] = ()
+    if target.sort:
+        value = row.extra[target.names.index(target.sort.name)]
+        # texts, and unknown values, come behind the numbers
+        first = (0, _in_12_digits(_first(target, row))) if is_number(value) else (1, str(value))
+    return (
+        *first,
+        _in_12_digits(candidate.peak),
+        _in_12_digits(candidate.jerk_max),
+        candidate.rollers,
+        candidate.z,
+        candidate.gearing,
+        candidate.drive,
+    )
+
+
+def _in_12_digits(x: float) -> float:
+    return float(f"{x:.12g}")
+
+
+def _worthwhile(target: Target, machines: list[MachineRow]) -> list[MachineRow]:
+    """The rows without machines of two numbers that are hardly better than one of one number.
+
+    If the nearest machine to the plain crank is required, all of them are left out that have one.
+    """
+    one = [row for row in machines if not row.candidate.of_two_numbers]
+
+    def beaten(row: MachineRow) -> bool:
+        own, value = row.candidate, _first(target, row)
+        least_gain = 0.01 * abs(value)  # over a machine of one number
+        return any(
+            (nearest or not value < _first(target, other) - least_gain)
+            for other in one
+            if (own.z, own.rollers, own.law) == (other.candidate.z, other.candidate.rollers, None)
+            and (
+                own.drive == other.candidate.drive
+                or (own.gearing == other.candidate.gearing and not other.candidate.is_driven)
+            )
+        )
+
+    nearest = target.with_times().any_motion and not target.sort
+    return [row for row in machines if not (row.candidate.of_two_numbers and beaten(row))]
+
+
+def _first(target: Target, row: MachineRow) -> float:
+    """The first number of the sort key, least first; NaN if there is none."""
+    if not target.sort:
+        return row.candidate.peak
+    value = row.extra[target.names.index(target.sort.name)]
+    return target.sort.sign * float(value) if is_number(value) else math.nan
+
+
+def _out_of_reach(target: Target, errors: list[str]) -> str:
+    """The error message if no machine was found: what would be within reach."""
+    counts = target.counts
+    m = target.rollers or next((int(m) for m in counts if m >= 1.0), 1)
+    motion = target.motion_for(m)
+    most = max(
+        rollers_max(natural_deg(target.wheel(g, z))) for z in target.z for g in target.gearings
+    )
+    if motion is None:
+        return f"--rollers {m}: they jam on every requested wheel; at most {most}"
+    if target.rollers is None and m > most:
+        return (
+            f"{target.words}: out of reach: it takes {m} rollers, but straight slots carry at "
+            f"most {most} here. No curved slots or cam with so many can be built"
+        )
+    if motion.low * m >= 360.0:
+        return (
+            f"{target.words}: {m} motions of {motion.low:.7g} deg leave no dwell in a turn of 360. "
+            f"With {m} rollers a motion must be below {360.0 / m:.7g} deg (tau below 1)"
+        )
+    if max(counts) < 1.0:
+        return (
+            f"{target.words}: out of reach: a wheel rests so long only behind a first wheel. That "
+            f"turns the crank once in {TURNS[0]} to {TURNS[-1]} turns: none of these rests so long"
+        )
+    first = f"; the first says: {errors[0]}" if errors else ""
+    if target.wheels:
+        return (
+            f"{target.words}: out of reach on a carrier: its wheels have straight radial slots, "
+            "whose number gives the motion. Several wheels share one finger, and each must leave "
+            f"it before the next one arrives{first}"
+        )
+    if not target.output.turns:
+        return (
+            f"{target.words}: out of reach of a rack: no drive goes beyond A or eccentricity "
+            f"{closed.PARAMETER_MAX}{first}"
+        )
+    return (
+        f"{target.words}: out of reach with {'one roller' if m == 1 else f'{m} rollers'}: curved "
+        "slots turn an internal wheel at most half as fast as the crank"
+        + (f", and no drive goes beyond A or eccentricity {closed.PARAMETER_MAX}" if m == 1 else "")
+        + f"; use more slots or a longer motion{first}"
+    )

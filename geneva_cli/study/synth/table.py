@@ -1,0 +1,128 @@
+"""The table of a synthesis, with the parts of its first rows turned."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from typing import NamedTuple
+
+from geneva_cli.progress import tracked
+from geneva_cli.study.pool import cores, mapped
+from geneva_cli.study.synth.built import Built, built, passes
+from geneva_cli.study.synth.parts import MAYBE, YES
+from geneva_cli.study.synth.replacements import buildable_rows
+from geneva_cli.study.synth.rows import Candidate, MachineRow
+from geneva_cli.study.synth.search import TURNED, Ranking, search
+from geneva_cli.study.target import Target
+from geneva_cli.table import Table, rows_table
+
+NAMES = ("no", *Candidate._fields)
+
+
+def synthesis_table(
+    target: Target, count: int = TURNED, buildable: bool = False, ranking: Ranking | None = None
+) -> Table:
+    """One row for each machine, numbered from 1, as ``turned`` returns them."""
+    ranking = ranking or search(target)
+    rows = [
+        (one.no, *one.row.candidate, *one.row.extra) for one in turned(ranking, count, buildable)
+    ]
+    what = "1 machine" if len(rows) == 1 else f"{len(rows)} machines"
+    first = str(target.sort or "") or f"lowest peak acceleration{' in rad/s2' * target.timed}"
+    title = f"{what}, {first} first" if len(rows) > 1 else what
+    if buildable:
+        title = f"{title}{',' * (len(rows) > 1)} of {len(ranking.rows)}"
+    if not rows:
+        title = f"none of {len(ranking.rows)} machines passes"
+    return rows_table((*NAMES, *ranking.requested.names), rows, f"{target.words}: {title}.")
+
+
+class Numbered(NamedTuple):
+    """A row and its number, which does not change if others are hidden."""
+
+    no: int
+    row: MachineRow
+
+
+def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> list[Numbered]:
+    """The rows, the first ``count`` of them turned; with ``buildable`` only those that pass.
+
+    A turned row says yes, with sizes that pass, or no. Others say maybe, or no if that is known
+    without turning. A row that fails may be replaced, under its number, by the best machine of its
+    family that passes: if it is itself a replacement, or if only passing rows are requested. The
+    replacement keeps the number, and stands where its own quantities belong.
+    """
+    every = [Numbered(i, row) for i, row in enumerate(ranking.rows, 1)]
+    maybe = [one for one in every if one.row.candidate.parts == MAYBE]
+    if not buildable:
+        maybe = [one for one in maybe if one.no <= count]
+    work = partial(built, fixed=fixed(ranking.target))
+    done = mapped(work, [one.row.spec for one in maybe], min(len(maybe), cores()), "machines")
+    done = tracked(done, "machines turned", len(maybe))
+    results: dict[int, MachineRow] = {}
+    passed, last = 0, len(every)
+    for one in maybe:
+        if buildable and passed >= count:
+            last = one.no
+            break
+        results[one.no] = with_result(one.row, next(done))
+        passed += results[one.no].candidate.parts == YES
+    again = {
+        no: row
+        for no, row in results.items()
+        if row.is_impossible and (buildable or row.is_replacement)
+    }
+    if buildable:
+        again |= _stuck(every[:last], ranking)
+    others = _others(ranking, again)
+    results |= others
+    shown = [one._replace(row=results.get(one.no, one.row)) for one in every]
+    if buildable:
+        shown = [one for one in shown if one.row.candidate.parts == YES]
+    else:
+        shown = [one for one in shown if one.no not in again or one.no in others]
+    shown.sort(key=lambda one: ranking.rank(one.row))  # a replacement is worse than the row it had
+    return shown[:count] if buildable else shown
+
+
+def _stuck(every: Sequence[Numbered], ranking: Ranking) -> dict[int, MachineRow]:
+    """The rows that cannot be built, of families without a buildable row."""
+    able = {row.family for row in ranking.rows if not row.is_impossible}
+    return {no: row for no, row in every if row.is_impossible and row.family not in able}
+
+
+def _others(ranking: Ranking, failing: dict[int, MachineRow]) -> dict[int, MachineRow]:
+    """For rows that fail, by their numbers, the best machines of their families that pass."""
+    work = partial(other, ranking._replace(rows=[]))
+    done = mapped(work, failing.values(), min(len(failing), cores()), "machines")
+    done = tracked(done, "alternatives", len(failing))
+    return {no: row for no, row in zip(failing, done, strict=True) if row}
+
+
+def other(ranking: Ranking, row: MachineRow) -> MachineRow | None:
+    """The best machine of a row's family that passes a full turn, other than the row's own."""
+    sizes = fixed(ranking.target)
+
+    def turn(maybe: MachineRow, like: MachineRow | None) -> MachineRow | None:
+        own = ranking.in_turn(maybe)
+        if own is None or own.moves_as(row):
+            return None
+        if like:
+            spec = own.spec.replace(size=like.spec.size)
+            return with_result(own, Built(spec, "")) if passes(spec) else None
+        result = built(own.spec, sizes)
+        return None if result.trouble else with_result(own, result)
+
+    return buildable_rows(ranking.target, [row.family], turn)[0] if row.family else None
+
+
+def with_result(row: MachineRow, result: Built) -> MachineRow:
+    """A row with the result of turning its parts."""
+    entry = f"no: {result.trouble}" if result.trouble else YES
+    return row._replace(spec=result.spec, candidate=row.candidate._replace(parts=entry))
+
+
+def fixed(target: Target) -> frozenset[str]:
+    """The sizes that the requirement's frame gives, which do not change."""
+    sizes = target.frame.size.as_dict() if target.frame else {}
+    return frozenset(key for key, value in sizes.items() if value is not None)

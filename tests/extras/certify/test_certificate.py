@@ -1,0 +1,247 @@
+"""Certificates of the peaks: they hold what the closed forms and the search say, and no more."""
+
+import json
+import math
+
+import mpmath
+import pytest
+import repo
+from sampling import some
+from typer.testing import CliRunner
+
+from geneva_cli import (
+    Crank,
+    Design,
+    EllipticalGears,
+    External,
+    GenevaError,
+    ModifiedSine,
+    Motion,
+    SideCrank,
+    SineConstantCosine,
+    Size,
+    Spherical,
+)
+from geneva_cli.cli.app import app
+from geneva_cli.design import load
+from geneva_cli.extras.certify import certificate as module
+from geneva_cli.extras.certify.certificate import certificate
+from geneva_cli.motion.law_motion import LawMotion
+from geneva_cli.motion.peaks import QUANTITIES
+
+DESIGNS = sorted(path.stem for path in repo.DESIGNS.glob("*.toml"))
+# Of a peak: the rounding of both bounds to doubles, and at most 64 units of an end. With decimals
+# an end is known to 4e-15 radians, over which a jump's value changes by ten times as much.
+WIDE = 5e-14
+
+
+def design(name):
+    return load(str(repo.DESIGNS / f"{name}.toml"))
+
+
+@pytest.mark.sampled(12)
+@pytest.mark.parametrize("name", DESIGNS)
+def test_every_design_is_certified_and_its_peaks_confirmed(name):
+    found = design(name)
+    for quantity in QUANTITIES:
+        proof, peak = found.certificate(quantity), getattr(found.peaks, quantity)
+        assert proof.proved == math.isfinite(peak.max)  # the speed of a counter jumps
+        if not proof.proved:
+            continue
+        assert proof.high - proof.low <= WIDE * proof.high
+        assert proof.confirms(*peak), f"{quantity}: {peak} against {proof.text}"
+
+
+@pytest.mark.parametrize("name", some(DESIGNS, ["side-crank-z6", "unequal-steps", "table-law"]))
+def test_false_claims_are_refused(name):
+    found = design(name)
+    for quantity in QUANTITIES:
+        proof, (size, at_deg) = found.certificate(quantity), getattr(found.peaks, quantity)
+        for share in (1e-12, 1e-9, 1e-3):
+            assert not proof.confirms(size * (1.0 + share), at_deg)
+            assert not proof.confirms(size * (1.0 - share), at_deg)
+        if all(place.is_narrow for place in proof.places):
+            assert not proof.confirms(size, at_deg + 1e-3)
+
+
+def test_the_bounds_hold_a_closed_form():
+    """A plain wheel's greatest velocity is l/(1 - l), l = sin(pi/z) to 50 digits, without slack."""
+    for z in (3, 5, 7, 12):
+        with mpmath.workdps(50):
+            l = mpmath.sin(mpmath.pi / z)
+            found = Design(External(z)).certificate("velocity")
+            assert found.about == "the decimals as written"
+            assert found.low <= l / (1 - l) <= found.high
+            assert found.where == "unique"
+
+
+# Machines, and the wheel's angle at an input angle in 50 digits, from decimals.
+def _crank(l, a):
+    return mpmath.atan2(l * mpmath.sin(a), 1 - l * mpmath.cos(a))
+
+
+def _offset(a):
+    b, e = mpmath.pi / 6, mpmath.mpf("7.3") / 90
+    l = mpmath.sin(b) * mpmath.cos(mpmath.asin(e / mpmath.cos(b)))
+    x, y = 1 - l * mpmath.cos(a), l * mpmath.sin(a)
+    return mpmath.atan2(y, x) + mpmath.asin(e / mpmath.hypot(x, y))
+
+
+def _spherical(a):
+    S = mpmath.radians(mpmath.mpf("61.7"))
+    th = mpmath.asin(mpmath.sin(S) * mpmath.sin(mpmath.pi / 5))
+    x = mpmath.sin(S) * mpmath.cos(th) - mpmath.cos(S) * mpmath.sin(th) * mpmath.cos(a)
+    return mpmath.atan2(mpmath.sin(th) * mpmath.sin(a), x)
+
+
+def _side_crank(a):
+    return _crank(
+        mpmath.sin(mpmath.pi / 7), mpmath.atan2(mpmath.sin(a), mpmath.cos(a) + mpmath.mpf("0.1"))
+    )
+
+
+def _elliptical(a):
+    e = mpmath.mpf("0.3")
+    return _crank(mpmath.sin(mpmath.pi / 6), 2 * mpmath.atan((1 - e) / (1 + e) * mpmath.tan(a / 2)))
+
+
+DECIMALS = {
+    "offset": (Design(External(6, offset_mm=7.3), size=Size(center_distance_mm=90)), _offset),
+    "spherical": (Design(Spherical(5, axes_deg=61.7)), _spherical),
+    "side-crank": (Design(External(7), SideCrank(A=0.1)), _side_crank),
+    "elliptical": (Design(External(6), EllipticalGears(eccentricity=0.3)), _elliptical),
+}
+
+
+@pytest.mark.parametrize("name", DECIMALS)
+def test_the_bounds_hold_the_decimals(name):
+    """Each peak, to 40 digits by differences of 80 digits about the place in the certificate."""
+    machine, angle = DECIMALS[name]
+    for order, quantity in enumerate(("velocity", "acceleration", "jerk"), 1):
+        found = machine.certificate(quantity)
+        assert found.proved and found.about == "the decimals as written"
+        with mpmath.workdps(80):
+            at = mpmath.radians(mpmath.mpf(found.at_deg))
+            if found.at_deg > machine.mechanism.engagements[0].entry_deg + 1e-6:
+                at = mpmath.findroot(lambda a, n=order: mpmath.diff(angle, a, n + 1), at, tol=1e-30)
+            exact = abs(mpmath.diff(angle, at, order))
+            assert found.low <= exact <= found.high
+            for share in (mpmath.mpf(1e-9), mpmath.mpf(-1e-9)):
+                assert not found.low <= exact * (1 + share) <= found.high
+
+
+def test_other_machines_stay_with_doubles_and_say_so():
+    for name in some(("four-bar-z4", "gear-sector", "table-law"), ("four-bar-z4",)):
+        assert design(name).certificate("velocity").about == "the spec's numbers as doubles"
+    said = design("gear-sector").certified_peaks(for_people=True).to_dict()["certificate"]
+    assert said[-1] == "holds for the spec's numbers as doubles"
+
+
+def test_an_end_elsewhere_is_not_taken(monkeypatch):
+    """Where a motion's doubles do not enclose its exact ends, the certificate is about doubles."""
+    machine = Design(External(7)).mechanism
+    motion = machine.engagements[0].motion
+    monkeypatch.setattr(motion, "entry_deg", motion.entry_deg - 1e-12)
+    assert certificate(machine, "velocity").about == "the spec's numbers as doubles"
+
+
+def test_a_denser_sample_never_rises_above_the_bounds():
+    found = design("two-rollers-side-crank")
+    for quantity, column in (("velocity", "velocity"), ("acceleration", "acceleration")):
+        most = abs(found.motion(20_001)[column]).max()
+        # each sample is rounded, by 31 units in the last place at most (numerics.tolerances)
+        assert most <= found.certificate(quantity).high * (1.0 + 1e-14)
+
+
+def test_a_peak_at_a_jump_and_a_plateau():
+    """Outside the wheel the acceleration peaks inside; inside it jumps at entry and exit."""
+    inside = design("internal-z6").certificate("acceleration")
+    assert inside.where == "at two mirrored places"
+    entry_deg = design("internal-z6").mechanism.engagements[0].entry_deg
+    assert inside.places[0].from_deg <= entry_deg <= inside.places[0].to_deg
+    gears = design("gear-sector").certificate("velocity")
+    assert gears.where.startswith("between ")
+    (place,) = gears.places
+    assert place.from_deg <= -30.0 and place.to_deg >= 30.0  # the gears drive for 60 degrees
+
+
+def test_a_peak_where_two_formulas_meet():
+    """The law's acceleration peaks where its first sine ends, at a double beside the exact place.
+
+    The middle of an interval about it was rounded to the other formula's side.
+    """
+    motion = Motion(ModifiedSine(), alpha0_deg=16.54737042052723)
+    drive = EllipticalGears(eccentricity=0.4245922304126838, phase="quick")
+    found = Design(External(5), drive, motion)
+    proof = found.certificate("acceleration")
+    assert proof.confirms(*found.peaks.acceleration)
+    assert proof.where == "at two mirrored places"
+    seams = found.mechanism.engagements[0].motion.seams_deg
+    assert proof.at_deg == pytest.approx(seams[1], abs=1e-9)
+
+
+def test_few_intervals_are_not_proved_and_the_open_one_is_named():
+    found = Design(External(6), SideCrank(A=0.6)).certificate("jerk", intervals=3)
+    assert not found.proved and found.high is None and found.places == ()
+    assert found.low > 0.0
+    assert "not proved: open from " in found.text
+    assert found.open.from_deg < found.open.to_deg
+    assert not found.confirms(1.40625, 0.0)
+
+
+def test_the_seams_of_a_drive_behind_another_are_met():
+    """Its own seams are ends of pieces of the input, where an enclosure must not reach beyond."""
+    proof, peak = design("behind-gears").certificate("velocity"), design("behind-gears").peaks
+    assert proof.proved and proof.confirms(*peak.velocity)
+    assert proof.intervals < 100
+
+
+def test_a_seam_that_is_not_known_is_not_proved(monkeypatch):
+    """Formulas hand over at 0.15 and 0.35 of the motion's time: unknown, nothing is claimed."""
+    curved = Design(External(6), Crank(), Motion(SineConstantCosine(b=0.3, c=0.4, d=0.3)))
+    assert curved.certificate("jerk").proved
+    whole = property(lambda motion: (motion.entry_deg, 0.0, motion.exit_deg))
+    monkeypatch.setattr(LawMotion, "seams_deg", whole)
+    found = certificate(curved.mechanism, "jerk")
+    assert not found.proved
+    share = (found.open.to_deg - found.open.from_deg) / curved.timing.motion_deg
+    at = 0.5 + found.open.from_deg / curved.timing.motion_deg
+    assert share < 1e-6
+    assert min(abs(at - cut) for cut in curved.spec.motion.law.breaks) < 1e-6
+
+
+def test_what_is_printed_is_rounded_outwards():
+    found = Design(External(6)).certificate("acceleration")
+    low, high = found.text.partition("[")[2].partition("]")[0].split(", ")
+    assert float(low) <= found.low and found.high <= float(high)
+    assert float(high) - float(low) <= 2e-14
+
+
+def test_the_command():
+    path = str(repo.DESIGNS / "unequal-steps.toml")
+    said = CliRunner().invoke(app, ["peaks", path, "--certify"]).stdout
+    assert "velocity.max in [1.42591999815959, 1.42591999815960], unique, proved" in said
+    said = CliRunner().invoke(app, ["peaks", path, "--certify", "--format", "json"]).stdout
+    first = json.loads(said)["certificate"][0]
+    assert first["quantity"] == "velocity" and first["proved"] is True
+    assert first["low"] <= 1.4259199981595914 <= first["high"]
+    assert first["places"][0][0] <= first["at_deg"] <= first["places"][0][1]
+    assert first["open"] is None and first["intervals"] > 0 and "decimals" in first["about"]
+
+
+def test_another_quantity_is_refused_with_the_nearest():
+    with pytest.raises(GenevaError, match=r'"accelaration".*acceleration'):
+        Design(External(6)).certificate("accelaration")
+
+
+def test_without_flint_the_extra_is_named(monkeypatch):
+    monkeypatch.setattr(module, "find_spec", lambda name: None)
+    with pytest.raises(GenevaError, match=r'pip install "geneva-cli\[certify\]"'):
+        Design(External(6)).certificate("velocity")
+
+
+def test_an_open_interval_without_a_bound_says_so():
+    open_ = module.Open(1.0, 2.0, None)
+    found = module.Certificate("jerk", 1.0, None, (), False, 7, open_)
+    assert "no bound is known there, after 7 intervals" in found.text
+    assert math.isfinite(found.low)

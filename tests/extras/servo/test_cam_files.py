@@ -1,0 +1,224 @@
+"""Electronic cams: each file read back, and drawn as its controller draws it."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+import repo
+from scipy.interpolate import BPoly, PPoly
+
+from geneva_cli import GenevaError, load
+from geneva_cli.extras.servo.cam_files import cam
+from geneva_cli.manual import page
+from geneva_cli.output.formats import CONTROLLERS
+
+DESIGNS = repo.WHEELS
+SOME = ("turret", "two-pins-z4", "unequal-steps", "side-crank-z6", "gear-sector", "sine-group")
+TOLERANCE = 1e-4
+
+
+def true_motion(design):
+    """Master and slave at 40,001 even places of a period, degrees from the first entry."""
+    table = design.motion(40_001).to_dict()
+    return table["input_deg"] - table["input_deg"][0], table["wheel_deg"] - table["wheel_deg"][0]
+
+
+def polynomial(table):
+    """The slave's function, by SciPy: coefficients from the highest power down."""
+    columns = table.to_dict()
+    breaks = np.append(columns["begin_deg"], columns["end_deg"][-1])
+    return PPoly(np.stack([columns[f"c{k}"] for k in range(5, -1, -1)]), breaks)
+
+
+def codesys(text):
+    """The slave's function from a declaration, by Bernstein polynomials of SciPy."""
+    rows = re.findall(r"dX := (.*?), dY := (.*?), dV := (.*?), dA := (.*?)\)", text)
+    x, y, v, a = np.array(rows, float).T
+    assert f"nElements := {len(x)})" in text
+    assert float(re.search(r"xEnd := (.*?),", text)[1]) == x[-1]
+    return BPoly.from_derivatives(x, np.stack([y, v, a], axis=1)), x
+
+
+def beckhoff(text):
+    """Master and slave from a table of pairs."""
+    body = text.partition("Begintable\n")[2].partition("EndTable")[0]
+    pairs = np.array([line.split() for line in body.splitlines()], int)
+    assert f"Lines = {len(pairs)}\n" in text
+    return pairs.T
+
+
+@pytest.mark.parametrize("file", DESIGNS, ids=lambda file: file.stem)
+@pytest.mark.sampled(6)
+def test_polynomials_keep_the_tolerance(file):
+    """The polynomials, evaluated by SciPy, are within the tolerance and their stated error."""
+    design = load(str(file))
+    table, rows, error_deg = cam(design, "polynomial", None, TOLERANCE)
+    master, slave = true_motion(design)
+    off = abs(polynomial(table)(master) - slave)
+    assert rows == len(table)
+    assert error_deg <= TOLERANCE
+    # 33 places meet the greatest of a smooth error to 1 %; rounding is some 1e-13 degrees.
+    assert off.max() <= 1.01 * error_deg + 1e-12
+
+
+def test_no_error_between_the_places_exceeds_the_tolerance():
+    """A piece whose error is just within the tolerance where it is evaluated keeps it elsewhere."""
+    design = load(str(repo.DESIGNS / "slider-crank.toml"))
+    table, _, _ = cam(design, "polynomial", None, TOLERANCE)
+    master, slave = true_motion(design)
+    assert abs(polynomial(table)(master) - slave).max() <= TOLERANCE
+
+
+# a handover of gears and slot, and the points of two drives: seams that rounding moves apart
+SEAMS = {
+    "sector": '[wheel]\nz = 4\n[drive]\nkind = "gear-sector"\nsector_deg = 22.70475094719316\n',
+    "points": '[wheel]\nz = 24\ngearing = "internal"\n[drive]\nkind = "noncircular-gears"\n'
+    'ratio_file = "ratio.csv"\n[drive.before]\nkind = "elliptical-gears"\n'
+    'eccentricity = 0.1548863424315996\nphase = "quick"\n',
+}
+
+
+@pytest.mark.parametrize("text", SEAMS.values(), ids=SEAMS)
+def test_seams_apart_by_rounding_are_one(text, tmp_path):
+    """No piece is as short as rounding, where its powers are not numbers."""
+    degrees = range(0, 361, 15)
+    rows = [f"{x},{1.0 - 0.3 * math.cos(math.radians(x)):.9f}\n" for x in degrees]
+    (tmp_path / "ratio.csv").write_text("".join(rows))
+    (tmp_path / "spec.toml").write_text(text)
+    design = load(str(tmp_path / "spec.toml"))
+    table, _, error_deg = cam(design, "polynomial", None, TOLERANCE)
+    master, slave = true_motion(design)
+    off = abs(polynomial(table)(master) - slave)
+    assert off.max() <= 1.01 * error_deg + 1e-12 <= TOLERANCE
+    columns = table.to_dict()
+    assert min(columns["end_deg"] - columns["begin_deg"]) > 1e-3
+
+
+@pytest.mark.parametrize("name", SOME)
+def test_codesys_points_keep_the_tolerance(name):
+    """Between the points, polynomials of degree five by SciPy are as near as the file says."""
+    design = load(f"designs/{name}.toml")
+    text, rows, error_deg = cam(design, "codesys", None, TOLERANCE)
+    function, x = codesys(text)
+    master, slave = true_motion(design)
+    off = abs(function(master) - slave).max()
+    assert rows == len(x)
+    assert (np.diff(x) > 0.0).all()
+    assert 0.9 * error_deg <= off <= 1.01 * error_deg <= 1.01 * TOLERANCE
+
+
+def test_codesys_points_where_the_speed_jumps():
+    """A counter's pinion starts and stops at 2.5 of the driver's speed, over two turns too.
+
+    Half-way down a ramp of 0.01 degrees it is ahead by 0.0049, far less than a curve that bends
+    over the whole dwell: Hermite's, max of 0.01 * 2.5 u (1 - u)^3 (1 + 3 u).
+    """
+    design = load("designs/odometer.toml")
+    for turns in (1, 2):
+        text, _, error_deg = cam(design, "codesys", turns, TOLERANCE)
+        function, x = codesys(text)
+        places = np.sort(np.append(x, np.linspace(0.0, 360.0 * turns, 1_000_001)))
+        true = 90.0 * (places // 360.0) + np.minimum(2.5 * (places % 360.0), 90.0)
+        off = abs(function(places) - true).max()
+        u = np.linspace(0.0, 1.0, 10_001)
+        ahead = (0.025 * u * (1.0 - u) ** 3 * (1.0 + 3.0 * u)).max()
+        # the places stand 14 or 28 in a ramp
+        assert off == pytest.approx(ahead, rel=1e-2)
+        assert error_deg == pytest.approx(ahead, rel=1e-2)
+
+
+def test_a_title_ends_no_comment():
+    """Stars and line ends of a title are left out of a declaration's comment."""
+    design = load("designs/turret.toml", ["title=a **)) b\r\nc"])
+    text, _, _ = cam(design, "codesys", None, TOLERANCE)
+    assert text.startswith("(* a )) b c *)\n")
+
+
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize("name", SOME)
+def test_beckhoff_pairs(name):
+    """At most 360 pairs, 0.1 degrees apart, and straight lines as near as the file says."""
+    design = load(f"designs/{name}.toml")
+    text, rows, error_deg = cam(design, "beckhoff", None, TOLERANCE)
+    pairs = beckhoff(text)
+    master, slave = true_motion(design)
+    off = abs(np.interp(master, *(1e-4 * pairs)) - slave).max()
+    assert rows == pairs.shape[1] <= 360
+    assert (np.diff(pairs[0]) >= 1000).all()
+    assert 0.95 * error_deg <= off <= 1.01 * error_deg
+
+
+def test_a_short_dwell_ends_with_one_pair():
+    """A dwell of 0.05 degrees has no pair at its beginning, only the one at its end."""
+    settings = ["motion.law=cycloidal", "motion.alpha0_deg=-239.95", "motion.ratio=matched"]
+    design = load("designs/press-straight.toml", settings)
+    assert design.mechanism.dwell_deg(0) == pytest.approx(0.05)
+    text, _, error_deg = cam(design, "beckhoff", None, TOLERANCE)
+    pairs = beckhoff(text)
+    assert np.diff(pairs[0]).min() >= 1000
+    assert (pairs[:, -1] == (3_600_000, 600_000)).all()
+    master, slave = true_motion(design)
+    assert abs(np.interp(master, *(1e-4 * pairs)) - slave).max() <= 1.01 * error_deg
+
+
+def test_fewer_errors_with_more_points():
+    """The error of degree five falls with the sixth power of the width: 64 times for halves."""
+    design = load("designs/turret.toml")
+    coarse = cam(design, "polynomial", None, 1e-3)
+    fine = cam(design, "polynomial", None, 1e-9)
+    assert fine[1] > 4 * coarse[1]
+    assert fine[2] <= 1e-9
+
+
+def test_a_whole_revolution():
+    """Eight turns of the turret's crank turn its wheel once, without a step back."""
+    design = load("designs/turret.toml")
+    table = design.motion(17, turns=8).to_dict()
+    assert table["wheel_deg"][-1] - table["wheel_deg"][0] == pytest.approx(360.0, abs=1e-9)
+    assert (np.diff(table["wheel_deg"]) >= 0.0).all()
+    for controller in ("polynomial", "codesys"):
+        content, _, _ = cam(design, controller, 8, TOLERANCE)
+        function = polynomial(content) if controller == "polynomial" else codesys(content)[0]
+        assert function(8 * 360.0) == pytest.approx(360.0, abs=1e-9)
+        assert function(5 * 360.0 - 1.0) == pytest.approx(225.0, abs=1e-7)
+        assert function(5 * 360.0 + 67.5) == pytest.approx(225.0 + 22.5, abs=TOLERANCE)
+
+
+def test_rows_at_each_jump():
+    """A row stands at each entry and exit, whatever the even rows."""
+    design = load("designs/unequal-steps.toml")
+    table = design.motion(7, turns=design.mechanism.period_deg // 360).to_dict()
+    start = table["input_deg"][0]
+    for i, engagement in enumerate(design.mechanism.engagements):
+        for end in (engagement.entry_deg, engagement.exit_deg):
+            at = engagement.mid_deg + end
+            assert abs(table["input_deg"] - at).min() < 1e-9, (i, end, start)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("siemens", None, 1e-4), "--for siemens: it must be one of polynomial, codesys, beckhoff"),
+        (("codesys", 0, 1e-4), "--turns 0: must be at least 1, at most 1000"),
+        (("codesys", 1, 0.0), "--tolerance 0: must be above 0, below 360 degrees"),
+        (("beckhoff", 2, 1e-4), "its table covers one turn of the input"),
+    ],
+)
+def test_refused(arguments, message):
+    """What a controller cannot read is refused, with what it can."""
+    with pytest.raises(GenevaError, match=re.escape(message)):
+        cam(load("designs/turret.toml"), *arguments)
+
+
+def test_turns_are_whole_periods():
+    """A machine that repeats after four turns has no cam of one."""
+    with pytest.raises(GenevaError, match="repeats after 4 turns of its input"):
+        load("designs/geneva-pair.toml").motion(9, turns=1)
+
+
+@pytest.mark.parametrize("controller", CONTROLLERS)
+def test_the_manual_shows_these_numbers(controller):
+    """The table of the manual's page."""
+    _, rows, error_deg = cam(load("designs/turret.toml"), controller, None, TOLERANCE)
+    assert f"| {controller} | {rows} | {error_deg:.2g} |" in page("electronic-cam")

@@ -1,0 +1,181 @@
+"""Friction in the guide of a rack: loads against bodies cut free, in 50 digits.
+
+Unknown are the force of the roller and those at both ends of the guide. Three balances of the rack
+give them for each choice of their signs, and one choice agrees with what it gives.
+"""
+
+import itertools
+import math
+
+import mpmath
+import numpy as np
+import pytest
+
+from geneva_cli import (
+    Design,
+    EllipticalGears,
+    External,
+    Linear,
+    Load,
+    NoncircularGears,
+    SideCrank,
+    Size,
+)
+from geneva_cli.errors import GenevaError
+from geneva_cli.motion.spec import Spec
+
+R, r, CLEARANCE = 50.0, 6.0, 0.1
+SIZE = Size(center_distance_mm=R, roller_radius_mm=r, slot_clearance_mm=CLEARANCE)
+HALF = R - r - CLEARANCE
+# the eye of the arm, twice its pin's hole, passes the rail a quarter of a bar away
+BAR = R / 10.0
+MIDDLE = -(2.0 * 3.0 + 0.25 * BAR + 1.5 * BAR + CLEARANCE)
+# mass, force, friction of the slot and of the guide
+CASES = [
+    (4.0, 30.0, 0.1, 0.1),
+    (4.0, 0.0, 0.3, 0.2),
+    (0.0, 9.0, 0.0, 0.25),
+    (4.0, 5.0, 0.6, 0.05),  # both ends bear on one side near mid-motion
+    (4.0, 30.0, 1.4, 0.02),  # friction in the slot turns the rack the other way
+]
+
+
+LOCKED = {"friction-holds-the-wheel"}
+
+
+def design(mass: float, force: float, mu: float, nu: float | None, **more: float) -> Design:
+    load = Load(mass_kg=mass, force_N=force, friction=mu, guide_friction=nu, **more)
+    return Design(Linear(6), size=SIZE, load=load)
+
+
+def in_digits(rows, sums):
+    return list(mpmath.lu_solve(mpmath.matrix(rows), mpmath.matrix(sums)))
+
+
+def cut_free(case, input_deg, number=mpmath.mpf, of=mpmath, solve=in_digits):
+    """Force of the roller along the travel, input torque, forces at both ends of the guide."""
+    mass, push, mu, nu = map(number, case)
+    a = number(input_deg) * of.pi / 180
+    radius, x0, half, own = (number(mm) / 1000 for mm in (R, MIDDLE, HALF, r))
+    axis, pin = (radius, 0), (radius * (1 - of.cos(a)), radius * of.sin(a))
+    needed = push - mass * radius * (2 * of.pi) ** 2 * of.sin(a)  # at 60 rpm
+    out = []
+    for d, upper, lower in itertools.product((1, -1), repeat=3):
+        touch = (pin[0], pin[1] + d * own)
+        s = 1 if touch[1] > 0 else -1  # the crank turns by -w: x of its points rises above its axis
+        matrix = [
+            [s * mu, 1, 1],
+            [d, -nu * upper, -nu * lower],
+            [(touch[0] - x0) * d - touch[1] * s * mu, -half, half],
+        ]
+        force, first, last = solve(matrix, [0, needed, 0])
+        if force >= 0 and first * upper >= 0 and last * lower >= 0:
+            on_crank = (-force * s * mu, -force * d)
+            arm = (touch[0] - axis[0], touch[1] - axis[1])
+            out.append([force * d, arm[0] * on_crank[1] - arm[1] * on_crank[0], first, last])
+    assert len(out) == 1, out
+    return out[0]
+
+
+@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("at_deg", [-89.0, -60.0, -20.0, -1.0, 10.0, 45.0, 89.0])
+def test_loads_are_those_of_bodies_cut_free(case, at_deg):
+    """64 ulp, as for other machines: some dozen operations."""
+    loaded = design(*case)
+    with mpmath.workdps(50):
+        force, torque, *_ = cut_free(case, at_deg)
+    here = loaded.cycle.states(np.array([at_deg]))
+    assert here.pin_force_N[0] == pytest.approx(float(force), rel=2e-14)
+    assert here.input_torque_Nm[0] == pytest.approx(float(torque), rel=2e-14, abs=1e-15)
+
+
+@pytest.mark.sampled(6)
+@pytest.mark.parametrize("case", CASES)
+def test_greatest_force_on_the_guide_and_work(case):
+    """The scan has steps of 0.018 degrees: within 1e-7 of a smooth peak, and both ends."""
+    loaded = design(*case)
+    values = loaded.report.table.to_dict()
+    scan = np.linspace(-90.0, 90.0, 10_000)
+    rows = [cut_free(case, x, float, math, np.linalg.solve) for x in scan.tolist()]
+    forces, torques, *ends = np.array(rows, dtype=float).T
+    most = max(np.abs(end).max() for end in ends)
+    assert values["guide.force_N"] == pytest.approx(most, rel=1e-6)
+    loads = loaded.loads_table.to_dict()
+    assert loads["pin_force_N.max"] == pytest.approx(forces.max(), rel=1e-6)
+    assert loads["pin_force_N.min"] == pytest.approx(forces.min(), rel=1e-6)
+    (work,) = loaded.cycle.integrals(lambda at: at.input_torque_Nm)
+    step = math.pi / 9_999
+    assert work == pytest.approx(np.trapezoid(torques, dx=step), rel=1e-5)  # jumps of one step
+    mean = np.trapezoid(torques**2, dx=step) / (2.0 * math.pi)
+    assert loads["input_torque_Nm.rms"] == pytest.approx(math.sqrt(mean), rel=1e-5)
+    assert values["guide.length_mm"] == pytest.approx(2.0 * HALF)
+
+
+def test_the_guide_is_as_rough_as_the_slot_by_default():
+    one, other = design(4.0, 30.0, 0.1, None), design(4.0, 30.0, 0.1, 0.1)
+    assert one.loads_table.to_dict() == other.loads_table.to_dict()
+
+
+@pytest.mark.usefixtures("no_advice")
+def test_a_guide_that_locks_leaves_no_bound():
+    """At entry it takes all of the push from nu = h/(R - x0) on."""
+    locks = HALF / (R - MIDDLE)
+    loads = {nu: design(4.0, 30.0, 0.0, nu) for nu in (0.999 * locks, 1.001 * locks)}
+    forces = [one.loads_table.to_dict()["pin_force_N.max"] for one in loads.values()]
+    push = 4.0 * 0.05 * (2.0 * math.pi) ** 2 + 30.0
+    assert forces == [pytest.approx(push / 0.001, rel=1e-9), None]
+    rows = [{row.name: row for row in one.checks} for one in loads.values()]
+    assert [row["guide_locks"].passes for row in rows] == [True, False]
+    (text,) = [one for one in loads[1.001 * locks].warnings if one.name in LOCKED]
+    assert "in the guide holds the rack at -90°" in text
+    assert "wheel_shaft_stress_MPa" not in rows[1]  # a rack has no shaft, with or without a bound
+
+
+def test_slots_too_wide_for_a_guide_have_none():
+    """Their check fails; the loads are those of a rack without friction in a guide."""
+    wide = Size(center_distance_mm=R, roller_radius_mm=49.95, slot_clearance_mm=0.1)
+    load = Load(mass_kg=4.0, force_N=30.0, guide_friction=0.3)
+    loads = [
+        Design(Linear(6), size=wide, load=one) for one in (load, load.replace(guide_friction=0))
+    ]
+    assert loads[0].loads_table.to_dict() == loads[1].loads_table.to_dict()
+
+
+GEARED = EllipticalGears(eccentricity=0.3)
+
+
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize("drive", [GEARED, NoncircularGears(A=-0.4)])
+def test_behind_gears_the_guide_takes_as_much_at_each_angle_of_the_crank(drive):
+    """A force alone: the pin's force is that of a plain crank there, the input's torque g' times.
+
+    64 ulp, and those of the crank's angle behind the gears.
+    """
+    plain = design(0.0, 30.0, 0.2, 0.15)
+    geared = Design(Linear(6), drive, size=SIZE, load=plain.spec.load)
+    one = geared.mechanism.engagements[0]
+    x = one.entry_deg * np.array([0.95, 0.5, 0.1, -0.3, -0.8])
+    rate = -one.carrier(x, 0).c[0]
+    angle = np.degrees(np.arcsin(np.clip(one.motion(x, 0).c[0], -1.0, 1.0)))
+    here, there = geared.cycle.states(x), plain.cycle.states(angle)
+    assert here.pin_force_N == pytest.approx(there.pin_force_N, rel=1e-12)
+    assert here.input_torque_Nm == pytest.approx(there.input_torque_Nm * rate, rel=1e-12)
+    values = geared.report.table.to_dict()["guide.force_N"]
+    assert values == pytest.approx(plain.report.table.to_dict()["guide.force_N"], rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "spec",
+    [
+        Spec(External(6), load=Load(torque_Nm=1.0, guide_friction=0.1)),
+        Spec(Linear(6), SideCrank(A=0.3), load=Load(force_N=1.0, guide_friction=0.1)),
+    ],
+)
+def test_what_has_no_guide_has_no_friction_in_it(spec):
+    with pytest.raises(GenevaError, match="guide_friction is of the guide of a rack"):
+        Design.of(spec).mechanism  # noqa: B018
+
+
+def test_certificates_leave_out_what_the_guide_takes():
+    rows = design(4.0, 30.0, 0.1, 0.1).certified_loads().to_dict()["certificate"]
+    assert {row["why"] for row in rows} == {"friction in a rack's guide"}

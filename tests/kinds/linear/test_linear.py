@@ -1,0 +1,323 @@
+"""The linear Geneva: closed forms, the limit of wheels of many slots, loads by equilibrium.
+
+A rack whose roller runs on a circle of radius R moves by y = R sin a at the crank angle a from
+mid-motion. Values over R have no unit.
+"""
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from geneva_cli import (
+    Crank,
+    Design,
+    External,
+    Internal,
+    Limits,
+    Linear,
+    Load,
+    Shaft,
+    SideCrank,
+    Size,
+)
+from geneva_cli.cli.app import app
+from geneva_cli.errors import GenevaError
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.spec import Spec
+
+ULP = np.finfo(float).eps
+RACK = Design(Linear(6))
+SIZE = Size(center_distance_mm=50.0, roller_radius_mm=6.0, face_width_mm=12.0)
+# the slot alone; test_guide_friction.py has the guide
+LOAD = Load(mass_kg=4.0, force_N=30.0, friction=0.1, guide_friction=0.0)
+LOADED = Design(Linear(6), size=SIZE, load=LOAD)
+
+
+def exact(input_deg: float) -> list[mpmath.mpf]:
+    """Travel over R and its derivatives, to 50 digits."""
+    with mpmath.workdps(50):
+        a = mpmath.mpf(input_deg) * mpmath.pi / 180
+        return [mpmath.sin(a), mpmath.cos(a), -mpmath.sin(a), -mpmath.cos(a)]
+
+
+def test_motion_is_a_sine_to_the_last_place():
+    """All peaks are 1, and the condition number is at most pi/2: 4 units of the peak are a lot."""
+    motion = RACK.mechanism.engagements[0].motion
+    x = np.concatenate([np.linspace(-90.0, 90.0, 181), [-89.999999, 1e-9, 89.9999]])
+    for at_deg, row in zip(x.tolist(), zip(*motion(x, 3).derivatives(), strict=True), strict=True):
+        for value, true in zip(row, exact(at_deg), strict=True):
+            assert abs(mpmath.mpf(float(value)) - true) <= 4 * ULP
+
+
+def test_the_speed_next_to_rest_keeps_its_digits():
+    """It is sin d at d after entry: the angle of entry is exact, so that relative digits stay."""
+    motion = RACK.mechanism.engagements[0].motion
+    for d in (1e-12, 1e-6, 1e-3):
+        at_deg = -90.0 + d
+        true = mpmath.cos(mpmath.mpf(at_deg) * mpmath.pi / 180)
+        with mpmath.workdps(50):
+            true = exact(at_deg)[1]
+        assert float(motion(at_deg, 1).derivatives()[1]) == pytest.approx(float(true), rel=4 * ULP)
+
+
+def test_timing_and_peaks():
+    t, p = RACK.timing, RACK.peaks
+    assert (t.motion_deg, t.dwell_deg, t.k, t.index_deg, t.index_mm) == (180, 180, 1, None, 200)
+    assert p.velocity == (1.0, 0.0)
+    assert p.acceleration == (1.0, -90.0)
+    assert p.jerk == (1.0, 0.0)
+    assert p.power == pytest.approx((0.5, -45.0), rel=1e-12)  # sin a cos a
+    assert p.ends[0] == p.ends[1] == 1.0
+
+
+def scaled(z: int, x: np.ndarray) -> np.ndarray:
+    """Mean of the external and the internal wheel's angle, with derivatives, over sin(pi/z)."""
+    both = []
+    for wheel in (External(z), Internal(z)):
+        motion = Design(wheel).mechanism.engagements[0].motion
+        both.append(np.array([np.array(row) for row in motion(x, 3).derivatives()]))
+    return (both[0] + both[1]) / (2.0 * math.sin(math.pi / z))
+
+
+def test_both_kinds_of_wheels_tend_to_a_rack():
+    """psi/l = sin a +- l sin a cos a + ...: the first order cancels, and the error falls as l².
+
+    Extrapolated (Richardson), it falls as l⁴: at z = 1000 that is 1e-10, times 2^k for k
+    derivatives of its harmonics of order up to 5.
+    """
+    x = np.linspace(-80.0, 80.0, 33)
+    true = np.array([np.array(r) for r in RACK.mechanism.engagements[0].motion(x, 3).derivatives()])
+    coarse, middle, fine = (scaled(z, x) for z in (250, 500, 1000))
+    errors = [abs(one - true).max(axis=1) for one in (coarse, middle, fine)]
+    for before, after in zip(errors, errors[1:], strict=False):
+        assert np.log2(before / after) == pytest.approx(2.0, abs=0.01)
+    extrapolated = (4.0 * fine - middle) / 3.0
+    assert abs(extrapolated - true).max() < 1e-7
+    assert abs(extrapolated - true)[0].max() < 1e-9
+
+
+def test_one_wheel_alone_tends_to_it_as_the_first_order():
+    """The external wheel is ahead of the rack by l sin a cos a, the internal one behind."""
+    x = np.linspace(-80.0, 80.0, 33)
+    a, l = np.radians(x), math.sin(math.pi / 1000)
+    for wheel, sign in ((External(1000), 1.0), (Internal(1000), -1.0)):
+        angle = Design(wheel).mechanism.engagements[0].motion(x, 0).c[0] / l
+        off = (angle - np.sin(a)) / l
+        assert off == pytest.approx(sign * np.sin(a) * np.cos(a), abs=2.0 * l)
+
+
+def torque_by_equilibrium(a: float) -> tuple[float, float]:
+    """Pin force and input torque of ``LOADED`` from forces in the plane, for a crank angle a.
+
+    The crank turns clockwise about (R, 0). The roller, fixed to it, presses on the wall above or
+    below it; friction acts along the slot against its sliding there.
+    """
+    R, r, m, F, mu, w = 0.05, 0.006, 4.0, 30.0, 0.1, 2.0 * math.pi
+    pin = np.array([R - R * math.cos(a), R * math.sin(a)])
+    speed = R * w * np.array([math.sin(a), math.cos(a)])
+    push = m * -R * w * w * math.sin(a) + F
+    side = math.copysign(1.0, push)
+    touch = pin + np.array([0.0, side * r])
+    arm = touch - pin
+    slide = speed[0] + w * arm[1]  # of a body that turns by -w: v + (-w) x arm
+    on_crank = np.array([-mu * abs(push) * math.copysign(1.0, slide), -push])
+    lever = touch - np.array([R, 0.0])
+    moment = lever[0] * on_crank[1] - lever[1] * on_crank[0]
+    return push, moment  # counterclockwise on the crank, so the input gives it clockwise
+
+
+@pytest.mark.parametrize("at_deg", [-90.0, -60.0, -20.0, -1.0, 10.0, 45.0, 90.0])
+def test_loads_are_those_of_equilibrium(at_deg):
+    force, torque = torque_by_equilibrium(math.radians(at_deg))
+    here = LOADED.cycle.states(np.array([at_deg]))
+    assert here.pin_force_N[0] == pytest.approx(force, rel=1e-13)
+    assert here.input_torque_Nm[0] == pytest.approx(torque, rel=1e-12)
+    rack = LOADED.load_cycle(361).to_dict()
+    row = round(at_deg + 90.0)
+    assert rack["rack_force_N"][row] == pytest.approx(force, rel=1e-13)
+
+
+def test_the_input_does_the_work_of_force_and_friction():
+    """The force does 2 R F in a step, and inertia none."""
+    (work,) = LOADED.cycle.integrals(lambda at: at.input_torque_Nm)
+    lost = LOADED.loads_table.to_dict()["life.friction_work_J"]
+    assert work == pytest.approx(2.0 * 0.05 * 30.0 + lost, rel=1e-12)
+    free = LOADED.with_("load.friction", 0.0)
+    assert free.cycle.integrals(lambda at: at.input_torque_Nm)[0] == pytest.approx(3.0, rel=1e-12)
+
+
+def test_greatest_loads():
+    """At entry m R w² and F add up; a rack has no torque of a wheel."""
+    values = LOADED.report.table.to_dict()
+    force = 4.0 * 0.05 * (2.0 * math.pi) ** 2 + 30.0
+    assert values["loads.rack_force_N.max"] == pytest.approx(force, rel=1e-13)
+    assert values["loads.pin_force_N.max"] == pytest.approx(force, rel=1e-13)
+    assert values["loads.torque_Nm.max"] is None
+    assert values["acceleration.max_m_s2"] == pytest.approx(0.05 * (2.0 * math.pi) ** 2, rel=1e-14)
+    assert values["velocity.max_rad_s"] is None
+    assert values["timing.index_mm"] == 100.0
+    assert values["timing.index_deg"] is None
+    loads = LOADED.loads_table.to_dict()
+    assert loads["wheel_torque_Nm.max"] is None
+    assert loads["sizing.inertia_kgm2"] is None
+    assert loads["rack_speed_m_s.max"] == pytest.approx(0.05 * 2.0 * math.pi, rel=1e-14)
+
+
+def test_loads_of_wheels_tend_to_those_of_a_rack():
+    """A mass m at the distance L has m L²; the pin force of both wheels is that of a rack + O(l²).
+
+    The mean at mid-motion, where a force alone acts: F L/(L - R) outside and F L/(L + R) inside.
+    """
+    z, R_mm = 1000, 50.0
+    L_mm = R_mm / math.sin(math.pi / z)
+    forces = []
+    for wheel in (External(z), Internal(z)):
+        L = L_mm / 1000.0
+        load = Load(inertia_kgm2=4.0 * L * L, torque_Nm=30.0 * L)
+        size = Size(center_distance_mm=L_mm, roller_radius_mm=6.0)
+        cycle = Design(wheel, size=size, load=load).cycle
+        forces.append(cycle.states(np.array([-60.0, 0.0, 30.0])).pin_force_N)
+    rack = Design(Linear(6), size=SIZE, load=Load(mass_kg=4.0, force_N=30.0)).cycle
+    true = rack.states(np.array([-60.0, 0.0, 30.0])).pin_force_N
+    l = math.sin(math.pi / z)
+    assert (forces[0] + forces[1]) / 2.0 == pytest.approx(true, rel=10.0 * l * l)
+
+
+def test_a_side_crank_moves_a_rack_too():
+    """At mid-motion the rack is as much slower as any wheel behind the same side-crank."""
+    slow = Design(Linear(6), SideCrank(A=0.5))
+    crank = Design(External(6), SideCrank(A=0.5))
+    ratio = crank.peaks.velocity.max / Design(External(6)).peaks.velocity.max
+    assert slow.peaks.velocity.max == pytest.approx(ratio, rel=1e-12)
+
+
+def test_tables_have_the_travel():
+    table = RACK.motion(5).to_dict()
+    assert list(table) == ["time_s", "input_deg", "rack_mm", "velocity", "acceleration", "jerk"]
+    assert table["rack_mm"].tolist() == pytest.approx([-100.0, 0.0, 100.0, 100.0, 100.0], abs=1e-13)
+    slot = RACK.slot(samples=3).to_dict()
+    assert slot["rack_mm"].tolist() == pytest.approx([-100.0, 0.0, 100.0], abs=1e-13)
+    assert slot["x_mm"].tolist() == pytest.approx([100.0, 0.0, 100.0], abs=1e-13)
+    assert not any(slot["y_mm"])
+
+
+@pytest.mark.parametrize(
+    ("spec", "text"),
+    [
+        (Spec(Linear(6), Crank(rollers=2)), "2 motions of 180 degrees leave no dwell"),
+        (Spec(Linear(6), load=Load(inertia_kgm2=1.0)), "a rack has mass_kg and force_N"),
+        (Spec(External(6), load=Load(mass_kg=1.0)), "a wheel that turns has inertia_kgm2"),
+    ],
+)
+def test_what_a_rack_cannot_have_is_refused(spec, text):
+    with pytest.raises(GenevaError, match=text):
+        build(spec)
+
+
+def test_what_needs_a_wheel_is_refused_with_the_reason(tmp_path):
+    """Angles of a cam, a cam indexer's step, and a search for a wheel among racks."""
+    path = tmp_path / "rack.toml"
+    path.write_text('[wheel]\nz = 6\ngearing = "linear"\n')
+    for words, text in (
+        (["motion", str(path), "--format", "cam"], "this machine moves a rack"),
+        (["compare", str(path), "--against", "cam"], "this machine moves a rack"),
+        (["synth", "--tau", "0.4", "--external", "--from", str(path)], "searched alone"),
+        (["profile", str(path), "--part", "links", "-o", str(tmp_path / "a.dxf")], "has none"),
+        (
+            ["profile", str(path), "--set", "size.wheel_radius_mm=1000"],
+            "wheel_radius_mm = 1000: it must be below 200, twice the crank radius",
+        ),
+        (
+            ["check", str(path), "--set", "support.friction=0.1"],
+            "a rack's load is mass_kg",
+        ),
+        (
+            ["check", str(path), "--set", "tolerance.crank_radius_mm=0.1"],
+            "not available for a rack",
+        ),
+        (["tolerance", str(path)], "computed for a wheel on a shaft, not for a rack"),
+        (["check", str(path), "--set", "load.dwell_torque_Nm=1"], "not available for a rack"),
+        (
+            ["check", str(path), "--set", "motion.law=cycloidal"],
+            'gearing = "linear" has straight slots only',
+        ),
+    ):
+        refused = CliRunner().invoke(app, words)
+        assert refused.exit_code == 2
+        assert text in " ".join(refused.stderr.split())
+        assert "Traceback" not in refused.output
+
+
+def test_the_page_of_a_report_has_the_units_of_a_rack(tmp_path):
+    path = tmp_path / "rack.toml"
+    load = "[load]\nmass_kg = 4\nforce_N = 30\n"
+    path.write_text('[wheel]\nz = 6\ngearing = "linear"\n[size]\ncenter_distance_mm = 50\n' + load)
+    CliRunner().invoke(app, ["report", str(path), "-o", str(tmp_path / "page.md")])
+    page = (tmp_path / "page.md").read_text()
+    assert "| Acceleration | 1 | -90 | 1.97392 | 1 | 1.97392 | 1 | m/s² |" in page  # R w² = 1.974
+    assert "derivatives of the rack's travel over R" in page
+    assert "| Force on the rack | N | 37.8957 | -90 | 22.1043 | 90 |" in page
+
+
+def test_a_long_rack_is_no_reason_for_a_warning():
+    assert not Design(Linear(200)).motion_warnings
+    assert [one.name for one in Design(External(200)).motion_warnings] == ["many-slots"]
+
+
+def test_a_limit_on_force_names_the_load_of_a_rack():
+    with pytest.raises(GenevaError, match=r"set mass_kg or force_N in \[load\]"):
+        Spec(Linear(6), limits=Limits(pin_force_max_N=10.0))
+
+
+def test_certificates_are_of_what_a_rack_has():
+    """The greatest pin force, at entry, is m R w² + F; a rack has no torque of a wheel."""
+    pytest.importorskip("flint")
+    design = Design(Linear(6), size=SIZE, load=Load(mass_kg=4.0, force_N=30.0))
+    rows = design.certified_loads().to_dict()["certificate"]
+    assert [row["quantity"] for row in rows] == ["pin_force_N", "input_torque_Nm"]
+    force = 4.0 * 0.05 * (2.0 * math.pi) ** 2 + 30.0  # at 60 rpm
+    low, high = rows[0]["low"], rows[0]["high"]
+    # the bounds are some places apart, and the sum above is rounded
+    assert low * (1.0 - 4.0 * ULP) <= force <= high * (1.0 + 4.0 * ULP)
+    assert high - low < 1e-9 * force
+
+
+def test_the_crank_shaft_of_a_rack_is_that_of_the_spec():
+    """B17c by hand: at a the pin's force F bends the shaft by F a_1 and turns it by F R cos a.
+
+    The bearings share the force by their levers, 20 mm outside and 40 mm apart.
+    """
+    load = Load(mass_kg=4.0, force_N=30.0)
+    shaft = Shaft(crank_diameter_mm=12.0, crank_overhang_mm=20.0, crank_span_mm=40.0)
+    design = Design(Linear(6), size=SIZE, load=load, shaft=shaft)
+    a = np.radians(np.linspace(-90.0, 90.0, 200_001))
+    force = 4.0 * 0.05 * (2.0 * math.pi) ** 2 * -np.sin(a) + 30.0
+    moment = np.hypot(1.5 * force * 0.020, force * 0.05 * np.cos(a)).max()
+    values, loads = design.report.table.to_dict(), design.loads_table.to_dict()
+    # the scan's peak is within 1e-10 of the true one, which is flat
+    assert values["strength.crank_shaft.moment_Nm"] == pytest.approx(moment, rel=1e-9)
+    stress = 16e3 * moment / (math.pi * 12.0**3)
+    assert values["strength.crank_shaft.stress_MPa"] == pytest.approx(stress, rel=1e-9)
+    twist = (force * 0.05 * np.cos(a)).max() * 60.0 / (80.8 * math.pi * 12.0**4 / 32.0)
+    assert values["strength.crank_shaft.twist_deg"] == pytest.approx(math.degrees(twist), rel=1e-9)
+    assert loads["crank_near_bearing_N.max"] == pytest.approx(1.5 * force[0], rel=1e-13)
+    assert loads["crank_far_bearing_N.max"] == pytest.approx(0.5 * force[0], rel=1e-13)
+    assert "wheel_near_bearing_N.max" not in loads or loads["wheel_near_bearing_N.max"] is None
+
+
+@pytest.mark.parametrize(
+    "key",
+    [
+        "stiffness_Nm_rad",
+        "damping_ratio",
+        "wheel_diameter_mm",
+        "wheel_overhang_mm",
+        "wheel_span_mm",
+    ],
+)
+def test_keys_of_a_wheels_shaft_are_refused_by_name(key):
+    with pytest.raises(GenevaError, match=f"{key} is of a wheel's shaft, and a rack has none"):
+        build(RACK.spec.with_(f"shaft.{key}", 0.5))

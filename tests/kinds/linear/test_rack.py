@@ -1,0 +1,504 @@
+"""The rack and the locking sector of a linear Geneva: sizes, area, and gaps over a turn.
+
+Its proof and its play are in test_rack_turn.py.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from geneva_cli import Design, EllipticalGears, External, Linear, Load, SideCrank, Size
+from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.measure import bounds
+from geneva_cli.geometry.moments import moments
+from geneva_cli.geometry.plates import solids
+from geneva_cli.kinds.linear.outlines import turned_rack
+from geneva_cli.kinds.linear.rack import locking_sector, rack_contour, rack_sizes
+from geneva_cli.kinds.linear.stressed import rack_stressed
+from geneva_cli.motion.many import many
+from geneva_cli.parts.assembly import assembled
+from geneva_cli.parts.turn.full_turn import full_turn
+from geneva_cli.verdict.quantities.designs import Designs
+from geneva_cli.verdict.quantities.strength import guide
+
+R, r = 50.0, 6.0
+
+
+def design(**sizes: float) -> Design:
+    return Design(Linear(6), size=Size(**{"center_distance_mm": R, "roller_radius_mm": r, **sizes}))
+
+
+def sizes_of(**sizes: float):
+    return rack_sizes(design(**sizes).mechanism)
+
+
+def smallest_gap(sizes) -> float:
+    return full_turn(turned_rack(assembled(design().mechanism), sizes)).smallest.mm
+
+
+@pytest.mark.parametrize("count", [3, 4, 7])
+def test_area_of_a_rack(count):
+    """A rectangle less slots (a rectangle and half a circle) and recesses (half circles)."""
+    s = sizes_of(slot_clearance_mm=0.2)
+    deep = R + s.slot_bottom + s.half_width + s.back
+    long = 2.0 * R * (count + 1) - 2.0 * s.half_width
+    slot = 2.0 * s.half_width * (R + s.slot_bottom) + 0.5 * math.pi * s.half_width**2
+    recess = 0.5 * math.pi * s.recess**2
+    area = moments(rack_contour(s, count)).area
+    assert area == pytest.approx(deep * long - count * slot - (count + 1) * recess, rel=1e-13)
+
+
+def test_area_of_the_locking_sector():
+    s = sizes_of()
+    area = moments(locking_sector(s)).area
+    assert area == pytest.approx(0.5 * math.pi * (s.lock**2 - s.floor**2), rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("slot", "lock", "relief"), [(0.05, 0.03, 1.0), (0.03, 0.1, 1.0), (0.4, 0.5, 0.3), (9, 9, 0.01)]
+)
+def test_smallest_gap(slot, lock, relief):
+    """It is the clearance in the slot or in the recess, or that of the ring's end past a horn.
+
+    The corner of the end, f from the axis, passes the corner of a horn, R - rho from it, which
+    moves by R d while the end turns by d: the least distance is (f - (R - rho)) f/hypot(f, R), to
+    the first order of d, which is at most relief/R.
+    """
+    keys = {"slot_clearance_mm": slot, "lock_clearance_mm": lock, "relief_clearance_mm": relief}
+    s = sizes_of(**keys)
+    passing = relief * s.floor / math.hypot(s.floor, R)
+    bottom = s.slot_bottom + s.half_width - r
+    expected = min(slot, lock, passing, bottom)
+    assert smallest_gap(s) == pytest.approx(expected, rel=2.0 * relief / R + 1e-3)
+
+
+def test_parts_touch_without_clearance():
+    assert smallest_gap(sizes_of()) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_ring_that_reaches_the_axis_collides():
+    """The horns pass the axis at mid-motion, at R - rho from it on either side."""
+    s = sizes_of(slot_clearance_mm=0.5, lock_clearance_mm=0.5)
+    assert smallest_gap(s._replace(floor=0.5 * (R - s.recess))) < -0.5
+    assert smallest_gap(s._replace(lock=s.recess + 0.1)) == pytest.approx(-0.1, rel=1e-6)
+
+
+def test_a_rack_beyond_the_axis_meets_the_roller_before_it_enters():
+    """At d before entry the roller is R (1 - cos d) off the slot, whose corner is e beyond R.
+
+    There the gap is that to the wall, and further out that to the corner.
+    """
+    d = np.radians(np.linspace(0.0, 10.0, 1_000_001))
+    off, out = R * (1.0 - np.cos(d)), R * np.sin(d)
+    for e in (1.0, 3.0):
+        s = sizes_of(lock_radius_mm=0.0, wheel_radius_mm=R + e)
+        overlap = np.where(out <= e, off, r - np.hypot(out - e, r - off))
+        # the turn halves its samples down to 1e-9 mm
+        assert smallest_gap(s) == pytest.approx(-overlap.max(), abs=1e-9)
+
+
+def in_recess(s, q: float, d: float) -> bool:
+    """Whether a point of the ring's end, q from the axis, lies in the recess, d after entry."""
+    y = R * (1.0 - math.cos(d))
+    return q * q - 2.0 * q * y * math.sin(d) + y * y <= s.recess**2 * (1.0 + 1e-12)
+
+
+def test_the_end_of_the_ring_stays_in_its_recess():
+    """From its inner to its outer radius, at every angle up to mid-motion."""
+    for lock in (27.0, 35.0, 43.0):
+        s = sizes_of(lock_radius_mm=lock, relief_clearance_mm=0.2)
+        for d in np.linspace(0.0, 0.5 * math.pi, 91):
+            assert all(in_recess(s, q, d) for q in np.linspace(s.floor, s.lock, 21))
+    assert not in_recess(s, s.floor - 0.3, 0.5 * math.pi)
+
+
+@pytest.mark.usefixtures("no_advice")
+def test_checks():
+    rows = {one.name: one for one in design(slot_clearance_mm=0.1).checks}
+    assert rows["rack_horn_mm"].value == pytest.approx(
+        R - 6.1 - rack_sizes(design(slot_clearance_mm=0.1).mechanism).recess
+    )
+    assert rows["gap_mm"].value == 0.0
+    assert rows["gap_proved_mm"].passes
+    assert "parts" not in rows  # it has a row only where a part cannot be built
+    free = {one.name for one in design(lock_radius_mm=0.0).checks}
+    assert "rack_horn_mm" not in free
+    assert "gap_mm" in free
+    thin = {one.name: one for one in design(lock_radius_mm=43.9).checks}
+    assert thin["rack_horn_mm"].passes is False
+
+
+@pytest.mark.usefixtures("no_advice")
+@pytest.mark.parametrize(
+    ("size", "text"),
+    [
+        ({"roller_radius_mm": 30.0}, "the locking sector does not fit"),
+        ({"lock_radius_mm": 20.0}, "lock_radius_mm = 20: it must be above 25.125"),
+        ({"wheel_radius_mm": 99.0}, "the rack's edge must meet its recesses"),
+    ],
+)
+def test_sizes_that_leave_no_lock_are_refused(size, text):
+    made = Design(Linear(6), size=Size(**{"center_distance_mm": R, **size}))
+    with pytest.raises(GenevaError, match=text):
+        made.drawing("wheel")
+    assert not made.passes
+
+
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize(
+    "name",
+    [
+        "guide.dxf",
+        "frame.dxf",
+        "plate.3mf",
+        "slot.dxf",
+        "wheel.dxf",
+        "crank.svg",
+        "assembly.step",
+        "wheel.stl",
+        "arm.step",
+    ],
+)
+def test_parts_are_written(name, tmp_path):
+    path = tmp_path / name
+    design(slot_clearance_mm=0.1).save(str(path))
+    assert path.stat().st_size > 500
+
+
+def test_other_parts_are_refused_with_those_that_there_are():
+    with pytest.raises(GenevaError, match="have slot, wheel, crank, arm, frame, guide, parts"):
+        design().drawing("links")
+    with pytest.raises(GenevaError, match=r"guide: .* has none; it may have slot, "):
+        Design(External(6)).drawing("guide")
+
+
+def test_the_assembly_has_the_crank_at_mid_motion():
+    """The roller is at the origin, and the sector beyond the crank's axis."""
+    shapes = design().drawing("assembly").shapes
+    roller = next(one for one in shapes if one.layer == "ROLLER")
+    assert roller.centre == pytest.approx((0.0, 0.0), abs=1e-13)
+    sector = next(one for one in shapes if one.layer == "CRANK")
+    assert min(p.start[0] for p in sector.segments) == pytest.approx(R, abs=1e-12)
+
+
+def test_area_of_the_arm():
+    """Two discs, of hub and eye, and the quadrilaterals between their common tangents.
+
+    With c = (hub - eye)/R the tangents touch at acos(c) on both, so the hull has the area
+    hub² (pi - acos c) + eye² acos c + R (hub + eye) sqrt(1 - c²).
+    """
+    s = sizes_of(slot_clearance_mm=0.1)
+    shapes = design(slot_clearance_mm=0.1, arm_eye_mm=20.0, lock_bolts=2).drawing("arm").shapes
+    hub, eye = s.lock, 10.0
+    touch = math.acos((hub - eye) / R)
+    area = hub**2 * (math.pi - touch) + eye**2 * touch + R * (hub + eye) * math.sin(touch)
+    assert moments(shapes[0]).area == pytest.approx(area, rel=1e-12)
+    shaft, pin, *bolts = shapes[1:]
+    assert shaft.centre == (0.0, 0.0)
+    assert pin.centre == (R, 0.0)
+    assert [(one.centre[0] < 0.0, one.radius) for one in bolts] == [(True, 1.25)] * 2
+
+
+def test_ring_and_roller_stand_on_the_arm():
+    """The arm is pin_gap_mm below the rack; its bolts go through arm and ring."""
+    machine = design(slot_clearance_mm=0.1, pin_gap_mm=1.0)
+    rack, _, crank = (one.part for one in machine.drawing("assembly").solid.members[:3])
+    arm, _, pin, ring = (one.part for one in crank.members)
+    assert (rack.low, arm.high, ring.low) == (0.0, -1.0, -1.0)
+    assert pin.low == arm.low
+    assert set(ring.holes) == set(arm.holes[2:])
+
+
+@pytest.mark.parametrize(
+    ("size", "text"),
+    [
+        ({"arm_bore_mm": 88.0}, "the least wall around the arm's holes is"),
+        ({"arm_eye_mm": 2.0}, "arm_eye_mm = 2: the eye must be above"),
+        ({"lock_bolt_mm": 40.0}, "the least wall around the arm's holes is"),
+        ({"lock_radius_mm": 0.0, "lock_bolts": 2}, "there is no locking disc to fix"),
+    ],
+)
+def test_sizes_that_leave_no_arm_are_refused(size, text):
+    with pytest.raises(GenevaError, match=text):
+        design(**size).drawing("arm")
+
+
+PARTS = {"slot_clearance_mm": 0.1, "pin_gap_mm": 0.5}
+
+
+def solids_of(**sizes: float) -> dict:
+    """All solids of a machine by their names, each in its own frame."""
+    whole = design(**{**PARTS, **sizes}).drawing("assembly").solid
+    return {one.name: one for one in solids(whole)}
+
+
+def span(solid) -> tuple[float, float]:
+    """Where a part lies across the travel of the rack."""
+    box = bounds(solid.outline)
+    return box.x0, box.x1
+
+
+def test_the_bar_slides_between_rail_and_wall():
+    """With the clearance of a slot on either side; the rack lies on the rail, below the cover."""
+    s = solids_of()
+    bar, rail, wall, cover = (s[f"guide {name}"] for name in ("bar", "rail", "wall", "cover"))
+    assert span(rail)[0] - span(bar)[1] == pytest.approx(0.1, abs=1e-12)
+    assert span(bar)[0] - span(wall)[1] == pytest.approx(0.1, abs=1e-12)
+    assert span(cover)[1] == pytest.approx(span(bar)[1] - 0.5, abs=1e-12)
+    assert span(cover)[0] == pytest.approx(span(wall)[0] + 0.5, abs=1e-12)
+    assert span(bar)[0] == pytest.approx(span(s["rack"])[0] - 0.5, abs=1e-12)
+    assert (rail.high, bar.high, s["rack"].low) == (0.0, 0.0, 0.0)
+    assert cover.low == wall.high == s["rack"].high + 0.5
+    assert rail.low == wall.low == s["frame"].high == s["arm"].low
+    assert bar.low == 0.5 * rail.low
+
+
+@pytest.mark.parametrize("sizes", [{}, {"arm_eye_mm": 40.0}, {"lock_radius_mm": 0.0}])
+def test_the_arm_sweeps_past_the_guide(sizes):
+    """Its eye reaches farthest at mid-motion; a quarter of the bar's width, R/40, is between."""
+    s = solids_of(**sizes)
+    farthest = R - max(abs(x) for x in span(s["arm"]))  # from the axis, which is at R
+    assert span(s["guide rail"])[1] <= farthest - R / 40.0 + 1e-12
+    # behind the slots the rack is nearly as wide as bar and rail, R/10 each
+    end = -sizes_of(slot_clearance_mm=0.1, **sizes).slot_bottom - r - 0.1
+    assert end - span(s["rack"])[0] >= 0.19 * R
+
+
+@pytest.mark.parametrize("count", [3, 4, 7])
+@pytest.mark.parametrize("lock", [None, 0.0])
+def test_the_rack_covers_its_guide_in_each_step(count, lock):
+    """A slot at y0 passes mid-motion after a travel of -y0; half a step before and after it R."""
+    sizes = {"lock_radius_mm": lock} if lock is not None else {}
+    machine = design(**PARTS, **sizes).with_("wheel.z", count)
+    s = {one.name: one for one in solids(machine.drawing("assembly").solid)}
+    rack, bar, rail = s["rack"], s["guide bar"], s["guide rail"]
+    box, half = bounds(rack.outline), bounds(rail.outline).y1
+    slots = [2.0 * R * (k - (count - 1) // 2) for k in range(count)]
+    for travel in (-slots[-1] - R, -slots[0] + R):
+        assert box.y0 + travel <= -half + 1e-9
+        assert half <= box.y1 + travel + 1e-9
+    assert half == pytest.approx(R - r - 0.1)
+    ends = bounds(bar.outline)
+    assert (ends.y0, ends.y1) == pytest.approx((box.y0, box.y1), abs=1e-9)
+
+
+def test_screws_hold_the_guide_on_the_frame_and_the_bar_on_the_rack():
+    s = solids_of()
+
+    def holes(name: str) -> set:
+        return {hole for hole in s[name].holes if hasattr(hole, "radius")}
+
+    for name in ("guide rail", "guide wall"):
+        assert len(holes(name)) == 3
+        assert holes(name) <= holes("frame")
+    assert holes("guide cover") == holes("guide wall")
+    assert holes("guide bar") == holes("rack")
+    assert len(holes("rack")) == 6
+
+
+def test_the_shaft_goes_from_the_frame_into_the_arm():
+    """Its keyway is that of the arm; a turned one has a bearing in the frame and a shoulder."""
+    s = solids_of()
+    shaft, frame = s["crank's shaft"], s["frame"]
+    assert (shaft.low, shaft.high) == (frame.low, s["arm"].high)
+    bored = next(hole for hole in frame.holes if hole.centre == (R, 0.0))
+    assert bored.radius == shaft.outline.radius == s["arm"].holes[0].radius
+    keyed = solids_of(crank_keyway="DIN 6885-1", arm_bore_mm=16.0)
+    assert keyed["crank's shaft"].outline.segments
+    turned = solids_of(shafts="turned", arm_bore_mm=16.0)
+    assert "bearing" in turned["crank's shaft"].plates[2].name
+    bored = next(hole for hole in turned["frame"].holes if hole.centre == (R, 0.0))
+    assert bored.radius == 16.0  # 6002 has an outside diameter of 32 mm (ISO 15)
+    assert turned["frame"].high == turned["arm"].low - R / 25.0
+
+
+def test_a_shaft_that_ends_in_the_racks_plane_fails():
+    """The rack's edge passes through the crank's axis, so the shaft enters it by its radius."""
+    assert "beside_shafts_mm" not in {check.name for check in design().checks}
+    long = design(crank_shaft_high_mm=2.0)
+    (check,) = (check for check in long.checks if check.name == "beside_shafts_mm")
+    radius = long.parts_model.built.shafts[0].part.outline.radius
+    assert check.value == pytest.approx(-radius, rel=1e-12) and not check.passes
+    assert check.nearest == "leaving out crank_shaft_high_mm"
+    # up to the rack's lower face it is free
+    assert design(crank_shaft_high_mm=0.0).passes
+
+
+def test_a_crank_without_a_pin_is_one_piece_with_its_shaft():
+    s = solids_of(pin_mm=0.0)
+    assert "arm" not in s
+    assert "crank's shaft" not in s
+    assert any(hole.centre == (R, 0.0) for hole in s["frame"].holes)
+
+
+def test_a_rack_behind_gears_has_a_lower_frame():
+    """Heights by hand: arm, gears and frame of R/10. Focal gears reach C (1 + e)/2."""
+    gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=60.0)
+    geared = design().spec.replace(drive=gears)
+    parts = Design.of(geared).parts_model.built
+    assert [(one.part.low, one.part.high) for one in parts.gear_pair] == [(-10.0, -5.0)] * 2
+    assert (parts.frame.part.low, parts.frame.part.high) == (-15.0, -10.0)
+    crank, driver = parts.shafts
+    assert (crank.at, driver.at) == ((R, 0.0), (R + 60.0, 0.0))
+    assert (crank.part.low, crank.part.high) == (-15.0, 0.0)
+    assert (driver.part.low, driver.part.high) == (-15.0, -5.0)
+    driven = parts.gear_pair[0].part.holes[0]
+    assert driven.radius == crank.part.outline.radius == parts.arm.holes[0].radius
+    assert {hole.centre for hole in parts.frame.part.holes} >= {crank.at, driver.at}
+    checks = {check.name: check for check in Design.of(geared).checks}
+    assert all(check.passes for check in checks.values())
+    # of the shafts, as the guide is farther: driven gear to the driver's shaft
+    least = 60.0 - 0.5 * 60.0 * 1.2 - max(crank.part.outline.radius, driver.part.outline.radius)
+    assert checks["gear_gap_mm"].value == pytest.approx(least, rel=1e-9)
+    # the bearing is a plane of gears lower
+    low, plain = (rack_stressed(Design.of(s).mechanism) for s in (geared, design().spec))
+    assert low.crank_shaft.overhang == pytest.approx(plain.crank_shaft.overhang + 5.0)
+
+
+def test_a_frame_is_as_thick_as_its_widest_bearing():
+    """ISO 15: 5 x 14 x 5 for the crank's shaft, and 20 x 42 x 12 for that of the driver gear."""
+    gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=60.0)
+    size = {"shafts": "turned", "arm_bore_mm": 5.0, "link_bore_mm": 20.0}
+    geared = design(**size).spec.replace(drive=gears)
+    parts = Design.of(geared).parts_model.built
+    assert parts.frame.part.high - parts.frame.part.low == pytest.approx(12.0)
+    radii = {hole.centre: hole.radius for hole in parts.frame.part.holes}
+    assert (radii[R, 0.0], radii[R + 60.0, 0.0]) == (7.0, 21.0)
+    # 26 mm between axes and 28 mm of bearings
+    near = Design.of(geared.replace(drive=gears.replace(gear_distance_mm=26.0)))
+    with pytest.raises(GenevaError, match="crank's shaft and driver gear's shaft leave a wall of"):
+        _ = near.parts_model.built.frame
+
+
+def test_a_gear_that_reaches_the_guide_fails():
+    """Large gears: the driven one's farthest point is C (1 + e)/2 from its axis."""
+    gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=110.0)
+    wide = Design.of(design().spec.replace(drive=gears))
+    (check,) = (check for check in wide.checks if check.name == "gear_gap_mm")
+    rail = next(p for p in wide.parts_model.built.guide if p.part.name == "guide rail").part
+    gap = R - bounds(rail.outline).x1 - 0.5 * 110.0 * 1.2
+    assert gap < 0.0 and not check.passes
+    assert check.value == pytest.approx(gap, rel=1e-9)
+
+
+def test_a_rack_behind_links_has_no_frame():
+    machine = Design(Linear(6), SideCrank(A=0.4))
+    (row,) = (one for one in machine.checks if one.name == "parts")
+    assert row.passes is None
+    assert "frame and guide of a rack behind" in row.why
+    rows = machine.part_table("parts").to_rows()
+    assert {"rack", "arm", "coulisse"} <= {one["name"] for one in rows}
+    (missing,) = (one for one in rows if one["row"] == "missing")
+    assert missing["name"] == "shafts, guide, frame"
+    assert missing["why"] == row.why
+
+
+def test_wide_slots_leave_no_guide():
+    with pytest.raises(GenevaError, match="a guide that the rack always covers would be"):
+        design(lock_radius_mm=0.0, roller_radius_mm=46.0).drawing("guide")
+
+
+def test_the_crank_shaft_bears_pin_force_and_torque():
+    """The ASME code's moment, by hand: at a the crank's pin force F turns it by F R cos a.
+
+    F = m R w² (-sin a) + F0 at 60 rpm, without friction. The bearing in the frame's middle is half
+    a rack, the arm and half a frame from the middle of the rack, all 5 mm thick.
+    """
+    loaded = design().with_("load.mass_kg", 4.0).with_("load.force_N", 30.0)
+    values = loaded.report.table.to_dict()
+    a = np.radians(np.linspace(-90.0, 90.0, 200_001))
+    force = 4.0 * 0.05 * (2.0 * math.pi) ** 2 * -np.sin(a) + 30.0
+    moment = np.hypot(1.5 * force * 0.010, force * 0.05 * np.cos(a)).max()
+    # the scan's peak is within 1e-10 of the true one, which is flat
+    assert values["strength.crank_shaft.moment_Nm"] == pytest.approx(moment, rel=1e-9)
+    stress = 16e3 * moment / (math.pi * 10.0**3)
+    assert values["strength.crank_shaft.stress_MPa"] == pytest.approx(stress, rel=1e-9)
+    rows = {one.name: one for one in loaded.checks}
+    assert {"crank_shaft_stress_MPa", "arm_stress_MPa", "pin_stress_MPa"} <= set(rows)
+    assert "wheel_shaft_stress_MPa" not in rows
+
+
+def test_the_arm_is_stressed_in_its_own_sizes():
+    machine = design(pin_gap_mm=0.5, arm_thickness_mm=6.0, crank_keyway="DIN 6885-1")
+    of = rack_stressed(machine.with_("size.arm_bore_mm", 16.0).mechanism)
+    arm = of.arm
+    assert (arm.length, arm.thickness) == (R, 6.0)
+    assert arm.offset == 0.5 * (5.0 + 6.0) + 0.5  # from the rack's middle to the arm's
+    assert of.crank_shaft == (16.0, 2.5 + 0.5 + 6.0 + 3.0)  # to the frame's middle
+    assert of.crank_key.length == 6.0
+
+
+def ends_by_equilibrium(a: float, loaded: Design, x0: float, half: float) -> tuple[float, float]:
+    """Forces on the bar at both ends of its guide, from the force that the roller exerts.
+
+    Unknown are two forces along x, at y = half and -half: their sum and their moment about the
+    guide's middle balance those of the roller. Friction acts on the rack as the roller slides.
+    """
+    mu, w = loaded.spec.load.friction, 2.0 * math.pi
+    push = loaded.spec.load.mass_kg * 0.05 * w * w * -math.sin(a) + loaded.spec.load.force_N
+    side = math.copysign(1.0, push)
+    touch = np.array([R * (1.0 - math.cos(a)), R * math.sin(a) + side * r])
+    slides = math.copysign(1.0, R * math.sin(a) + side * r)  # of a body that turns by -w
+    force = np.array([mu * abs(push) * slides, push])
+    moment = (touch[0] - x0) * force[1] - touch[1] * force[0]
+    matrix = np.array([[1.0, 1.0], [-half, half]])
+    upper, lower = np.linalg.solve(matrix, [-force[0], -moment])
+    return upper, lower
+
+
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize(
+    ("mass", "force", "mu"), [(4.0, 30.0, 0.1), (4.0, 0.0, 0.3), (0.0, 9.0, 0)]
+)
+def test_the_guide_bears_what_balances_the_roller(mass, force, mu):
+    load = Load(mass_kg=mass, force_N=force, friction=mu, guide_friction=0.0)
+    loaded = Design(Linear(6), size=design(**PARTS).spec.size, load=load)
+    values = loaded.report.table.to_dict()
+    bar, half = span(solids_of()["guide bar"]), 0.5 * values["guide.length_mm"]
+    x0 = 0.5 * sum(bar)
+    assert half == pytest.approx(R - r - 0.1)
+    angles = np.radians(np.linspace(-90.0, 90.0, 20_001))
+    ends = [max(map(abs, ends_by_equilibrium(a, loaded, x0, half))) for a in angles]
+    # the scan's spacing of 0.009 degrees is within 1e-7 of a smooth peak, and has both ends
+    assert values["guide.force_N"] == pytest.approx(max(ends), rel=1e-7)
+    assert values["guide.locks_at_friction"] == pytest.approx(half / (R - x0), rel=1e-14)
+
+
+def test_racks_of_a_batch_have_the_guides_of_each():
+    """A sweep of the number of slots ended in a traceback."""
+    racks = np.array([8, 400])
+    values = many(design().mechanism.spec, {"wheel.z": racks}).machine
+    length = guide(Designs(values))["length_mm"]
+    assert length.tolist() == [2.0 * sizes_of().guide.half] * 2
+
+
+def test_a_guide_locks_where_its_friction_takes_all_of_the_push():
+    """At entry, without friction in the slot: both ends' friction is nu (|N1| + |N2|)."""
+    loaded = design(**PARTS).with_("load.force_N", 10.0)
+    values = loaded.report.table.to_dict()
+    x0, half = 0.5 * sum(span(solids_of()["guide bar"])), 0.5 * values["guide.length_mm"]
+    ends = ends_by_equilibrium(-0.5 * math.pi, loaded, x0, half)
+    friction = values["guide.locks_at_friction"] * sum(map(abs, ends))
+    assert friction == pytest.approx(10.0, rel=1e-12)
+    rows = {one.name: one for one in loaded.with_("load.friction", 0.2).checks}
+    assert rows["guide_locks"].limit == 0.2
+    assert rows["guide_locks"].passes
+    assert "guide_locks" not in {one.name for one in loaded.checks}
+    assert not {one.name: one for one in loaded.with_("load.friction", 0.7).checks}[
+        "guide_locks"
+    ].passes
+
+
+def test_screws_leave_walls_in_the_bars_of_a_small_printed_guide():
+    """Two lines of a nozzle, 0.8 mm, are the least wall of a print: here four of them, not R/10."""
+    small = Design(Linear(4), size=Size(center_distance_mm=20.0, process="print"))
+    s = {one.name: one for one in solids(small.drawing("assembly").solid)}
+    for name in ("guide bar", "guide rail", "guide wall", "guide cover"):
+        low, high = span(s[name])
+        for hole in s[name].holes:
+            x = hole.centre[0]
+            assert min(x - low, high - x) - hole.radius >= 0.8 - 1e-12
+    assert s["guide bar"].high - s["guide bar"].low > 0.0
+    assert np.diff(span(s["guide bar"])) == pytest.approx(3.2)
+    assert span(s["guide rail"])[0] - span(s["guide bar"])[1] == pytest.approx(0.25)  # of a print

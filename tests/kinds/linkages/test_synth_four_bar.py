@@ -1,0 +1,226 @@
+"""Four-bars that synth finds: each against the machine as built, and against brute force."""
+
+import functools
+import math
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from geneva_cli.cli.app import app
+from geneva_cli.design import load
+from geneva_cli.drives.crank import Crank
+from geneva_cli.kinds.linkages import four_bar_family as families
+from geneva_cli.kinds.linkages.four_bar import FourBar
+from geneva_cli.motion.many import many
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.peak_search import worst_peaks
+from geneva_cli.motion.peaks import peak as peak_of
+from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.wheels.external import External
+from geneva_cli.spec.tables import Size
+from geneva_cli.study.synth.parts import parts
+from geneva_cli.study.synth.reading import read_target
+from geneva_cli.study.synth.search import search
+from geneva_cli.study.synth.table import turned
+from geneva_cli.study.synth.written import chosen
+from geneva_cli.verdict.checks import checks
+
+KEYS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg")
+
+
+@functools.cache
+def four_bars(**options):
+    """The four-bars of a wish, with their rows, searched for once."""
+    found = search(read_target(**options)).rows
+    return [row for row in found if row.candidate.drive == "four-bar"]
+
+
+def reach(drive):
+    """How far a joint or the roller comes from the crank's axis, by the linkage's own geometry."""
+    phi = np.linspace(0.0, math.tau, 2001)
+    A = drive.crank_mm * np.exp(1j * phi)
+    d = drive.ground_mm - A
+    # law of cosines: the angle at A between the rocker's pivot and B
+    b, c, D = drive.coupler_mm, drive.rocker_mm, abs(d)
+    e = d / D * np.exp(1j * np.arccos((b * b + D * D - c * c) / (2.0 * b * D)))
+    C = A + drive.point_mm * np.exp(1j * math.radians(drive.point_deg)) * e
+    return max(drive.ground_mm, abs(A + b * e).max(), abs(C).max())
+
+
+@pytest.mark.sampled(4)
+@pytest.mark.parametrize(("z", "motion"), [(3, 75.0), (4, 100.0), (6, 120.0), (12, 200.0)])
+def test_a_four_bar_makes_the_motion(z, motion):
+    """Found in closed form; the machine is solved for in 50 digits, from its path alone.
+
+    A closed form in doubles moves the point by some 1e-15 of its distance, and the motion by that
+    over the slope with which the index angle passes the wanted one: 1e-12 leaves it to be 1/1000.
+    """
+    (row,) = four_bars(motion_deg=repr(motion), z=str(z), external=True)
+    machine = build(row.spec)
+    assert machine.engagements[0].motion_deg == pytest.approx(motion, rel=1e-12)
+    assert machine.center_distance_mm == pytest.approx(100.0, rel=1e-12)
+    assert row.candidate.motion_deg == machine.engagements[0].motion_deg
+    assert [getattr(row.candidate, key) for key in KEYS] == [
+        getattr(row.spec.drive, key) for key in KEYS
+    ]
+    # the search looks at 192 places: a joint goes no farther between them than 1/1000
+    assert reach(row.spec.drive) <= 300.0 * (1.0 + 1e-3)
+
+
+@pytest.mark.parametrize("space", ["0.9", "3"])
+def test_it_is_as_large_as_the_frame_and_no_larger_than_the_space(space):
+    frame = Spec(External(6), Crank(n_rpm=30.0), size=Size(center_distance_mm=80.0))
+    (row,) = four_bars(motion_deg="110", frame=frame, space=space)
+    assert build(row.spec).center_distance_mm == pytest.approx(80.0, rel=1e-12)
+    assert row.spec.drive.n_rpm == 30.0
+    # the search looks at 192 places: a joint goes no farther between them than 1/1000
+    assert reach(row.spec.drive) <= float(space) * 80.0 * (1.0 + 1e-3)
+
+
+def test_where_there_is_no_room_there_is_none():
+    assert four_bars(motion_deg="110", z="6")
+    assert not four_bars(motion_deg="110", z="6", space="0.2")
+
+
+def test_it_takes_one_roller_on_an_external_wheel():
+    assert not four_bars(motion_deg="120", z="6", rollers=2)
+    assert not four_bars(motion_deg="220", z="6", internal=True)
+    assert not four_bars(motion_deg="120", z="6", spherical=True)
+
+
+def test_the_same_in_every_run():
+    one = four_bars(motion_deg="120", z="6")
+    other = [
+        r
+        for r in search(read_target(motion_deg="120", z="6")).rows
+        if r.candidate.drive == "four-bar"
+    ]
+    assert [r.spec.drive for r in one] == [r.spec.drive for r in other]
+
+
+def test_its_row_written_is_what_check_says_and_is_cut(tmp_path):
+    """A long motion, whose gentlest four-bar without room for a roller ran into its wheel, and
+    whose coupler passes below the wheel's axis.
+    """
+    found = search(read_target(motion_deg="168", z="6", external=True))
+    (number,) = [i for i, row in enumerate(found.rows, 1) if row.candidate.drive == "four-bar"]
+    assert found.rows[number - 1].candidate.parts == "maybe"
+    made, text = chosen(found, number)
+    assert not made.trouble
+    file, wheel = tmp_path / "spec.toml", tmp_path / "wheel.dxf"
+    file.write_text(text, encoding="utf-8")
+    assert [c.name for c in load(str(file)).checks if c.passes is False] == []
+    words = ["profile", str(file), "--part", "wheel", "-o", str(wheel)]
+    assert CliRunner().invoke(app, words).exit_code == 0
+    assert wheel.stat().st_size > 1000
+
+
+@pytest.mark.sampled(4)
+@pytest.mark.parametrize(
+    ("bounds", "name", "low", "high"),
+    [
+        (["velocity.max <= 0.8"], "velocity_max", 0.0, 0.8),
+        (["velocity.max >= 0.9", "velocity.max <= 0.92"], "velocity_max", 0.9, 0.92),
+        (["jerk.max <= 5"], "jerk_max", 0.0, 5.0),
+        (["dwell_s >= 0.7"], "dwell_s", 0.7, 1.0),
+    ],
+)
+def test_it_keeps_bounds(bounds, name, low, high):
+    """And of several the search offers one, for it knows these quantities itself."""
+    (row,) = four_bars(
+        motion_deg="90..200", cycle="1", z="6", external=True, subject_to=tuple(bounds)
+    )
+    assert low * (1 - 1e-9) <= getattr(row.candidate, name) <= high * (1 + 1e-9)
+    assert 90.0 * (1 - 1e-9) <= row.candidate.motion_deg <= 200.0 * (1 + 1e-9)
+
+
+def test_a_peak_alone_is_kept_in_the_plain_crank_s_motion_or_any():
+    """The plain crank of z = 6 has 1.35 in 120 degrees, which four-bars do better."""
+    (row,) = four_bars(subject_to=("acceleration.max <= 1.2",), z="6", external=True)
+    assert row.candidate.acceleration_max <= 1.2
+    assert row.candidate.motion_deg == pytest.approx(120.0, rel=1e-12)
+    (row,) = four_bars(subject_to=("acceleration.max <= 0.5",), z="6", external=True)
+    assert row.candidate.acceleration_max <= 0.5
+    assert row.candidate.motion_deg > 120.0
+
+
+@pytest.mark.long
+def test_what_it_sorts_by_is_the_least():
+    target = {"motion_deg": "100..180", "z": "6", "external": True}
+    (gentle,) = four_bars(**target)
+    (slow,) = four_bars(**target, sort="min:velocity.max")
+    assert slow.candidate.velocity_max < gentle.candidate.velocity_max
+    assert slow.candidate.acceleration_max >= gentle.candidate.acceleration_max
+
+
+@functools.cache
+def brute(z, n=400):
+    """Random four-bars: motion, peak acceleration and reach of those that drive a wheel."""
+    random = np.random.default_rng(z)
+    links = {
+        key: random.uniform(30.0, 300.0, n) for key in ("ground_mm", "coupler_mm", "rocker_mm")
+    }
+    sides = np.array(list(links.values()))
+    longest = np.minimum(sides.min(axis=0), sides.sum(axis=0) - 2.0 * sides.max(axis=0))
+    turns = longest > 10.0
+    varied = {f"drive.{key}": side[turns] for key, side in links.items()}
+    count = int(turns.sum())
+    varied["drive.crank_mm"] = longest[turns] * random.uniform(0.05, 0.97, count)
+    varied["drive.point_mm"] = random.uniform(10.0, 400.0, count)
+    varied["drive.point_deg"] = random.uniform(-180.0, 180.0, count)
+    first = {key.removeprefix("drive."): value[0] for key, value in varied.items()}
+    found = many(Spec(External(z), FourBar(**first)), varied)
+    machine = found.machine
+    drives = [
+        FourBar(**{k.removeprefix("drive."): float(v[i]) for k, v in varied.items()})
+        for i in found.which
+    ]
+    peak = worst_peaks(machine, ["acceleration"])["acceleration"].max
+    motion = np.broadcast_to(machine.engagements[0].motion_deg, (len(peak), 1))[:, 0]
+    return drives, motion, peak, machine.center_distance_mm[:, 0]
+
+
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize("z", [4, 6, 9])
+def test_what_brute_force_finds_is_there_or_better(z):
+    """Of hundreds of random four-bars with room the gentlest, for the motion of each."""
+    drives, motion, peak, L = brute(z)
+    fits = [i for i in range(len(peak)) if reach(drives[i]) <= 3.0 * L[i]]
+    # by how gentle they are for their motion
+    gentlest = sorted(fits, key=lambda i: peak[i] * motion[i] ** 2)[:3]
+    assert len(fits) > 20
+    for i in gentlest:
+        target = read_target(motion_deg=repr(float(motion[i])), z=str(z))
+        (family,) = families.four_bars(target, [External(z)])
+        found = build(family.make(0.0)).engagements[0]
+        assert peak_of(found.motion, "acceleration").max <= peak[i]
+
+
+def test_no_lock_is_in_the_way_where_there_is_none():
+    """A four-bar has no locking disc, and no horn between recess and slot."""
+    drive = FourBar(
+        crank_mm=41.67,
+        ground_mm=190.8,
+        coupler_mm=68.18,
+        rocker_mm=201.5,
+        point_mm=47.36,
+        point_deg=49.36,
+        entry_deg=114.07,
+    )
+    size = Size(roller_radius_mm=8.0, wheel_hub_mm=0.0)
+    machine = build(Spec(External(8, held_by="detent"), drive, size=size))
+    assert parts(machine).why == ""
+
+
+@pytest.mark.long
+def test_another_four_bar_passes_where_the_gentlest_fails():
+    """Its coupler comes to the wheel's shaft; of those found with it, one that does not."""
+    found = search(read_target(tau="..0.3", z="5", external=True, rollers=1))
+    plain, shown = turned(found), {one.no: one.row for one in turned(found, buildable=True)}
+    (number, first), *_ = [one for one in plain if one.row.candidate.drive == "four-bar"]
+    assert first.is_impossible
+    other = shown[number]
+    assert other.candidate.drive == "four-bar"
+    assert other.candidate.acceleration_max > first.candidate.acceleration_max
+    assert not [c for c in checks(build(other.spec)) if c.passes is False]

@@ -1,0 +1,191 @@
+"""Certificates of the full turn on a sphere, against dense samples and collisions of known depth.
+
+The witnesses: points that lie densely on the edges, gaps at positions that lie densely in an
+interval, parts that are larger by a known amount, and sectors that are turned out of their place.
+"""
+
+import math
+import random
+
+import numpy as np
+import pytest
+import repo
+from sampling import some
+from scipy.spatial import cKDTree
+from turn_witness import ROUNDING, TO_MM, check_bounds, check_proof, least_gap, turn_of
+from words import load
+
+from geneva_cli import Crank, Design, Size, Spherical, design
+from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.sphere import Rotation, place
+from geneva_cli.geometry.sphere_arcs import SphereArcs
+from geneva_cli.geometry.sphere_extents import Circle, FromCircle, farthest, short_arcs
+from geneva_cli.kinds.spherical.gaps import BallGaps
+from geneva_cli.kinds.spherical.shells import shells
+from geneva_cli.parts.turn.full_turn import full_turn
+from geneva_cli.parts.turn.turn_certificate import certificate, tolerance_mm
+
+MACHINES = some(300, 8)
+DESIGNS = sorted(path.name for path in repo.DESIGNS.glob("spherical-*.toml"))
+
+
+def parts_of(name):
+    return shells(load(repo.DESIGNS / name))
+
+
+def random_parts(seed):
+    """The shells of a random machine; None if it cannot be."""
+    rng = random.Random(seed)
+    z, L = rng.randint(3, 16), 100.0
+    axes_deg = rng.uniform(15.0, 165.0)
+    arm = math.asin(math.sin(math.radians(axes_deg)) * math.sin(math.pi / z))
+    size = Size(
+        L,
+        L * arm * rng.uniform(0.02, 0.25),
+        slot_clearance_mm=rng.choice([0.0, 0.02, 0.3]),
+        lock_clearance_mm=rng.choice([0.0, 0.03, 0.5]),
+    )
+    drive = Crank(rollers=rng.choice((1, 1, 2)))
+    try:
+        return shells(Design(Spherical(z, axes_deg=axes_deg), drive, size=size).mechanism)
+    except GenevaError:
+        return None
+
+
+def random_machines(first):
+    machines = (random_parts(seed) for seed in range(first, first + MACHINES))
+    return [parts for parts in machines if parts is not None]
+
+
+def spoilt(parts, **larger_mm):
+    """The parts, of which some angles are larger by lengths on the sphere."""
+    L, ball = parts.ball.radius_mm, parts.ball
+    ball = ball._replace(**{k: getattr(ball, k) + v / L for k, v in larger_mm.items()})
+    return parts._replace(ball=ball, gaps=BallGaps(parts.assembly, ball, parts.crank))
+
+
+def with_sectors(parts, turn):
+    """The parts with their locking sectors turned about the crank's axis by an angle."""
+    c, s = math.cos(turn), math.sin(turn)
+    about = Rotation((c, s, 0.0), (-s, c, 0.0), (0.0, 0.0, 1.0))
+    crank = [region.turned(about) for region in parts.crank]
+    return parts._replace(crank=crank, gaps=BallGaps(parts.assembly, parts.ball, crank))
+
+
+def dense_points(arcs, each):
+    every = np.linspace(0.0, 1.0, each)
+    points = [arcs.at(np.full(each, i), every * arcs.sweep[i]) for i in range(len(arcs))]
+    return np.concatenate(points)
+
+
+def angles(points, tree):
+    chord, _ = tree.query(points)
+    return 2.0 * np.arcsin(0.5 * chord)
+
+
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize("name", DESIGNS)
+def test_nearest_and_farthest_distances_against_dense_points(name):
+    """Points of the wheel's edge lie at most 1e-3 radians apart, and those of an arc 1e-4."""
+    wheel = parts_of(name).gaps.wheel
+    edge = dense_points(wheel, 3000)
+    tree = cKDTree(edge)
+    rng = np.random.default_rng(1)
+    points = rng.normal(size=(50, 3))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    far = math.pi - angles(-points, tree)
+    assert np.allclose(farthest(wheel, points).max(axis=1), far, atol=1e-3)
+    assert (farthest(wheel, points).max(axis=1) >= far - ROUNDING).all()
+    x, y, axis = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    circle = Circle(axis, x, y, 0.7)
+    arcs = some(300, 20)
+    middle, half = rng.uniform(-9.0, 9.0, arcs), rng.uniform(0.0, 0.05, arcs)
+    along = middle[:, None] + half[:, None] * np.linspace(-1.0, 1.0, 1001)
+    away = angles(circle.at(along.ravel()), tree).reshape(along.shape).min(axis=1)
+    clear = away > 0.01  # arcs that cross no edge
+    assert clear.sum() > arcs // 3
+    least = FromCircle(wheel, circle)(middle[clear], half[clear])
+    assert (least <= away[clear] + ROUNDING).all()
+    assert np.allclose(least, away[clear], atol=1e-3)
+
+
+def test_short_arcs_are_the_same_edges():
+    regions = parts_of("spherical-60deg.toml").crank
+    short = short_arcs(regions, math.radians(1.0))
+    points = np.array([place(a, b) for a in (0.1, 0.3, 0.5) for b in np.linspace(0.0, 6.0, 40)])
+    edges = [SphereArcs(region.boundary) for region in regions]
+    whole = np.min([np.abs(edge.signed(points)[0]) for edge in edges], axis=0)
+    assert np.abs(short.distances(points).min(axis=1) - whole).max() < 1e-14
+    assert short.sweep.max() <= math.radians(1.0) * (1.0 + 1e-9)
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_no_gap_within_an_interval_is_below_its_bound(name):
+    check_bounds(parts_of(name), np.random.default_rng(3))
+
+
+def test_no_gap_of_a_random_machine_is_below_its_bound():
+    for i, parts in enumerate(random_machines(1000)):
+        check_bounds(parts, np.random.default_rng(i))
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_designs_are_proved_to_a_micrometre_of_their_smallest_gap(name):
+    parts = parts_of(name)
+    gap, to_mm = full_turn(parts).smallest.mm, tolerance_mm(parts)
+    found = check_proof(parts, gap, to_mm)
+    assert found.proved
+    assert found.intervals < 1000
+    assert to_mm == TO_MM
+
+
+def test_random_machines_keep_what_is_proved():
+    """Gaps at dense positions of a turn are at least the proved bound; most are proved."""
+    every = [check_proof(parts, full_turn(parts).smallest.mm) for parts in random_machines(0)]
+    assert sum(one.proved for one in every) > 0.9 * len(every)
+
+
+@pytest.mark.sampled(4)
+@pytest.mark.parametrize("depth", [0.5 * TO_MM, 0.9 * TO_MM, 1.1 * TO_MM, 0.05, 0.5])
+@pytest.mark.parametrize("name", DESIGNS)
+def test_a_collision_of_known_depth_is_proved_to_no_less(name, depth):
+    """A roller larger than its slot, and a locking sector larger than its recess."""
+    parts = parts_of(name)
+    for worse in (spoilt(parts, roller=depth), spoilt(parts, recess=-depth)):
+        found = certificate(worse, 0.0, TO_MM)
+        assert found.proved == (depth < TO_MM)
+        if found.proved:
+            assert found.least_mm <= -depth
+        else:
+            assert -depth - ROUNDING <= found.open.gap_mm < -TO_MM
+
+
+def test_sectors_out_of_their_place_are_never_proved_free():
+    """A sector that is turned ahead meets a horn for a moment, at entry or exit."""
+    rng = random.Random(5)
+    collides = free = 0
+    for name in DESIGNS:
+        for _ in range(some(60, 3)):
+            parts = with_sectors(parts_of(name), math.radians(10.0 ** rng.uniform(-4.0, 0.5)))
+            gap = least_gap(parts, turn_of(parts, some(8_000, 2_000)))
+            found = certificate(parts, 0.0, TO_MM)
+            collides += gap < -TO_MM
+            free += found.proved
+            assert not (found.proved and gap < found.least_mm)
+            assert found.proved or gap < TO_MM
+    assert collides
+    assert free
+
+
+def test_the_check_says_what_is_proved():
+    *others, check = Design(Spherical(6), size=Size(80.0, 5.0)).proved_to(1e-4)
+    assert (check.name, check.passes, check.is_proof) == ("gap_proved_mm", True, True)
+    assert check.why.startswith("collision-free, proved to 0.1 µm")
+    assert -1e-4 <= check.value <= 0.0
+    assert not any(other.is_proof for other in others)
+
+
+@pytest.mark.parametrize("name", ["limits.toml", "tolerances.toml", "gear-sector.toml"])
+def test_no_check_but_the_proof_passes_with_words(name, no_advice):
+    checks = design.load(str(repo.DESIGNS / name)).checks
+    assert [check.name for check in checks if check.is_proof] == ["gap_proved_mm"]

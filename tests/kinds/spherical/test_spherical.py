@@ -1,0 +1,482 @@
+"""Spherical wheels and cranks: in closed form, through a whole motion, laid flat, and as solids."""
+
+import math
+from collections import Counter
+
+import mpmath
+import numpy as np
+import pytest
+from drawing_witness import vertices
+from step_witness import File
+
+from geneva_cli import Crank, Design, Size, Spherical
+from geneva_cli.drawings.model import PartsModel
+from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.measure import segment_length
+from geneva_cli.geometry.moments import area
+from geneva_cli.geometry.plates import solids
+from geneva_cli.geometry.shapes import Contour
+from geneva_cli.geometry.sphere_arcs import SphereArcs
+from geneva_cli.kinds.spherical.arm import crank_arm
+from geneva_cli.kinds.spherical.arm_drawing import arm_cone
+from geneva_cli.kinds.spherical.crank import at_mid_motion, rollers, sectors
+from geneva_cli.kinds.spherical.drawings import crank_cone, wheel_cone
+from geneva_cli.kinds.spherical.parts import SphereParts, wheel_shell
+from geneva_cli.kinds.spherical.sizes import ball
+from geneva_cli.kinds.spherical.wheel import POLE, edge_points, wheel_regions
+from geneva_cli.output.step import chunks
+from geneva_cli.verdict.checks.registry import standing_checks
+
+CLEAR = Size(80.0, 5.0, slot_clearance_mm=0.05, lock_clearance_mm=0.04)
+MACHINES = {
+    "90": Design(Spherical(6), size=Size(80.0, 5.0)),
+    "60, two rollers": Design(Spherical(5, axes_deg=60), Crank(rollers=2), size=CLEAR),
+    "120": Design(Spherical(6, axes_deg=120), size=CLEAR),
+    "3 slots": Design(Spherical(3), size=CLEAR),
+    "no lock": Design(Spherical(8), size=Size(60.0, 3.0, lock_radius_mm=0.0)),
+}
+
+
+@pytest.fixture(params=MACHINES)
+def machine(request):
+    return MACHINES[request.param]
+
+
+def sizes(design):
+    return ball(design.mechanism)
+
+
+def geometry(found):
+    """theory.md 1.3, from z and the shafts' angle: arm, mouth, half the motion."""
+    b, S = math.pi / found.z, found.axes
+    arm = math.asin(math.sin(S) * math.sin(b))
+    mouth = math.atan2(math.sin(S) * math.cos(b), math.cos(S))
+    half = math.acos(math.tan(arm) * math.cos(S) / math.sin(S))  # tan th / tan S, at 90 degrees 0
+    return arm, mouth, half
+
+
+def test_sizes_are_those_of_the_theory(machine):
+    found, S = sizes(machine), math.radians(machine.spec.wheel.axes_deg)
+    arm, mouth, half = geometry(found)
+    assert found.axes == pytest.approx(S, abs=1e-15)
+    assert found.arm == pytest.approx(arm, abs=1e-15)
+    assert found.half_motion == pytest.approx(half, abs=1e-14)
+    assert math.cos(found.rim) == pytest.approx(math.cos(mouth) * math.cos(found.half_width))
+
+
+def in_wheel(found, u):
+    """How far directions (n, 3) are within the wheel, radians, by its definition; inside above 0.
+
+    Nearer than the rim, in no slot and no recess.
+    """
+    depth = found.rim - np.arctan2(np.hypot(u[:, 0], u[:, 1]), u[:, 2])
+    depth = np.minimum(depth, np.arctan2(np.hypot(u[:, 0], u[:, 1]), u[:, 2]) - found.inner)
+    for k in range(found.z):
+        for azimuth, centre in ((2 * k, None), (2 * k + 1, found.axes)):
+            a = azimuth * math.pi / found.z
+            if centre is None:
+                depth = np.minimum(depth, beyond_slot(found, u, a))
+            elif found.recess:
+                c = u @ polar(centre, a)
+                depth = np.minimum(depth, np.arccos(np.clip(c, -1.0, 1.0)) - found.recess)
+    return depth
+
+
+def beyond_slot(found, u, a):
+    """The angle from a slot's middle line, less half its width."""
+    end, aside = polar(found.bottom, a), np.array((-math.sin(a), math.cos(a), 0.0))
+    on = polar(found.bottom + math.pi / 2.0, a)
+    along = (u @ on > 0.0) & (u @ polar(math.pi / 2.0, a) > 0.0)  # and not across the wheel
+    off = np.where(along, np.abs(np.arcsin(u @ aside)), np.arccos(np.clip(u @ end, -1.0, 1.0)))
+    return off - found.half_width
+
+
+def polar(angle, azimuth):
+    s = math.sin(angle)
+    return np.array((s * math.cos(azimuth), s * math.sin(azimuth), math.cos(angle)))
+
+
+def points(regions, each=200):
+    share = np.linspace(0.0, 1.0, each)
+    return np.concatenate(
+        [arc.at(arc.sweep * share)[0] for region in regions for arc in region.boundary]
+    )
+
+
+def test_a_hub_is_longer_than_the_wheel_by_its_key():
+    size = Size(80.0, 5.0, wheel_bore_mm=10.0, wheel_hub_mm=24.0, wheel_hub_length_mm=7.0)
+    own = ball(Design(Spherical(6), size=size).mechanism)
+    inside, outside = own.span_mm
+    assert own.hub_length_mm(size) == pytest.approx(outside - inside + 7.0, rel=1e-14)
+    without = own.hub_length_mm(size.replace(wheel_hub_length_mm=None))
+    assert without == pytest.approx(own.arm_span_mm[1] - inside, rel=1e-14)
+
+
+def test_the_boundary_is_that_of_the_definition(machine):
+    found = sizes(machine)
+    assert np.abs(in_wheel(found, edge_points(found, 40))).max() < 1e-14
+    for region in wheel_regions(found, found.inner):
+        ends = zip(region.boundary, (*region.boundary[1:], region.boundary[0]), strict=True)
+        assert all(arc.end == after.start for arc, after in ends)
+
+
+@pytest.mark.parametrize("name", ["90", "60, two rollers", "no lock"])
+def test_solid_angle_and_inertia_are_those_of_integrals(name):
+    """Over azimuths, of what the definition leaves of each meridian; mpmath, to 1e-12."""
+    found = sizes(MACHINES[name])
+    b, S, w = math.pi / found.z, found.axes, found.half_width
+
+    def circle(centre, angle, azimuth):
+        """Polar angles at which a meridian enters and leaves a circle about a point on 0."""
+        A, B = mpmath.cos(centre), mpmath.sin(centre) * mpmath.cos(azimuth)
+        reach = mpmath.cos(angle) / mpmath.hypot(A, B)
+        if reach >= 1:
+            return None
+        middle = mpmath.atan2(B, A)
+        return middle - mpmath.acos(reach), middle + mpmath.acos(reach)
+
+    def left(azimuth, to):
+        high = found.rim
+        recess = circle(S, found.recess, azimuth - b) if found.recess else None
+        if recess:
+            high = min(high, recess[0])
+        kept = to(high) - to(found.inner)
+        slot = circle(found.bottom, w, azimuth)
+        if slot:
+            out = mpmath.sin(w) / mpmath.sin(azimuth) if azimuth else 2
+            # the wall leaves the meridian where it passes the rim, or on its way there
+            top = found.rim if out >= mpmath.sin(found.rim) else mpmath.asin(out)
+            foot = mpmath.atan(mpmath.tan(found.bottom) / mpmath.cos(azimuth))
+            top = slot[1] if top < foot else top
+            kept -= to(top) - to(slot[0])
+        return kept
+
+    corner, foot = found.corner(), math.atan2(math.tan(w), math.sin(found.bottom))
+    widest = math.asin(math.sin(w) / math.sin(found.bottom))
+    breaks = sorted({0.0, corner, foot, widest, b - found.opened(), b})
+
+    def squares(polar):  # the integral of sin², over the sphere
+        return mpmath.cos(polar) ** 3 / 3 - mpmath.cos(polar)
+
+    whole = 2 * mpmath.quad(lambda a: left(a, lambda polar: -mpmath.cos(polar)), breaks)
+    for region in wheel_regions(found, found.inner):
+        assert region.area == pytest.approx(float(whole), rel=1e-12)
+    seen = found.z * 2 * mpmath.quad(lambda a: left(a, squares), breaks)
+    seen += 2 * mpmath.pi * (squares(found.inner) - squares(0.0))  # closed down to the hub's hole
+    low, high = found.span_mm
+    hole = mpmath.quad(
+        lambda s: s**3 * (mpmath.sqrt(high**2 - s * s) - mpmath.sqrt(low**2 - s * s)),
+        [0, found.hub_mm],
+    )
+    wanted = seen * (high**5 - low**5) / 5 - 2 * mpmath.pi * hole
+    assert wheel_shell(Size(), found).inertia(POLE) == pytest.approx(float(wanted), rel=1e-12)
+
+
+def turned(u, angle):
+    c, s = math.cos(angle), math.sin(angle)
+    return np.column_stack((u[:, 0] * c - u[:, 1] * s, u[:, 0] * s + u[:, 1] * c, u[:, 2]))
+
+
+@pytest.mark.parametrize("at", range(len(MACHINES)))
+def test_nothing_meets_in_a_motion(at):
+    """The crank's edge, turned by theory's formula, is never in the wheel; the wheel's edge is
+    never in a sector; the roller leaves the slot's clearance on both sides."""
+    found = sizes([*MACHINES.values()][at])
+    frame = np.column_stack(at_mid_motion(found))
+    locking, rolling = sectors(found), points(rollers(found)[:1])
+    clearance = found.half_width - found.roller
+    _, _, half = geometry(found)
+    wheel = edge_points(found, 100)
+    for a in np.linspace(-half, half, 31):
+        n = math.tan(found.arm) * math.sin(a)
+        m = math.sin(found.axes) - math.tan(found.arm) * math.cos(found.axes) * math.cos(a)
+        psi = math.atan2(n, m)
+
+        def seen(crank, a=a, psi=psi):
+            return turned(turned(crank, -a) @ frame.T, -psi)
+
+        assert in_wheel(found, seen(rolling)).max() < 1e-12 - 0.99 * clearance
+        if not locking:
+            continue
+        assert in_wheel(found, seen(points(locking, 60))).max() < 1e-9
+        # the wheel's edge in the crank's frame: between two azimuths, and nearer than the lock
+        x, y, up = turned(turned(wheel, psi) @ frame, a).T
+        angle, azimuth = np.arctan2(np.hypot(x, y), up), np.arctan2(y, x) % math.tau
+        low = min(math.acos(min(1.0, arc.start[2])) for r in locking for arc in r.boundary)
+        behind = (azimuth[:, None] - np.array(found.rollers)) % math.tau
+        between = (behind > half + 1e-9).all(axis=1) & (math.tau - behind > half + 1e-9).all(axis=1)
+        inside = between & (angle > low + 1e-9) & (angle < found.lock - 1e-9)
+        assert not inside.any()
+
+
+def test_it_is_held_in_the_dwell():
+    """The sectors lie in the recess, its clearance away, on both sides of the line of centres."""
+    found = sizes(MACHINES["60, two rollers"])
+    held = points(sectors(found), 400)
+    rest = turned(held, math.pi / 2.0) @ np.column_stack(at_mid_motion(found)).T
+    gap, aside = in_wheel(found, turned(rest, math.pi / found.z)), rest[:, 1] > 0.0
+    for side in (aside, ~aside):
+        assert gap[side].max() == pytest.approx(-0.04 / 80.0, rel=1e-3)
+
+
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize("curves", ["arcs", "spline"])
+def test_laid_flat(machine, curves):
+    """Rolled up again, every point of the outline is on the wheel's edge, seen from the centre."""
+    found, L = sizes(machine), machine.mechanism.center_distance_mm
+    drawing = machine.drawing("wheel", 0.01, curves)
+    (outline,) = (s for s in drawing.shapes if s.layer == "WHEEL")
+    flat = np.array(vertices(outline, 1e-3))
+    cone = wheel_cone(found)
+    m, share = cone.polar, math.cos(cone.polar)
+    apex = np.array((-L * math.tan(m), 0.0))
+    way = flat - apex
+    side = math.copysign(1.0, share)
+    turn = np.unwrap(np.arctan2(side * way[:, 1], side * way[:, 0])) / share
+    angle = m + np.arctan(np.hypot(*way.T) * side / L - math.tan(m))
+    u = np.column_stack((np.sin(angle) * np.cos(turn), np.sin(angle) * np.sin(turn), np.cos(angle)))
+    depth = in_wheel(found, u)
+    # of the seam, amid two slots, points are inside
+    seam = np.abs(np.remainder(turn + math.pi / found.z + 0.1, math.tau) - 0.1) < 1e-6
+    # 0.01 mm and the chords' 0.001, on a cone that is at most twice as far as the sphere
+    assert np.abs(depth[~seam]).max() < 0.011 / L
+    assert (~seam).sum() > 500
+
+
+def test_a_cylinder_and_a_cone_that_opens_the_other_way():
+    """Amid the slots at 90 degrees from the axis, and past them: nothing is special there."""
+    for axes in (110.0, 112.7, 130.0):
+        found = sizes(Design(Spherical(6, axes_deg=axes), size=CLEAR))
+        cone = wheel_cone(found)
+        near = [cone.point(cone.polar + d, 0.2) for d in (-0.01, 0.01)]
+        # along a meridian nothing is stretched where the cone touches
+        assert math.dist(*near) == pytest.approx(2.0 * 80.0 * math.tan(0.01), rel=1e-12)
+        across = math.dist(cone.point(cone.polar, 0.0), cone.point(cone.polar, 1e-4))
+        assert across == pytest.approx(80.0 * math.sin(cone.polar) * 1e-4, rel=1e-7)
+
+
+def test_the_crank_laid_flat():
+    """Its lock is an arc about the apex; the roller's outline is as wide as its cone."""
+    design = MACHINES["90"]
+    found = sizes(design)
+    drawing, cone = design.drawing("crank", 0.001), crank_cone(found)
+    sector, roller = (s for s in drawing.shapes if s.layer in ("CRANK", "ROLLER"))
+    assert isinstance(sector, Contour)
+    apex = -cone.apex_mm
+    far = cone.apex_mm + 80.0 * math.tan(found.lock - found.arm)
+    assert sector.segments[0].centre == pytest.approx((apex, 0.0), abs=1e-9)
+    assert sector.segments[0].radius == pytest.approx(far, rel=1e-12)
+    x, _ = np.array(vertices(roller, 1e-4)).T
+    wide = 80.0 * math.tan(5.0 / 80.0)  # its cone's, where its axis meets the sphere
+    assert (x.min(), x.max()) == pytest.approx((-wide, wide), abs=2e-3)
+    assert "sphere 30 deg from the crank's axis, 46.188 mm from its apex" in drawing.title
+
+
+@pytest.mark.parametrize("name", ["120", "3 slots", "no lock"])
+def test_the_arm_laid_flat(name):
+    """Rolled up again its edge is the arm's, but for the cut and the hub; each hole of pins
+    and bolts is a round about its place."""
+    design = MACHINES[name].with_("size.press_fit_mm", 0.01)
+    drawn = PartsModel(design.mechanism)
+    made, found = crank_arm(drawn.shells), drawn.shells.ball
+    outline, *holes = design.drawing("arm", 0.005).shapes
+    cone = arm_cone(found)
+    R, m, share = cone.radius_mm, cone.polar, math.cos(cone.polar)
+    around = sorted(math.atan2(h.axis[1], h.axis[0]) % math.tau for h in made.holes[1:])
+    after = [*around[1:], around[0] + math.tau]
+    _, cut = max((b - a, 0.5 * (a + b)) for a, b in zip(around, after, strict=True))
+    first = share * (cut % math.tau - math.tau) - 1e-9
+
+    def rolled(shape):
+        x, y = np.array(vertices(shape, 1e-3)).T
+        x = x + cone.apex_mm
+        angle, turn = m + np.arctan(np.hypot(x, y) / R - math.tan(m)), np.arctan2(y, x)
+        turn = ((turn - first) % math.tau + first) / share
+        ways = np.cos(turn), np.sin(turn)
+        return np.column_stack((*(np.sin(angle) * w for w in ways), np.cos(angle)))
+
+    edge = SphereArcs(made.boundary.boundary)
+    away = rolled(outline)
+    assert len(made.bolts) == 2 * len(drawn.shells.crank)
+    hub = np.arccos(away[:, 2]) - made.holes[0].angle(R)
+    off = np.minimum(np.abs(edge.signed(away)[0]), np.abs(hub))
+    # two straight lines of the cut; elsewhere 0.005 mm and the chords' 0.001
+    assert (off > 0.0065 / R).sum() <= 4
+    for hole, pin in zip(holes, made.holes[1:], strict=True):
+        seen = np.arccos(np.clip(rolled(hole) @ np.array(pin.axis), -1.0, 1.0))
+        assert np.abs(seen - pin.angle(R)).max() < 0.0065 / R
+    assert made.pins[0].radius == found.pin_mm - 0.005
+
+
+def test_an_arm_with_bolts_keyway_and_hub_inside():
+    """Shafts at 40 degrees leave room for a crank's hub within the wheel's shell."""
+    size = Size(
+        100.0, 2.0, crank_bore_mm=8.0, crank_hub_mm=12.0, crank_keyway="DIN 6885-1", lock_bolts=2
+    )
+    design = Design(Spherical(4, axes_deg=40), size=size)
+    found = PartsModel(design.mechanism).shells
+    whole = SphereParts(found)
+    assert [hole.radius for hole in whole.arm.bolts] == [1.25, 1.25]
+    names = Counter(one.name for one in solids(whole.crank.part))
+    assert names["crank's hub"] == 1
+    (sector,) = (one for one in solids(whole.crank.part) if one.name == "locking sector")
+    assert sector.holes == whole.arm.bolts
+    # the sector begins beside the hub, and the shaft goes through both
+    (hub,) = (one for one in solids(whole.crank.part) if one.name == "crank's hub")
+    low = math.pi - found.crank[0].boundary[2].angle
+    assert low >= math.asin(hub.outline.radius / sector.inner) - 1e-15
+    shaft = whole.shafts[1].part
+    assert (shaft.low, hub.high) == (hub.low, found.ball.arm_span_mm[0])
+    assert isinstance(hub.holes[0], Contour)
+    list(chunks(design.drawing("assembly", 0.05), "mm"))
+
+
+@pytest.mark.parametrize(
+    ("size", "said"),
+    [
+        ({"arm_hub_mm": 3.0}, "arm_hub_mm = 3: the hub must be above"),
+        (
+            {"arm_hub_mm": 90.0, "arm_thickness_mm": 2.0},
+            "with flat faces this wide misses its shell",
+        ),
+        ({"arm_eye_mm": 2.0}, "arm_eye_mm = 2: the eye must be above 5, the pin's hole"),
+        ({"arm_bore_mm": 60.0, "arm_thickness_mm": 40.0}, "cuts the pin's hole"),
+        (
+            {"lock_bolts": 9, "lock_bolt_mm": 9.0},
+            "round holes of the crank arm overlap",
+        ),
+        ({"lock_bolts": 2, "lock_radius_mm": 0.0}, "no locking disc to fix"),
+        (
+            {"wheel_bore_mm": 0.0, "wheel_keyway": "DIN 6885-1"},
+            "only the wheel's hub has a bore that is not round",
+        ),
+        ({"wheel_shaft_low_mm": 20.0}, "the wheel's shaft would reach from 20 up to 8 mm"),
+    ],
+)
+def test_no_arm_or_hub(size, said):
+    found = PartsModel(Design(Spherical(6), size=Size(80.0, 5.0, **size)).mechanism).shells
+    with pytest.raises(GenevaError, match=said):
+        _ = SphereParts(found).members
+
+
+def test_bolts_for_a_dial():
+    """Holes to the centre, half-way from the hub's hole to the cap's edge, evenly amid slots."""
+    design = Design(Spherical(6), size=Size(80.0, 5.0, dial_bolts=3, dial_bolt_mm=4.0))
+    parts = PartsModel(design.mechanism).built
+    found = parts.shells
+    _, *holes = wheel_shell(design.spec.size, found.ball).holes
+    hub = math.asin(found.ball.hub_mm / 76.0)
+    far = 0.5 * (hub + found.ball.inner)
+    ways = [math.pi / 6.0 + k * math.tau / 3.0 for k in range(3)]
+    wanted = [polar(far, way) for way in ways]
+    assert np.array([hole.axis for hole in holes]) == pytest.approx(np.array(wanted), abs=1e-15)
+    (wall,) = (c for c in standing_checks(parts) if c.name == "dial_wall_mm")
+    ends = found.ball.bottom - found.ball.half_width
+    least = min(far - hub, ends - far) - math.asin(2.0 / 76.0)
+    assert wall.value == pytest.approx(76.0 * least, rel=1e-12)
+    lighter = [wheel_shell(s, found.ball).volume for s in (Size(), design.spec.size)]
+    assert lighter[0] - lighter[1] == pytest.approx(3 * math.pi * 4.0 * 8.0, rel=1e-3)
+    for key, value, said in (
+        ("dial_bolt_circle_mm", 20.0, "they must lie between circles of"),
+        ("wheel_bore_mm", 0.0, "the wheel is open about its axis"),
+    ):
+        rows = standing_checks(PartsModel(design.with_(f"size.{key}", value).mechanism).built)
+        (failing,) = (c for c in rows if not c.passes)
+        assert failing.name == "dial_wall_mm"
+        assert said in failing.why
+
+
+def test_a_wheel_without_a_bore_stays_a_ring():
+    found = sizes(Design(Spherical(6), size=Size(80.0, 5.0, wheel_bore_mm=0.0)))
+    assert found.opening_mm == 0.0
+    assert len(wheel_shell(Size(), found).regions) == 6
+
+
+def test_a_kerf_is_beside_the_sheet():
+    """Half of it outside of the wheel laid flat: the area grows by its length."""
+    design = MACHINES["90"]
+    (outline,), (path,) = (
+        [s for s in design.drawing("wheel", 0.05, kerf_mm=kerf).shapes if s.layer == "WHEEL"]
+        for kerf in (None, 0.02)
+    )
+    length = sum(map(segment_length, outline.segments))
+    # a corner adds the kerf's square, some 20 corners of 1e-4 mm²
+    assert abs(area(path)) - abs(area(outline)) == pytest.approx(0.01 * length, abs=2e-3)
+    with pytest.raises(GenevaError, match="no solid"):
+        list(chunks(design.drawing("wheel", 0.05, kerf_mm=0.2), "mm"))
+
+
+def test_solids_are_closed(machine):
+    """Each edge bounds two faces, once either way; circles pass through their ends."""
+    drawing = machine.drawing("assembly", 0.05)
+    file = File("".join(chunks(drawing, "mm")))
+    bodies, shells = file.all("MANIFOLD_SOLID_BREP"), solids(drawing.shells)
+    assert len(bodies) == len(set(shells))
+    used = Counter()
+    for face in file.all("ADVANCED_FACE"):
+        bounds = file.values(face)[1]
+        for bound in bounds:
+            for side in file.values(file.values(bound)[1])[1]:
+                _, _, _, edge, along = file.values(side, "ORIENTED_EDGE")
+                used[edge, along] += 1
+    edges = file.all("EDGE_CURVE")
+    assert used == Counter({(edge, way): 1 for edge in edges for way in (".T.", ".F.")})
+    for number in edges:
+        _, start, end, curve, _ = file.values(number)
+        if file.of[curve][0] != "CIRCLE":
+            continue
+        _, frame, radius = file.values(curve)
+        centre, axis, _ = (np.array(v) for v in file.frame(frame))
+        for vertex in (start, end):
+            arm = np.array(file.vertex(vertex)) - centre
+            assert math.hypot(*arm) == pytest.approx(radius, abs=1e-10)
+            assert abs(arm @ axis) < 1e-10
+
+
+@pytest.mark.parametrize(
+    ("size", "z", "said"),
+    [
+        (Size(80.0, 20.0, lock_clearance_mm=2.0), 12, "the locking sector does not fit"),
+        (Size(80.0, 20.6, lock_radius_mm=0.0), 12, "the slots meet"),
+        (Size(80.0, 5.0, lock_radius_mm=39.0), 6, "lock_radius_mm = 39: it must be above"),
+        (
+            Size(80.0, 5.0, wheel_bore_mm=140.0),
+            6,
+            "wheel_bore_mm = 140: the slots reach this diameter",
+        ),
+        (Size(80.0, 5.0, wheel_thickness_mm=90.0), 6, "it must be below 80"),
+        (
+            Size(80.0, 5.0, wheel_hub_mm=130.0),
+            6,
+            "wheel_hub_mm = 130: the slots reach this diameter",
+        ),
+        (Size(80.0, 5.0, lock_thickness_mm=84.0), 6, "lock_thickness_mm = 84: the locking sectors"),
+        (Size(80.0, 5.0, pin_mm=9.6), 6, "pin_mm = 9.6: it must be below 9.49"),
+        (Size(80.0, 5.0, edge_chamfer_mm=50.0), 6, "edge_chamfer_mm = 50: it must be below 4"),
+    ],
+)
+def test_refused(size, z, said):
+    with pytest.raises(GenevaError, match=said):
+        Design(Spherical(z), size=size).drawing("wheel")
+
+
+def test_bolts_hold_the_sectors_by_default():
+    """Two in each, in the middle of the sector, with the least wall round them."""
+    drawn = PartsModel(Design(Spherical(6)).mechanism)
+    arm, (sector,) = crank_arm(drawn.shells), drawn.shells.crank
+    low, high = math.pi - sector.boundary[2].angle, sector.boundary[0].angle
+    polar_angles = [math.acos(bolt.axis[2]) for bolt in arm.bolts]
+    assert polar_angles == pytest.approx([0.5 * (low + high)] * 2, abs=1e-12)
+    assert arm.wall >= drawn.shells.sizes.wall_min
+    without = PartsModel(Design(Spherical(6), size=Size(lock_bolts=0)).mechanism)
+    assert not crank_arm(without.shells).bolts
+
+
+def test_a_keyway_widens_the_default_hub():
+    """DIN 6885-1: 2.8 mm above a bore of 20 mm; the hub keeps the least wall around it."""
+    size = Size(200.0, 5.0, wheel_bore_mm=20.0, wheel_keyway="DIN 6885-1", wall_min_mm=6.0)
+    found = PartsModel(Design(Spherical(6), size=size).mechanism).shells.ball
+    assert found.hub_mm == 10.0 + 2.8 + 6.0
+    bored = Size(200.0, 5.0, wheel_hub_mm=24.0, wheel_keyway="DIN 6885-1")
+    found = PartsModel(Design(Spherical(6), size=bored).mechanism).shells.ball
+    assert found.hub_mm == 12.0 and found.bore_mm == 7.5  # up to 24/1.6, of a bearing
