@@ -54,8 +54,8 @@ stress: .venv/dev
 	GENEVA_STRESS=1 $(BIN)/pytest -n logical --dist worksteal
 
 stress-numbers: .venv/dev
-	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress.py
-	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress_outline.py
+	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/stress.py
+	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/stress_outline.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_many.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_synth.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_loads_many.py --designs 5000
@@ -70,12 +70,12 @@ stress-windows: .venv/dev
 # stress` takes the designs alone.
 certify: .venv/dev
 	@mkdir -p build
-	PYTHONPATH=tests:tests/machine:tests/parts:tests/stress $(BIN)/python tests/stress/certify.py --runs 10500 --jobs 2 --state build/certify.json
+	PYTHONPATH=tests:tests/motion:tests/parts:tests/stress $(BIN)/python tests/stress/certify.py --runs 10500 --jobs 2 --state build/certify.json
 
 # 2,000 mutated specs before the reader, JSON Schema, and the checkers of two editors; two minutes.
 editors: .venv/dev
 	$(PIP) "taplo>=0.9,<1" "tombi>=1,<2"
-	PATH="$(CURDIR)/$(BIN):$$PATH" PYTHONPATH=tests:tests/machine:tests/stress python tests/stress/schema_agrees.py taplo tombi
+	PATH="$(CURDIR)/$(BIN):$$PATH" PYTHONPATH=tests:tests/motion:tests/stress python tests/stress/schema_agrees.py taplo tombi
 
 # The page of every design in a headless Chromium, which must be installed: the slider, the console,
 # frames a second, and pictures in build/page to look at; some minutes.
@@ -115,12 +115,12 @@ jam: .venv/dev
 # Stopped, it goes on from there; another seed, or new code, begins again: rm build/fuzz-*.json.
 fuzz: .venv/dev
 	@mkdir -p build
-	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_spec.py --runs 1000000 --jobs 2 --state build/fuzz-specs.json
-	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_parts.py --runs 20000 --jobs 2 --state build/fuzz-parts.json
-	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_sheets.py --runs 10000 --jobs 2 --state build/fuzz-sheets.json
-	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_play.py --runs 4000 --jobs 2 --state build/fuzz-play.json
-	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_stops.py --runs 2000 --jobs 2 --state build/fuzz-stops.json
-	PYTHONPATH=tests:tests/machine:tests/curves $(BIN)/python tests/stress/fuzz_kerf.py --runs 20000 --jobs 2 --state build/fuzz-kerf.json
+	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/fuzz_spec.py --runs 1000000 --jobs 2 --state build/fuzz-specs.json
+	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/fuzz_parts.py --runs 20000 --jobs 2 --state build/fuzz-parts.json
+	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/fuzz_sheets.py --runs 10000 --jobs 2 --state build/fuzz-sheets.json
+	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/fuzz_play.py --runs 4000 --jobs 2 --state build/fuzz-play.json
+	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/fuzz_stops.py --runs 2000 --jobs 2 --state build/fuzz-stops.json
+	PYTHONPATH=tests:tests/motion:tests/geometry $(BIN)/python tests/stress/fuzz_kerf.py --runs 20000 --jobs 2 --state build/fuzz-kerf.json
 
 # Start-up of every command against `import typer` alone: whole processes in pairs, processor time.
 # The budget of `geneva table --z 6` is 1.05.

@@ -40,8 +40,8 @@ if TYPE_CHECKING:  # for a type checker: one line for each name
     from geneva_cli.motion.laws.standard import Polynomial4567 as Polynomial4567
     from geneva_cli.motion.laws.standard import SineGroup as SineGroup
     from geneva_cli.motion.laws.table import TableLaw as TableLaw
+    from geneva_cli.motion.machine_spec import Spec as Spec
     from geneva_cli.motion.motion import Motion as Motion
-    from geneva_cli.motion.spec import Spec as Spec
     from geneva_cli.motion.wheels.external import External as External
     from geneva_cli.motion.wheels.internal import Internal as Internal
     from geneva_cli.motion.wheels.spherical import Spherical as Spherical
@@ -64,7 +64,7 @@ __version__ = "1.0.0rc1"
 _FROM = {
     "design": ("Design", "load"),
     "errors": ("GenevaError",),
-    "motion.spec": ("Motion", "Spec"),
+    "motion.machine_spec": ("Motion", "Spec"),
     "spec.tables": (
         "Limits",
         "Load",

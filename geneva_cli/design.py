@@ -20,9 +20,9 @@ from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self, TypeVar
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.motion.drive import Drive
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec.rules import plain
 from geneva_cli.spec.schema import SHOWN_MAX, refuse_keywords, shortly
@@ -380,7 +380,7 @@ class Design:
         >>> Design(External(6)).motion(4).to_dict()["input_deg"].tolist()
         [-60.0, 60.0, 180.0, 300.0]
         """
-        from geneva_cli.extras.servo.electronic_cam import periods
+        from geneva_cli.motion.electronic_cam import periods
         from geneva_cli.motion.motion_table import motion_table, turns_table
 
         if turns is None:

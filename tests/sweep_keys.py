@@ -10,10 +10,10 @@ from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.summary import summaries
+from geneva_cli.motion.machine_spec import attribute
 from geneva_cli.motion.many import TABLES, changed, many, may_vary
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.spec import attribute
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import (
     Load,

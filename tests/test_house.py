@@ -216,7 +216,7 @@ ANY = {
     "loads.summary": {"_rows", "_cells"},
     "loads.vibration.answers": {"values"},
     "motion.registry": {"_load_kind"},
-    "motion.spec": {"replace", "table"},
+    "motion.machine_spec": {"replace", "table"},
     "drawings.catalogue": {"_loaded"},
     "drawings.sheet.composed": {"on_paper", "_composed", "_items"},
     "drawings.sheet.content": {"rows"},

@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 from geneva_cli import design
 from geneva_cli.errors import GenevaError
+from geneva_cli.motion import machine_spec as machine_spec
 from geneva_cli.motion import registry
-from geneva_cli.motion import spec as machine_spec
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.specfile.columns import read_pairs
 

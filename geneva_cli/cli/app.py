@@ -254,7 +254,7 @@ def _bar(what: str, total: int) -> ProgressBar | None:
     """A progress bar, if standard error is a terminal."""
     if not sys.stderr.isatty():
         return None
-    from geneva_cli.output.bar import TextBar
+    from geneva_cli.output.terminal.bar import TextBar
 
     return TextBar(what, total)
 

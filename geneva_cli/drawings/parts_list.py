@@ -18,10 +18,10 @@ from geneva_cli.drawings.model import PartsModel
 from geneva_cli.geometry.mass import MM, solid_properties
 from geneva_cli.geometry.measure import bounds_of
 from geneva_cli.geometry.plates import Part, Shell, Solid
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot
 from geneva_cli.motion.rollers import places
-from geneva_cli.motion.spec import Spec
 from geneva_cli.parts.alike import alike
 from geneva_cli.parts.missing import Missing, built_of, or_missing
 from geneva_cli.parts.projection import outlines_of

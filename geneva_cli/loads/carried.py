@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from geneva_cli.spec.tables import Mass
 
 if TYPE_CHECKING:
-    from geneva_cli.motion.spec import Spec
+    from geneva_cli.motion.machine_spec import Spec
 
 G = 9.80665  # standard gravity, m/s²
 MM = 1e-3  # metres

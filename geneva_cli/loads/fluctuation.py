@@ -6,7 +6,7 @@ integrated between to the last digits.
     >>> import numpy as np
     >>> from geneva_cli import External, Load
     >>> from geneva_cli.motion.many import many
-    >>> from geneva_cli.motion.spec import Spec
+    >>> from geneva_cli.motion.machine_spec import Spec
     >>> spec = Spec(External(4), load=Load(inertia_kgm2=2.0))
     >>> batch = many(spec, {"wheel.z": np.array([4, 6])}).machine
     >>> fluctuations(batch, np.zeros(2)).energy_J.round(6)  # I (w psi1max)²/2

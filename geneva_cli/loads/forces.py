@@ -164,7 +164,7 @@ def rubbing(mechanism: Mechanism) -> float:
 
     >>> from geneva_cli import External, Load
     >>> from geneva_cli.motion.mechanism import build
-    >>> from geneva_cli.motion.spec import Spec
+    >>> from geneva_cli.motion.machine_spec import Spec
     >>> turning = Load(torque_Nm=1.0, friction=0.1, friction_at="pin")  # on a pin half as thick
     >>> round(rubbing(build(Spec(External(6), load=turning))), 6)
     0.049814

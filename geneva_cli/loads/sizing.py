@@ -3,7 +3,7 @@
 >>> import numpy as np
 >>> from geneva_cli import External, Load
 >>> from geneva_cli.motion.many import many
->>> from geneva_cli.motion.spec import Spec
+>>> from geneva_cli.motion.machine_spec import Spec
 >>> spec = Spec(External(6), load=Load(inertia_kgm2=2.0, friction=0.1))
 >>> batch = many(spec, {"load.torque_Nm": np.array([0.0, 20.0])})
 >>> sizings(batch.machine, ["motor_torque_rms_Nm"])["motor_torque_rms_Nm"].round(4)
@@ -19,13 +19,13 @@ from typing import TYPE_CHECKING, TypeAlias, cast
 
 import numpy as np
 
-from geneva_cli.extras.servo.cam_factors import CamFactors, cam_factors
-from geneva_cli.extras.servo.indexer_formula import IndexerFormula, ShaftLoad, indexer_formula
 from geneva_cli.loads.carried import inertia_kgm2, support_torque_Nm, working_torque_Nm
 from geneva_cli.loads.cycle_quantities import TORQUE
 from geneva_cli.loads.fluctuation import fluctuations, flywheel_kgm2
 from geneva_cli.loads.forces import load_case
+from geneva_cli.loads.indexer_formula import IndexerFormula, ShaftLoad, indexer_formula
 from geneva_cli.loads.summaries import LoadSummary, load_summaries
+from geneva_cli.motion.cam_factors import CamFactors, cam_factors
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import motion_peaks

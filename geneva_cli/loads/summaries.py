@@ -6,7 +6,7 @@ designs are searched together, one block of designs after the other.
     >>> import numpy as np
     >>> from geneva_cli import External, Load, SideCrank
     >>> from geneva_cli.motion.many import many
-    >>> from geneva_cli.motion.spec import Spec
+    >>> from geneva_cli.motion.machine_spec import Spec
     >>> spec = Spec(External(6), SideCrank(A=0.0), load=Load(inertia_kgm2=2.0, friction=0.1))
     >>> batch = many(spec, {"drive.A": np.array([0.0, 0.6])})
     >>> load_peaks(batch.machine, ["pin_force_N"])["pin_force_N"].max.round(4)

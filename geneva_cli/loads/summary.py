@@ -22,7 +22,7 @@ from geneva_cli.loads.cycle_quantities import (
 )
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.summaries import LoadSummary
-from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.jet import Array
 from geneva_cli.table import Reading, Table, computed_table, record_table, rows_table
 

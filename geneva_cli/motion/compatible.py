@@ -14,7 +14,7 @@ from geneva_cli.spec.schema import SpecTable, fields
 from geneva_cli.spec.tables import Shaft
 
 if TYPE_CHECKING:
-    from geneva_cli.motion.spec import Spec
+    from geneva_cli.motion.machine_spec import Spec
 
 
 class Conflict(NamedTuple):

@@ -9,8 +9,8 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.extras.servo.cam_factors import CamFactors
 from geneva_cli.motion import registry
+from geneva_cli.motion.cam_factors import CamFactors
 from geneva_cli.motion.law_motion import LawMotion
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.peaks import peak

@@ -3,7 +3,7 @@
     >>> import numpy as np
     >>> from geneva_cli import External, SideCrank
     >>> from geneva_cli.motion.many import many
-    >>> from geneva_cli.motion.spec import Spec
+    >>> from geneva_cli.motion.machine_spec import Spec
     >>> spec = Spec(External(6), SideCrank(A=0.0))
     >>> batch = many(spec, {"drive.A": np.array([0.0, 0.6, 2.0])})
     >>> batch.refused
@@ -30,9 +30,9 @@ from typing import NamedTuple, TypeAlias, TypeVar, cast
 import numpy as np
 
 from geneva_cli.errors import GenevaError, marking
+from geneva_cli.motion.machine_spec import BEFORE, Spec, attribute
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.spec import BEFORE, Spec, attribute
 from geneva_cli.numerics.arrays import (
     Array,
     Batchable,

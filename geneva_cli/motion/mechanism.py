@@ -9,9 +9,9 @@ from geneva_cli.motion import compatible
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.laws.law import Law
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.pivots import AxisPlace, Layout, Pivot, crank_places, wheel_places
 from geneva_cli.motion.size_rules import refuse_sizes, refuse_tolerances
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.numerics.arrays import N, Whole, choose, designs_of, larger, library
 from geneva_cli.numerics.jet import Array

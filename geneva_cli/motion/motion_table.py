@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.extras.servo.electronic_cam import knots_deg
+from geneva_cli.motion.electronic_cam import knots_deg
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array

@@ -6,7 +6,7 @@ jumps. It is refined to the last bit, and never the largest sample of a grid.
 >>> import numpy as np
 >>> from geneva_cli import External, SideCrank
 >>> from geneva_cli.motion.many import many
->>> from geneva_cli.motion.spec import Spec
+>>> from geneva_cli.motion.machine_spec import Spec
 >>> batch = many(Spec(External(6), SideCrank(A=0.0)), {"drive.A": np.array([0.0, 0.6, 2.0])})
 >>> batch.spread(worst_peaks(batch.machine, ["velocity"])["velocity"].max)
 array([1.   , 0.625,   nan])

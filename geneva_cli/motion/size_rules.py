@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import choose, smaller
 from geneva_cli.spec.tables import Size
 

@@ -122,8 +122,8 @@ def _chunks(table: Table, output: str, name: str) -> Iterator[str]:
 
         table = table_in_inches(table)
     if name == "table" and is_seen(output):
-        from geneva_cli.output.terminal import chunks
-        from geneva_cli.output.window import window
+        from geneva_cli.output.terminal.tables import chunks
+        from geneva_cli.output.terminal.window import window
 
         return chunks(table, window(bool(choice.columns), choice.wide))
     return importlib.import_module(f"geneva_cli.output.{FORMATS[name]}").chunks(table)
@@ -148,7 +148,7 @@ def show_answer(
     if choice.columns:  # with --columns, only those columns are wanted
         show(answer.page or answer.data, output, format, inputs)
         return
-    from geneva_cli.output import summary
+    from geneva_cli.output.terminal import summary
 
     if name == "md":
         first = summary.markdown(answer.summaries)
@@ -226,11 +226,11 @@ def plot(figure: Figure, output: str = "-", format: str = "", inputs: Iterable[s
 
         figure = figure_in_inches(figure)
     if name == "table":
-        from geneva_cli.output import plot_text
+        from geneva_cli.output.plot import plot_text
 
         _put(plot_text.chunks(figure, *_terminal(output)), output, inputs)
         return
-    module = importlib.import_module(f"geneva_cli.output.plot_{name}")
+    module = importlib.import_module(f"geneva_cli.output.plot.plot_{name}")
     if name == "png":
         _put_bytes((module.png_bytes(figure) for _ in range(1)), output, name, inputs)
     else:
@@ -254,7 +254,8 @@ def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
 
         write_bytes(output, [gif_bytes(scene)], inputs)
         return
-    from geneva_cli.output import page, still_svg
+    from geneva_cli.output import page
+    from geneva_cli.output.svg import still_svg
 
     chunks = still_svg.chunks if extension == ".svg" else page.chunks
     _put(chunks(scene), output, inputs)
@@ -306,8 +307,8 @@ def show_markdown(text: str) -> None:
     if not is_seen("-"):
         sys.stdout.write(text)
         return
-    from geneva_cli.output.reader import chunks
-    from geneva_cli.output.window import window
+    from geneva_cli.output.terminal.reader import chunks
+    from geneva_cli.output.terminal.window import window
 
     _put(chunks(text, window(False, choice.wide)), "-", ())
 

@@ -22,7 +22,7 @@ MESHES = {  # of solids, in bytes
     "obj": "mesh.obj",
     "scad": "mesh.scad",
 }
-DRAWN = {"dxf": "dxf", "svg": "svg", "step": "step", **MESHES}
+DRAWN = {"dxf": "dxf", "svg": "svg.drawing_svg", "step": "step", **MESHES}
 SHEETS = ("dxf", "svg", "pdf")  # for drawing sheets
 CAMS = ("cam",)  # for motions only: a file for a controller
 CONTROLLERS = ("polynomial", "codesys", "beckhoff")  # what reads a cam

@@ -14,14 +14,14 @@ from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.workshops import Stock, workshop
 
 if TYPE_CHECKING:
-    from geneva_cli.motion.spec import Spec
+    from geneva_cli.motion.machine_spec import Spec
     from geneva_cli.spec.tables import Material
 
 
 def wheel_material(spec: Spec) -> Stock:
     """Return the material of the wheel, and of all other plates.
 
-    >>> from geneva_cli.motion.spec import Spec
+    >>> from geneva_cli.motion.machine_spec import Spec
     >>> wheel_material(Spec(External(6), size=Size(process="print"))).youngs_modulus_GPa
     2.4
     """

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import tomli
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.specfile.settings import Setting, applied, option_of, settings
 from geneva_cli.specfile.tree import spec_of
 from geneva_cli.table import in_digits

@@ -7,7 +7,7 @@ from typing import Any
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.motion import registry
-from geneva_cli.motion.spec import BEFORE
+from geneva_cli.motion.machine_spec import BEFORE
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec.schema import REQUIRED, Example, Field, fields

@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 from geneva_cli.errors import GenevaError, clean, cut, few, nearest
 from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive
+from geneva_cli.motion.machine_spec import BEFORE, Spec, attribute
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.spec import BEFORE, Spec, attribute
 from geneva_cli.names import unit_end
 from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import (

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 
 from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive
+from geneva_cli.motion.machine_spec import BEFORE, Spec, attribute
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.spec import BEFORE, Spec, attribute
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec.rules import OneOf
 from geneva_cli.spec.schema import Field, Points, SpecTable, fields

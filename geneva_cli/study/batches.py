@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.motion.machine_spec import BEFORE, Spec
+from geneva_cli.motion.machine_spec import attribute as attribute_of
 from geneva_cli.motion.many import many, may_vary
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.spec import BEFORE, Spec
-from geneva_cli.motion.spec import attribute as attribute_of
 from geneva_cli.numerics.arrays import Array, Number
 from geneva_cli.spec.schema import SpecTable, fields
 from geneva_cli.study.fields import Cell

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.tolerances import same
 from geneva_cli.spec.tables import PLAIN
 from geneva_cli.specfile.writer import keys_in, values_of

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.extras.servo.cam_factors import CamFactors, cam_factors
+from geneva_cli.motion.cam_factors import CamFactors, cam_factors
 from geneva_cli.motion.timing import Timing, timing
 from geneva_cli.motion.wheels import classic
 from geneva_cli.numerics.angles import sin_cos_pi
@@ -107,9 +107,9 @@ def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> tupl
     from geneva_cli.drives.crank import Crank
     from geneva_cli.drives.side_crank import SideCrank
     from geneva_cli.motion import registry
+    from geneva_cli.motion.machine_spec import Spec
     from geneva_cli.motion.mechanism import build
     from geneva_cli.motion.peaks import peaks
-    from geneva_cli.motion.spec import Spec
     from geneva_cli.motion.timing import timings
 
     drive = SideCrank(A=A, n_rpm=n_rpm) if A else Crank(n_rpm=n_rpm, rollers=rollers)

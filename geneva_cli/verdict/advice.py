@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.both_ways import every_way
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.numerics.latest import counted
 from geneva_cli.numerics.roots import Falsi
 from geneva_cli.verdict.checks import checks, checks_at_rest, single_check

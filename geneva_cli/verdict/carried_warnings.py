@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.errors import Notice
 from geneva_cli.loads.carried import G, inertia_kgm2, weight_kg
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import worst_of
-from geneva_cli.motion.spec import Spec
 from geneva_cli.numerics.angles import omega
 from geneva_cli.spec.tables import Motor
 

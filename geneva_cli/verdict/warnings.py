@@ -12,9 +12,9 @@ from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import Notice
 from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.laws.law import Law
+from geneva_cli.motion.machine_spec import BEFORE
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import worst
-from geneva_cli.motion.spec import BEFORE
 from geneva_cli.parts.wheel_body import known_wheel_body
 from geneva_cli.verdict.carried_warnings import carried_warnings, unlikely_warnings
 from geneva_cli.verdict.motion_warnings import motion_warnings

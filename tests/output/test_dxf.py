@@ -33,9 +33,10 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.drawing import Drawing, extent
 from geneva_cli.geometry.moments import area
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, about, closed
-from geneva_cli.output import dxf, svg
+from geneva_cli.output import dxf
 from geneva_cli.output.dxf import chunks
 from geneva_cli.output.dxf_file import FLOAT_CODES
+from geneva_cli.output.svg import drawing_svg as svg
 
 # mm. A file's last decimal is 1e-12; a polyline's centre of 300 degrees, an ARC's ends at a radius
 # of a metre and a spline's joints (JOINT) come to less than 2e-9 together.

@@ -24,9 +24,10 @@ from geneva_cli.cli.app import app
 from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.motion.pivots import Joint
-from geneva_cli.output import animate, moving_gif, page, still_svg
+from geneva_cli.output import animate, moving_gif, page
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.scene import body_pose, value_at
+from geneva_cli.output.svg import still_svg
 from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.pairs import Pose

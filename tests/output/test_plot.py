@@ -12,8 +12,9 @@ import repo
 from geneva_cli import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.figure import JOINED, POINTS, Axis, Curve, Figure, Mark, Panel
-from geneva_cli.output import letters, plot, plot_svg, plot_text, strokes
-from geneva_cli.output.ticks import labels, mark_text, ticks
+from geneva_cli.output import letters, plot
+from geneva_cli.output.plot import plot_svg, plot_text, strokes
+from geneva_cli.output.plot.ticks import labels, mark_text, ticks
 from geneva_cli.study.figures import of_specs
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))

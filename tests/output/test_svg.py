@@ -16,7 +16,7 @@ from geneva_cli.geometry.shapes import Circle, Cubic, Line, about, closed
 from geneva_cli.output import dxf
 from geneva_cli.output.inks import INKS, OTHERS
 from geneva_cli.output.notes import round_length
-from geneva_cli.output.svg import MARGIN, STROKE, chunks
+from geneva_cli.output.svg.drawing_svg import MARGIN, STROKE, chunks
 
 # mm. The last decimal is 1e-9; a radius that is off by half of that moves an arc's centre by up to
 # 4 times as much (at 150 and 210 degrees), and a chord's ends add to it.

@@ -23,9 +23,9 @@ from geneva_cli.output import draw
 from geneva_cli.output.formats import FILLS
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.notes import LETTERS, notes
-from geneva_cli.output.strokes import DARK, LIGHT
-from geneva_cli.output.svg import chunks
-from geneva_cli.output.svg_look import brighter
+from geneva_cli.output.plot.strokes import DARK, LIGHT
+from geneva_cli.output.svg.drawing_svg import chunks
+from geneva_cli.output.svg.svg_look import brighter
 from geneva_cli.spec.tables import Size
 
 NAME = "{http://www.w3.org/2000/svg}"

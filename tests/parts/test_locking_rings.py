@@ -7,9 +7,9 @@ import pytest
 
 from geneva_cli.drives.cam import Cam
 from geneva_cli.motion.laws.standard import ModifiedSine
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.parts.outlines import locking_rings
 from geneva_cli.parts.outlines.locking_rings import polar_points, towards

@@ -11,9 +11,9 @@ from geneva_cli.drives.crank import Crank
 from geneva_cli.geometry.measure import turned
 from geneva_cli.geometry.shapes import closed
 from geneva_cli.motion.laws.standard import ModifiedSine
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.motion.wheels.spherical import Spherical

@@ -12,9 +12,9 @@ from typer.testing import CliRunner
 from geneva_cli import Design, External, Load, Size, load
 from geneva_cli.cli.app import app
 from geneva_cli.errors import GenevaError
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.outlines.outline_sizes import sizes
 from geneva_cli.spec.processes import PROCESSES

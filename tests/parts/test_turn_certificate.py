@@ -24,9 +24,9 @@ from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.extents import farthest, from_segments, short_pieces
 from geneva_cli.geometry.shapes import Line, about, closed
 from geneva_cli.motion.laws.standard import Cycloidal, ModifiedSine
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.numerics.arrays import Undecided

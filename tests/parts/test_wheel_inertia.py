@@ -22,8 +22,8 @@ from geneva_cli import (
 )
 from geneva_cli.drawings.parts_list import parts_table
 from geneva_cli.geometry.mass import MassProperties
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.verdict.carried_warnings import carried_warnings
 
 

@@ -2,8 +2,8 @@
 
 import math
 
+from geneva_cli.motion.machine_spec import LOADED
 from geneva_cli.motion.registry import DRIVES, LAWS, drive
-from geneva_cli.motion.spec import LOADED
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Size
 

@@ -21,13 +21,14 @@ from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.shapes import Line, closed
-from geneva_cli.output import jsonfile, pdf_file
-from geneva_cli.output.document import html, markdown, pdf, pdf_drawing, pdf_table
+from geneva_cli.output import jsonfile
+from geneva_cli.output.document import html, markdown, pdf, pdf_table
 from geneva_cli.output.document.blocks import Document, Fact, Facts, Grid, Picture, TextList
 from geneva_cli.output.document.html import inline
-from geneva_cli.output.document.paper import SOFT, lines, wide
 from geneva_cli.output.document.values import value_text
 from geneva_cli.output.letters import western
+from geneva_cli.output.pdf import pdf_drawing, pdf_file
+from geneva_cli.output.pdf.paper import SOFT, lines, wide
 from geneva_cli.study.document import document
 from geneva_cli.table import record_table
 

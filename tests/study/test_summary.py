@@ -13,10 +13,10 @@ from typer.testing import CliRunner
 from geneva_cli.answer import FAILS, PASSES, WARNS, Summary, SummaryLine
 from geneva_cli.cli.app import app
 from geneva_cli.design import Design, load
-from geneva_cli.extras.servo.indexer_formula import RATED_kW, RecommendedMotor
-from geneva_cli.output import terminal
-from geneva_cli.output.summary import chunks
-from geneva_cli.output.window import Window
+from geneva_cli.loads.indexer_formula import RATED_kW, RecommendedMotor
+from geneva_cli.output.terminal import tables as terminal
+from geneva_cli.output.terminal.summary import chunks
+from geneva_cli.output.terminal.window import Window
 from geneva_cli.study.summary.loads import of_loads
 from geneva_cli.study.summary.report import of_report
 from geneva_cli.study.summary.tolerance import of_tolerance

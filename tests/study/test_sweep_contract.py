@@ -10,9 +10,9 @@ from words import Motion
 
 from geneva_cli import Design, External, GearSector, Load, SideCrank
 from geneva_cli.design import load
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import alone, many, may_vary, taken
 from geneva_cli.motion.registry import STANDARD_LAWS
-from geneva_cli.motion.spec import Spec
 from geneva_cli.study.sweep.best import best_spec
 from geneva_cli.study.sweep.outcome import Outcome
 from geneva_cli.study.sweep.request import request

@@ -20,8 +20,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import peak, worst
 from geneva_cli.motion.timing import timings
-from geneva_cli.output.terminal import chunks
-from geneva_cli.output.window import Window
+from geneva_cli.output.terminal.tables import chunks
+from geneva_cli.output.terminal.window import Window
 from geneva_cli.study.synth import table as rows_shown
 from geneva_cli.study.synth.built import Built
 from geneva_cli.study.synth.families import closed

@@ -10,9 +10,9 @@ from geneva_cli.drives.epicyclic import Epicyclic
 from geneva_cli.drives.side_crank import SideCrank
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.laws.standard import Cycloidal
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.undercut import depths_mm, undercut
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.internal import Internal

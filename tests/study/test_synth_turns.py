@@ -8,9 +8,9 @@ from geneva_cli.drives.cam import Cam
 from geneva_cli.drives.crank import Crank
 from geneva_cli.kinds.gear_sector.motion import GearSector
 from geneva_cli.motion.laws.standard import ModifiedSine
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.parts.turn.glance import gap_about, play_about

@@ -13,7 +13,7 @@ from geneva_cli import Design, External
 from geneva_cli.cli.app import app
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion import spec as machine_spec
+from geneva_cli.motion import machine_spec as machine_spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.flat_parts import FlatParts

@@ -24,8 +24,8 @@ from geneva_cli.loads.strength.arm import (
 )
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.loads.strength.part_loads import part_loads
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.parts.outlines.crank_outline import crank_contours
 from geneva_cli.parts.outlines.cut_lock import cut_arcs, cut_lock
 from geneva_cli.parts.outlines.outline_sizes import sized

@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from geneva_cli.bench.method import Method, Subject, Task
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion_table import motion_table
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.output import delimited
 from geneva_cli.table import Table

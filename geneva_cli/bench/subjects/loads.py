@@ -11,8 +11,8 @@ import numpy as np
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.bench.truth import digits, motion
 from geneva_cli.loads.cycle import Cycle
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.jet import Array
 from geneva_cli.spec.tables import Load, Size

@@ -24,11 +24,11 @@ from geneva_cli.bench.kinds import (
     values_of,
 )
 from geneva_cli.bench.method import Method, Subject, Task
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import worst_peaks
 from geneva_cli.motion.peaks import peak
-from geneva_cli.motion.spec import Spec
 from geneva_cli.numerics.jet import Array
 
 PEAK_QUANTITIES = ("velocity", "acceleration")

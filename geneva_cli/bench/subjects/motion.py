@@ -16,8 +16,8 @@ from geneva_cli.bench.scalar_loop import by_numba, motion_loop
 from geneva_cli.bench.truth import digits
 from geneva_cli.bench.truth import motion as exact_motion
 from geneva_cli.motion.engagement import WheelMotion
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import Array

@@ -12,9 +12,9 @@ from geneva_cli.bench.truth import acceleration_peak, relative
 from geneva_cli.drives.crank import Crank
 from geneva_cli.drives.side_crank import SideCrank
 from geneva_cli.motion import registry
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import peak as program
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.wheels import classic
 
 CHEBPY = "chebfun"  # the package name of chebpy in pip, as another package has that name

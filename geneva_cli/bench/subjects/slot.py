@@ -10,9 +10,9 @@ import numpy as np
 
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.motion.laws.standard import Cycloidal
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.jet import Array
 from geneva_cli.parts.slots.slot_profile import slot

@@ -19,8 +19,8 @@ from geneva_cli.loads.tolerance.entry_jump import entry_jumps
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.loads.tolerance.motion_error import motion_errors
 from geneva_cli.loads.tolerance.random_machines import random_machines
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.jet import Array
 from geneva_cli.spec.tables import Size

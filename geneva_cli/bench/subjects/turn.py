@@ -12,9 +12,9 @@ import numpy as np
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.drives.crank import Crank
 from geneva_cli.motion.laws.standard import ModifiedSine
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.parts.outlines.outline_sizes import outlines
 from geneva_cli.parts.turn.full_turn import full_turn

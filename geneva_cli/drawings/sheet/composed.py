@@ -26,7 +26,7 @@ from geneva_cli.drawings.sheet.sized import edge_note
 from geneva_cli.drawings.sheet.view import Block
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.sheet import Sheet
-from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.parts.written import is_metric, length, number
 from geneva_cli.spec.materials import roller_material, wheel_material
 from geneva_cli.spec.tables import Material, TitleBlock

@@ -18,7 +18,7 @@ from geneva_cli.geometry.measure import bounds, bounds_of
 from geneva_cli.geometry.plates import Member, Plate, Stack, plates, steps_of
 from geneva_cli.geometry.shapes import Shape
 from geneva_cli.geometry.sheet import Sheet
-from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.parts.alike import alike
 
 

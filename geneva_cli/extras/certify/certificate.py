@@ -21,9 +21,9 @@ from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.table import Table, rows_table
 
 if TYPE_CHECKING:
+    from geneva_cli.extras.certify.balls import Ball
     from geneva_cli.extras.certify.decimals import Formula
-    from geneva_cli.numerics.balls import Ball
-    from geneva_cli.numerics.enclosures import BoundedSpan, Greatest
+    from geneva_cli.extras.certify.enclosures import BoundedSpan, Greatest
 
 DECIMALS, DOUBLES = "the decimals as written", "the spec's numbers as doubles"
 LIMIT = 2000  # intervals a motion: 12 times what any design here takes, some seconds
@@ -149,9 +149,9 @@ def certificate(
         raise GenevaError(f"{quantity}.max is not proved: {reason}")
     if find_spec("flint") is None:
         raise GenevaError('certificates need python-flint: pip install "geneva-cli[certify]"')
+    from geneva_cli.extras.certify.balls import precision
     from geneva_cli.extras.certify.decimals import exact_rates
-    from geneva_cli.numerics.balls import precision
-    from geneva_cli.numerics.enclosures import greatest
+    from geneva_cli.extras.certify.enclosures import greatest
 
     each = mechanism.engagements
     if mechanism.spec.wheel.JUMPS and quantity != "velocity":
@@ -201,7 +201,7 @@ def _peak(rate: Formula, quantity: str) -> Formula:
 
 def _curve(formula: Formula) -> Callable[[Ball, int], Sequence[Ball]]:
     """Taylor coefficients of a formula at a ball of input angles in degrees."""
-    from geneva_cli.numerics.balls import ball_of
+    from geneva_cli.extras.certify.balls import ball_of
 
     return lambda at, order: [ball_of(c) for c in formula(cast("Number", at), order).c]
 

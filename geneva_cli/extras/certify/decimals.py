@@ -11,13 +11,13 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import TypeAlias, cast
 
+from geneva_cli.extras.certify.balls import Ball
+from geneva_cli.extras.certify.enclosures import EDGE_DEG
 from geneva_cli.motion.engagement import Displacement, WheelMotion
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.wheels.gearing import FollowedRate
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Undecided
-from geneva_cli.numerics.balls import Ball
-from geneva_cli.numerics.enclosures import EDGE_DEG
 from geneva_cli.numerics.jet import Jet, Number
 
 # A jet of an order by the input angle, at an angle in degrees from mid-motion.

@@ -75,7 +75,7 @@ def _signs(case: LoadCase, at: Contact[Jet]) -> Iterator[Signs]:
 
 
 def _signs_of(jet: Jet) -> tuple[float, ...]:
-    from geneva_cli.numerics.balls import ball_of
+    from geneva_cli.extras.certify.balls import ball_of
 
     sign = ball_of(jet.c[0]).sign
     return (float(sign),) if sign else (1.0, -1.0)
@@ -93,7 +93,7 @@ def _joined(loads: Sequence[Jet]) -> Jet:
     first, *others = loads
     if not others:
         return first
-    from geneva_cli.numerics.balls import NOWHERE, ball_of
+    from geneva_cli.extras.certify.balls import NOWHERE, ball_of
 
     value = ball_of(first.c[0])
     for other in others:

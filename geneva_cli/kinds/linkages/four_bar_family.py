@@ -19,6 +19,8 @@ import numpy as np
 from geneva_cli.drives.path_wheels.wheels import followed
 from geneva_cli.drives.paths.pairs import ends_at, newton, residual
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinds.linkages.coupler import coupler_drive
+from geneva_cli.kinds.linkages.coupler_costs import Costs, is_known
 from geneva_cli.kinds.linkages.four_bar import FourBar
 from geneva_cli.kinds.linkages.four_bar_search import (
     OTHERS,
@@ -27,12 +29,10 @@ from geneva_cli.kinds.linkages.four_bar_search import (
     WheelGoal,
     search_four_bars,
 )
-from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.synth.families.coupler import coupler_drive
-from geneva_cli.study.synth.families.coupler_costs import Costs, is_known
 from geneva_cli.study.synth.families.family import (
     BARE,
     Family,

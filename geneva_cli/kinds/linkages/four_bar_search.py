@@ -11,17 +11,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.numerics.arrays import Array, Whole
-from geneva_cli.study.spans import AllowedSpan
-from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.synth.families.coupler import (
+from geneva_cli.kinds.linkages.coupler import (
     CouplerDrive,
     FourBarLinks,
     coupler_drive,
     driven_wheels,
 )
-from geneva_cli.study.synth.families.coupler_costs import Costs, order
+from geneva_cli.kinds.linkages.coupler_costs import Costs, order
+from geneva_cli.motion.wheels.gearing import Gearing
+from geneva_cli.numerics.arrays import Array, Whole
+from geneva_cli.study.spans import AllowedSpan
+from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.target import Target
 
 SAMPLES = (256, 2048)  # least and most four-bars that are sampled for one wheel

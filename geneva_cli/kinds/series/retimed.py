@@ -39,7 +39,7 @@ from geneva_cli.numerics.roots import boundary
 
 if TYPE_CHECKING:
     from geneva_cli.drives.transmission import Transmission
-    from geneva_cli.motion.spec import Spec
+    from geneva_cli.motion.machine_spec import Spec
 
 
 def retimed(plan: Plan, spec: Spec, in_front: Drive) -> Plan:

@@ -11,8 +11,8 @@ from functools import partial
 
 from geneva_cli.kinds.gear_sector.motion import GearSector
 from geneva_cli.kinds.series.geneva_pair import GenevaPair
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.study.synth.families import closed

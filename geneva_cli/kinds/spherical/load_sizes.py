@@ -24,8 +24,8 @@ from geneva_cli.loads.strength.shafts import (
     wheel_forces,
 )
 from geneva_cli.motion.both_ways import every_way
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.spec import Spec
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.preferred import bores_from, rounded_from
 from geneva_cli.numerics.tolerances import keeps

@@ -13,9 +13,9 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.rollers import places
-from geneva_cli.motion.spec import Spec
 from geneva_cli.parts.sizes.arm_sizes import (
     arm_bore,
     hole_radius,

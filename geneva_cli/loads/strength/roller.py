@@ -68,7 +68,7 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
 
     >>> from geneva_cli import External, Load, Size
     >>> from geneva_cli.motion.mechanism import build
-    >>> from geneva_cli.motion.spec import Spec
+    >>> from geneva_cli.motion.machine_spec import Spec
     >>> m = build(Spec(External(6), size=Size(200.0, 8.0), load=Load(torque_Nm=15.0)))
     >>> round(passage(m.engagements[0], load_case(m)).travel_m, 12)  # 2 L (cos b - (1 - l))
     0.146410161514

@@ -39,9 +39,9 @@ from geneva_cli.loads.forces import QuantityValue
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_functions import LoadQuantity
 from geneva_cli.loads.summaries import load_peaks
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray, greater
-from geneva_cli.motion.spec import Spec
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import N, library, parameter
 from geneva_cli.numerics.jet import Array, Jet, Number, sqrt

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Jet, Number

@@ -19,8 +19,8 @@ import numpy as np
 from geneva_cli.loads.impacts.impacts import arm_mm
 from geneva_cli.loads.tolerance.dimensions import Deviations
 from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.spec import Spec
 from geneva_cli.numerics.arrays import array, choose, choose_record, parameter, size
 from geneva_cli.numerics.jet import Array, Jet, Number, atan2, sqrt
 

@@ -6,7 +6,7 @@ time there, so they are computed design by design.
     >>> import numpy as np
     >>> from geneva_cli import External, Tolerance
     >>> from geneva_cli.motion.many import many
-    >>> from geneva_cli.motion.spec import Spec
+    >>> from geneva_cli.motion.machine_spec import Spec
     >>> spec = Spec(External(6), tolerance=Tolerance(slot_angle_deg=0.1, crank_radius_mm=0.02))
     >>> batch = many(spec, {"wheel.z": np.array([4, 6])})
     >>> motion_plays(batch.machine).worst_deg.round(6)

@@ -10,7 +10,7 @@ of the vibration after a motion that began at rest. Its share is the fraction of
     >>> import numpy as np
     >>> from geneva_cli import External, Load, Shaft
     >>> from geneva_cli.motion.many import many
-    >>> from geneva_cli.motion.spec import Spec
+    >>> from geneva_cli.motion.machine_spec import Spec
     >>> spec = Spec(External(6), load=Load(inertia_kgm2=0.2), shaft=Shaft(stiffness_Nm_rad=5e3))
     >>> machine = many(spec, {"drive.n_rpm": np.array([60.0, 90.0])}).machine
     >>> design_vibrations(machine).residual_share.round(6)
@@ -26,8 +26,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.kinds.carousel.centrifugal import STIFFEST, pull, stiffness_ratio, with_each_motion
 from geneva_cli.loads.carried import inertia_kgm2
+from geneva_cli.loads.vibration.centrifugal import STIFFEST, pull, stiffness_ratio, with_each_motion
 from geneva_cli.loads.vibration.load_acceleration import greatest_accelerations
 from geneva_cli.loads.vibration.lobes import Lobes, highest_ratio, lobes
 from geneva_cli.loads.vibration.oscillator import PERIOD_RATIO, Oscillator, period_ratio_of

@@ -9,7 +9,6 @@ from html import escape
 
 from geneva_cli import output
 from geneva_cli.errors import clean
-from geneva_cli.output import plot_svg, svg
 from geneva_cli.output.document.blocks import (
     BAD,
     Block,
@@ -24,7 +23,9 @@ from geneva_cli.output.document.blocks import (
     TextList,
 )
 from geneva_cli.output.document.values import SHORT, is_number, is_short, value_text
-from geneva_cli.output.summary import SIGNS
+from geneva_cli.output.plot import plot_svg
+from geneva_cli.output.svg import drawing_svg as svg
+from geneva_cli.output.terminal.summary import SIGNS
 
 NUMBER = ' class="n"'
 

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 from geneva_cli.answer import FAILS, PASSES, WARNS
 from geneva_cli.errors import clean
-from geneva_cli.output import pdf_file, plot_pdf
 from geneva_cli.output.document.blocks import (
     Block,
     Curves,
@@ -18,7 +17,10 @@ from geneva_cli.output.document.blocks import (
     Prose,
     TextList,
 )
-from geneva_cli.output.document.paper import (
+from geneva_cli.output.document.pdf_table import facts, grid
+from geneva_cli.output.letters import western
+from geneva_cli.output.pdf import pdf_file
+from geneva_cli.output.pdf.paper import (
     AMBER,
     BODY,
     GREEN,
@@ -35,9 +37,8 @@ from geneva_cli.output.document.paper import (
     rule,
     words,
 )
-from geneva_cli.output.document.pdf_drawing import drawing
-from geneva_cli.output.document.pdf_table import facts, grid
-from geneva_cli.output.letters import western
+from geneva_cli.output.pdf.pdf_drawing import drawing
+from geneva_cli.output.plot import plot_pdf
 
 TITLE, HEAD, VERDICT = 6.4, 4.4, 4.2
 MARK = 4.0  # before a text of a list

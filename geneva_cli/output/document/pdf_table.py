@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from geneva_cli.output.document.blocks import BAD, Facts, Grid
-from geneva_cli.output.document.paper import (
+from geneva_cli.output.document.values import NO_BREAK, is_number, is_short, value_text
+from geneva_cli.output.pdf.paper import (
     BAND,
     INK,
     LEADING,
@@ -22,7 +23,6 @@ from geneva_cli.output.document.paper import (
     wide,
     words,
 )
-from geneva_cli.output.document.values import NO_BREAK, is_number, is_short, value_text
 
 PAD = 1.3  # left and right of a cell's text
 SPACE = 0.55  # above and below it

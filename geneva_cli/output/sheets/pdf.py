@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from geneva_cli.geometry.helvetica import CAPITALS
 from geneva_cli.geometry.sheet import DASHED, WIDTHS, Arrow, Sheet
-from geneva_cli.output import pdf_file
-from geneva_cli.output.pdf_file import POINT, Page, number, outline, point
+from geneva_cli.output.pdf import pdf_file
+from geneva_cli.output.pdf.pdf_file import POINT, Page, number, outline, point
 
 
 def chunks(sheet: Sheet) -> Iterator[str]:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly

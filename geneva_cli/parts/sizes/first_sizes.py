@@ -16,8 +16,8 @@ from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.motion.drive import FirstWheel
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.preferred import bores_from
 from geneva_cli.parts.assembly import Assembly

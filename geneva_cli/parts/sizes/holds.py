@@ -12,7 +12,7 @@ from geneva_cli.loads.strength.arm import arm_stress_MPa
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.loads.strength.pin import pin
 from geneva_cli.loads.strength.shafts import shear_MPa
-from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.preferred import rounded_from
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.spec.default_sizes import value_or

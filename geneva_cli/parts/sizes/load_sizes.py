@@ -15,11 +15,11 @@ import math
 
 import numpy as np
 
-from geneva_cli.kinds.carousel.unbalance import centrifugal_N
 from geneva_cli.loads.strength import lock
 from geneva_cli.loads.strength.horn import single_horn_stresses
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.loads.tolerance.locking import Lock
+from geneva_cli.loads.unbalance import centrifugal_N
 from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bores_from, rounded_from

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.outlines.reliefs import arc_floor, has_arcs

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.names import described
 from geneva_cli.output.document.blocks import Block, Fact, Facts, Grid, Heading, Prose, TextList
 from geneva_cli.spec.schema import Field

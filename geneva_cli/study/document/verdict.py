@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from geneva_cli.design import Design
 from geneva_cli.manual.explained import entries
-from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.output.document.blocks import BAD, Block, Grid, Heading, Prose, Row, TextList
 from geneva_cli.study.document.facts import RemainingValues, capital, section
 from geneva_cli.study.summary import report

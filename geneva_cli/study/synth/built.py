@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.study.synth.parts import SPARE, USUAL, exact, parts, with_roller
 from geneva_cli.study.synth.parts_data import parts_data

@@ -17,8 +17,8 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.linear.rack import rack_sizes
 from geneva_cli.kinds.spherical.sizes import ball
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.undercut import depths_mm
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.parts.assembly import Assembly, assembly

@@ -14,8 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.drives.crank import Crank
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.undercut import OuterWall, outer_walls
 from geneva_cli.numerics.arrays import Array, Number, array
 from geneva_cli.parts.slots.groove import sampled_extremes

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from functools import partial
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.progress import tracked
 from geneva_cli.study.batches import cells_of, numbers
 from geneva_cli.study.fields import Cell, Pick

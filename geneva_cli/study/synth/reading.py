@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.kinds.carousel.motion import Carousel
 from geneva_cli.motion import registry
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.registry import STANDARD_LAWS as LAWS
-from geneva_cli.motion.spec import Spec
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range, range_text
 from geneva_cli.spec.schema import fields
 from geneva_cli.study.spans import AllowedSpan

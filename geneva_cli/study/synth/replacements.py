@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.study.synth.best import FamilySearch, Trial
 from geneva_cli.study.synth.families.family import Family
 from geneva_cli.study.synth.limited import breaks_limit

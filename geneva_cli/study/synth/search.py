@@ -8,7 +8,7 @@ from functools import partial
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.progress import tracked
 from geneva_cli.study.batches import numbers

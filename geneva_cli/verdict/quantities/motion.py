@@ -106,7 +106,7 @@ def carousel(of: Designs) -> Columns:
     machine, wheels = of.machine, of.spec.drive.wheels_on_carrier
     if not wheels:
         return {}
-    from geneva_cli.kinds.carousel.unbalance import centrifugal_N, held_unbalance_Nm
+    from geneva_cli.loads.unbalance import centrifugal_N, held_unbalance_Nm
 
     own = sum(2.0 * one.half_step for one in machine.engagements) * (360.0 / machine.period_deg)
     fastest = worst_peaks(machine, ["velocity"])["velocity"].max

@@ -8,13 +8,13 @@ from collections.abc import Callable
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinds.carousel.unbalance import centrifugal_N
 from geneva_cli.loads.strength import arm as arms
 from geneva_cli.loads.strength import pin as pins
 from geneva_cli.loads.strength import shafts
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress, shear_allowed_MPa
+from geneva_cli.loads.unbalance import centrifugal_N
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.spec import Spec
 from geneva_cli.numerics.arrays import Array, Number, array, parameter
 from geneva_cli.spec.materials import roller_material, wheel_material
 from geneva_cli.spec.tables import Material

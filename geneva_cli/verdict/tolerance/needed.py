@@ -19,8 +19,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.loads.impacts.impacts import arm_mm
 from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.verdict.checks.registry import turn_checks
 

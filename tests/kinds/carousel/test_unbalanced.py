@@ -16,8 +16,8 @@ from geneva_cli.loads.loads import fastest_rpm
 from geneva_cli.loads.sizing import sizing
 from geneva_cli.loads.strength.lock import held_torque_Nm
 from geneva_cli.motion.laws.standard import Cycloidal
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.quantities.groups import GROUPS
 

@@ -12,8 +12,8 @@ from geneva_cli.cli.app import app
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.counter.outlines import counter_sizes
 from geneva_cli.loads.impacts.impacts import start_impacts
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.verdict.quantities.designs import Designs
 from geneva_cli.verdict.quantities.motion import counter
 

@@ -30,8 +30,8 @@ from geneva_cli.kinds.counter.outlines import (
     pinion_teeth,
 )
 from geneva_cli.kinds.counter.play import counter_play
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.output.scene import value_at
 from geneva_cli.study.animation.scene import scene
 from geneva_cli.verdict.checks import single_check

@@ -22,7 +22,7 @@ from geneva_cli import (
     Size,
 )
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.machine_spec import Spec
 
 R, r, CLEARANCE = 50.0, 6.0, 0.1
 SIZE = Size(center_distance_mm=R, roller_radius_mm=r, slot_clearance_mm=CLEARANCE)

@@ -25,8 +25,8 @@ from geneva_cli import (
 )
 from geneva_cli.cli.app import app
 from geneva_cli.errors import GenevaError
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.spec import Spec
 
 ULP = np.finfo(float).eps
 RACK = Design(Linear(6))

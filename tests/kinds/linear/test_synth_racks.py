@@ -10,8 +10,8 @@ import math
 import pytest
 
 from geneva_cli import Carousel, Design, External, GenevaError, Internal, Linear, Load, Size
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.timing import timings
 from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.search import search

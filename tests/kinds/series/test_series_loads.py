@@ -19,8 +19,8 @@ from geneva_cli import (
     SideCrank,
 )
 from geneva_cli.loads.cycle import Cycle
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.spec.tables import Support
 
 SPECS = {

@@ -19,8 +19,8 @@ from geneva_cli.kinds.spherical.sizes import ball
 from geneva_cli.kinds.spherical.stressed import sphere_stressed
 from geneva_cli.loads.strength.arm import arm_stress_MPa
 from geneva_cli.loads.strength.part_loads import single_loads
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.spec.tables import Load, Shaft, Size
 from geneva_cli.verdict.quantities.designs import Designs
 from geneva_cli.verdict.quantities.strength import (

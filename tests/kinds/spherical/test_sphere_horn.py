@@ -11,8 +11,8 @@ from geneva_cli import External, Spherical
 from geneva_cli.kinds.spherical.horn import sphere_horn, sphere_horns, sphere_stoutness
 from geneva_cli.kinds.spherical.sizes import ball
 from geneva_cli.loads.strength.horn import horn_stresses, stoutness
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.spec import Spec
 from geneva_cli.spec.tables import Load, Size
 from geneva_cli.verdict.checks import checks
 

@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 from geneva_cli.kinds.carousel.motion import Carousel
 from geneva_cli.kinds.linkages.four_bar_family import four_bars
-from geneva_cli.motion.spec import Spec
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.study.synth.families.curved import with_laws

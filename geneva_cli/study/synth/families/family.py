@@ -11,8 +11,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion import registry
 from geneva_cli.motion.compatible import refuse_conflicts
 from geneva_cli.motion.drive import Drive
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.study.spans import AllowedSpan

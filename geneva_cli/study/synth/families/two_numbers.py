@@ -22,8 +22,8 @@ from geneva_cli.drives.elliptical_gears import EllipticalGears
 from geneva_cli.drives.side_crank import SideCrank
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.drive import Drive
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many
-from geneva_cli.motion.spec import Spec
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.study.batches import columns

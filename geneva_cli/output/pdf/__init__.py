@@ -1,0 +1,1 @@
+"""PDF files: their objects, pages of text, and drawings on them."""

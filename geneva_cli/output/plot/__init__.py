@@ -1,0 +1,1 @@
+"""Figures: their layout, and their formats."""

@@ -1,0 +1,238 @@
+"""The layout of a figure: panels stacked over one x axis, for any pen.
+
+Lengths are in px of a page 820 px wide, y downwards. Each format has its own pen: SVG, PDF and
+pictures.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import NamedTuple, Protocol, TypeAlias
+
+from geneva_cli.errors import clean, cut
+from geneva_cli.figure import LINE, POINTS, Curve, Figure, Panel
+from geneva_cli.output.letters import LETTER, width
+from geneva_cli.output.plot.ticks import labels, mark_text, named, ticks
+
+Point: TypeAlias = tuple[float, float]
+Path: TypeAlias = Sequence[Point]
+
+PAGE = 820.0
+INCH = 82.0  # px of the layout in an inch: the page is ten inches wide
+LEFT, RIGHT, MARKS = 72.0, 18.0, 192.0  # MARKS: the column of the peaks' values
+ABOVE, BELOW = 26.0, 44.0  # a panel's name; the last one's ticks and the axis' name
+TITLE, TEXT, SMALL = 15.0, 11.0, 10.0  # heights of letters
+LINE_HEIGHT = 14.0
+SAMPLE = 30.0  # length of a curve's sample in the legend
+START, MIDDLE, END = "start", "middle", "end"  # anchor of a text
+
+
+class Frame(NamedTuple):
+    """A panel's place on the page, and the range of values that it shows."""
+
+    top: float
+    wide: float
+    high: float
+    window: tuple[float, float]
+    span: tuple[float, float]
+
+    def x(self, value: float) -> float:
+        """Place of an x value."""
+        a, b = self.window
+        return LEFT + (value - a) / (b - a) * self.wide
+
+    def y(self, value: float) -> float:
+        """Place of a y value."""
+        low, top = self.span
+        return self.top + (top - value) / (top - low) * self.high
+
+    @property
+    def bottom(self) -> float:
+        """The panel's lower edge."""
+        return self.top + self.high
+
+
+class Pen(Protocol):
+    """A surface to draw on; ``number`` is a curve's, and determines its look."""
+
+    def begin(self, name: str, frame: Frame) -> None:
+        """Begin a panel; nothing in a format without groups."""
+        return
+
+    def end(self) -> None:
+        """End a panel."""
+        return
+
+    def rest(self, x: float, y: float, wide: float, high: float) -> None:
+        """Shade a stretch at rest."""
+
+    def grid(self, paths: Iterable[Path]) -> None:
+        """Draw lines of the grid."""
+
+    def axis(self, paths: Iterable[Path]) -> None:
+        """Draw axes."""
+
+    def curve(self, number: int, paths: Iterable[Path]) -> None:
+        """Draw the smooth pieces of a curve."""
+
+    def sample(self, number: int, place: Point, long: float) -> None:
+        """Draw a level sample of a curve from a place on."""
+        self.curve(number, [[place, (place[0] + long, place[1])]])
+
+    def jumps(self, number: int, paths: Iterable[Path]) -> None:
+        """Draw jumps as thin upright lines."""
+
+    def points(self, number: int, places: Path) -> None:
+        """Draw single points of a curve."""
+
+    def dot(self, number: int, place: Point) -> None:
+        """Draw the dot at a peak."""
+
+    def text(self, x: float, y: float, text: str, size: float = TEXT, hold: str = START) -> None:
+        """Write a text on its base line."""
+
+    def bold(self, x: float, y: float, text: str, size: float = TEXT) -> None:
+        """Write a text in bold letters."""
+
+
+class FigureBlock(NamedTuple):
+    """An unbreakable part of a figure: its height, and ``draw(pen, top)``."""
+
+    high: float
+    draw: Callable[[Pen, float], None]
+
+
+def blocks(figure: Figure) -> Iterator[FigureBlock]:
+    """Yield the title with the legend, then each panel; the last panel has the axis."""
+    known = figure.curves()
+    several = len(known) > 1
+    legend = _legend(known.values()) if several else []
+    yield FigureBlock(
+        (legend[-1][2] if legend else TITLE + 14.0), lambda pen, top: _head(figure, legend, pen)
+    )
+    # a panel's height, by the number of panels
+    high = {1: 300.0, 2: 220.0, 3: 160.0}.get(len(figure.panels), 112.0)
+    marked = any(curve.marks for panel in figure.panels for curve in panel.curves)
+    wide = PAGE - LEFT - (MARKS if marked else RIGHT)
+    yield from (_block(figure, panel, wide, high, several) for panel in figure.panels)
+
+
+def _block(figure: Figure, panel: Panel, wide: float, high: float, several: bool) -> FigureBlock:
+    """A panel of one curve or ``several``; the first names a dwell, the last has the axis."""
+    is_first, is_last = panel is figure.panels[0], panel is figure.panels[-1]
+
+    def draw(pen: Pen, top: float) -> None:
+        frame = Frame(top + ABOVE, wide, high, figure.window, padded(panel))
+        across = ticks(*figure.window, int(wide / 70.0), figure.x.unit)
+        pen.begin(panel.y.name, frame)
+        _panel(figure, panel, frame, across, pen)
+        _marks(figure, panel, frame, several, pen)
+        pen.end()
+        if is_last:
+            _below(figure, frame, across, pen)
+        if is_first:
+            _dwell(figure, frame, pen)
+
+    return FigureBlock(ABOVE + high + (BELOW if is_last else 0.0), draw)
+
+
+def padded(panel: Panel) -> tuple[float, float]:
+    """Return a panel's span with some space above and below."""
+    low, high = panel.span()
+    space = 0.05 * (high - low) or 0.5 * abs(high) or 1.0
+    return low - space, high + space
+
+
+def _head(figure: Figure, legend: list[tuple[Curve, float, float, str]], pen: Pen) -> None:
+    most = int((PAGE - 2.0 * RIGHT) / (LETTER * TITLE))
+    pen.bold(RIGHT, TITLE + 8.0, cut(clean(figure.title).strip(), most), TITLE)
+    for curve, x, y, name in legend:
+        _sample(curve, x, y, SAMPLE, pen)
+        pen.text(x + SAMPLE + 6.0, y, name)
+
+
+def _legend(curves: Iterable[Curve]) -> list[tuple[Curve, float, float, str]]:
+    """Return curves with their places and names, in lines below the title."""
+    out, x, y = [], RIGHT, TITLE + 14.0 + LINE_HEIGHT
+    for curve in curves:
+        name = cut(clean(curve.name), 48)
+        needs = SAMPLE + 6.0 + TEXT * width(name) + 18.0
+        if x > RIGHT and x + needs > PAGE - RIGHT:
+            x, y = RIGHT, y + LINE_HEIGHT + 2.0
+        out.append((curve, x, y, name))
+        x += needs
+    return out
+
+
+def _sample(curve: Curve, x: float, y: float, long: float, pen: Pen) -> None:
+    middle = y - 0.35 * TEXT
+    if curve.style != POINTS:
+        pen.sample(curve.number, (x, middle), long)
+    if curve.style != LINE:
+        pen.points(curve.number, [(x + 0.5 * long, middle)])
+
+
+def _panel(figure: Figure, panel: Panel, frame: Frame, across: list[float], pen: Pen) -> None:
+    """Draw dwells, grid, axes and curves."""
+    up = ticks(*frame.span, int(frame.high / 24.0), panel.y.unit)
+    right = LEFT + frame.wide
+    for a, b in figure.shaded:
+        pen.rest(frame.x(a), frame.top, frame.x(b) - frame.x(a), frame.high)
+    level = [[(LEFT, frame.y(v)), (right, frame.y(v))] for v in up]
+    upright = [[(frame.x(v), frame.top), (frame.x(v), frame.bottom)] for v in across]
+    pen.grid(level + upright)
+    axes = [[(LEFT, frame.top), (LEFT, frame.bottom), (right, frame.bottom)]]
+    if frame.span[0] < 0.0 < frame.span[1]:
+        axes.append([(LEFT, frame.y(0.0)), (right, frame.y(0.0))])
+    pen.axis(axes)
+    for value, label in zip(up, labels(up), strict=True):
+        pen.text(LEFT - 6.0, frame.y(value) + 0.35 * SMALL, label, SMALL, END)
+    pen.bold(LEFT, frame.top - 7.0, named(panel.y))
+    for curve in panel.curves:
+        _curve(curve, frame, pen)
+
+
+def _curve(curve: Curve, frame: Frame, pen: Pen) -> None:
+    pieces = [
+        [(frame.x(x), frame.y(y)) for x, y in zip(*piece, strict=True)] for piece in curve.pieces
+    ]
+    if curve.style != POINTS:
+        pen.curve(curve.number, pieces)
+    jumps = [((frame.x(x), frame.y(a)), (frame.x(x), frame.y(b))) for x, a, b in curve.jumps()]
+    visible = [jump for jump in jumps if abs(jump[1][1] - jump[0][1]) > 0.05]  # px
+    if visible and curve.style == LINE:
+        pen.jumps(curve.number, visible)
+    if curve.style != LINE:
+        pen.points(curve.number, [place for piece in pieces for place in piece])
+
+
+def _marks(figure: Figure, panel: Panel, frame: Frame, several: bool, pen: Pen) -> None:
+    """Draw a dot at each peak; write its value and place to the right of the panel."""
+    x, y = LEFT + frame.wide + 12.0, frame.top + 0.8 * TEXT
+    for curve in panel.curves:
+        for mark in curve.marks:
+            if mark.y is not None:
+                pen.dot(curve.number, (frame.x(mark.x), frame.y(mark.y)))
+            if several:
+                _sample(curve, x, y, 0.8 * SAMPLE, pen)
+            words = mark_text(mark, "°" if figure.x.unit else "")
+            pen.text(x + (SAMPLE if several else 0.0), y, words)
+            y += LINE_HEIGHT
+
+
+def _below(figure: Figure, frame: Frame, across: list[float], pen: Pen) -> None:
+    """Write the numbers and the name of the x axis."""
+    for value, label in zip(across, labels(across), strict=True):
+        pen.text(frame.x(value), frame.bottom + 15.0, label, hold=MIDDLE)
+    pen.text(LEFT + 0.5 * frame.wide, frame.bottom + 34.0, named(figure.x), hold=MIDDLE)
+
+
+def _dwell(figure: Figure, frame: Frame, pen: Pen) -> None:
+    """Write "dwell" above the first dwell that is wide enough and clear of the panel's name."""
+    needs = TEXT * width("dwell")
+    taken = LEFT + TEXT * width(named(figure.panels[0].y))
+    for a, b in figure.shaded:
+        middle = 0.5 * (frame.x(a) + frame.x(b))
+        if frame.x(b) - frame.x(a) > needs and middle - needs > taken:
+            pen.text(middle, frame.top - 7.0, "dwell", hold=MIDDLE)
+            return

@@ -1,0 +1,152 @@
+"""A figure as SVG, without another program.
+
+Texts remain texts; colours follow the reader's light or dark mode. Equal figures give equal bytes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from html import escape
+
+from geneva_cli.errors import clean
+from geneva_cli.figure import Figure
+from geneva_cli.output.plot.plot_layout import (
+    LEFT,
+    PAGE,
+    START,
+    TEXT,
+    Frame,
+    Path,
+    Pen,
+    Point,
+    blocks,
+)
+from geneva_cli.output.plot.strokes import DARK, LIGHT, Paper, colour, dashes
+from geneva_cli.output.plot.ticks import named
+from geneva_cli.table import in_decimals
+
+
+def chunks(figure: Figure) -> Iterator[str]:
+    """Yield the file's text."""
+    known, pen, tall = figure.curves(), _SvgPen(), 0.0
+    for block in blocks(figure):
+        block.draw(pen, tall)
+        tall += block.high
+    names = ", ".join(named(panel.y) for panel in figure.panels)
+    content = f"{names} by {named(figure.x).lower()}"
+    yield (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{_n(PAGE)}" height="{_n(tall)}"'
+        f' viewBox="0 0 {_n(PAGE)} {_n(tall)}" role="img" font-family="sans-serif"'
+        f' font-size="{_n(TEXT)}">\n'
+        f"<title>{escape(clean(figure.title).strip(), quote=False)}</title>\n"
+        f"<desc>{escape(content, quote=False)}</desc>\n"
+        f"<style>\n{_style(LIGHT, known)}{_dashes(known)}"
+        f"@media (prefers-color-scheme: dark) {{\n{_style(DARK, known)}}}\n</style>\n"
+        f'<rect class="page" width="{_n(PAGE)}" height="{_n(tall)}"/>\n'
+    )
+    yield from pen.out
+    yield "</svg>\n"
+
+
+def _style(paper: Paper, known: Iterable[int]) -> str:
+    own = "".join(
+        f".c{n} {{ stroke: {colour(n, paper)} }} .d{n} {{ fill: {colour(n, paper)} }}\n"
+        for n in known
+    )
+    return (
+        f".page {{ fill: {paper.page} }} text {{ fill: {paper.text} }}\n"
+        f".rest {{ fill: {paper.rest} }} .grid {{ stroke: {paper.grid} }}"
+        f" .axis {{ stroke: {paper.axis} }}\n{own}"
+    )
+
+
+def _dashes(known: Iterable[int]) -> str:
+    patterns = [(n, " ".join(map(_n, dashes(n)))) for n in known]
+    own = "".join(f".c{n} {{ stroke-dasharray: {d} }}\n" for n, d in patterns if d)
+    return (
+        "path { fill: none } .curve { stroke-width: 1.6; stroke-linejoin: round }\n"
+        f"{own}.jump {{ stroke-width: 0.8; stroke-dasharray: none }}\n"
+        ".points { stroke-width: 4; stroke-linecap: round; stroke-dasharray: none }\n"
+    )
+
+
+class _SvgPen(Pen):
+    """Elements of an SVG."""
+
+    def __init__(self) -> None:
+        self.out: list[str] = []
+
+    def begin(self, name: str, frame: Frame) -> None:
+        # the last digits of a peak may differ between machines
+        x, y = (" ".join(f"{v:.12g}" for v in ends) for ends in (frame.window, frame.span))
+        self.out.append(
+            f'<g id="{escape(name)}" data-x="{x}" data-y="{y}" data-frame="{_n(LEFT)}'
+            f' {_n(frame.top)} {_n(frame.wide)} {_n(frame.high)}">\n'
+        )
+
+    def end(self) -> None:
+        self.out.append("</g>\n")
+
+    def rest(self, x: float, y: float, wide: float, high: float) -> None:
+        self.out.append(
+            f'<rect class="rest" x="{_n(x)}" y="{_n(y)}" width="{_n(wide)}" height="{_n(high)}"/>\n'
+        )
+
+    def grid(self, paths: Iterable[Path]) -> None:
+        self._path("grid", paths)
+
+    def axis(self, paths: Iterable[Path]) -> None:
+        self._path("axis", paths)
+
+    def curve(self, number: int, paths: Iterable[Path]) -> None:
+        self._path(f"curve c{number}", paths)
+
+    def sample(self, number: int, place: Point, long: float) -> None:
+        self.out.append(f'<path class="curve c{number}" d="M{_at(place)}h{_n(long)}"/>\n')
+
+    def jumps(self, number: int, paths: Iterable[Path]) -> None:
+        words = [f"M{_at(before)}V{_n(after[1])}" for before, after in paths]
+        self.out.append(f'<path class="jump c{number}" d="{"".join(words)}"/>\n')
+
+    def points(self, number: int, places: Path) -> None:
+        dots = "".join(f"M{at}h0" for at in dict.fromkeys(map(_at, places)))
+        self.out.append(f'<path class="points c{number}" d="{dots}"/>\n')
+
+    def dot(self, number: int, place: Point) -> None:
+        x, y = map(_n, place)
+        self.out.append(f'<circle class="d{number}" cx="{x}" cy="{y}" r="2.8"/>\n')
+
+    def text(self, x: float, y: float, text: str, size: float = TEXT, hold: str = START) -> None:
+        more = "" if hold == START else f' text-anchor="{hold}"'
+        self._text(x, y, text, more + _size(size))
+
+    def bold(self, x: float, y: float, text: str, size: float = TEXT) -> None:
+        self._text(x, y, text, f'{_size(size)} font-weight="bold"')
+
+    def _path(self, kind: str, paths: Iterable[Path]) -> None:
+        """Add paths; one that begins at the end of the one before continues it."""
+        words: list[str] = []
+        last = ""
+        for path in paths:
+            places = list(map(_at, path))
+            if places[0] != last:
+                words.append("M" + places[0])
+            words += [" " + place for place in places[1:]]
+            last = places[-1]
+        self.out.append(f'<path class="{kind}" d="{"".join(words)}"/>\n')
+
+    def _text(self, x: float, y: float, text: str, more: str) -> None:
+        self.out.append(f'<text x="{_n(x)}" y="{_n(y)}"{more}>{escape(text, quote=False)}</text>\n')
+
+
+def _size(size: float) -> str:
+    return "" if size == TEXT else f' font-size="{_n(size)}"'
+
+
+def _at(place: Point) -> str:
+    return f"{_n(place[0])},{_n(place[1])}"
+
+
+def _n(value: float) -> str:
+    """A number with at most two decimals, without a negative zero."""
+    return in_decimals(value, 2)

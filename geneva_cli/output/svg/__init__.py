@@ -1,0 +1,1 @@
+"""Drawings and scenes as SVG."""

@@ -1,0 +1,1 @@
+"""Tables, summaries and pages of the manual in a terminal's window."""

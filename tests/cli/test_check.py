@@ -1,0 +1,188 @@
+"""`geneva check`: a headline that counts warnings, what to change, and one list of warnings."""
+
+import fcntl
+import json
+import os
+import pty
+import re
+import struct
+import subprocess
+import sys
+import termios
+from pathlib import Path
+from typing import Any
+
+import pytest
+import repo
+from typer.testing import CliRunner
+
+from geneva_cli.cli.app import app
+
+pytestmark = pytest.mark.usefixtures("made_once")
+TURRET, PLAIN, CURVED = "turret.toml", "side-crank-z6.toml", "press-curved.toml"
+FAST = "[wheel]\nz = 6\n[drive]\nkind = 'side-crank'\nA = 0.1\n[limits]\nacceleration_max = 1.0\n"
+
+
+def run(*arguments: str) -> Any:
+    return CliRunner().invoke(app, ["check", *arguments])
+
+
+@pytest.fixture(autouse=True)
+def fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    """A spec that fails, in the folder with the designs."""
+    monkeypatch.chdir(tmp_path)
+    for name in (TURRET, PLAIN, CURVED):
+        (tmp_path / name).symlink_to(repo.DESIGNS / name)
+    (tmp_path / "fast.toml").write_text(FAST, encoding="utf-8")
+    return "fast.toml"
+
+
+@pytest.fixture
+def watched(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A person looks at standard output, in a window of 60 columns, without colour."""
+    monkeypatch.setattr("geneva_cli.output.is_watched", lambda output, format: not format)
+    monkeypatch.setenv("COLUMNS", "60")
+    monkeypatch.setenv("NO_COLOR", "1")
+
+
+def test_a_headline_counts_warnings() -> None:
+    """A machine whose wall is cut away for half the motion does not read as one that passes."""
+    for spec, headline in (
+        (PLAIN, "✓ {}: all 16 checks pass"),
+        (TURRET, "! {}: all 21 checks pass, 1 warning"),
+        (CURVED, "! {}: all 26 checks pass, 3 warnings"),
+    ):
+        found = run(spec)
+        assert found.exit_code == 0
+        assert found.stdout.splitlines()[0] == headline.format(spec)
+
+
+def test_json_has_the_warnings_and_strict_obeys_them() -> None:
+    found = run(PLAIN, TURRET, "--format", "json")
+    tree = json.loads(found.stdout)
+    assert list(tree) == ["rows", "passes", "warnings"]
+    assert tree["passes"] is True
+    (warning,) = tree["warnings"]
+    assert list(warning) == ["spec", "name", "text"]
+    assert (warning["spec"], warning["name"]) == (TURRET, "wheel-left-out")
+    assert warning["text"].startswith("the wheel's own inertia, as drawn, is 0.3024 kg m²")
+    assert {row["spec"] for row in tree["rows"]} == {PLAIN, TURRET}
+    assert found.exit_code == 0
+    assert run(TURRET, "--strict", "--format", "json").exit_code == 1
+    assert run(PLAIN, "--strict").exit_code == 0
+
+
+@pytest.mark.parametrize("format", ["table", "csv", "json", "md"])
+def test_a_warning_is_printed_once(format: str) -> None:
+    """On standard error where the format has no place for it, and nowhere else."""
+    found = run(TURRET, "--format", format)
+    both = " ".join(f"{found.stdout} {found.stderr}".split())
+    assert both.count("if the load leaves it out, add") == 1
+    assert ("leaves it" in found.stderr) is (format == "csv")
+
+
+def test_csv_is_the_rows_alone() -> None:
+    found = run(TURRET, "--format", "csv").stdout.splitlines()
+    assert found[0] == "spec,check,value,at_deg,must_be,limit,passes,nearest,why"
+    assert len(found) == 22
+    both = run(TURRET, "--set", "drive.both_ways=true", "--format", "csv").stdout.splitlines()
+    assert both[0] == found[0] + ",direction"
+
+
+def test_what_fails_says_what_to_change(fails: str) -> None:
+    """The change that is named passes."""
+    found = run(fails)
+    assert found.exit_code == 1
+    assert found.stdout.startswith(f"✗ {fails}: 1 of 17 checks fails\n")
+    failing = found.stdout.split("\n\n")[1]
+    assert "peak acceleration  1.113, at most 1" in failing
+    change = failing.split("passes with ")[1].split(" (")[0]
+    assert run(fails, "--set", f"drive.{change.replace(' ', '')}").exit_code == 0
+
+
+def test_parts_that_cannot_be_built_are_named(watched: None) -> None:
+    """Beside the change that passes; the row has no value that would tell."""
+    spec = str(repo.DESIGNS / "press-straight.toml")
+    shown = " ".join(run(spec, "--set", "size.wheel_bore_mm=400").stdout.split())
+    assert "parts wheel_bore_mm = 400: the slots reach down to 199.945 mm" in shown
+    assert "passes with wheel_bore_mm = " in shown
+    assert shown.count("the slots reach down to") == 1  # the text; the note is the change alone
+
+
+def test_a_window_gets_the_answer_and_the_table_on_request(watched: None) -> None:
+    short, whole = run(TURRET).stdout, run(TURRET, "-v").stdout
+    assert "tightest  crank shaft stress 61.41 MPa at -17.24°, at most 82.5" in short
+    assert short.count(TURRET) == 1
+    assert "dwell_hold" not in short
+    assert "dwell_hold" in whole
+
+
+def test_several_specs_are_counted_before_their_details(fails: str) -> None:
+    found = run(PLAIN, fails, TURRET).stdout
+    heads, *details = found.split("\n\n")
+    assert [line[0] for line in heads.splitlines()] == ["✓", "✗", "!", "✗"]
+    assert heads.endswith("✗ 1 of 3 specs fails, 1 with warnings")
+    assert details[0] == fails
+    assert details[2] == TURRET
+
+
+def test_signs_need_neither_colour_nor_unicode(monkeypatch: pytest.MonkeyPatch) -> None:
+    from geneva_cli.output.terminal.summary import style_of
+
+    class Ascii:
+        encoding = "ascii"
+
+        @staticmethod
+        def isatty() -> bool:
+            return True
+
+    monkeypatch.setattr(sys, "stdout", Ascii)
+    monkeypatch.setenv("TERM", "dumb")
+    look = style_of("-", True)
+    assert (look.styled, look.unicode) == (False, False)
+
+
+def test_proof_sets_the_tolerance() -> None:
+    found = run("check", TURRET, "--proof", "0.0001", "--format", "json")
+    row = json.loads(found.stdout)["rows"][-1]
+    assert (row["check"], row["limit"], row["passes"]) == ("gap_proved_mm", -0.0001, True)
+    assert -0.0001 <= row["value"] <= 0.0
+    for bad in ("0", "-1", "nan", "inf", "13"):
+        found = run("check", TURRET, "--proof", bad)
+        assert found.exit_code == 2
+        assert "--proof" in found.stderr
+        assert "must be above 0, at most 12 mm" in found.stderr
+
+
+def test_standard_input_is_read_once() -> None:
+    twice = CliRunner().invoke(app, ["check", "-", PLAIN, "-"], input="[wheel]\nz = 6\n")
+    assert twice.exit_code == 2 and not twice.stdout
+    assert twice.stderr == "<stdin>: given twice, but it can be read only once; name it once\n"
+
+
+@pytest.mark.parametrize(
+    ("command", "names"),
+    [
+        (["check", PLAIN, "-v"], ["check", "value", "must be", "limit"]),
+        (
+            ["synth", "--motion-deg", "120", "--z", "6", "--check", "0"],
+            ["no", "rollers", "machine", "acceleration"],
+        ),
+    ],
+)
+def test_a_narrow_table_keeps_the_column_that_decides(command: list[str], names: list[str]) -> None:
+    """In 60 columns a limit stands beside its value, and the number by which rows are sorted."""
+    master, slave = pty.openpty()
+    fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 50, 60, 0, 0))
+    env = {key: value for key, value in os.environ.items() if key not in ("COLUMNS", "LINES")}
+    with subprocess.Popen(
+        [repo.GENEVA, *command],
+        stdout=slave,
+        stderr=subprocess.DEVNULL,
+        env=env | {"NO_COLOR": "1"},
+    ):
+        os.close(slave)
+        shown = repo.read_terminal(master).decode().splitlines()
+    (heading,) = (line for line in shown if line.startswith(names[0]))
+    assert re.split(r"\s{2,}", heading.strip()) == names
+    assert all(len(line.rstrip()) <= 60 for line in shown)

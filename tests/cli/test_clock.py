@@ -1,0 +1,75 @@
+"""Results do not depend on the speed of the computer."""
+
+import itertools
+import os
+import re
+import time
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+import geneva_cli
+from geneva_cli.cli.app import app
+
+ROOT = Path(geneva_cli.__file__).parent
+# Which files may read a clock: the progress bar's, and the bench's, whose subject time is.
+TIMED = {"output/terminal/bar.py", "bench/timing_pairs.py"}
+CLOCK = re.compile(r"^\s*(import|from) (time|timeit|datetime|resource|sched)\b|os\.times", re.M)
+CLOCKS = ("time", "monotonic", "perf_counter", "process_time", "thread_time")
+HOUR = 3600
+LOAD = "load = {inertia_kgm2 = 0.1, torque_Nm = 2}\n"
+SPECS = {
+    "passing.toml": "wheel = {z = 6}\n" + LOAD,
+    # with advice: one change of a size, and one of a key of the motion
+    "hub.toml": "wheel = {z = 6}\nsize = {crank_hub_mm = 60}\n",
+    "law.toml": 'wheel = {z = 6}\nmotion = {law = "cycloidal", ratio = "matched"}\n'
+    "limits = {acceleration_max = 1.2}\n" + LOAD,
+}
+
+
+def printed(line: str, seconds_a_reading: int) -> str:
+    """What a command prints while each reading of any clock is that much later than the last."""
+    readings = itertools.count(0, seconds_a_reading)
+    with pytest.MonkeyPatch.context() as patch:
+        for name in CLOCKS:
+            patch.setattr(time, name, lambda: float(next(readings)))
+            patch.setattr(time, f"{name}_ns", lambda: next(readings) * 10**9)
+        result = CliRunner().invoke(app, line.split())
+    assert result.exit_code in (0, 1) and "Error" not in result.output, result.output
+    return result.stdout
+
+
+@pytest.mark.sampled(4)
+@pytest.mark.parametrize(
+    ("line", "shown"),
+    [
+        ("check passing.toml", "checks pass, 1 warning"),
+        ("check hub.toml", "passes with crank_hub_mm"),
+        ("check law.toml", "passes with alpha0_deg"),
+        ("report passing.toml --format json", '"passes": true'),
+        ("report law.toml", "passes with alpha0_deg"),
+        ("loads passing.toml --format json", '"pin_force_N"'),
+        ("synth --motion-deg 120 --z 6 --check 1 --format csv", "epicyclic"),
+    ],
+)
+def test_a_slow_computer_prints_the_same_bytes(
+    line: str, shown: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """An hour passes from one reading of the clock to the next, or no time at all."""
+    monkeypatch.chdir(tmp_path)
+    for name, text in SPECS.items():
+        Path(name).write_text(text, encoding="utf-8")
+    slow, fast = printed(line, HOUR), printed(line, 0)
+    assert slow == fast
+    assert shown in slow
+
+
+def test_only_the_progress_bar_and_the_bench_read_a_clock() -> None:
+    files = [Path(folder, name) for folder, _, names in os.walk(ROOT) for name in names]
+    texts = {
+        file.relative_to(ROOT).as_posix(): file.read_text(encoding="utf-8")
+        for file in files
+        if file.suffix == ".py"
+    }
+    assert {name for name, text in texts.items() if CLOCK.search(text)} == TIMED

@@ -1,0 +1,332 @@
+"""Everything that the program says is explained: names are those of the program itself."""
+
+import ast
+import json
+import pickle
+import re
+import shlex
+import shutil
+import tomllib
+from functools import cache
+from itertools import chain
+from pathlib import Path
+
+import pytest
+import repo
+from typer.testing import CliRunner
+
+from geneva_cli.cli.app import app
+from geneva_cli.cli.options import say
+from geneva_cli.design import load
+from geneva_cli.drawings import parts_list
+from geneva_cli.drawings.catalogue import PARTS
+from geneva_cli.errors import GenevaError, Notice
+from geneva_cli.loads import figures, summary
+from geneva_cli.loads.sizing import SHOWN_SIZING
+from geneva_cli.loads.vibration import answers
+from geneva_cli.loads.vibration.vibration import SpeedToAvoid
+from geneva_cli.manual import TOPICS
+from geneva_cli.manual.explained import GROUPS, Entry, entries
+from geneva_cli.motion import law_values, registry
+from geneva_cli.motion import motion_table as motion
+from geneva_cli.motion.cam_factors import CamFactors
+from geneva_cli.motion.pitch_curve import WALLED
+from geneva_cli.names import unit_of
+from geneva_cli.parts.gears import gear_curves
+from geneva_cli.parts.slots import groove
+from geneva_cli.specfile.meanings import listed, meanings, names
+from geneva_cli.specfile.template import EXAMPLES
+from geneva_cli.study import survey
+from geneva_cli.study.sweep.run import ERROR
+from geneva_cli.study.synth.table import NAMES as SYNTH
+from geneva_cli.study.verdicts import checks_table
+from geneva_cli.verdict.checks import checks
+from geneva_cli.verdict.checks.registry import LIMITS, MOTION, STATIC, TURNING
+from geneva_cli.verdict.checks.registry import PROOFS as PROVED
+from geneva_cli.verdict.quantities import groups
+from geneva_cli.verdict.quantities.names import group_of
+from geneva_cli.verdict.tolerance.tables import ANGLES
+
+WORDLESS = {"word", "yes or no", "list", "table", "text", "number"}  # not worked out by a formula
+PACKAGE = repo.ROOT / "geneva_cli"
+# Tests that hold what an entry says, by its group and first name. The wheel has no tests, so that
+# they stand here and not in the pages.
+PROOFS = tomllib.loads((repo.ROOT / "tests/cli/proofs.toml").read_text(encoding="utf-8"))
+
+
+def explained(group: str) -> set[str]:
+    """The names that a group's entries explain."""
+    return {name for e in entries() if e.group == group for name in e.names}
+
+
+@cache
+def named_in_calls(function: str) -> set[str]:
+    """The literal first arguments of all calls of a function in the program."""
+    found = set()
+    for file in PACKAGE.rglob("*.py"):
+        text = file.read_text(encoding="utf-8")
+        for node in ast.walk(ast.parse(text)) if f"{function}(" in text else ():
+            if isinstance(node, ast.Call) and ast.unparse(node.func) == function and node.args:
+                first = node.args[0]
+                if isinstance(first, ast.Constant) and isinstance(first.value, str):
+                    found.add(first.value)
+    return found
+
+
+def test_every_check_has_an_entry_and_no_entry_names_none():
+    made = named_in_calls("Check") | named_in_calls("refused")
+    assert made >= {"parts", "full_turn"}
+    assert explained("check") == {*MOTION, *LIMITS, *STATIC, *TURNING, *PROVED, *made}
+
+
+def test_every_warning_has_an_entry_and_no_entry_names_none():
+    made = named_in_calls("Notice")
+    assert explained("warning") == made
+
+
+def test_a_warning_is_told_with_its_name(capsys):
+    say("a.toml", [Notice("turns-back", "the wheel turns back"), "other"])
+    told = capsys.readouterr().err.splitlines()
+    assert told[0] == "a.toml: warning: the wheel turns back [turns-back]"
+    assert told[1] == "a.toml: warning: other"
+    copied = pickle.loads(pickle.dumps(Notice("undercut", "text")))
+    assert (copied, copied.name) == ("text", "undercut")
+
+
+def test_every_kind_and_law_has_an_entry_and_no_entry_names_none():
+    kinds = {*registry.GEARINGS, *registry.DRIVES}
+    assert kinds <= explained("kind") <= {*kinds, *EXAMPLES}
+    assert explained("law") == set(registry.LAWS)
+
+
+def test_every_part_has_an_entry_and_no_entry_names_none():
+    assert explained("part") == set(PARTS)
+
+
+@pytest.fixture(scope="module")
+def quantities() -> set[str]:
+    """The fields and columns of all commands, as whole as the program has them."""
+    model = load(str(repo.DESIGNS / "turret.toml")).parts_model
+    quick = [group for group in groups.GROUPS if not group.makes_parts]
+    out = {*groups.values(quick, model)}
+    parts = [group for group in groups.GROUPS if group.makes_parts and group.table != "checks"]
+    out |= {*chain.from_iterable(group.names for group in parts), "tolerance.warnings"}
+    out |= {f"parts_list.{kind}" for kind in parts_list.KINDS} | {"checks.passes", "checks.failed"}
+    out |= {"passes", "checks_failed", "not_proved", "warnings", "spec", "title"}  # the report's
+    of_loads = {f"{q}.{s}" for q in summary.SHOWN_QUANTITIES for s in summary.LoadSummary._fields}
+    out |= {f"loads.{name}" for name in of_loads} | {"loads.reversals_deg"}
+    out |= {f"sizing.{name}" for name in SHOWN_SIZING}
+    out |= {f"vibration.avoid.{name}" for name in SpeedToAvoid._fields}
+    out |= {f"vibration.{name}" for name in (*answers.STATION_COLUMNS, "avoid")}
+    out |= {
+        *answers.SPECTRUM_COLUMNS,
+        *survey.NAMES,
+        *motion.motion_columns(load(str(repo.DESIGNS / "wandering-hours.toml")).mechanism),
+        *figures.AXIS_BY_NAME,
+        *CamFactors._fields,
+    }
+    out |= {"acceleration.exit", "jerk.exit", *law_values.LAW_COLUMNS, *SYNTH, ERROR}
+    out |= set(checks_table([], directed=True).names)
+    out |= {*WALLED, *groove.NAMES, *gear_curves.NAMES, *parts_list.NAMES}
+    out |= {"dwell_position_share", "motion_play_share"}  # of a histogram
+    return out | {f"tolerance.{name}" for name in tolerance_names()}
+
+
+def tolerance_names() -> set[str]:
+    """Those of ``geneva tolerance``, of a wheel without parts to turn."""
+    spec = [str(repo.DESIGNS / "spherical-z6.toml"), "--set", "tolerance.slot_width_mm=0.1"]
+    words = ["tolerance", *spec, "--samples", "9", "--format", "json"]
+    told = json.loads(CliRunner().invoke(app, words).stdout)
+    out = set()
+    for group, value in told.items():
+        rows = value if isinstance(value, list) else [value]
+        out |= {f"{group}.{name}" for row in rows if isinstance(row, dict) for name in row}
+        out |= {group} if not isinstance(value, dict) else set()
+    assert {f"motion_play.{angle}_um" for angle in ANGLES} <= out
+    return out - {"spec", "title", "warnings"}
+
+
+def test_every_quantity_has_an_entry(quantities: set[str]):
+    unknown = []
+    for name in sorted(quantities):
+        try:
+            found = meanings(name)
+        except GenevaError:
+            found = []
+        if not found:
+            unknown.append(name)
+    assert not unknown
+
+
+def test_no_entry_names_no_quantity(quantities: set[str]):
+    def is_named(name: str) -> bool:
+        if name.startswith("."):
+            return any(q.endswith(name) for q in quantities)
+        return any(f".{name}" in f".{q}" for q in quantities)
+
+    assert not [name for name in explained("quantity") if not is_named(name)]
+
+
+# The examples of these are points of a file, a value that is null without a word, and a body on a
+# carousel, which no design has off its axis.
+WITHOUT_RUN = {"rounded-points", "not-known", "unbalance-windup"}
+WARNINGS = [e for e in entries() if e.group == "warning" and e.names[0] not in WITHOUT_RUN]
+
+WITHOUT_EXAMPLE = {"gap_proved_mm"}  # a missing proof of the gap does not fail
+ONLY_FAILING = {"parts", "full_turn"}  # no row says that they pass
+CHECKED = [e for e in entries() if e.group == "check" and e.names[0] not in WITHOUT_EXAMPLE]
+
+
+def test_an_entry_is_whole():
+    for entry in entries():
+        for name in entry.names:
+            assert re.fullmatch(r"\.?[\w.-]+", name), name
+            (found,) = [m for m in meanings(name) if m.group == entry.group and m.name == name]
+            needed = {"meaning", "source", "manual"}
+            needed |= {"to_do", "why"} if entry.group in ("check", "warning") else set()
+            needed |= {"bad", "good"} if entry in (*WARNINGS, *CHECKED) else set()
+            needed |= {"formula", "unit"} if entry.group in ("check", "quantity", "law") else set()
+            if name.startswith("."):
+                needed -= {"unit", "source"}  # those of what it ends
+            if found.unit in WORDLESS or (found.unit or "").startswith("that of"):
+                needed -= {"formula", "source"}
+            missing = {field for field in needed if not found._asdict()[field]}
+            assert not missing, (name, missing)
+            assert found.meaning[0].isupper() and found.meaning.endswith("."), name
+        assert set(entry.topics) <= TOPICS.keys(), entry.names
+        for proof in PROOFS[entry.group][entry.names[0]]:
+            path, _, test = proof.partition("::")
+            text = (repo.ROOT / path).read_text(encoding="utf-8")
+            assert path.startswith("tests/") and f"\ndef {test}(" in text, proof
+
+
+@pytest.mark.parametrize("name", ["strength.pin", "strength.horn", "strength.lock", "shock.entry"])
+def test_a_group_of_values_has_no_unit_of_its_own(name):
+    """Stresses, lengths and margins: no one unit is that of all."""
+    units = {unit_of(value) for value in group_of() if value.startswith(f"{name}.")}
+    assert len(units) > 1
+    assert [one.unit for one in meanings(name)] == ["that of each value"]
+
+
+def test_no_proof_is_of_nothing():
+    named = {(e.group, e.names[0]) for e in entries()}
+    assert {(group, name) for group, some in PROOFS.items() for name in some} == named
+
+
+@pytest.mark.sampled(48)
+@pytest.mark.parametrize("entry", WARNINGS, ids=lambda e: e.names[0])
+def test_a_warning_shows_in_its_bad_example_and_not_in_the_good_one(
+    entry: Entry, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    shutil.copytree(repo.DESIGNS, tmp_path, dirs_exist_ok=True)
+    (name,) = entry.names
+    assert [name in warned(example) for example in (entry.bad, entry.good)] == [True, False]
+
+
+@pytest.mark.sampled(48)
+@pytest.mark.parametrize("entry", CHECKED, ids=lambda e: e.names[0])
+def test_a_check_fails_in_its_bad_example_and_passes_in_the_good_one(entry: Entry):
+    good = passes(entry.good)
+    if entry.names[0] == "dwell_deg":  # a spec without a dwell is refused when it is read
+        with pytest.raises(GenevaError, match="leave no dwell"):
+            passes(entry.bad)
+        assert good["dwell_deg"]
+        return
+    bad = passes(entry.bad)
+    if entry.names[0] in ONLY_FAILING:
+        assert False in (bad[name] for name in entry.names)
+        assert all(good.values()) and not good.keys() & ONLY_FAILING
+        return
+    made = bad.keys() & good.keys() & set(entry.names)
+    assert made and all(good[name] for name in made)
+    assert any(bad[name] is False for name in made)
+
+
+def passes(command: str) -> dict[str, bool | None]:
+    """Whether each check passes that a command makes, without its advice, which takes seconds."""
+    geneva, check, spec, *given = shlex.split(command)
+    assert (geneva, check, *given[::2]) == ("geneva", "check", *["--set"] * (len(given) // 2))
+    design = load(str(repo.DESIGNS / spec), given[1::2])
+    return {row.name: row.passes for row in checks(design.mechanism)}
+
+
+def warned(example: str) -> set[str]:
+    """Names of the warnings that a command gives, or a spec with some more lines."""
+    if not example.startswith("geneva "):
+        spec = (repo.DESIGNS / "press-straight.toml").read_text(encoding="utf-8")
+        Path("more.toml").write_text("\n".join([spec, *example.split("; ")]), encoding="utf-8")
+        example = "geneva loads more.toml"
+    result = CliRunner().invoke(app, shlex.split(example)[1:])
+    assert result.exit_code == 0, result.output
+    return set(re.findall(r"(?:explain |\[)([a-z-]+)", result.output))
+
+
+def test_no_name_is_explained_twice():
+    for group in GROUPS.values():
+        every = [name for e in entries() if e.group == group for name in e.names]
+        assert len(every) == len(set(every))
+
+
+def test_every_label_is_a_field_of_an_entry():
+    """A label that is misspelt would be an item without a meaning."""
+    labels = {name.replace("_", " ").capitalize() for name in Entry._fields[3:]}
+    for page in GROUPS:
+        text = (PACKAGE / "manual" / "reference" / f"{page}.md").read_text(encoding="utf-8")
+        _, _, own = text.partition("\n## ")
+        assert set(re.findall(r"^- ([^:]*)", own, re.MULTILINE)) <= labels
+
+
+@pytest.mark.parametrize(
+    ("word", "groups"),
+    [
+        ("checks.horn_mm", ["check"]),
+        ("pressure_angle_deg", ["check"]),
+        ("jerk_max", ["check", "quantity", "key"]),
+        ("dwell_s", ["quantity"]),
+        ("loads.pin_force_N.max_at_deg", ["quantity"]),
+        ("strength.lock.margin", ["quantity"]),
+        ("max", ["quantity"]),
+        ("side-crank", ["kind"]),
+        ("cycloidal", ["law"]),
+        ("turns-back", ["warning"]),
+        ("first-wheel", ["part"]),
+        ("crank", ["kind", "part"]),
+        ("inputs.drive.n_rpm", ["key"]),
+        ("wheel.steps_deg", ["key"]),
+        ("A", ["key"] * 4),  # of two kinds, in [drive] and in [drive.before]
+    ],
+)
+def test_what_a_word_means(word: str, groups: list[str]):
+    assert [m.group for m in meanings(word)] == groups
+
+
+@pytest.mark.parametrize(
+    ("word", "meant"),
+    [("hrn_mm", "horn_mm"), ("side-krank", "side-crank"), ("checks.gap_m", "checks.gap_mm")],
+)
+def test_a_misspelt_word(word: str, meant: str):
+    with pytest.raises(GenevaError, match=f'did you mean "{meant}"'):
+        meanings(word)
+
+
+def test_the_list_has_everything_and_each_can_be_asked_for():
+    rows = listed()
+    assert {name for _, name, _ in rows} == {name for e in entries() for name in e.names}
+    assert all(about.endswith(".") and len(about) > 8 for _, _, about in rows)
+    assert {name for _, name, _ in rows} <= set(names())
+
+
+def test_formats(tmp_path):
+    def run(*words: str) -> str:
+        result = CliRunner().invoke(app, ["explain", *words])
+        assert result.exit_code == 0, result.output
+        return result.stdout
+
+    (row,) = json.loads(run("horn_mm", "--format", "json"))["rows"]
+    assert (row["group"], row["name"], row["unit"]) == ("check", "horn_mm", "mm")
+    page = run("horn_mm")
+    assert page.startswith("## horn_mm (check)\n\n") and row["formula"] in " ".join(page.split())
+    run("horn_mm", "-o", str(tmp_path / "horn.md"))
+    assert (tmp_path / "horn.md").read_text(encoding="utf-8") == page
+    assert "check,horn_mm," in run("--format", "csv")

@@ -1,0 +1,299 @@
+"""A run imports only what it shows; a new command adds one row to ``ROWS``."""
+
+import os
+import pty
+import select
+import subprocess
+import sys
+from contextlib import ExitStack
+from typing import NamedTuple
+
+import pytest
+import repo
+
+from geneva_cli.cli.app import COMMANDS
+
+DESIGNS = str(repo.DESIGNS)
+# What costs: a run may import only what its row allows of these.
+HEAVY = {"numpy", "scipy", "rich", "pydantic", "matplotlib", "ezdxf", "tomli", "tomllib", "json"}
+HEAVY |= {"pyparsing", "fontTools"}  # ezdxf's, which no drawing needs
+HEAVY |= {"ssl", "numpy.ma"}  # those of xml.sax.saxutils and of np.unique, for a line of code
+# The whole program, through its real entry point, which ends the process by os._exit.
+PROBE = """
+import os, sys
+end = os._exit
+def leave(status):
+    print(*sys.modules, sep="\\n", file=sys.stderr, flush=True)
+    end(status)
+os._exit = leave
+sys.argv[0] = "geneva"
+from geneva_cli.cli.app import main
+main()
+"""
+# The same, a run a line of standard input: each in a fork of a process that has imported what every
+# run does, the program's own entry.
+FORKS = (
+    PROBE.removesuffix("main()\n")
+    + """
+for line in sys.stdin:
+    child = os.fork()
+    if not child:
+        sys.argv = ["geneva", *line.rstrip("\\n").split("\\t")]
+        main()
+    os.waitpid(child, 0)
+    print("done", file=sys.stderr, flush=True)
+"""
+)
+
+
+class Row(NamedTuple):
+    """A run, and the heavy modules that it may import."""
+
+    line: str
+    may: str = ""
+
+    @property
+    def words(self):
+        return [os.path.join(DESIGNS, w) if w.endswith(".toml") else w for w in self.line.split()]
+
+
+ROWS = [
+    Row("--help"),
+    Row("--version"),
+    Row("table --help"),
+    Row("help"),
+    Row("help cycle"),
+    Row("schema", "json"),
+    Row("motion --help"),
+    Row("table --z 6"),
+    Row("table --internal"),
+    Row("table --z 3..40 --format csv"),
+    Row("table --z 6 --format md"),
+    Row("table --z 6 --format json", "json"),
+    Row("table --z 6 --A 0.6", "numpy"),  # its peaks are searched for
+    Row("table --z 2"),
+    Row("peaks press-straight.toml", "tomli"),
+    Row("peaks internal-z6.toml", "tomli"),
+    Row("peaks side-crank-z6.toml", "tomli numpy"),
+    Row("peaks press-straight.toml --format json", "tomli json"),
+    Row("peaks press-straight.toml --certify", "tomli numpy"),
+    Row("peaks press-curved.toml", "tomli numpy"),  # whether its slot drives positively
+    Row("peaks table-law.toml", "tomli numpy"),
+    Row("motion press-straight.toml --samples 9", "tomli numpy"),
+    Row("motion press-curved.toml --samples 9", "tomli numpy"),
+    Row("loads press-straight.toml", "tomli numpy"),
+    Row("loads press-curved.toml --format csv", "tomli numpy"),
+    Row("loads cam-geneva.toml --format json", "tomli numpy json"),
+    Row("plot press-straight.toml", "tomli numpy"),
+    Row("plot press-curved.toml press-345.toml --format svg", "tomli numpy"),
+    Row("animate press-straight.toml", "tomli numpy json"),
+    Row("view press-straight.toml", "tomli numpy json"),
+    Row("profile press-straight.toml", "tomli numpy"),
+    Row("profile press-curved.toml", "tomli numpy"),
+    Row("profile press-curved.toml --part wheel --format svg", "tomli numpy"),
+    Row("profile press-straight.toml --part wheel --format dxf", "tomli numpy ezdxf json"),
+    Row("profile press-straight.toml --part sheet --format pdf", "tomli numpy"),
+    Row("profile press-straight.toml --part sheet --format dxf", "tomli numpy ezdxf json"),
+    Row("export --help", "numpy"),
+    Row("report press-straight.toml", "tomli numpy"),
+    Row("report spherical-z6.toml", "tomli numpy"),  # its loads
+    Row("report press-curved.toml", "tomli numpy"),
+    Row("report press-straight.toml --format html", "tomli numpy"),
+    Row("report press-straight.toml --format pdf", "tomli numpy"),
+    Row("report spherical-z6.toml --format md", "tomli numpy"),
+    # SciPy: the normal distribution's quantiles, which bring json and numpy.ma
+    Row("tolerance tolerances.toml --samples 9", "tomli numpy scipy json numpy.ma"),
+    Row("check limits.toml", "tomli numpy"),
+    Row("check spherical-z6.toml", "tomli numpy"),
+    Row("check press-curved.toml", "tomli numpy"),
+    Row("vibration press-straight.toml --period-ratio 10", "tomli numpy"),
+    Row("vibration press-straight.toml --period-ratio 10 --format csv", "tomli numpy"),
+    Row("compare side-crank-z6.toml internal-z6.toml", "tomli numpy"),
+    Row("sweep side-crank-z6.toml --vary drive.A=0,0.3", "tomli numpy"),
+    Row("sweep side-crank-z6.toml --vary drive.A=0..0.3 --random 9", "tomli numpy"),
+    Row("keys"),
+    Row("explain"),
+    Row("explain horn_mm"),
+    Row("laws"),
+    # NumPy: each row of synth says whether its parts can be built, for which they are laid out
+    Row("synth --tau 1/3 --z 6 --check 1", "numpy"),
+    Row("synth --subject-to acceleration_max<=0.5 --z 6 --check 1", "numpy"),
+    Row("synth --motion-deg 180 --z 6 --write 1", "tomli numpy"),
+    Row("synth --motion-deg 180 --z 6 --write 4", "tomli numpy"),
+    Row("new external"),
+    Row("bench --help"),
+    # json, numpy.ma: SciPy's; matplotlib only for plots
+    Row("bench peaks --quick", "numpy scipy json numpy.ma"),
+]
+
+# The quick ones may import this much of the program, and no more.
+OWN = {
+    "--help": "cli cli.app errors progress streams manual",
+    "--version": "cli cli.app errors progress streams",
+    # no spec, no registry of kinds, no record of either: of the wheels their closed forms alone
+    "table --z 6": "cli cli.app errors progress streams table cli.commands cli.completion "
+    "motion motion.wheels cli.options cli.commands.table motion.wheels.classic motion.timing "
+    "output study output.finite output.formats output.text study.survey "
+    "numerics motion.cam_factors numerics.angles numerics.arrays spec spec.rules",
+}
+
+# Modules of the program that a run of an unloaded wheel imports, at most: a few more than today.
+# A module costs a fifth of a millisecond, and most branches of a large program are of no use for a
+# given machine. Where a number is exceeded, see which branch imported too much.
+STRAIGHT, CURVED = "[wheel]\nz = 6\n", '[wheel]\nz = 6\n[motion]\nlaw = "modified-sine"\n'
+MOST = {
+    "peaks -": (70, 94),
+    "motion -": (72, 95),
+    "loads - --set load.inertia_kgm2=0.05": (210, 229),
+    "vibration - --period-ratio 5": (105, 110),
+    "check -": (194, 277),
+    "report -": (269, 325),
+    "compare - --vary drive.n_rpm=60,90": (197, 203),
+    "profile -": (83, 106),
+    "profile - --part wheel --format svg": (185, 268),
+    "profile - --part wheel --format dxf": (179, 262),
+    "profile - --part sheet --format svg": (202, 284),
+    "plot - --format svg": (125, 132),
+}
+
+
+def loaded(words, **settings):
+    settings = {"stdout": subprocess.PIPE} | settings
+    found = subprocess.run(
+        [sys.executable, "-c", PROBE, *words],
+        stderr=subprocess.PIPE,
+        text=True,
+        timeout=60,
+        **settings,
+    )
+    assert "geneva_cli.cli.app" in found.stderr.split()
+    return set(found.stderr.split())
+
+
+@pytest.fixture(scope="module")
+def forks():
+    """A process that runs lines; and one that had imported NumPy before, for runs that may."""
+    with ExitStack() as stack:
+        yield [
+            stack.enter_context(
+                subprocess.Popen(
+                    [sys.executable, "-c", before + FORKS],
+                    stdin=subprocess.PIPE,
+                    stdout=subprocess.DEVNULL,
+                    stderr=subprocess.PIPE,
+                )
+            )
+            for before in ("", "import numpy\n")
+        ]
+
+
+def loaded_in(process, words):
+    process.stdin.write("\t".join(words).encode() + b"\n")
+    process.stdin.flush()
+    said = b""
+    while not said.endswith(b"\ndone\n"):
+        assert select.select([process.stderr], [], [], 60)[0], said
+        more = os.read(process.stderr.fileno(), 1 << 16)
+        assert more, said
+        said += more
+    *found, _ = said.decode().split()
+    assert "geneva_cli.cli.app" in found, found
+    return set(found)
+
+
+def own(modules):
+    return {name.removeprefix("geneva_cli.") for name in modules if name.startswith("geneva_cli.")}
+
+
+def test_every_command_has_a_row():
+    assert {row.line.split()[0] for row in ROWS} >= set(COMMANDS)
+
+
+@pytest.mark.sampled(4)
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.line)
+def test_heavy_modules(forks, row):
+    may = set(row.may.split())
+    assert loaded_in(forks["numpy" in may], row.words) & HEAVY <= may
+
+
+def test_a_fork_has_imported_what_a_process_has(forks):
+    """In each of both; and the probe sees what was there before the run, as NumPy in one."""
+    words = ["peaks", os.path.join(DESIGNS, "press-curved.toml")]
+    assert loaded_in(forks[0], words) == loaded_in(forks[1], words) == loaded(words)
+    assert "numpy" not in loaded_in(forks[0], ["--version"])
+    assert loaded_in(forks[1], ["--version"]) & HEAVY == {"numpy"}
+
+
+@pytest.mark.parametrize("line", OWN)
+def test_own_modules(line):
+    assert own(loaded(line.split())) <= set(OWN[line].split())
+
+
+@pytest.mark.parametrize("line", MOST)
+@pytest.mark.sampled(6)
+def test_few_own_modules(line):
+    for text, most in zip((STRAIGHT, CURVED), MOST[line], strict=True):
+        modules = own(loaded(line.split(), input=text, stdout=subprocess.DEVNULL))
+        assert len(modules) <= most
+
+
+def test_a_drive_before_another_imports_no_third_kind():
+    modules = own(loaded(["peaks", os.path.join(DESIGNS, "behind-gears.toml")]))
+    drives = {name for name in modules if name.startswith(("drives.", "kinds."))}
+    assert drives >= {"drives.epicyclic", "drives.elliptical_gears"}
+    assert not drives & {"drives.cam", "kinds.linkages.four_bar", "kinds.carousel.motion"}
+
+
+@pytest.mark.parametrize("words", ["geneva ", "geneva ta", "geneva table --", "geneva motion --s"])
+def test_completion(words):
+    count = len(words.split(" ")) - 1
+    settings = {
+        "_GENEVA_COMPLETE": "complete_bash",
+        "COMP_WORDS": words,
+        "COMP_CWORD": str(count),
+    }
+    modules = loaded([], env=os.environ | settings)
+    assert not modules & HEAVY
+    if count == 1:  # a command's name: no command is imported
+        assert own(modules) == {"cli", "cli.app", "errors", "progress", "streams"}
+
+
+@pytest.mark.parametrize(
+    ("words", "wanted"),
+    [("geneva ta", "table"), ("geneva pea", "peaks"), ("geneva table --int", "--internal")],
+)
+def test_completion_completes(words, wanted):
+    settings = {
+        "_GENEVA_COMPLETE": "complete_bash",
+        "COMP_WORDS": words,
+        "COMP_CWORD": str(len(words.split()) - 1),
+    }
+    found = subprocess.run(
+        [sys.executable, "-m", "geneva_cli"],
+        env=os.environ | settings,
+        capture_output=True,
+        text=True,
+    )
+    geneva = os.path.join(os.path.dirname(sys.executable), "geneva")
+    installed = subprocess.run([geneva], env=os.environ | settings, capture_output=True, text=True)
+    assert found.stdout.split() == installed.stdout.split() == [wanted]
+
+
+def test_a_terminal_costs_no_more_than_a_pipe():
+    """A table is laid out by the program's own few lines."""
+    master, slave = pty.openpty()
+    modules = loaded(["table", "--z", "6"], stdout=slave)
+    os.close(slave)
+    os.close(master)
+    assert "terminal" in {name.rpartition(".")[2] for name in own(modules)}
+    assert not modules & HEAVY
+
+
+@pytest.mark.parametrize("sort", ["", "--from turret.toml --sort min:loads.pin_force_N.rms"])
+def test_loads_are_imported_where_they_are_asked_for(forks, sort):
+    """No report is; nor is numpy.ma, of which some functions of NumPy take a moment."""
+    target = "synth --motion-deg 120 --z 6 --external --rollers 2 --check 0 " + sort
+    found = loaded_in(forks[1], Row(target).words)
+    assert any(name.startswith("loads.summar") for name in own(found)) == bool(sort)
+    assert not any(name.startswith("verdict.report") for name in own(found))
+    assert bool(sort) or "numpy.ma" not in found

@@ -1,0 +1,241 @@
+"""README and manual: every example is run again and compared, every picture is drawn anew.
+
+``GENEVA_UPDATE=1 pytest tests/cli/test_manual.py`` writes today's outputs and pictures.
+"""
+
+import os
+import re
+import shlex
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+import repo
+from sampling import some
+from typer.testing import CliRunner
+from windows import looking
+
+from geneva_cli import output
+from geneva_cli.cli.app import COMMANDS, app
+from geneva_cli.cli.commands import help
+from geneva_cli.manual import GROUPS, TITLES, TOPICS, page, path, search
+
+pytestmark = pytest.mark.usefixtures("made_once")
+ROOT = repo.ROOT
+README = ROOT / "README.md"
+MANUAL = ROOT / "geneva_cli" / "manual"
+PAGES = [README, *(Path(path(topic)) for topic in TOPICS)]
+UPDATE = bool(os.environ.get("GENEVA_UPDATE"))
+BLOCK = re.compile(r"```console\n(.*?)```", re.DOTALL)
+FENCE = re.compile(r"```([a-z]+)\n(.*?)```", re.DOTALL)
+NAMED = re.compile(r"# (add to )?(\S+\.\w+)\n")  # first line of a block that is a file
+ALONE = [README, *(p for p in PAGES if p.parent.name in ("tutorial", "howto"))]  # make their files
+SILENT = re.compile(r"^(\$ .*\n)\n(?=\$ )", re.MULTILINE)  # a command without output
+DRAWN = re.compile(r"<!-- (geneva .*?) -o (\S+\.svg) -->")
+SHOWN = re.compile(r'<img src="([^"]+)"')
+COLUMNS = 78  # of the terminal that examples are seen on: with their indent they fill one of 80
+NUMBER = re.compile(r"-?\d+\.\d+")
+
+
+def searching(file: Path) -> object:
+    """A page; long runs and updates alone take those that search for seconds, or are like another.
+
+    The pages laser, drawing-sheet and write-report are much like mill, spherical-sheet and inches.
+    """
+    search, like = ("sweep-front", "dwell-time", "reduce-acceleration"), ("mill", "inches", "ci")
+    long = file.stem in (*search, *like, "spherical-sheet") and not UPDATE
+    return pytest.param(file, marks=pytest.mark.long) if long else file
+
+
+def invoke(arguments: list[str]) -> str:
+    """What a command prints; a check that is shown to fail ends with 1."""
+    result = CliRunner().invoke(app, arguments, prog_name="geneva")
+    assert result.exit_code <= (arguments[0] == "check"), result.output
+    return result.stdout
+
+
+def run(command: str) -> str:
+    """What a reader sees, on a terminal without colours; of charts those of a pipe, in ASCII."""
+    program, *arguments = shlex.split(command)
+    assert program == "geneva"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(output, "is_seen", lambda file: file == "-" and arguments[0] != "plot")
+        patch.setenv("COLUMNS", str(COLUMNS))
+        patch.setenv("TERM", "dumb")
+        return invoke(arguments)
+
+
+def replay(block: str) -> str:
+    """The block with the output of each of its commands as it is today."""
+    commands = [line[2:] for line in block.splitlines() if line.startswith("$ ")]
+    shown = "\n".join(f"$ {command}\n{run(command)}" for command in commands)
+    return SILENT.sub(r"\1", shown)
+
+
+def do(kind: str, block: str) -> str:
+    """A block of a how-to as it is today, done by a reader who takes one after the other."""
+    if kind == "console":
+        return replay(block)
+    if kind == "sh":
+        for command in commands_in(block):
+            invoke(words_of(command))
+    elif (name := NAMED.match(block)) and kind != "python":
+        with open(name[2], "a" if name[1] else "w", encoding="utf-8") as file:
+            file.write(block)
+    return block
+
+
+def text_of(file: Path) -> str:
+    return file.read_text(encoding="utf-8")
+
+
+@pytest.fixture(autouse=True)
+def windows() -> Iterator[None]:
+    """What is printed fits into the window of any terminal."""
+    with looking():
+        yield
+
+
+@pytest.fixture(autouse=True)
+def at_root(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+
+
+@pytest.mark.parametrize("file", [*map(searching, PAGES)], ids=lambda file: file.stem)
+def test_the_examples_print_what_is_shown(
+    file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = text_of(file)
+    if file in ALONE:
+        monkeypatch.chdir(tmp_path)
+        today = FENCE.sub(lambda m: f"```{m[1]}\n{do(m[1], m[2])}```", text)
+    else:
+        today = BLOCK.sub(lambda m: f"```console\n{replay(m[1])}```", text)
+    if UPDATE:
+        file.write_text(today, encoding="utf-8")
+    assert text == today or UPDATE
+
+
+@pytest.mark.parametrize("file", PAGES, ids=lambda file: file.stem)
+def test_the_pictures_are_what_their_commands_draw(file: Path, tmp_path: Path) -> None:
+    """To a hundredth of a unit: another processor may round another last digit."""
+    drawn = {}
+    commands = DRAWN.findall(text_of(file))
+    assert {name for _, name in commands} == set(SHOWN.findall(text_of(file)))
+    for command, name in commands if UPDATE else some(commands, commands[::3]):
+        drawn[name] = new = tmp_path / Path(name).name
+        invoke([*shlex.split(command)[1:], "-o", str(new)])
+    for name, new in drawn.items():
+        kept = file.parent / name
+        if UPDATE:
+            kept.write_text(text_of(new), encoding="utf-8")
+        old, today = text_of(kept), text_of(new)
+        assert NUMBER.sub("", old) == NUMBER.sub("", today)
+        numbers = [[float(n) for n in NUMBER.findall(text)] for text in (old, today)]
+        assert numbers[0] == pytest.approx(numbers[1], abs=0.01)
+
+
+SHELL = re.compile(r"```sh\n(.*?)```", re.DOTALL)
+
+
+def commands_in(block: str) -> list[str]:
+    """The commands of a shell block, but those of a job array's variables."""
+    lines = block.replace("\\\n", " ").splitlines()
+    return [line for line in lines if line.startswith("geneva ") and "$" not in line]
+
+
+def words_of(command: str) -> list[str]:
+    """The arguments of a command as a shell splits them; fewer designs of many."""
+    few = re.sub(r"--random 10+|--samples 1000000", lambda m: m[0][:-2], command)
+    words = shlex.split(few, comments=True)
+    return words[1 : words.index(">") if ">" in words else None]
+
+
+def commands_of(file: Path) -> list[str]:
+    """The commands of a page that is not done alone, in shell blocks."""
+    if file in ALONE:
+        return []
+    return commands_in("\n".join(SHELL.findall(text_of(file))))
+
+
+@pytest.mark.parametrize("file", [p for p in PAGES if commands_of(p)], ids=lambda file: file.stem)
+def test_the_commands_run_as_they_stand(
+    file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One after the other where a reader has a spec.toml and the designs."""
+    monkeypatch.chdir(tmp_path)
+    shutil.copytree(ROOT / "designs", "designs")
+    spec = text_of(ROOT / "designs" / "tolerances.toml")
+    Path("spec.toml").write_text(spec, encoding="utf-8")
+    shutil.copy("designs/side-crank-z6.toml", "wish.toml")  # some pages have it from another
+    for command in commands_of(file):
+        invoke(words_of(command))
+
+
+def test_no_picture_is_left_over() -> None:
+    shown = {Path(name).name for file in PAGES for name in SHOWN.findall(text_of(file))}
+    assert {file.name for file in (MANUAL / "pictures").iterdir()} == shown
+
+
+@pytest.mark.parametrize("file", [README, Path(path("spec"))], ids=lambda file: file.stem)
+def test_the_spec_that_is_shown_passes(file: Path, tmp_path: Path) -> None:
+    spec = re.search(r"```toml\n(.*?)```", text_of(file), re.DOTALL)
+    assert spec
+    copy = tmp_path / "shown.toml"
+    copy.write_text(spec[1], encoding="utf-8")
+    invoke(["check", str(copy)])
+
+
+def test_the_readme_is_short_and_leads_to_the_manual() -> None:
+    text = text_of(README)
+    assert len(text.splitlines()) <= 120
+    links = re.findall(r"\]\(([^)]+)\)", text)
+    assert {name for name in links if not (ROOT / name).exists()} == set()
+    assert "geneva_cli/manual" in links and "`geneva help`" in text
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_is_in_the_manual(command: str) -> None:
+    assert any(f"geneva {command}" in text_of(file) for file in PAGES)
+
+
+def test_pages_begin_with_a_title_and_name_pages_that_exist() -> None:
+    for topic in TOPICS:
+        text = page(topic)
+        assert text.startswith("# ") and "<img" not in text and "<!--" not in text, topic
+        named = set(re.findall(r"geneva help ([a-z-]+)", text))
+        searched = {line.split()[-1] for line in help.EXAMPLES}  # words that help searches for
+        assert named <= {*TOPICS, *COMMANDS, *searched}, topic
+
+
+def test_help_prints_the_page_the_list_or_the_options_of_a_command() -> None:
+    assert invoke(["help", "symbols"]) == page("symbols")
+    assert invoke(["help", "symbol"]) == page("symbols")
+    contents = invoke(["help"])
+    assert all(f"- {topic}: {about}\n" in contents for topic, about in TOPICS.items())
+    assert [line[3:] for line in contents.splitlines() if line.startswith("## ")] == [
+        TITLES[group] for group in GROUPS
+    ]
+    assert invoke(["help", "peaks"]) == invoke(["peaks", "--help"])
+    result = CliRunner().invoke(app, ["help", "symblos"])
+    assert result.exit_code == 2 and 'did you mean "symbols"?' in result.output
+
+
+def test_help_searches_all_pages_for_another_word() -> None:
+    """Each section in which the word stands is named once, with the words around it."""
+    for word in ("taplo", "undercut"):
+        shown = invoke(["help", word.upper()])
+        pages = [topic for topic in TOPICS if word in page(topic).casefold()]
+        assert pages and all(f"\n{topic} " in shown for topic in pages)
+    # neither "mostly" nor "costly" counts
+    pages = {topic for topic in TOPICS if re.search(r"(?<![a-z])stl", page(topic).casefold())}
+    assert {line.split()[0] for line in invoke(["help", "STL"]).splitlines()[4:]} == pages
+
+
+def test_help_names_headings_and_no_comments_in_code() -> None:
+    """A line of a spec or of a script may begin with #, too."""
+    for word in ("shard", "dynamic_capacity", "sprocket_teeth"):
+        for hit in search(word):
+            text = re.sub(r"^```.*?^```$", "", page(hit.topic), flags=re.MULTILINE | re.DOTALL)
+            assert re.search(rf"^#+ {re.escape(hit.section)}$", text, re.MULTILINE), hit

@@ -1,0 +1,357 @@
+"""Several cranks about one wheel move it as rollers on one crank do: ``geneva explain rollers``.
+
+The cranks stand at whole numbers of steps about the wheel. They are geared to one shaft and work in
+turn, crank j after an j-th part of a turn. The program's machine is one crank with that many
+rollers.
+"""
+
+import functools
+import math
+from itertools import combinations
+
+import numpy as np
+import pytest
+from drawing_witness import polygon
+from sampling import some
+from shapely import affinity
+from shapely.ops import unary_union
+
+from geneva_cli import Crank, Cycloidal, Design, EllipticalGears, External, Load, Motion
+from geneva_cli.drawings.parts_list import parts_list
+from geneva_cli.motion.both_ways import backwards
+from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.many import may_vary
+from geneva_cli.motion.mechanism import build
+from geneva_cli.output.scene import place_at, value_at
+from geneva_cli.study.animation.scene import scene
+
+pytestmark = pytest.mark.usefixtures("no_advice")
+
+# steps in a revolution, places of the cranks in steps, and the slots that they enter
+MACHINES = [
+    (6, (0, 3), (0, 2, 4)),
+    (8, (0, 3), (0, 2, 4, 6)),
+    (12, (0, 5), (0, 2, 4, 6, 8, 10)),
+    (6, (0, 2), (0, 1, 2, 3, 4, 5)),
+    (5, (0, 2), (0, 1, 2, 3, 4)),
+    (4, (0, 2, 1), (0, 1, 2, 3)),
+    (3, (0, 1, 2), (0,)),  # one slot, which each crank hands to the next
+]
+
+
+@pytest.mark.parametrize(("steps", "places", "slots"), MACHINES)
+def test_each_pin_stays_in_a_slot_of_the_wheel(steps, places, slots):
+    """Pins are placed about their own cranks by hand; the wheel's angle is the program's."""
+    mechanism = Design(External(steps), Crank(rollers=len(places))).mechanism
+    (engagement,) = mechanism.engagements
+    assert mechanism.period_deg == 360.0 / len(places)
+    step, l = math.tau / steps, mechanism.ratio
+    x = np.linspace(engagement.entry_deg, engagement.exit_deg, 101)
+    own = 1.0 - l * np.exp(-1j * np.radians(x))  # a crank turns against the wheel
+    entered = set()
+    for number in range(steps * len(places)):  # the cranks' turns and the wheel's end together
+        place = places[number % len(places)]
+        wheel = number * step + engagement.motion(x, 0).c[0]
+        angles = np.angle(own * np.exp(1j * (step * place - wheel)))
+        # steps from the slot at the wheel's angle 0; 1e-12: roundings of some turns, over a step
+        off = angles / step - np.round(angles[0] / step)
+        assert np.abs(off - steps * np.round(off / steps)).max() <= 1e-12
+        entered.add(round(angles[0] / step) % steps)
+        assert round(angles[0] / step) % steps == (place - number) % steps
+    assert sorted(entered) == list(slots)
+
+
+def test_the_discs_of_several_cranks_clear_the_wheel():
+    """From each crank the recesses look alike, as do the reliefs of a disc at even phases.
+
+    So the check of one crank with several rollers holds for the disc of each of several cranks.
+    """
+    assert Design(External(6), Crank(rollers=2)).passes
+    assert Design(External(8), Crank(rollers=2)).passes
+
+
+# cranks with parts that clear each other, also as neighbours
+BUILT = [(6, (0, 3)), (6, (0, 1)), (12, (0, 5)), (5, (0, 4, 3)), (3, (0, 1, 2))]
+LOAD = Load(inertia_kgm2=0.02, torque_Nm=0.3, friction=0.1)
+
+
+@functools.cache
+def with_cranks(z, places):
+    """The machine with a crank for each roller, under a load."""
+    return Design(External(z), Crank(rollers=len(places), crank_steps=places), load=LOAD)
+
+
+built = pytest.mark.parametrize(("z", "places"), BUILT)
+
+
+@pytest.mark.sampled(3)
+@built
+def test_motion_and_loads_are_those_of_one_crank(z, places):
+    """Equal to the last digit: the same engine, which other tests prove by closed forms."""
+    several = with_cranks(z, places)
+    one = Design(External(z), Crank(rollers=len(places)), load=LOAD)
+    moving, own = (design.motion(181).to_dict() for design in (several, one))
+    assert all(np.array_equal(moving[name], own[name]) for name in own)
+    answers, own = (design.report.table.to_dict() for design in (several, one))
+    for name in own:
+        in_turn = "crank_bearing_N" in name and name.endswith((".mean", ".rms"))
+        if name.startswith(("timing.", "jerk.", "loads.", "cycle.", "life.", "strength.")):
+            assert answers[name] == own[name] or in_turn
+
+
+@pytest.mark.sampled(2)
+@built
+def test_the_bearing_of_a_crank_has_the_means_of_one_crank_alone(z, places):
+    """Each crank works once in a turn, as a single crank with one roller does."""
+    several, alone = with_cranks(z, places), Design(External(z), Crank(), load=LOAD)
+    own, one = (design.loads["crank_bearing_N"] for design in (several, alone))
+    assert own.max == one.max
+    assert own.mean == pytest.approx(one.mean, rel=1e-12)
+    assert own.rms == pytest.approx(one.rms, rel=1e-12)
+
+
+def test_the_bearing_of_the_most_loaded_crank_behind_gears():
+    """Gears give the cranks different motions: a dense sum over the engagement of each."""
+    design, shares = eased(5, (0, 4, 3)), []
+    every = design.mechanism.engagements
+    assert len(every) == 3
+    assert design.mechanism.period_deg == 360.0
+    for one in every:
+        x = np.linspace(one.mid_deg + one.entry_deg, one.mid_deg + one.exit_deg, 20_001)[1:-1]
+        force = np.sqrt(design.cycle.states(x).crank_bearing_squared)
+        shares.append((np.trapezoid(force, x) / 360.0, np.trapezoid(force**2, x) / 360.0))
+    means, squares = zip(*shares, strict=True)
+    bearing = design.loads["crank_bearing_N"]
+    assert max(means) > 1.05 * min(means)
+    assert bearing.mean == pytest.approx(max(means), rel=2e-4)  # of the sum's two ends
+    assert bearing.rms == pytest.approx(math.sqrt(max(squares)), rel=2e-4)
+
+
+def polygons(group):
+    """The plates of a crank in its own frame, with their heights."""
+    out = []
+    for member in group.members:
+        plate = member.part
+        shape = polygon(plate.outline, 1e-3)
+        shape = affinity.rotate(shape, member.turn, (0.0, 0.0), use_radians=True)
+        out.append((affinity.translate(shape, *member.at), plate.low, plate.high))
+    return out
+
+
+def moved(shape, at, turn):
+    shape = affinity.rotate(shape, turn, (0.0, 0.0), use_radians=True)
+    return affinity.translate(shape, at.real, at.imag)
+
+
+def by_hand(z, places, j, input_deg, L=100.0):
+    """Axis and direction of crank j: it turns clockwise, and points at the wheel in its turn."""
+    place = math.tau * places[j] / z
+    after = math.radians(input_deg - 360.0 * j / len(places))
+    return L * np.exp(1j * place), place + math.pi - after
+
+
+@built
+def test_parts_are_drawn_where_the_cranks_stand(z, places):
+    design = with_cranks(z, places)
+    parts = design.parts_model.flat
+    for j, crank in enumerate(parts.cranks):
+        at, turn = by_hand(z, places, j, 0.0)
+        assert complex(*crank.at) == pytest.approx(at, abs=1e-11)
+        assert math.remainder(crank.turn - turn, math.tau) == pytest.approx(0.0, abs=1e-14)
+    shafts = [one for one in parts.shafts if one.part.name == "crank's shaft"]
+    assert [one.at for one in shafts] == [one.at for one in parts.cranks]
+    holes = [complex(*hole.centre) for hole in parts.frame.part.holes]
+    for j in range(len(places)):
+        assert min(abs(at - by_hand(z, places, j, 0.0)[0]) for at in holes) < 1e-11
+    listed = parts_list(design.parts_model).to_dict()
+    counts = dict(zip(listed["name"], listed["count"], strict=True))
+    for name in ("locking disc", "arm", "roller", "pin", "crank's shaft"):
+        assert counts[name] == len(places)
+
+
+SHAPED = [  # slots of other shapes
+    Design(External(6), Crank(rollers=2, crank_steps=(0, 2)), Motion(Cycloidal())),
+    Design(External(6, offset_mm=5), Crank(rollers=2, crank_steps=(0, 3))),
+]
+
+
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize("design", [*(with_cranks(*one) for one in BUILT), *SHAPED])
+def test_no_crank_meets_the_wheel_or_another_one(design):
+    """Polygons at dense angles, each crank placed by hand; the program's gaps are of one crank.
+
+    Chords miss arcs by 1e-3 mm, and the curves touch by design: overlaps are below 0.02 mm² there.
+    """
+    z, places = design.spec.wheel.z, design.spec.drive.crank_steps
+    parts, mechanism = design.parts_model.flat, design.mechanism
+    (engagement,) = mechanism.engagements
+    plates, wheel = polygons(parts.crank.part), polygon(parts.wheel.part.outline, 1e-3)
+    hull = unary_union([shape for shape, _, _ in plates]).convex_hull
+    spacing, gap = 360.0 / len(places), math.inf
+    for x in np.arange(0.0, 360.0, some(1.5, 4.5)):
+        number = round(x / spacing)
+        own = np.clip(x - number * spacing, engagement.entry_deg, engagement.exit_deg)
+        psi = number * math.tau / z + engagement.motion(np.array([own]), 0).c[0][0]
+        turned = moved(wheel, 0.0 + 0.0j, psi)
+        hulls = []
+        for j in range(len(places)):
+            at, turn = by_hand(z, places, j, x)
+            hulls.append(moved(hull, at, turn))
+            for shape, _, high in plates:
+                if high > 1e-9:  # in the wheel's plane; arms pass below it
+                    assert moved(shape, at, turn).intersection(turned).area < 0.02
+        gap = min(gap, *(a.distance(b) for a, b in combinations(hulls, 2)))
+    (check,) = (one for one in design.checks if one.name == "cranks_apart_mm")
+    assert check.passes
+    # the program's bound is below the gap by less than a thousandth of the axes' distance, 2 L
+    assert gap - 0.2 <= check.value <= gap + 1e-2
+    (proof,) = (one for one in design.checks if one.name == "gap_proved_mm")
+    assert proof.is_proof
+
+
+def test_cranks_that_meet_fail():
+    """Two neighbours at a wheel of twelve slots; their discs alone take 2 lock_radius_mm."""
+    (check,) = (c for c in with_cranks(12, (0, 1)).checks if c.name == "cranks_apart_mm")
+    assert check.passes is False
+    assert check.value < 0.0
+
+
+@pytest.mark.sampled(3)
+@built
+def test_the_page_turns_all_cranks(z, places):
+    """Rollers and cranks by hand; each force is at a roller, whose radius is L/20."""
+    shown = scene(with_cranks(z, places))
+    cranks = [body for body in shown.bodies if body.name.startswith("crank")]
+    assert len(cranks) == len(shown.rollers) == len(places)
+    R = 100.0 * math.sin(math.pi / z)
+    for t in np.linspace(0.5, 359.5, 61):
+        for j, (body, roller) in enumerate(zip(cranks, shown.rollers, strict=True)):
+            at, turn = by_hand(z, places, j, shown.start_deg + t)
+            assert complex(*body.centre) == pytest.approx(at, abs=1e-9)
+            off = value_at(body.angle, t) - turn
+            assert math.remainder(off, math.tau) == pytest.approx(0.0, abs=1e-6)
+            pin = at + R * np.exp(1j * turn)
+            assert complex(*place_at(roller, t)) == pytest.approx(pin, abs=1e-3)
+    for push in shown.pushes:
+        for t, x, y in zip(push.at, push.x, push.y, strict=True):
+            near = min(math.dist((x, y), place_at(roller, t)) for roller in shown.rollers)
+            assert near == pytest.approx(5.0, rel=1e-3)
+    moves = [phase.words for phase in shown.states if phase.moves]
+    assert moves == [f"crank {j + 1} moves the wheel" for j in range(len(places))]
+
+
+def test_a_report_lists_when_each_crank_moves_the_wheel():
+    design = Design(External(8), Crank(rollers=2, crank_steps=(0, 3), n_rpm=30))
+    names = ("crank", "place_deg", "behind_deg", "entry_deg", "exit_deg", "entry_s", "slot")
+    rows = [(1, 0.0, 0.0, -67.5, 67.5, 0.0, 0, 2), (2, 135.0, 180.0, 112.5, 247.5, 1.0, 0, 2)]
+    table = design.report.table.to_dict()["cranks"]
+    assert [list(row.values()) for row in table] == [pytest.approx(list(row)) for row in rows]
+    assert tuple(table[0]) == (*names, "slot_every")
+    assert Design(External(8), Crank(rollers=2)).report.table.to_dict()["cranks"] is None
+
+
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize(("steps", "places", "slots"), MACHINES)
+def test_the_listed_slots_are_those_that_pins_enter(steps, places, slots):
+    design = Design(External(steps), Crank(rollers=len(places), crank_steps=places))
+    table = design.report.table.to_dict()["cranks"]
+    listed = {s for row in table for s in range(row["slot"], steps, row["slot_every"])}
+    assert sorted(listed) == list(slots)
+
+
+@pytest.mark.sampled(3)
+@built
+def test_backwards_the_cranks_stand_and_work_as_in_a_mirror(z, places):
+    """In a mirror about the line of centres, with the input turned back."""
+    design = with_cranks(z, places)
+    turned = design.backwards.mechanism
+    own = {
+        (round(p.at[0], 9), round(-p.at[1], 9)): -p.behind_deg
+        for p in design.mechanism.crank_places
+    }
+    for place in turned.crank_places:
+        behind = own[round(place.at[0], 9), round(place.at[1], 9)]
+        assert math.remainder(place.behind_deg - behind, 360.0) == 0.0
+    names = [one.name for one in design.backwards.checks]
+    values = [one.value for one in design.backwards.checks]
+    at = names.index("cranks_apart_mm")
+    # 1e-3: both bounds are below one gap by rounding of the directions
+    assert values[at] == pytest.approx(design.checks[at].value, abs=1e-3)
+
+
+BEFORE = {"eccentricity": 0.3}
+
+
+def eased(z, places):
+    """Cranks whose shaft elliptical gears turn."""
+    gears = EllipticalGears(**BEFORE)
+    drive = Crank(rollers=len(places), crank_steps=places)
+    return Design.of(Spec(External(z), drive, drive_before=gears, load=LOAD))
+
+
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize(("z", "places"), [(8, (0, 3)), (5, (0, 4, 3))])
+def test_gears_before_the_cranks_turn_all_of_them(z, places):
+    """As elliptical gears turn one crank with as many rollers: the same engagements.
+
+    The wheel then follows psi(g(phi)), and each crank stands an even part of a turn behind the
+    first. 2e-3 mm: tracks of the page are within 1e-5 of a radian, at pins 60 mm from their axis.
+    """
+    design = eased(z, places)
+    one = Design(External(z), EllipticalGears(rollers=len(places), **BEFORE), load=LOAD)
+    moving, own = (each.motion(181).to_dict() for each in (design, one))
+    for name in own:
+        assert moving[name] == pytest.approx(own[name], rel=1e-12, abs=1e-12)
+    assert design.peaks.acceleration.max == pytest.approx(one.peaks.acceleration.max, rel=1e-12)
+    loads = design.loads_table.to_dict(), one.loads_table.to_dict()
+    for name in ("pin_force_N.max", "input_torque_Nm.max", "input_torque_Nm.rms"):
+        assert loads[0][name] == pytest.approx(loads[1][name], rel=1e-12)
+    shown, e = scene(design), BEFORE["eccentricity"]
+    R = 100.0 * math.sin(math.pi / z)
+    for t in np.linspace(0.5, 359.5, 61):
+        half = math.radians(shown.start_deg + t) / 2.0
+        # equal ellipses about foci 2 a apart, slow at mid-motion
+        ratio = (1.0 - e) / (1.0 + e)
+        angle = math.degrees(2.0 * math.atan2(ratio * math.sin(half), math.cos(half)))
+        for j, roller in enumerate(shown.rollers):
+            at, turn = by_hand(z, places, j, angle)
+            assert abs(complex(*place_at(roller, t)) - at - R * np.exp(1j * turn)) < 2e-3
+
+
+def test_gears_turn_cranks_whose_slots_a_law_gives():
+    """The law holds by the shaft's angle: the wheel is where it is behind one crank then."""
+    law = Motion(Cycloidal())
+    alone = Design(External(6), Crank(rollers=2, crank_steps=(0, 3)), law)
+    spec = alone.spec.replace(drive_before=EllipticalGears(**BEFORE))
+    behind = Design.of(spec).mechanism.engagements
+    (own,) = alone.mechanism.engagements
+    for one in behind:
+        x = np.linspace(one.entry_deg, one.exit_deg, 31)
+        turned = one.motion(x, 0).c[0]
+        assert turned == pytest.approx(own.motion(one.own_deg(x), 0).c[0], abs=1e-14)
+
+
+def test_the_report_lists_when_each_crank_moves_the_wheel_behind_gears():
+    design = eased(8, (0, 3))
+    rows = design.report.table.to_dict()["cranks"]
+    each = design.mechanism.engagements
+    for row, one in zip(rows, each, strict=True):
+        assert row["entry_deg"] == pytest.approx(one.mid_deg + one.entry_deg - each[0].mid_deg)
+    assert rows[0]["entry_s"] == 0.0
+    assert rows[1]["entry_s"] == pytest.approx(
+        (rows[1]["entry_deg"] - rows[0]["entry_deg"]) / 360.0
+    )
+    assert rows[1]["behind_deg"] == pytest.approx(180.0)
+    assert rows[0]["exit_deg"] - rows[0]["entry_deg"] != pytest.approx(
+        rows[1]["exit_deg"] - rows[1]["entry_deg"]
+    )
+
+
+def test_slots_do_not_vary_in_a_batch_of_cranks_that_turn_both_ways():
+    """Backwards the second of two cranks stands z - 2 steps from the first, not 2."""
+    one_way = Spec(External(6), Crank(rollers=2, crank_steps=(0, 2)))
+    both_ways = one_way.replace(drive=one_way.drive.replace(both_ways=True))
+    assert may_vary(one_way, "wheel.z")
+    assert not may_vary(both_ways, "wheel.z")
+    turned = [backwards(build(both_ways.with_("wheel.z", z))).spec.drive for z in (6, 7)]
+    assert [drive.crank_steps for drive in turned] == [(0.0, 4.0), (0.0, 5.0)]

@@ -1,0 +1,153 @@
+"""The strict ball: no float comes of it, and no open comparison has an answer."""
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+
+from geneva_cli.extras.certify.balls import Ball, precision
+from geneva_cli.extras.certify.enclosures import greatest
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.arrays import Undecided, library, narrowed, piece_of
+from geneva_cli.numerics.jet import Jet, atan2, piecewise, sin_cos, sqrt
+
+
+@pytest.mark.parametrize(
+    "take", [float, bool, int, round, math.sin, math.floor, np.sin, np.float64]
+)
+def test_no_float_comes_of_a_ball(take):
+    with pytest.raises(TypeError):
+        take(Ball.between(0.5, 1.0))
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda x: x < 0.7,
+        lambda x: x <= 0.7,
+        lambda x: x > 0.7,
+        lambda x: x >= 0.7,
+        lambda x: x == 0.7,
+        lambda x: x != 0.7,
+        lambda x: x > 0.7,
+        lambda x: x < Ball.between(0.9, 2.0),
+        lambda x: library(x).floor(x + 0.25),
+        lambda x: library(x).copysign(1.0, x - 0.7),
+        lambda x: x.piece([0.7]),
+    ],
+)
+def test_an_open_comparison_is_refused(ask):
+    with pytest.raises(Undecided):
+        ask(Ball.between(0.5, 1.0))
+
+
+def test_a_decided_comparison_is_answered():
+    x = Ball.between(0.5, 1.0)
+    assert x < 1.5 and x <= 1.5 and x > 0.25 and x >= 0.25 and x != 2.0
+    assert 0.25 < x < 1.5
+    assert Ball.exact(0.5) == 0.5
+    assert library(x).floor(x * 0.5) == 0.0
+    assert x.piece([0.25, 2.0]) == piece_of(0.7, [0.25, 2.0]) == 1
+
+
+def test_the_end_of_a_piece_may_be_off_by_rounding():
+    assert Ball.between(0.5, math.nextafter(1.0, 2.0)).piece([1.0]) == 0
+
+
+def test_a_rising_function_is_as_narrow_as_its_ends():
+    """x - x²/4 rises on [0, 1], to 3/4; its formula alone reaches from -1/4 to 1."""
+
+    def f(x):
+        return x - x * x * 0.25
+
+    x = Ball.between(0.0, 1.0)
+    low, high = narrowed(f(x), f, x).bounds()
+    assert (low, high) == (pytest.approx(0.0, abs=1e-8), pytest.approx(0.75, abs=1e-8))
+    assert low <= 0.0 and high >= 0.75
+    assert f(x).bounds()[1] >= 1.0
+    assert narrowed(0.25, f, 0.5) == 0.25  # a float's value is kept
+
+
+def test_formulas_of_balls_hold_those_at_fifty_digits():
+    """Each coefficient of a composed jet, at both ends and in the middle of the ball."""
+
+    def formula(x):
+        s, c = sin_cos(x)
+        return sqrt(x * x + 0.5) / (c + 2.0) - atan2(s * 0.5, 1.0 - c * 0.5) * 3.0
+
+    def exact(x):
+        s, c = mpmath.sin(x), mpmath.cos(x)
+        return mpmath.sqrt(x * x + 0.5) / (c + 2) - 3 * mpmath.atan2(s / 2, 1 - c / 2)
+
+    with precision(), mpmath.workdps(50):
+        jet = formula(Jet.variable(Ball.between(0.7, 0.7001), 4))
+        for at in (0.7, 0.70003, 0.7001):
+            for ball, c in zip(jet.c, mpmath.taylor(exact, mpmath.mpf(at), 4), strict=True):
+                low, high = ball.bounds()
+                assert low <= c <= high
+
+
+def test_radians_of_a_ball_have_pi_to_all_digits():
+    with precision():
+        low, high = (radians(Ball.exact(180.0)) - math.pi).bounds()
+    with mpmath.workdps(40):
+        assert low <= mpmath.pi - math.pi <= high
+    assert high - low < 1e-30
+
+
+def test_numpy_leaves_the_arithmetic_to_the_ball():
+    for found in (np.float64(2.0) * Ball.exact(0.5), np.float64(1.5) - Ball.exact(0.5)):
+        assert isinstance(found, Ball) and found == 1.0
+
+
+def test_a_ball_takes_the_piece_that_it_lies_in():
+    pieces = [lambda x: Jet((x,)), lambda x: Jet((x * 10.0,))]
+    assert piecewise(Ball.exact(0.5), (1.0,), pieces).c[0] == 0.5
+    assert piecewise(Ball.exact(2.0), (1.0,), pieces).c[0] == 20.0
+
+
+def wave(x, order):
+    """|sin 3x| has the size 1 at three places of 0 to 180 degrees."""
+    return sin_cos(Jet.variable(radians(x), order) * 3.0)[0].c
+
+
+def test_balls_of_one_number_meet_and_those_of_two_formulas_are_joined():
+    one, two = Ball.between(0.0, 2.0), Ball.between(1.0, 3.0)
+    low, high = one.meet(two).bounds()
+    assert (low, high) == pytest.approx((1.0, 2.0), abs=1e-8)
+    low, high = Ball.exact(1.0).meet(Ball.exact(2.0)).bounds()
+    assert low <= 1.0 and high >= 2.0
+    nowhere = Ball.exact(math.nan)
+    assert one.meet(nowhere) is one and nowhere.meet(one) is one
+
+
+def test_the_greatest_size_and_all_its_places():
+    with precision():
+        found = greatest(wave, (0.0, 180.0), 200)
+    assert found.open is None
+    assert found.low <= 1.0 <= found.high
+    assert found.high - found.low <= 4e-16  # a unit in the last place to either side
+    middles = [0.5 * (place.start + place.end) for place in found.places]
+    assert middles == pytest.approx([30.0, 90.0, 150.0], abs=1e-10)
+
+
+def test_few_intervals_leave_one_open():
+    with precision():
+        found = greatest(wave, (0.0, 180.0), 3)
+    assert found.open is not None
+    assert found.open.start < found.open.end
+    assert found.intervals == 3
+
+
+def test_a_curve_without_bounds_is_left_open():
+    """1/(x - 1): its size has no bound at 1, and an interval about 1 stays open."""
+
+    def pole(x, order):
+        return (1.0 / (Jet.variable(x, order) - 1.0)).c
+
+    with precision():
+        found = greatest(pole, (0.0, 3.0), 500)
+    assert found.open is not None
+    assert found.open.start <= 1.0 <= found.open.end
+    assert found.high == math.inf

@@ -1,0 +1,75 @@
+"""What the wheel carries: a published case, and closed forms by integration."""
+
+import mpmath
+import pytest
+
+from geneva_cli import External, Mass, Support
+from geneva_cli.design import Design
+from geneva_cli.errors import GenevaError
+from geneva_cli.loads.carried import body_inertia_kgm2, inertia_kgm2, support_torque_Nm, weight_kg
+from geneva_cli.motion.machine_spec import Spec
+
+
+def test_the_published_turret():
+    """An index drive maker's example: three inertias, printed to three decimals."""
+    plate = Mass(shape="disc", diameter_mm=300.0, mass_kg=11.026)
+    fixtures = Mass(shape="point", mass_kg=3.0, count=6, radius_mm=100.0)
+    parts = Mass(shape="point", mass_kg=0.25, count=6, radius_mm=100.0)
+    each = [inertia_kgm2(Spec(External(6), mass=(m,))) for m in (plate, fixtures, parts)]
+    assert [round(j, 3) for j in each] == [0.124, 0.18, 0.015]
+    support = Support(friction=0.15, radius_mm=100.0)
+    whole = Spec(External(6), mass=(plate, fixtures, parts), support=support)
+    assert round(inertia_kgm2(whole), 3) == 0.319
+    # 0.15 (11.026 + 18 + 1.5) 9.80665 0.1, by hand
+    assert support_torque_Nm(whole) == pytest.approx(4.4903669685, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "mass",
+    [
+        Mass("ring", density_kgm3=7850.0, diameter_mm=80.0, bore_mm=50.0, thickness_mm=12.0),
+        Mass("disc", density_kgm3=1190.0, diameter_mm=60.0, thickness_mm=6.0),
+    ],
+)
+def test_a_round_body_is_its_integral(mass):
+    """m and J as integrals over rings of radius r."""
+    low, high = mpmath.mpf(mass.bore_mm or 0) / 2000, mpmath.mpf(mass.diameter_mm) / 2000
+    per = mass.density_kgm3 * mpmath.mpf(mass.thickness_mm) / 1000
+    weight = mpmath.quad(lambda r: 2 * mpmath.pi * r * per, [low, high])
+    inertia = mpmath.quad(lambda r: 2 * mpmath.pi * r**3 * per, [low, high])
+    assert weight_kg(mass) == pytest.approx(float(weight), rel=1e-14)
+    assert body_inertia_kgm2(mass) == pytest.approx(float(inertia), rel=1e-14)
+
+
+def test_a_block_is_its_integral():
+    mass = Mass("block", density_kgm3=7850.0, length_mm=40.0, width_mm=30.0, thickness_mm=20.0)
+    per = mass.density_kgm3 * 0.020
+    inertia = mpmath.quad(lambda x, y: per * (x * x + y * y), [-0.02, 0.02], [-0.015, 0.015])
+    assert body_inertia_kgm2(mass) == pytest.approx(float(inertia), rel=1e-14)
+
+
+def test_gears_to_the_table_count_twice_for_inertia_and_once_for_friction():
+    mass = (Mass("point", mass_kg=2.0, radius_mm=100.0),)
+    straight = Spec(External(6), mass=mass, support=Support(friction=0.2, radius_mm=50.0))
+    geared = straight.with_("support.gear_ratio", 0.5)
+    assert inertia_kgm2(geared) == pytest.approx(0.25 * inertia_kgm2(straight), rel=1e-15)
+    assert support_torque_Nm(geared) == pytest.approx(0.5 * support_torque_Nm(straight), rel=1e-15)
+
+
+def test_a_support_s_own_friction_is_a_load():
+    """0.15 times 1 kN at 100 mm; a weight on the axis is such a force, and no inertia."""
+    alone = Spec(External(6), support=Support(friction=0.15, radius_mm=100.0, force_N=1000.0))
+    limited = Design.of(alone.with_("limits.pin_force_max_N", 400.0))
+    assert limited.loads["wheel_torque_Nm"].max == 15.0
+    assert limited.life["equivalent_force_N"] > 15.0 / 0.0866
+    assert not Spec(External(6), support=Support(friction=0.15, radius_mm=100.0)).is_loaded
+    with pytest.raises(GenevaError, match=r"no inertia: set radius_mm, or set its weight as"):
+        Mass("point", mass_kg=1.0)
+
+
+def test_a_body_beyond_the_reach_of_the_table():
+    """Five centre distances out is a large table still; farther a unit is asked about."""
+    for radius, said in ((490.0, False), (900.0, True)):
+        body = Mass(shape="point", mass_kg=2.0, count=2, radius_mm=radius)
+        warnings = Design(External(6), mass=(body,)).warnings
+        assert any("9 centre distances" in text for text in warnings) is said

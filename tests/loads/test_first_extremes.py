@@ -1,0 +1,136 @@
+"""Of extremes that are equal the first is told, in the period from the first entry.
+
+Motions are symmetric, and engagements alike: where an extreme is told, the same may be at its
+mirror image and in every other engagement. Each of these earlier places is looked at.
+"""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+import repo
+from load_states import state
+from sampling import some
+from witness import mp
+
+from geneva_cli import Crank, External, load
+from geneva_cli.loads import summary
+from geneva_cli.loads.cycle import Cycle, cycle_of
+from geneva_cli.loads.summaries import load_peaks, load_summaries
+from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.many import many
+from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.motion.motion_table import derivatives
+from geneva_cli.motion.peaks import QUANTITIES, worst
+from geneva_cli.parts.slots.groove import greatest_pressure
+from geneva_cli.spec.tables import Load, Size
+
+NEAR = 1e-9  # degrees: what is nearer is one place
+SAME = 1e-13  # of an extreme, and
+ROUNDING = 1e-15  # of a quantity's greatest size: what differs by less is equal
+
+
+class Told(NamedTuple):
+    """An extreme as it is told; ``sign`` is -1 of the least."""
+
+    name: str
+    value: float
+    at_deg: float
+    sign: float
+    size: float
+
+
+def all_told(cycle: Cycle) -> Iterator[Told]:
+    """The extremes of a machine's motion and loads."""
+    found = worst(cycle.mechanism)
+    for name in QUANTITIES:
+        size, at_deg = getattr(found, name)
+        yield Told(name, size, at_deg, 1.0, size)
+    for name, one in summary.summaries(cycle).items():
+        size = max(abs(one.max or 0.0), abs(one.min or 0.0))
+        if one.max is not None:
+            yield Told(name, one.max, one.max_at_deg, 1.0, size)
+        if one.min is not None:
+            yield Told(name, one.min, one.min_at_deg, -1.0, size)
+
+
+def earlier(mechanism: Mechanism, at_deg: float) -> list[float]:
+    """Places in the period before one, where engagements are as there, or mirrored."""
+    first = mechanism.engagements[0]
+    start = first.mid_deg + first.entry_deg
+    here = start + (at_deg - start + NEAR) % mechanism.period_deg - NEAR
+    out = []
+    for e in mechanism.engagements:
+        x = here - e.mid_deg
+        if e.entry_deg - NEAR <= x <= e.exit_deg + NEAR:
+            out += [f.mid_deg + y for f in mechanism.engagements for y in (x, -x)]
+    moves = [(e.mid_deg + e.entry_deg, e.mid_deg + e.exit_deg) for e in mechanism.engagements]
+    return [x for x in out if x < here - NEAR and any(a <= x <= b for a, b in moves)]
+
+
+def test_of_equal_extremes_the_first_is_told() -> None:
+    looked = 0
+    designs = sorted(repo.DESIGNS.glob("*.toml"))
+    for design in some(designs, designs[::4]):
+        mechanism = load(str(design)).mechanism
+        cycle = cycle_of(mechanism)
+        told = [(one, earlier(mechanism, one.at_deg)) for one in all_told(cycle)]
+        x = np.unique([place for _, places in told for place in places])
+        v, a, j = derivatives(mechanism, x, (1, 2, 3)) if len(x) else np.empty((3, 0))
+        values = {"velocity": v, "acceleration": abs(a), "jerk": abs(j), "power": abs(v * a)}
+        states = cycle.states(x)
+        for one, places in told:
+            if one.name not in values:
+                values[one.name] = summary.plain(cycle, states, one.name)
+            at = values[one.name][np.searchsorted(x, places)] * one.sign
+            tie = max(SAME * abs(one.value), ROUNDING * one.size)
+            assert (at < one.value * one.sign - tie).all(), (design.stem, one, places)
+            looked += len(places)
+    assert looked > some(150, 30)
+
+
+def test_of_a_grooves_equal_pressures_the_first_is_told() -> None:
+    """The cam's groove is as steep before the motion as after it."""
+    (engagement,) = load(str(repo.DESIGNS / "cam-geneva.toml")).mechanism.engagements
+    assert engagement.motion.symmetric and engagement.groove
+    assert -180.0 < greatest_pressure(engagement.groove)[1] < 0.0
+
+
+def test_of_two_zeros_the_first_is_told() -> None:
+    """Least contact stress where I w² psi'' = -M, by mpmath: at 17.3 deg, and again at 52.2."""
+    spec = Spec(
+        External(8),
+        Crank(n_rpm=90.0),
+        size=Size(center_distance_mm=160.0, roller_radius_mm=8.0, face_width_mm=12.0),
+        load=Load(inertia_kgm2=0.1, torque_Nm=5.0),
+    )
+    l, w = mp.sin(mp.pi / 8), 3 * mp.pi
+
+    def torque(x: mp.mpf) -> mp.mpf:
+        slope = mp.diff(lambda t: mp.atan2(l * mp.sin(t), 1 - l * mp.cos(t)), x, 2)
+        return w * w * slope / 10 + 5
+
+    first, second = (float(mp.degrees(mp.findroot(torque, mp.radians(x)))) for x in (17, 52))
+    assert (round(first, 3), round(second, 3)) == (17.339, 52.165)
+    least = summary.summaries(Cycle(build(spec)))["contact_stress_MPa"]
+    assert least.min_at_deg == pytest.approx(first, abs=1e-9)
+    batch = many(spec, {"drive.n_rpm": np.array([90.0, 91.0])}).machine
+    for name in ("contact_stress_MPa", "wheel_bearing_N"):
+        by_sweep = load_summaries(batch, [name])[name].min_at_deg[0]
+        assert by_sweep == pytest.approx(first, abs=1e-9)
+
+
+def test_a_stress_of_one_wall_is_not_that_of_the_other_half() -> None:
+    """A torque alone presses on one wall, which past mid-motion bends towards the roller.
+
+    Just past mid-motion it bends more sharply than the roller, and the stress has no bound.
+    """
+    spec = load(str(repo.DESIGNS / "internal-curved-z8.toml")).mechanism.spec
+    size = spec.size.replace(face_width_mm=10.0)
+    spec = spec.replace(load=Load(torque_Nm=5.0), size=size)
+    (engagement,) = build(spec).engagements
+    sharp = [state(build(spec), engagement, x).contact_stress_MPa for x in (-0.02, 0.02)]
+    assert np.isinf(sharp).tolist() == [False, True]
+    most = load_peaks(build(spec), ["contact_stress_MPa"])["contact_stress_MPa"]
+    assert 0.0 < most.at_deg[0] < 0.02

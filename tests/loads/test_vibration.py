@@ -1,0 +1,113 @@
+"""What a motion leaves of a swing: against closed forms and integrals of 50 digits and more."""
+
+import math
+
+import numpy as np
+import pytest
+import vibration_witness as witness
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from swings import shares
+from words import law
+
+from geneva_cli import External
+from geneva_cli.loads.vibration.shape import law_shape, shape
+from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.mechanism import build
+
+LAWS = [*witness.WAVES, *witness.POLYNOMIALS]
+RATIOS = [1e-6, 1e-3, 0.1, 0.37, 0.5, 2 / 3, 1.0, 1.5, 2.0, 2.5, 3.14, 5.0, 7.3, 10.5, 20.1, 99.7]
+NEAR = [x + side * 1e-12 for x in (0.5, 2 / 3, 1.0, 2.0, 4.0) for side in (-1, 0, 1)]
+LARGE = [1e3, 1234.567, 9999.3, 1e4]
+
+
+def of(name):
+    if name.startswith("tilted"):
+        return law_shape(law("sine-group", 0.1))
+    return law_shape(law(name))
+
+
+def amplitudes(form, ratios, damping=0.0):
+    return shares(form, np.array(ratios, dtype=float), damping)
+
+
+def close(found, exact):
+    """Within 1e-13 of the value, or 1e-16 of the step: what is asked of residuals."""
+    return abs(found - exact) <= max(1e-13 * exact, 1e-16)
+
+
+@pytest.mark.sampled(4)
+@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("damping", [0.0, 0.02, 0.3, 0.95])
+def test_residuals_of_laws(name, damping):
+    ratios = RATIOS + NEAR + LARGE
+    for ratio, found in zip(ratios, amplitudes(of(name), ratios, damping), strict=True):
+        exact = witness.amplitude(name, ratio, damping)
+        assert close(found, exact), (ratio, found, float(exact))
+
+
+@given(st.sampled_from(LAWS), st.floats(0.01, 60.0), st.floats(0.0, 0.99))
+@settings(max_examples=60)
+def test_residuals_anywhere(name, ratio, damping):
+    found = amplitudes(of(name), [ratio], damping)[0]
+    assert close(found, witness.amplitude(name, ratio, damping))
+
+
+def test_the_witness_knows_the_closed_forms_of_the_textbooks():
+    """Harmonic |cos pi l|/|1 - 4 l²|, cycloidal |sin pi l|/(pi l |1 - l²|)."""
+    mp = witness.mp
+    for ratio in (0.3, 1.7, 12.34):
+        l = mp.mpf(ratio)
+        harmonic = abs(mp.cos(mp.pi * l) / (1 - 4 * l * l))
+        cycloidal = abs(mp.sin(mp.pi * l) / (mp.pi * l * (1 - l * l)))
+        assert abs(witness.amplitude("harmonic", ratio) - harmonic) < 1e-40
+        assert abs(witness.amplitude("cycloidal", ratio) - cycloidal) < 1e-40
+
+
+def test_large_ratios_keep_relative_accuracy():
+    """Not only 1e-16 of the step, which at a ratio of 10,000 is more than the residual."""
+    for name in LAWS:
+        for ratio, found in zip(LARGE, amplitudes(of(name), LARGE), strict=True):
+            exact = witness.amplitude(name, ratio)
+            # 1e-13 of what its ends leave at most, were they in step
+            most = witness.amplitude(name, ratio + 0.25) + exact
+            assert abs(found - exact) <= 1e-13 * most, (name, ratio)
+
+
+def test_half_a_natural_period_more_or_less_at_zeros():
+    """The harmonic's half-integer zeros and the cycloidal's integer ones: 1e-16 of the step."""
+    for name, offset in (("harmonic", 0.5), ("cycloidal", 0.0)):
+        zeros = np.arange(2, 40) + offset
+        assert amplitudes(of(name), zeros).max() <= 1e-16
+
+
+# theory-loads.md, section 5: z = 3 external, amplitude over the step, derived with mpmath.
+@pytest.mark.parametrize(
+    ("ratio", "damping", "amplitude"),
+    [
+        (0.5, 0.0, 0.89884102659148325),
+        (0.5, 0.02, 0.87128872570555313),
+        (1.0, 0.0, 0.66081486966695231),
+    ],
+)
+def test_published_values_of_three_slots(ratio, damping, amplitude):
+    found = amplitudes(shape(build(Spec(External(3))).engagements[0]), [ratio], damping)[0]
+    assert found == pytest.approx(amplitude, rel=4e-16)  # 17 digits are given
+
+
+def test_half_integer_rule_of_six_slots():
+    """theory-loads.md, section 5: 1.22e-3 of the step at 10, 6.1e-5 at 10.5."""
+    ten, half = amplitudes(shape(build(Spec(External(6))).engagements[0]), [10.0, 10.5])
+    assert (f"{ten:.2e}", f"{half:.1e}") == ("1.22e-03", "6.1e-05")
+
+
+@pytest.mark.parametrize("z", [3, 4, 6, 12])
+def test_large_ratios_of_straight_slots(z):
+    """The jumps at entry and exit alone: wn² A -> 2 tan b |cos pi l| w², within 1/Omega of it."""
+    engagement = build(Spec(External(z))).engagements[0]
+    whole, b = math.radians(engagement.motion_deg), math.pi / z
+    for ratio in (200.0, 200.3, 1000.1):
+        found = amplitudes(shape(engagement), [ratio])[0]
+        omega = 2.0 * math.pi * ratio
+        limit = 2.0 * math.tan(b) * abs(math.cos(math.pi * ratio)) * (whole / omega) ** 2
+        assert found == pytest.approx(limit / (2.0 * b), rel=60.0 / omega)

@@ -1,0 +1,350 @@
+"""A load on an elastic shaft behind every machine: against 50 digits, and against marching."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import repo
+from machine_witness import mp as exact_digits
+from machine_witness import on_path
+from sampling import some
+from swings import greatest_acceleration, residuals, shares
+from words import law as load_law
+from words import load, points
+
+from geneva_cli import Crank, Design, External, Shaft, SideCrank
+from geneva_cli.bench import truth
+from geneva_cli.drives.noncircular_gears import NoncircularGears
+from geneva_cli.kinds.linkages.four_bar import FourBar
+from geneva_cli.loads.vibration.lobes import highest_ratio, lobes
+from geneva_cli.loads.vibration.oscillator import Oscillator
+from geneva_cli.loads.vibration.shape import law_shape, shape
+from geneva_cli.loads.vibration.vibration import oscillators_of, speeds_to_avoid
+from geneva_cli.motion import registry
+from geneva_cli.motion.laws.table import TableLaw
+from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.mechanism import build
+
+DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
+
+
+def rate(ratio, damping):
+    return 2.0 * math.pi * ratio * complex(-damping, math.sqrt(1.0 - damping * damping))
+
+
+def by_gauss(engagement, ratio, damping, parts=60):
+    """The same integral by Gauss's rule on many short stretches of the motion."""
+    motion, p = engagement.motion, rate(ratio, damping)
+    x, w = np.polynomial.legendre.leggauss(20)
+    whole = engagement.motion_deg
+    total = 0j
+    for a, b in pairwise(motion.breaks_deg):
+        cuts = np.linspace(a, b, parts + 1)
+        h = 0.5 * (b - a) / parts
+        at = (0.5 * (cuts[1:] + cuts[:-1])[:, None] + h * x).ravel()
+        bent = 2.0 * motion(at, 2).c[2] * math.radians(whole) ** 2 / (2.0 * motion.half_step)
+        swing = np.exp(p * (motion.exit_deg - at) / whole)
+        total += h / whole * (np.tile(w, parts) * bent * swing).sum()
+    return -total / p.imag
+
+
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
+def test_every_machine(path):
+    """Stretches this short leave Gauss's rule with its rounding alone."""
+    for engagement in load(path).engagements:
+        for ratio, damping in ((0.4, 0.0), (3.3, 0.05), (11.0, 0.0)):
+            found = residuals(shape(engagement), [ratio], damping)[0]
+            assert found == pytest.approx(by_gauss(engagement, ratio, damping), abs=1e-13)
+
+
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize(
+    ("z", "gearing", "A", "damping"),
+    [(3, "external", 0.0, 0.1), (6, "internal", 0.0, 0.0), (5, "external", 0.7, 0.02)],
+)
+def test_straight_slots_to_the_last_digits(z, gearing, A, damping):
+    """The wheel's acceleration by complex numbers of 50 digits, integrated at 30."""
+    mp = truth.digits()
+    wheel = registry.gearing(gearing)(z)
+    machine = build(Spec(wheel, SideCrank(A=A) if A else Crank()))
+    engagement = machine.engagements[0]
+    half = truth.half_motion(z, gearing, A)
+    cuts = [half * mp.mpf(k) / 16 for k in (-16, -10, -5, -2, -1, 0, 1, 2, 5, 10, 16)]
+    for ratio in (0.9, 6.25):
+        z_ = mp.mpf(damping)
+        p = 2 * mp.pi * mp.mpf(ratio) * mp.mpc(-z_, mp.sqrt(1 - z_ * z_))
+
+        def swing(x, p=p):
+            return truth.motion(z, gearing, A, x)[2] * mp.exp(p * (half - x) / (2 * half))
+
+        mp.dps = 25
+        exact = mp.quad(swing, cuts, maxdegree=5) * 2 * half / (2 * mp.pi / z) / p.imag
+        mp.dps = 50
+        found = shares(shape(engagement), np.array([ratio]), damping)[0]
+        assert abs(found - abs(exact)) <= 1e-13 * abs(exact)
+
+
+@pytest.mark.parametrize("z", [3, 6])
+def test_straight_slots_at_large_ratios(z):
+    """By parts, again and again: what is left are the derivatives at entry and exit.
+
+    What the bend between them leaves besides is below e^-1000. At entry and exit z = 3 accelerates
+    by a fifteenth of its greatest: the panels between join but for a rounding of each end's value,
+    which is the bar. At 5555.5 the residual is nearly 0.
+    """
+    mp = truth.digits()
+    engagement = build(Spec(External(z))).engagements[0]
+    half = truth.half_motion(z, "external", 0.0)
+    bent = [
+        mp.taylor(lambda x: truth.motion(z, "external", 0.0, x)[2], side, 7)
+        for side in (-half, half)
+    ]
+    ends = np.polynomial.legendre.legval(np.array([-1.0, 1.0]), shape(engagement).series[1].T)
+    for ratio in (1234.567, 5555.5, 9999.3):
+        p = 2 * mp.pi * mp.mpf(ratio) * mp.mpc(0, 1) / (2 * half)
+        total = sum(
+            mp.factorial(k) * (bent[0][k] * mp.exp(2 * half * p) - bent[1][k]) / p ** (k + 1)
+            for k in range(8)
+        )
+        exact = abs(total / p) / (2 * mp.pi / z)
+        found = shares(shape(engagement), np.array([ratio]), 0.0)[0]
+        assert abs(found - exact) <= 2.0**-52 * abs(ends).sum() / (2.0 * math.pi * ratio) ** 2
+
+
+def test_rounding_is_no_burden():
+    """A motion of 0.9 deg, at angles that are rounded to 1e-14 of it: no more panels help.
+
+    The wheel's angle in 50 digits, by parts twice, gives the residual p² integral of s e^(p (1-u)),
+    plus p. The terms of the series that rounding fills are 5e-13 of the greatest derivative.
+    """
+    drive = FourBar(
+        crank_mm=35.0, ground_mm=91.0, coupler_mm=79.5, rocker_mm=94.76896748337387,
+        point_mm=121.4652374962513, point_deg=25.0, entry_deg=81.61205802280841,
+    )  # fmt: skip
+    spec = Spec(External(16, held_by="detent"), drive)
+    (engagement,) = build(spec).engagements
+    middle = math.degrees(engagement.reactions.middle)
+    exact = on_path(spec, middle + engagement.entry_deg, middle + engagement.exit_deg)
+    panels = shape(engagement)
+    assert len(panels.half) < 200
+    mp, whole = exact_digits, exact.exit - exact.entry
+    for ratio, damping in some(((0.7, 0.0), (8.0, 0.05), (40.0, 0.0)), ((8.0, 0.05),)):
+        z_ = mp.mpf(damping)
+        p = 2 * mp.pi * mp.mpf(ratio) * mp.mpc(-z_, mp.sqrt(1 - z_ * z_))
+
+        def swing(u, p=p):
+            s = (exact.wheel(exact.entry + u * whole) / exact.b + 1) / 2
+            return s * mp.exp(p * (1 - u))
+
+        cuts = [mp.mpf(k) / 32 for k in range(33)]
+        expected = abs((mp.quad(swing, cuts, maxdegree=4) * p + 1) * p) / p.imag
+        found = shares(panels, [ratio], damping)[0]
+        # a few units of the entry angle's last place, which is 1.6e-14 of the motion
+        assert abs(found - expected) <= 1e-13
+
+
+def test_many_points_are_no_burden():
+    """A law of 2,001 points has some thousand panels: its fifth derivative jumps at each."""
+    u = np.linspace(0.0, 1.0, 2001)
+    pairs = [(float(x), float(x**3 * (10 - 15 * x + 6 * x * x))) for x in u]
+    form = law_shape(TableLaw(pairs))
+    exact = law_shape(load_law("3-4-5"))
+    assert len(form.half) < 10_000
+    ratios = np.array([0.5, 3.3, 12.0])
+    # A spline through 2,001 doubles has bends of 1e-16 / step² (4e-10) more or less than the
+    # polynomial's, and its solution adds as much.
+    assert shares(form, ratios, 0.0) == pytest.approx(shares(exact, ratios, 0.0), abs=4e-10)
+
+
+def test_gears_by_points(tmp_path):
+    """Behind gears given by points the motion is no polynomial between them, and has kinks."""
+    path = tmp_path / "ratio.csv"
+    rows = [f"{x},{1.0 - 0.2 * math.cos(math.radians(x)):.17g}" for x in range(0, 361, 10)]
+    path.write_text("\n".join(rows) + "\n")
+    ratio = points(path, NoncircularGears, "ratio")
+    engagement = build(Spec(External(6), NoncircularGears(ratio=ratio))).engagements[0]
+    found = residuals(shape(engagement), [3.3], 0.02)[0]
+    assert found == pytest.approx(by_gauss(engagement, 3.3, 0.02, 360), abs=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "factor"),
+    [
+        # r'' + Omega² r = -(pi²/2) cos pi u in closed form: the load's acceleration over pi²/2 is
+        # (cos x - cos 2 l x) Omega²/(Omega² - pi²), x = pi u, at l = 1 greatest at the end,
+        (1.0, 8.0 / 3.0),
+        # and at l = 3/2, cos x - cos 3x, at cos² x = 1/3
+        (1.5, math.sqrt(3.0)),
+    ],
+)
+def test_dynamic_factor_of_the_harmonic(ratio, factor):
+    found = greatest_acceleration(law_shape(load_law("harmonic")), ratio, 0.0) / (math.pi**2 / 2.0)
+    assert found == pytest.approx(factor, rel=1e-13)
+
+
+@pytest.mark.parametrize("kind", [External(3), External(6)])
+@pytest.mark.parametrize(("ratio", "damping"), [(0.2, 0.0), (2.3, 0.1), (9.7, 0.01)])
+def test_dynamic_factor_against_a_solver(kind, ratio, damping):
+    """A general solver; on 20,001 samples the greatest is below the peak by 1e-6 at most."""
+    from scipy.integrate import solve_ivp
+
+    machine = build(Spec(kind))
+    motion = machine.engagements[0].motion
+    omega, whole = 2.0 * math.pi * ratio, math.radians(machine.engagements[0].motion_deg)
+    scale = whole * whole / (2.0 * motion.half_step)
+
+    def slope(u, y):
+        x = motion.entry_deg + float(u) * (motion.exit_deg - motion.entry_deg)
+        bent = 2.0 * motion(x, 2).c[2] * scale
+        return [y[1], -bent - 2.0 * damping * omega * y[1] - omega * omega * y[0]]
+
+    run = solve_ivp(
+        slope, (0, 1), [0, 0], "DOP853", np.linspace(0, 1, 20001), rtol=1e-9, atol=1e-12
+    )
+    greatest = np.abs(2.0 * damping * omega * run.y[1] + omega * omega * run.y[0]).max()
+    found = greatest_acceleration(shape(machine.engagements[0]), ratio, damping)
+    assert found == pytest.approx(greatest, rel=2e-6)
+
+
+def test_large_ratios_add_the_jump_to_the_wheels_acceleration():
+    """A rigid shaft but for the ringing that the jump at entry starts: both in step, their sum."""
+    machine = build(Spec(External(6)))
+    whole, step = math.radians(120.0), math.pi / 3.0
+    wheel = 1.34963727590190292442655173495 * whole**2 / step  # theory.md, section 7
+    jump = math.tan(math.pi / 6.0) * whole**2 / step
+    found = greatest_acceleration(shape(machine.engagements[0]), 1e4, 0.0)
+    assert found == pytest.approx(wheel + jump, rel=1e-4)
+
+
+@pytest.mark.parametrize("damping", [0.002, 0.05])
+def test_steady_state_is_where_marching_ends(damping):
+    """Unlike steps, cycle after cycle by the state's own 2 x 2 matrix, until nothing changes."""
+    machine = build(Spec(External(6, steps_deg=(72.0, 48.0))))
+    load_ = Oscillator(4.0, damping)
+    first = machine.engagements[0].motion_deg
+    wn = 2.0 * math.pi * load_.ratio / first  # by degrees of the input
+    wd = wn * math.sqrt(1.0 - damping * damping)
+
+    def free(y, angle):
+        """r and its rate after some free swinging."""
+        c, s = math.cos(wd * angle), math.sin(wd * angle)
+        back = (y[1] + damping * wn * y[0]) / wd
+        e = math.exp(-damping * wn * angle)
+        r = e * (y[0] * c + back * s)
+        return np.array([r, -damping * wn * r + e * wd * (back * c - y[0] * s)])
+
+    owns = []
+    for engagement in machine.engagements:
+        z = by_gauss(engagement, load_.ratio * engagement.motion_deg / first, damping)
+        own = np.array([z.imag, wd * z.real - damping * wn * z.imag])
+        owns.append(own * engagement.half_step)
+    y, found = np.zeros(2), [0.0, 0.0]
+    for _ in range(200 if damping > 0.01 else 2500):
+        for i, engagement in enumerate(machine.engagements):
+            y = free(y, engagement.motion_deg) + owns[i]
+            back = (y[1] + damping * wn * y[0]) / wd
+            found[i] = math.hypot(y[0], back) / engagement.half_step
+            y = free(y, machine.dwell_deg(i))
+    assert oscillators_of(machine, load_).steady_share[:, 0] == pytest.approx(found, rel=1e-9)
+
+
+def test_a_lobe_is_where_the_slope_of_the_closed_form_vanishes():
+    """Of |sin pi l|/(pi l (l² - 1)): pi l cot pi l = 1 + 2 l²/(l² - 1), between two integers."""
+    form = law_shape(load_law("cycloidal"))
+    low, high = np.array([0.6]), np.array([30.0])
+    found = lobes(lambda _, ratio: shares(form, ratio, 0.0), low, high)
+    l = found.ratio
+    assert np.floor(l).tolist() == list(range(2, 30))
+    slope = math.pi * l / np.tan(math.pi * l) - 1.0 - 2.0 * l * l / (l * l - 1.0)
+    # its own slope is -pi² l there and steeper: the places are right to 1e-12
+    assert np.abs(slope / (math.pi**2 * l)).max() < 1e-12
+    exact = np.abs(np.sin(math.pi * l)) / (math.pi * l * (l * l - 1.0))
+    assert found.share == pytest.approx(exact, rel=1e-12)
+
+
+def test_a_lobe_next_to_an_end_is_found():
+    """A maximum half a sample from an end: `sweep` gave another residual than `vibration` there."""
+    form = law_shape(load_law("cycloidal"))
+
+    def share(_, ratio):
+        return shares(form, ratio, 0.0)
+
+    (top,) = lobes(share, np.array([2.0]), np.array([3.0])).ratio
+    for low, high in ((top - 0.004, top + 1.0), (top - 1.0, top + 0.004)):
+        near = lobes(share, np.array([low]), np.array([high])).ratio - top
+        assert np.abs(near).min() < 1e-12  # its own rounding, as in the test above
+    beyond = lobes(share, np.array([top + 0.004]), np.array([top + 0.9])).ratio
+    assert (beyond >= top + 0.004).all()
+
+
+def test_no_residual_is_above_its_bound():
+    for machine in (build(Spec(External(4))), build(Spec(External(6), SideCrank(A=0.6)))):
+        form = shape(machine.engagements[0])
+        for share, damping in ((1e-2, 0.0), (1e-4, 0.0), (1e-4, 0.5), (1e-4, 0.99)):
+            high = highest_ratio(form, share, damping)
+            assert shares(form, np.linspace(high, 3.0 * high, 2000), damping).max() <= share
+
+
+def test_speeds_to_avoid_are_the_greatest_nearby():
+    """Of unlike engagements the worst counts; none is missed by a fine scan over the speeds."""
+    machine = build(Spec(External(6, steps_deg=(72.0, 48.0))))
+    avoid = speeds_to_avoid(machine, Oscillator(4.0, 0.0))
+    n = np.geomspace(30.0, 120.0, 20001)
+    ratio = 4.0 * 60.0 / n
+    every = [
+        shares(shape(e), ratio * e.motion_deg / machine.engagements[0].motion_deg, 0.0)
+        for e in machine.engagements
+    ]
+    worst = np.max(every, axis=0)
+    at = 1 + np.flatnonzero((worst[1:-1] > worst[:-2]) & (worst[1:-1] > worst[2:]))
+    assert [a.rpm for a in avoid] == pytest.approx(n[at].tolist(), rel=2e-4)
+    assert [a.residual_share for a in avoid] == pytest.approx(worst[at].tolist(), rel=1e-5)
+    for a in avoid:
+        assert (a.from_rpm / a.rpm) ** 2 == pytest.approx(0.8)
+        assert (a.to_rpm / a.rpm) ** 2 == pytest.approx(1.2)
+
+
+def test_the_worst_stiffness_within_a_fifth():
+    machine = build(Spec(External(6)))
+    form = shape(machine.engagements[0])
+    for ratio in (0.4, 2.9, 10.0, 10.5):
+        fine = ratio * np.sqrt(np.linspace(0.8, 1.2, 4001))
+        found = oscillators_of(machine, Oscillator(ratio, 0.0)).worst_share[0]
+        assert found == pytest.approx(shares(form, fine, 0.0).max(), rel=1e-6)
+
+
+def test_units_and_the_shaft():
+    """k, I and n in, the period ratio out: 0.4 kg m², 3000 N m/rad, 60 rpm, 120 of 360 deg."""
+    design = Design(External(6), shaft=Shaft(stiffness_Nm_rad=3000.0, damping_ratio=0.01))
+    design = design.with_("load.inertia_kgm2", 0.4)
+    found = design.vibration().to_dict()
+    natural = math.sqrt(3000.0 / 0.4)
+    assert found["natural_Hz"] == pytest.approx(natural / math.tau)
+    assert found["period_ratio"] == pytest.approx(natural / math.tau / 3.0)
+    # I alpha / k with alpha = 1.3496 (2 pi)²
+    alpha = 1.34963727590190292442655173495 * (2.0 * math.pi) ** 2
+    assert found["windup_deg"] == pytest.approx(math.degrees(0.4 * alpha / 3000.0), rel=1e-13)
+    assert found["residual_deg"] == pytest.approx(60.0 * found["residual_share"])
+    given = Design(External(6)).vibration(found["period_ratio"], 0.01).to_dict()
+    assert {k: v for k, v in given.items() if isinstance(v, float)} == pytest.approx(
+        {k: v for k, v in found.items() if isinstance(v, float)}
+    )
+
+
+def test_stations_that_differ():
+    machine = build(Spec(External(6, steps_deg=(72.0, 48.0))))
+    found = oscillators_of(machine, Oscillator(4.0, 0.0))
+    assert found.ratio[:, 0] == pytest.approx([4.0, 4.0 * 132.0 / 108.0])
+    assert np.isnan(found.steady_share).all()
+
+
+def test_a_stop_has_no_steady_state():
+    """It makes at most z - 1 motions in a row, from rest."""
+    design = Design(External(5, stop=True))
+    oscillators = oscillators_of(design.mechanism, Oscillator(4.0, 0.05))
+    assert np.isnan(oscillators.steady_share).all()
+    values = design.vibration(4.0, 0.05).to_dict()
+    assert values["steady_share"] is None
+    assert any("stop blocks the crank" in str(warning) for warning in values["warnings"])

@@ -1,0 +1,258 @@
+"""The curves of a figure: every point on the curve, jumps with both values, peaks exact."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+import repo
+
+from geneva_cli import (
+    Cycloidal,
+    Design,
+    EllipticalGears,
+    External,
+    Harmonic,
+    Internal,
+    Load,
+    Motion,
+    SCurve,
+    load,
+)
+from geneva_cli.errors import GenevaError
+from geneva_cli.loads.figures import AXIS_BY_NAME, MACHINES_MAX, USUAL_QUANTITIES, figure
+from geneva_cli.loads.stages import motion_stages
+from geneva_cli.loads.summary import SHOWN_QUANTITIES
+from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.mechanism import build
+from geneva_cli.numerics.sampling import ASPECT, CHORD_ERROR, refined, thinned
+
+DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
+LOADED = Load(inertia_kgm2=0.4, torque_Nm=15)
+
+
+def curve_of(design, name):
+    (panel,) = design.figure([name]).panels
+    (curve,) = panel.curves
+    return curve
+
+
+def points(curve):
+    return [point for piece in curve.pieces for point in zip(*piece, strict=True)]
+
+
+@pytest.mark.sampled(8)
+@pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
+def test_marks_are_the_answers_and_nothing_is_beyond_them(path):
+    design = load(str(path))
+    for panel in design.figure().panels:
+        (curve,) = panel.curves
+        name, values = panel.y.name, [y for _, y in points(curve)]
+        greatest = max(abs(y) for y in values)
+        if name == design.spec.output.column:
+            assert curve.marks == ()
+            steps = sum(2.0 * e.half_step for e in design.mechanism.engagements)
+            steps *= design.spec.output.per_radian
+            assert values[-1] - values[0] == pytest.approx(steps, rel=1e-12)
+        elif name in ("velocity", "acceleration", "jerk"):
+            (mark,) = curve.marks
+            peak = getattr(design.peaks, name)
+            if mark.y is None:  # rates of a speed that jumps have no bound, and are 0 between
+                assert peak.max == math.inf and greatest == 0.0
+                assert mark.x == pytest.approx(peak.at_deg, abs=1e-9)
+                continue
+            assert abs(mark.y) == peak.max
+            assert math.cos(math.radians(mark.x - peak.at_deg)) == pytest.approx(1.0)
+            # what is drawn reaches the peak but for what a chord may cut off
+            assert peak.max * (1.0 - 2e-3) < greatest < peak.max * (1.0 + 1e-9)
+        else:
+            want = design.loads[name]
+            said = {mark.word: mark.y for mark in curve.marks}
+            assert said["max"] == pytest.approx(want.max, rel=1e-12)
+            if want.min < -1e-6 * want.max:
+                assert said["min"] == pytest.approx(want.min, rel=1e-12)
+            assert max(values) <= want.max * (1.0 + 1e-9)
+            assert max(values) > want.max * (1.0 - 2e-3)
+
+
+# of a counter the loads have no bound, of a stop none is known
+NO_LOADS = {"odometer", "geneva-stop"}
+BOUNDED = [p for p in DESIGNS if "[load]" in p.read_text() and p.stem not in NO_LOADS]
+
+
+@pytest.mark.sampled(8)
+@pytest.mark.parametrize("path", BOUNDED, ids=lambda p: p.stem)
+def test_every_point_is_the_cycle_s(path):
+    """Compared with the rows of `geneva loads` at the same input angles."""
+    design = load(str(path))
+    for panel in design.figure(["pin_force_N", "input_torque_Nm"]).panels:
+        (curve,) = panel.curves
+        inner = [p for x, y in curve.pieces for p in zip(x[1:-1], y[1:-1], strict=True)]
+        x, y = np.array(sorted(inner)).T
+        want = getattr(design.cycle.states(x), panel.y.name)
+        assert np.abs(y - want).max() < 1e-6 * np.abs(y).max()
+
+
+def test_jumps_have_both_values():
+    """Harmonic: s'' = pi²/2 cos(pi u): it jumps to psi'' = +-(pi²/2) b / a² and back.
+
+    b is the step pi/3 of six slots and a the motion 2 pi/3 in radians of the input.
+    """
+    design = Design(External(6), motion=Motion(Harmonic(), ratio="matched"))
+    size = 0.5 * math.pi**2 * (math.pi / 3.0) / (2.0 * math.pi / 3.0) ** 2
+    jumps = list(curve_of(design, "acceleration").jumps())
+    # where all is smooth a jump may be a rounding
+    jumps = [pytest.approx(j, rel=1e-9) for j in jumps if abs(j[1] - j[2]) > 1e-9]
+    assert jumps == [(-60.0, 0.0, size), (60.0, -size, 0.0), (300.0, 0.0, size)]
+
+
+def test_a_break_within_a_motion_is_a_jump():
+    """Friction turns round where the sliding does, at mid-motion of a straight slot."""
+    loaded = Load(inertia_kgm2=0.0, torque_Nm=15, friction=0.2)
+    curve = curve_of(Design(External(6), load=loaded), "pin_force_N")
+    middle = [(a, b) for x, a, b in curve.jumps() if abs(x) < 30.0 and abs(a - b) > 1.0]
+    assert len(middle) >= 1
+
+
+@pytest.mark.parametrize("ramp", [0.0, 0.1])
+@pytest.mark.parametrize("cruise", [0.0, 0.2])
+@pytest.mark.parametrize("gears", [None, EllipticalGears(eccentricity=0.3)])
+def test_each_piece_has_its_own_values_at_its_ends(gears, cruise, ramp):
+    """Breaks of a law are angles with roundings: the ends are those of places 1e-7 degrees inside.
+
+    1e-6 of the greatest value: what acceleration and jerk change over 1e-7 degrees.
+    """
+    law = Motion(SCurve(cruise=cruise, ramp=ramp), alpha0_deg=-4.6)
+    spec = Spec(External(6), motion=law, load=Load(inertia_kgm2=0.1), drive_before=gears)
+    machine = build(spec)
+    for stage in motion_stages(machine, ["acceleration", "jerk"]):
+        near = np.array([stage.start, stage.start + 1e-7, stage.end - 1e-7, stage.end])
+        rows = stage.of(near)
+        scale = 1e-6 * (1.0 + np.abs(rows).max(axis=1))
+        assert (np.abs(rows[:, 0] - rows[:, 1]) <= scale).all()
+        assert (np.abs(rows[:, 3] - rows[:, 2]) <= scale).all()
+
+
+def test_the_end_of_a_dwell_meets_the_next_motion():
+    """Also where rounding puts the two a last digit apart: no gap, and a jump is found."""
+    for path in DESIGNS:
+        curve = curve_of(load(str(path)), "acceleration")
+        for (x, _), (next_x, _) in itertools.pairwise(curve.pieces):
+            assert x[-1] == next_x[0], path
+
+
+def test_several_machines_share_an_axis():
+    """From the earliest entry, over the longest period; shaded where all rest."""
+    six, three = Design(External(6)), Design(External(3))
+    inner = Design(Internal(6))
+    found, left = figure({"a": six.cycle, "b": three.cycle, "c": inner.cycle}, ["velocity"])
+    assert found.window == pytest.approx((-120.0, 240.0))
+    assert found.shaded == ((pytest.approx(120.0), pytest.approx(240.0)),)
+    assert left == []
+    for curve in found.panels[0].curves:
+        xs = [x for x, _ in points(curve)]
+        assert (min(xs), max(xs)) == pytest.approx(found.window)
+    # a shorter period is repeated: what the wheel has turned adds up
+    many = load(str(repo.DESIGNS / "three-rollers-z4.toml"))
+    found, _ = figure({"a": six.cycle, "b": many.cycle}, ["wheel_deg"])
+    turned = found.panels[0].curves[1].pieces
+    assert turned[-1][1][-1] - turned[0][1][0] == pytest.approx(270.0, abs=1e-9)
+
+
+def test_rollers_without_a_dwell_between_them():
+    moving = load(str(repo.DESIGNS / "two-pins-z4.toml"))
+    rests = moving.figure(["velocity"]).shaded
+    assert rests == ((pytest.approx(135.0), pytest.approx(315.0)),)
+
+
+def test_a_load_without_a_bound_leaves_the_panel():
+    """A slot that lies across the pin's way at mid-motion, and a torque that is not 0 there."""
+    design = Design(External(6), motion=Motion(Cycloidal(), ratio=0.42), load=LOADED)
+    (panel,) = design.figure(["pin_force_N"]).panels
+    (curve,) = panel.curves
+    (word,) = [mark for mark in curve.marks if mark.y is None]
+    assert (word.word, word.x) == ("max", pytest.approx(0.0, abs=1e-6))
+    low, high = panel.bounds
+    assert low == pytest.approx(design.loads["pin_force_N"].min)
+    # three times the force half-way between the ends and mid-motion
+    x = np.array([-0.5, 0.5]) * design.mechanism.engagements[0].exit_deg
+    assert high == pytest.approx(3.0 * design.cycle.states(x).pin_force_N.max(), rel=1e-9)
+    ys = [y for _, y in points(curve)]
+    assert max(ys) == high and all(math.isfinite(y) for y in ys)
+    # no line runs along the edge
+    runs = [p for _, y in curve.pieces for p in itertools.pairwise(y)]
+    assert not [pair for pair in runs if pair == (high, high)]
+
+
+def test_beside_a_cusp_nothing_is_rounding():
+    """Curved slots at mid-motion: the force is that of the way in, and of the way out."""
+    design = Design(External(6), motion=Motion(Cycloidal(), ratio="matched"), load=LOADED)
+    values = [y for x, y in points(curve_of(design, "pin_force_N")) if abs(x) < 1.0]
+    assert max(values) < design.loads["pin_force_N"].max
+    assert np.ptp(values) < 0.1 * max(values)
+
+
+def test_what_cannot_be_shown():
+    bare = Design(External(6))
+    with pytest.raises(GenevaError, match="no force is known"):
+        bare.figure(["pin_force_N"])
+    with pytest.raises(GenevaError, match=r'--pick jrk.*did you mean "jerk"'):
+        bare.figure(["jrk"])
+    with pytest.raises(GenevaError, match="face_width_mm"):
+        Design(External(6), load=LOADED).figure(["contact_stress_MPa"])
+    with pytest.raises(GenevaError, match="no guide"):
+        Design(External(6), load=LOADED).figure(["guide_force_N"])
+    with pytest.raises(GenevaError, match=f"at most {MACHINES_MAX}"):
+        figure({str(i): bare.cycle for i in range(MACHINES_MAX + 1)})
+    made, left = figure({"six": bare.cycle})
+    assert [p.y.name for p in made.panels] == ["wheel_deg", *USUAL_QUANTITIES[:3]]
+    assert not left  # no load, and no force is asked for
+    made, left = figure({"six": bare.cycle, "loaded": Design(External(6), load=LOADED).cycle})
+    assert [p.y.name for p in made.panels] == ["wheel_deg", *USUAL_QUANTITIES]
+    assert len(left) == 1 and left[0][0] == "six"
+    assert left[0][1].startswith("no curve of pin_force_N, input_torque_Nm, ")
+
+
+def test_every_load_can_be_asked_for():
+    assert set(SHOWN_QUANTITIES) < set(AXIS_BY_NAME)
+
+
+# Points on a curve
+
+
+def test_chords_stay_within_the_miss():
+    def of(x):
+        return np.array([np.sin(x), np.exp(-((40.0 * (x - 1.234)) ** 2)), 0.0 * x + 3.0])
+
+    heights = np.array([2.0, 1.0, 1.0])
+    x = refined(of, 0.0, 6.0, 6.0, heights)
+    assert x[0] == 0.0 and x[-1] == 6.0 and (np.diff(x) > 0.0).all()
+    fine = np.linspace(0.0, 6.0, 100_001)
+    for row, height in zip(range(3), heights, strict=True):
+        off = np.abs(np.interp(fine, x, of(x)[row]) - of(fine)[row]) / height
+        slope = np.gradient(of(fine)[row], fine) / height * 6.0 / ASPECT
+        assert (
+            off / np.hypot(1.0, slope)
+        ).max() < 1.5 * CHORD_ERROR  # a chord's middle is not its worst
+    assert len(x) < 500
+
+
+def test_thinning_keeps_near():
+    x = np.linspace(0.0, 6.0, 2001)
+    y = np.sin(x)
+    kept = thinned(x, y, 1e-3)
+    assert kept[0] == 0 and kept[-1] == 2000 and len(kept) < 100
+    assert np.abs(np.interp(x, x[kept], y[kept]) - y).max() < 1.5e-3
+    assert thinned(np.array([1.0]), np.array([2.0]), 1e-3) == [0]
+    assert thinned(np.array([1.0, 1.0]), np.array([2.0, 2.0]), 1e-3) == [0, 1]
+
+
+@pytest.mark.parametrize(
+    ("name", "noun"), [("linear", "rack"), ("odometer", "pinion"), ("turret", "wheel")]
+)
+def test_a_panel_names_what_moves(name, noun):
+    design = load(str(repo.DESIGNS / f"{name}.toml"))
+    labels = [panel.y.label for panel in design.figure(["velocity", "jerk"]).panels]
+    # a rack's motion has the words of its report: Peaks: derivatives of the rack's travel over R
+    to = "derivative of its travel over R" if noun == "rack" else "relative to the input"
+    assert labels == [f"{what} of the {noun}, {to}" for what in ("Speed", "Jerk")]
