@@ -1,12 +1,15 @@
 """Compare what two checkouts print and write: every command and format on every design.
 
-Run ``python tests/stress/compare_checkouts.py OLD NEW [WORD ...]``; OLD and NEW are folders of
-checkouts, and with WORDs only the command lines that contain all of them run. Both sides run on the
-designs of OLD, each side in its own process with its own ``geneva_cli``. An output is equal, equal
-to rounding (16 units in the last place of the greatest number in its column, or in its object), or
-different. Exit status 1 where an output is different.
+Run ``python tests/stress/compare_checkouts.py OLD NEW [WORD ...] [--one-of K]``. OLD and NEW are
+folders of checkouts. With WORDs only the command lines that contain all of them run; with K, only
+each K-th of these. Nothing of the program is imported here: each command line is a process of its
+own, ``python -m geneva_cli`` in a folder with the designs of OLD, with each checkout's package in
+turn. Compared are its exit status, what it prints, and each file that it leaves. An output is
+equal, equal to rounding (16 units in the last place of the greatest number in its column, or in its
+object), or different. Exit status 1 where an output is different.
 """
 
+import argparse
 import contextlib
 import csv
 import io
@@ -14,13 +17,17 @@ import itertools
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
 
 ULPS = 16  # units in the last place
+SECONDS = 600  # for one command line, on a slow machine
 FORMATS = ("csv", "json", "md", "table")
 DRAWN = ("wheel", "crank", "arm", "links", "first-wheel", "first-crank", "frame", "groove-plate")
 TABLES = ("slot", "parts", "gears", "groove")
@@ -29,7 +36,7 @@ MOST_SHOWN = 400  # characters of a difference
 
 
 def lines_of_design(design: str) -> list[str]:
-    """The command lines for one design; OUT stands for a file's name without its extension."""
+    """The command lines for one design."""
     spec = f"designs/{design}"
     calls = [
         f"{command} {spec} --format {format}"
@@ -44,14 +51,14 @@ def lines_of_design(design: str) -> list[str]:
         )
         for format in FORMATS
     ]
-    calls += [f"loads {spec} --samples 37 --format csv", f"plot {spec} -o OUT.svg"]
+    calls += [f"loads {spec} --samples 37 --format csv", f"plot {spec} -o plot.svg"]
     calls += [f"profile {spec} --part {p} --tolerance 0.05 --format csv" for p in TABLES]
-    calls += [f"profile {spec} --part {p} --tolerance 0.05 -o OUT.dxf" for p in DRAWN]
-    calls += [f"profile {spec} --part assembly --tolerance 0.05 -o OUT.{e}" for e in ("svg", "dxf")]
-    calls += [f"profile {spec} --part assembly --tolerance 0.05 -o OUT.step"]
-    calls += [f"profile {spec} --part sheet --tolerance 0.05 -o OUT.{e}" for e in ("svg", "pdf")]
-    calls += [f"report {spec} -o OUT.{e}" for e in ("html", "pdf")]
-    calls += [f"animate {spec} -o OUT.html"]
+    calls += [f"profile {spec} --part {p} --tolerance 0.05 -o part.dxf" for p in DRAWN]
+    calls += [f"profile {spec} --part assembly --tolerance 0.05 -o m.{e}" for e in ("svg", "dxf")]
+    calls += [f"profile {spec} --part assembly --tolerance 0.05 -o machine.step"]
+    calls += [f"profile {spec} --part sheet --tolerance 0.05 -o sheet.{e}" for e in ("svg", "pdf")]
+    calls += [f"report {spec} -o report.{e}" for e in ("html", "pdf")]
+    calls += [f"animate {spec} -o page.html"]
     calls += [
         f"sweep {spec} --vary size.center_distance_mm=95,100,107 --check",
         f"sweep {spec} --vary drive.n_rpm=30,60 --pick loads.pin_force_N.max,sizing.power_W",
@@ -82,49 +89,54 @@ def lines_of_no_design() -> list[str]:
     return calls
 
 
-def run_all(folder: str, words: list[str]) -> None:
-    """Run every command line with the package that Python finds, and keep what comes out."""
-    from typer.testing import CliRunner
-
-    from geneva_cli.cli.app import app
-
-    designs = sorted(name for name in os.listdir("designs") if name.endswith(".toml"))
-    calls = [line for name in designs for line in lines_of_design(name)] + lines_of_no_design()
-    for number, call in enumerate(calls):
-        if not all(word in call for word in words):
-            continue
-        place = Path(folder) / f"{number:05d}"
-        result = CliRunner().invoke(app, call.replace("OUT", str(place)).split())
-        stop = result.exception
-        error = "" if stop is None or isinstance(stop, SystemExit) else repr(stop)
-        said = result.stderr.replace(str(place), "OUT")
-        text = f"$ geneva {call}\nexit {result.exit_code} {error}\n{said}----\n{result.stdout}"
-        Path(f"{place}.txt").write_text(text, encoding="utf-8")
+def outputs(checkout: Path, designs: Path, call: str) -> dict[str, bytes]:
+    """What one command line prints, its exit status, and the files that it writes, by name."""
+    with tempfile.TemporaryDirectory() as place:
+        shutil.copytree(designs, Path(place) / "designs")
+        ran = subprocess.run(
+            [sys.executable, "-m", "geneva_cli", *call.split()],
+            cwd=place,
+            env={**os.environ, "PYTHONPATH": str(checkout), "COLUMNS": "200"},
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            timeout=SECONDS,
+        )
+        shutil.rmtree(Path(place) / "designs")
+        files = {
+            str(path.relative_to(place)): path.read_bytes()
+            for path in sorted(Path(place).rglob("*"))
+            if path.is_file()
+        }
+    printed = {
+        "exit status": f"{ran.returncode}".encode(),
+        "standard output": ran.stdout,
+        "standard error": ran.stderr.replace(place.encode(), b"PLACE"),
+    }
+    return printed | files
 
 
 class Difference(NamedTuple):
-    """How far two outputs are apart: units in the last place, and where."""
+    """The distance of two outputs: units in the last place, and where."""
 
     ulps: float
     where: str
 
 
 def groups(text: str) -> list[list[str]]:
-    """The text in groups of like things: a csv's columns, a json's objects, or all of it."""
+    """The text in groups of like things: a csv's columns, a json's objects, or its lines."""
     with contextlib.suppress(ValueError):
-        value = json.loads(text)
         found: list[list[str]] = []
 
         def walk(node: object) -> None:
-            children = node.values() if isinstance(node, dict) else node
             if not isinstance(node, dict | list):
                 return
+            children = node.values() if isinstance(node, dict) else node
             keys = [json.dumps([*node])] if isinstance(node, dict) else []
             found.append(keys + [json.dumps(c) for c in children if not isinstance(c, dict | list)])
             for child in children:
                 walk(child)
 
-        walk(value)
+        walk(json.loads(text))
         return found
     rows = list(csv.reader(io.StringIO(text)))
     if len(rows) > 1 and len(rows[0]) > 1 and len({len(row) for row in rows}) == 1:
@@ -138,9 +150,12 @@ def scale(group: list[str]) -> float:
     return max((x for x in sizes if x < 1e300), default=0.0)
 
 
-def difference(old: str, new: str) -> Difference | None:
-    """How two texts differ; None where only rounding tells them apart or nothing does."""
-    ones, others = groups(old), groups(new)
+def difference(old: bytes, new: bytes) -> Difference:
+    """The distance of two outputs, infinite where more than numbers differ."""
+    try:
+        ones, others = groups(old.decode()), groups(new.decode())
+    except UnicodeDecodeError:
+        return Difference(float("inf"), "bytes")
     if len(ones) != len(others):
         return Difference(float("inf"), f"{len(ones)} groups, {len(others)} now")
     worst = Difference(0.0, "")
@@ -149,64 +164,55 @@ def difference(old: str, new: str) -> Difference | None:
             continue
         unit = 2.0**-52 * max(scale(one), scale(other))
         for a, b in itertools.zip_longest(one, other, fillvalue=""):
-            if a == b:
-                continue
             if NUMBER.sub("#", a) != NUMBER.sub("#", b):
                 return Difference(float("inf"), f"{a!r} now {b!r}")
             for x, y in zip(NUMBER.findall(a), NUMBER.findall(b), strict=True):
-                ulps = abs(float(x) - float(y)) / unit if unit else 0.0
+                ulps = abs(float(x) - float(y)) / unit if x != y and unit else 0.0
                 if ulps > worst.ulps:
                     worst = Difference(ulps, f"{x} now {y} (in {a[:40]!r})")
     return worst
 
 
-def compare(old: Path, new: Path) -> int:
-    """Compare two folders of outputs, print the differences; return how many there are."""
-    different = rounded = equal = 0
-    for name in sorted({p.name for p in [*old.iterdir(), *new.iterdir()]}):
-        title = old / f"{name.partition('.')[0]}.txt"
-        call = title.read_text(encoding="utf-8").splitlines()[0] if title.exists() else name
-        if not (old / name).exists() or not (new / name).exists():
-            print(f"{call}: {name} only {'before' if (old / name).exists() else 'now'}")
-            different += 1
-            continue
-        a, b = (old / name).read_bytes(), (new / name).read_bytes()
-        if a == b:
-            equal += 1
-            continue
-        try:
-            one, other = (x.decode().partition("----\n") for x in (a, b))
-            parts = [difference(x, y) for x, y in zip(one, other, strict=True)]
-            worst = max((p for p in parts if p), key=lambda p: p.ulps)
-        except UnicodeDecodeError:
-            worst = Difference(float("inf"), "bytes")
-        if worst.ulps <= ULPS:
-            rounded += 1
+def differences(old: dict[str, bytes], new: dict[str, bytes]) -> Iterator[tuple[str, Difference]]:
+    """Each output of a command line, and how far apart it is in two checkouts."""
+    for name in dict.fromkeys([*old, *new]):
+        if name not in old or name not in new:
+            yield name, Difference(float("inf"), "only before" if name in old else "only now")
+        elif old[name] == new[name]:
+            yield name, Difference(0.0, "")
         else:
-            different += 1
-            kind = "text" if worst.ulps == float("inf") else f"{worst.ulps:.3g} ulps"
-            print(f"{call} [{name}]\n    {kind}: {worst.where[:MOST_SHOWN]}")
-    print(f"{equal} equal, {rounded} equal to rounding, {different} different")
-    return different
+            yield name, difference(old[name], new[name])
 
 
 def main() -> int:
-    """Run both checkouts side by side and compare them."""
-    if sys.argv[1] == "--run":
-        run_all(sys.argv[2], sys.argv[3:])
-        return 0
-    old, new, *words = sys.argv[1:]
-    with tempfile.TemporaryDirectory() as scratch:
-        sides = [Path(scratch) / "before", Path(scratch) / "now"]
-        runs = []
-        for checkout, side in zip((old, new), sides, strict=True):
-            side.mkdir()
-            environment = {**os.environ, "PYTHONPATH": os.path.abspath(checkout), "COLUMNS": "200"}
-            command = [sys.executable, "-P", os.path.abspath(__file__), "--run", str(side), *words]
-            runs.append(subprocess.Popen(command, cwd=old, env=environment))
-        if sum(run.wait() for run in runs):
-            return 2
-        return min(compare(*sides), 1)
+    """Run each command line in both checkouts, two lines at a time, and compare."""
+    parser = argparse.ArgumentParser(description="Compare what two checkouts print and write.")
+    parser.add_argument("old", type=Path)
+    parser.add_argument("new", type=Path)
+    parser.add_argument("words", nargs="*")
+    parser.add_argument("--one-of", type=int, default=1, metavar="K")
+    given = parser.parse_args()
+    old, new = given.old.resolve(), given.new.resolve()
+    designs = old / "designs"
+    calls = [line for path in sorted(designs.glob("*.toml")) for line in lines_of_design(path.name)]
+    calls = [c for c in calls + lines_of_no_design() if all(word in c for word in given.words)]
+    calls = calls[:: given.one_of]
+    counts = {"equal": 0, "equal to rounding": 0, "different": 0}
+
+    def both(call: str) -> tuple[str, list[tuple[str, Difference]]]:
+        before, now = (outputs(checkout, designs, call) for checkout in (old, new))
+        return call, list(differences(before, now))
+
+    with ThreadPoolExecutor(os.cpu_count()) as threads:
+        for call, found in threads.map(both, calls):
+            for name, (ulps, where) in found:
+                kind = "different" if ulps > ULPS else "equal to rounding" if where else "equal"
+                counts[kind] += 1
+                if kind == "different":
+                    far = "" if ulps == float("inf") else f"{ulps:.3g} units in the last place: "
+                    print(f"geneva {call} [{name}]\n    {far}{where[:MOST_SHOWN]}", flush=True)
+    print(", ".join(f"{count} {kind}" for kind, count in counts.items()))
+    return min(counts["different"], 1)
 
 
 if __name__ == "__main__":
