@@ -19,6 +19,8 @@ from geneva_cli.output.locks import lock
 
 # Left behind only by kill -9 or a power failure, until the next run that writes this file.
 TEMPORARY = ".{name}.geneva-{number}.tmp"
+# Signals that end a run; Windows has no SIGHUP.
+SIGNALS = [getattr(signal, x) for x in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, x)]
 
 
 def write(path: str, chunks: Iterable[str], inputs: Iterable[str] = ()) -> None:
@@ -63,12 +65,7 @@ def place(path: str, inputs: Iterable[str] = ()) -> tuple[str, os.stat_result | 
 
     Raises GenevaError, or OSError, if it must not or cannot be written.
     """
-    if not path or "\0" in path:
-        raise GenevaError(f'-o "{path}": not a file\'s name')
-    try:
-        real = os.path.realpath(path)
-    except FileNotFoundError:
-        raise GenevaError(f'-o "{path}": the current folder is gone; change to another') from None
+    real = real_path(path)
     old = _status(real)
     if old is None:
         return real, None
@@ -80,6 +77,16 @@ def place(path: str, inputs: Iterable[str] = ()) -> tuple[str, os.stat_result | 
             f"{path}: this file is read-only; allow writing (chmod u+w), or give -o another name"
         )
     return real, old
+
+
+def real_path(path: str, what: str = "a file") -> str:
+    """The path without links. Raises GenevaError if it is no name of ``what``."""
+    if not path or "\0" in path:
+        raise GenevaError(f'-o "{path}": not {what}\'s name')
+    try:
+        return os.path.realpath(path)
+    except FileNotFoundError:
+        raise GenevaError(f'-o "{path}": the current folder is gone; change to another') from None
 
 
 def _status(path: str) -> os.stat_result | None:
@@ -105,7 +112,7 @@ def _temporary_for(path: str, old: os.stat_result | None) -> Iterator[BinaryIO]:
                 with suppress(OSError):  # a file system without locks
                     lock(file.fileno())
                 if old is not None:
-                    _take_after(file.fileno(), old)
+                    take_after(file.fileno(), old)
                 yield file
                 file.flush()
                 os.fsync(file.fileno())
@@ -117,17 +124,16 @@ def _temporary_for(path: str, old: os.stat_result | None) -> Iterator[BinaryIO]:
 
 @contextmanager
 def stopping_cleanly() -> Iterator[None]:
-    """Make signals that end a run raise SystemExit, which cleans up; ignored ones stay so."""
+    """Make signals that end a run raise SystemExit, which cleans up; ignored ones stay so.
 
-    def stop(number: int, frame: FrameType | None) -> None:
-        sys.exit(128 + number)
-
+    A second signal does not interrupt the cleaning up.
+    """
     handlers = {}
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    for number in SIGNALS:
         # Only the main thread of a program may set signals.
         with suppress(ValueError):
-            if signal.getsignal(number) is not signal.SIG_IGN:
-                handlers[number] = signal.signal(number, stop)
+            if signal.getsignal(number) not in (signal.SIG_IGN, _stop):
+                handlers[number] = signal.signal(number, _stop)
     try:
         yield
     finally:
@@ -135,7 +141,14 @@ def stopping_cleanly() -> Iterator[None]:
             signal.signal(number, handler)
 
 
-def _take_after(descriptor: int, old: os.stat_result) -> None:
+def _stop(number: int, frame: FrameType | None) -> None:
+    for other in SIGNALS:
+        if signal.getsignal(other) is _stop:
+            signal.signal(other, signal.SIG_IGN)
+    sys.exit(128 + number)
+
+
+def take_after(descriptor: int, old: os.stat_result) -> None:
     """Copy owner and permissions of the old file; a user without that right keeps the file."""
     new = os.fstat(descriptor)
     if (new.st_uid, new.st_gid) != (old.st_uid, old.st_gid):

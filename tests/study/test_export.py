@@ -1,4 +1,4 @@
-"""`geneva export`: the files of each trade, all or none, and no folder of a person replaced."""
+"""`geneva export`: the files of each trade, all or none, and no file of a person replaced."""
 
 import csv
 import math
@@ -139,29 +139,70 @@ def test_its_own_folder_is_replaced(spec, tmp_path):
     assert sorted(os.listdir(tmp_path)) == ["out", "spec.toml"]
 
 
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize("change", ["added", "changed", "foreign"])
-def test_a_persons_folder_stays(spec, tmp_path, change):
-    folder = tmp_path / "out"
-    if change == "foreign":
-        folder.mkdir()
-        (folder / "thesis.txt").write_text("work")
-    else:
-        assert run(spec, "--for", "laser", "-o", folder).exit_code == 0
-        name = "notes.txt" if change == "added" else "spec.toml"
+@pytest.mark.parametrize("name", ["spec.toml", "contents.csv"])
+def test_a_persons_file_is_refused_by_name(spec, tmp_path, name):
+    """Changed after it was written, or there before; ``--force`` replaces it."""
+    changed, foreign = tmp_path / "changed", tmp_path / "foreign"
+    assert run(spec, "--for", "laser", "-o", changed).exit_code == 0
+    written = bytes_of(changed)
+    foreign.mkdir()
+    for folder in (changed, foreign):
         (folder / name).write_text("work")
+        before = bytes_of(folder)
+        result = run(spec, "--for", "laser", "-o", folder)
+        assert result.exit_code == 2
+        assert name in result.stderr and "--force replaces" in result.stderr
+        assert bytes_of(folder) == before
+        assert run(spec, "--for", "laser", "--force", "-o", folder).exit_code == 0
+        assert bytes_of(folder) == written
+
+
+def test_what_a_person_adds_or_changes_meanwhile_stays(spec, tmp_path, monkeypatch):
+    folder = tmp_path / "out"
+    assert run(spec, "--for", "laser", "-o", folder).exit_code == 0
+    original = export.draw_sheet
+
+    def slowly(*arguments):
+        (folder / "notes.txt").write_text("work")
+        (folder / "parts.csv").write_text("work")
+        original(*arguments)
+
+    monkeypatch.setattr(export, "draw_sheet", slowly)
     before = bytes_of(folder)
     result = run(spec, "--for", "laser", "-o", folder)
-    assert result.exit_code == 2
-    assert "give -o another folder" in result.stderr
-    assert bytes_of(folder) == before
+    assert result.exit_code == 2 and "parts.csv" in result.stderr
+    work = {"notes.txt": b"work", "parts.csv": b"work"}
+    assert bytes_of(folder) == before | work
+    (folder / "parts.csv").write_bytes(before["parts.csv"])
+    monkeypatch.undo()
+    assert run(spec, "--for", "laser", "-o", folder).exit_code == 0
+    assert bytes_of(folder) == before | {"notes.txt": b"work"}
+
+
+def test_a_changed_file_of_an_earlier_run_stays(spec, tmp_path):
+    folder = tmp_path / "out"
+    assert run(spec, "--for", "laser", "-o", folder).exit_code == 0
+    (folder / "wheel-1x-3mm.dxf").write_text("work")
+    result = run(spec, "--for", "print", "-o", folder)
+    assert result.exit_code == 0
+    assert "wheel-1x-3mm.dxf: warning: no file of this design now" in result.stderr
+    assert [path.name for path in folder.glob("*.dxf")] == ["wheel-1x-3mm.dxf"]
+
+
+def test_the_current_folder(spec, tmp_path, monkeypatch):
+    (tmp_path / "out").mkdir()
+    monkeypatch.chdir(tmp_path / "out")
+    assert run(spec, "--for", "print", "-o", ".").exit_code == 0
+    assert {"wheel-1x-3mm.stl", "contents.csv"} <= set(os.listdir())
 
 
 def test_an_input_in_the_folder_stays(spec, tmp_path):
     folder = tmp_path / "out"
     assert run(spec, "--for", "laser", "-o", folder).exit_code == 0
-    result = run(folder / "spec.toml", "--for", "laser", "-o", folder)
-    assert "is an input in the folder" in result.stderr
+    before = bytes_of(folder)
+    result = run(folder / "spec.toml", "--for", "laser", "--force", "-o", folder)
+    assert result.exit_code == 2 and "this file is an input" in result.stderr
+    assert bytes_of(folder) == before
 
 
 def test_all_or_nothing(spec, tmp_path, monkeypatch):
@@ -193,8 +234,15 @@ def test_refused(spec, tmp_path):
 
 
 def test_permissions(spec, tmp_path):
-    folder = tmp_path / "out"
-    assert run(spec, "--for", "print", "-o", folder).exit_code == 0
-    usual = tmp_path / "usual"
+    """A new folder has the usual ones; an old one, and the files in it, keep theirs."""
+    folder, usual = tmp_path / "out", tmp_path / "usual"
     usual.mkdir()
-    assert stat.S_IMODE(folder.stat().st_mode) == stat.S_IMODE(usual.stat().st_mode)
+    assert run(spec, "--for", "print", "-o", folder).exit_code == 0
+    assert folder.stat().st_mode == usual.stat().st_mode
+    kept = {folder: 0o2775, folder / "parts.csv": 0o640, folder / "contents.csv": 0o600}
+    for path, mode in kept.items():
+        path.chmod(mode)
+    inode = folder.stat().st_ino  # another folder could not be renamed over a mount point
+    assert run(spec, "--for", "print", "-o", folder).exit_code == 0
+    assert {path: stat.S_IMODE(path.stat().st_mode) for path in kept} == kept
+    assert folder.stat().st_ino == inode

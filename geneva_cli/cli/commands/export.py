@@ -38,7 +38,9 @@ def run(
             complete=completion.words(lambda: ("laser", "mill", "print")),
         ),
     ] = None,
-    force: Annotated[bool, flag("--force", "Write even a machine that jams.")] = False,
+    force: Annotated[
+        bool, flag("--force", "Write a machine that jams; replace changed files.")
+    ] = False,
     settings: Settings = None,
 ) -> None:
     """Write every file that a shop needs into a folder, and list them.
@@ -46,12 +48,12 @@ def run(
     Each part has its count and thickness in its name, as wheel-1x-18mm.dxf. Besides there are the
     drawing sheet, assembly, list of parts, report, page and spec; contents.csv lists all.
 
-    All files are written or none. The folder may exist if it is empty, or if this command wrote
-    it and no file in it was added or changed since.
+    All files are written or none. In a folder that exists, this command replaces and removes only
+    files that it wrote and nobody changed since; all others stay.
     """
     from geneva_cli.design import load
     from geneva_cli.output import refuse_columns, show
-    from geneva_cli.output.folder import Entry, replacing_folder
+    from geneva_cli.output.folder import Entry, filling_folder
     from geneva_cli.study.export import export_files, trade_of
     from geneva_cli.table import rows_table
 
@@ -64,13 +66,16 @@ def run(
         require_written(design, design.judge(), force)
     files, missing = export_files(design, needed)
     entries = [Entry(file.name, file.content) for file in files]
-    with replacing_folder(output, entries, design.spec.files) as folder:
+    with filling_folder(output, entries, design.spec.files, force) as filling:
         for file in files:
-            file.write(os.path.join(folder, file.name))
+            file.write(os.path.join(filling.new, file.name))
     rows = [(os.path.join(output, one.file), one.content) for one in entries]
     show(rows_table(("file", "content"), rows, design.spec.title))
     for one in missing:
         print(clean(f"{spec}: warning: {one.name}: not written: {one.why}"), file=sys.stderr)
+    for name in filling.kept:
+        text = "no file of this design now, but somebody changed it: it stays"
+        print(clean(f"{os.path.join(output, name)}: warning: {text}"), file=sys.stderr)
     process = design.spec.size.process
     if trade and process != trade:
         print(
