@@ -163,6 +163,32 @@ def test_messages_are_short(arguments):
     assert "Traceback" not in found.stderr
 
 
+FAULTY = """
+import sys
+from geneva_cli.cli.commands import peaks
+
+def run(spec: str) -> None:
+    {}["no\\nkey"]
+
+peaks.run = run
+from geneva_cli.__main__ import main
+main()
+"""
+
+
+@pytest.mark.parametrize("debug", ["", "1"])
+def test_a_fault_of_the_program(debug):
+    """One line that names the command, and a status that no design has; a traceback on request."""
+    command = [sys.executable, "-c", FAULTY, "peaks", "spec.toml"]
+    environment = os.environ | {"GENEVA_DEBUG": debug}
+    found = subprocess.run(command, capture_output=True, text=True, timeout=60, env=environment)
+    assert (found.returncode, found.stdout) == (70, "")
+    *traceback, line = found.stderr.splitlines()
+    assert line.startswith("geneva peaks spec.toml: a fault of geneva ")
+    assert "KeyError" in line and "please report it in the issues of geneva-cli" in line
+    assert traceback[:1] == (["Traceback (most recent call last):"] if debug else [])
+
+
 INTERRUPTED = """
 import importlib.abc, os, signal, sys
 

@@ -49,7 +49,8 @@ def run(
     drawing sheet, assembly, list of parts, report, page and spec; contents.csv lists all.
 
     All files are written or none. In a folder that exists, this command replaces and removes only
-    files that it wrote and nobody changed since; all others stay.
+    files that it wrote and nobody changed since; all others stay. For a machine that jams nothing
+    is written, and the exit status is 1.
     """
     from geneva_cli.design import load
     from geneva_cli.output import refuse_columns, show
