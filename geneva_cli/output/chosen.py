@@ -16,7 +16,7 @@ def only(table: Table, names: Sequence[str]) -> Table:
 
     Raises GenevaError for an unknown name.
     """
-    inner = [v for v in next(table.rows(), ()) if isinstance(v, Table)] if table.record else []
+    inner = [t for v in next(table.rows(), ()) for t in _tables(v)] if table.record else []
     known = dict.fromkeys([*table.names, *(name for one in inner for name in one.names)])
     for name in names:
         if name not in known:
@@ -30,9 +30,19 @@ def only(table: Table, names: Sequence[str]) -> Table:
     for name, value in zip(table.names, next(table.rows()), strict=True):
         if name in names:
             values[name] = value
-        elif isinstance(value, Table) and set(names) & set(value.names):
-            values[name] = only(value, [n for n in names if n in value.names])
+        else:
+            parts = [t for t in _tables(value) if set(names) & set(t.names)]
+            own = tuple(only(t, [n for n in names if n in t.names]) for t in parts)
+            if own:
+                values[name] = own[0] if isinstance(value, Table) else own
     return table.replaced(names=tuple(values), columns=[(v,) for v in values.values()])
+
+
+def _tables(value: Any) -> list[Table]:
+    """The tables in a cell: one, several, or none."""
+    if isinstance(value, Table):
+        return [value]
+    return [v for v in value if isinstance(v, Table)] if isinstance(value, tuple) else []
 
 
 def _of_kinds(table: Table, names: Sequence[str]) -> Table:

@@ -50,4 +50,8 @@ def _plain(value: Any) -> Any:
         return value + 0.0 if math.isfinite(value) else None
     if isinstance(value, Table):
         return [_nested(value.names, row) for row in value.rows()]
-    return list(value) if isinstance(value, tuple) else value
+    if isinstance(value, tuple):
+        # tables of several kinds of rows are one list of objects
+        lists = [_plain(v) if isinstance(v, Table) else [v] for v in value]
+        return [one for part in lists for one in part]
+    return value

@@ -89,11 +89,16 @@ def checks_table(verdicts: Sequence[Verdict], directed: bool = False) -> Table:
 
 
 def checks_record(verdicts: Sequence[Verdict]) -> Table:
-    """The checks, the overall result and the warnings, as json contains them."""
+    """The checks, the overall result and the warnings, as json contains them.
+
+    A spec that could not be read is a row of its own kind.
+    """
     warnings = [(v.path, w.name, str(w)) for v in verdicts for w in v.warnings]
+    errors = [(v.path, v.error) for v in verdicts if v.error]
+    rows = checks_table(verdicts, directed=True)  # keys are those of every machine
     return record_table(
         {
-            "rows": checks_table(verdicts, directed=True),  # keys are those of every machine
+            "rows": (rows, rows_table(("spec", "error"), errors)) if errors else rows,
             "passes": all(v.passes for v in verdicts),
             "warnings": rows_table(("spec", "name", "text"), warnings),
         }

@@ -72,6 +72,23 @@ def test_json_has_the_warnings_and_strict_obeys_them() -> None:
     assert run(PLAIN, "--strict").exit_code == 0
 
 
+def test_a_spec_that_cannot_be_read_does_not_pass() -> None:
+    Path("bad.toml").write_text("[wheel]\nzz = 6\n", encoding="utf-8")
+    error = {"spec": "bad.toml", "error": 'bad.toml:2: unknown key zz in [wheel] (did you mean "z"'}
+    for others in ([], [PLAIN], [PLAIN, TURRET]):
+        found = run("bad.toml", *others, "--format", "json")
+        tree = json.loads(found.stdout)
+        assert (found.exit_code, tree["passes"]) == (2, False)
+        (row,) = (one for one in tree["rows"] if one["spec"] == "bad.toml")
+        assert list(row) == list(error) and row["error"].startswith(error["error"])
+        assert {one["spec"] for one in tree["rows"]} == {"bad.toml", *others}
+    few = run("bad.toml", PLAIN, "--format", "json", "--columns", "spec,error")
+    assert [*json.loads(few.stdout)] == ["rows"] and "zz" in few.stdout
+    assert "✗ 1 of 2 specs passes, 1 cannot be read" in run("bad.toml", PLAIN).stdout
+    both = run("bad.toml", PLAIN, "fast.toml").stdout
+    assert "✗ 1 of 3 specs fails, 1 cannot be read" in both
+
+
 @pytest.mark.parametrize("format", ["table", "csv", "json", "md"])
 def test_a_warning_is_printed_once(format: str) -> None:
     """On standard error where the format has no place for it, and nowhere else."""
@@ -143,12 +160,12 @@ def test_signs_need_neither_colour_nor_unicode(monkeypatch: pytest.MonkeyPatch) 
 
 
 def test_proof_sets_the_tolerance() -> None:
-    found = run("check", TURRET, "--proof", "0.0001", "--format", "json")
+    found = run(TURRET, "--proof", "0.0001", "--format", "json")
     row = json.loads(found.stdout)["rows"][-1]
     assert (row["check"], row["limit"], row["passes"]) == ("gap_proved_mm", -0.0001, True)
     assert -0.0001 <= row["value"] <= 0.0
     for bad in ("0", "-1", "nan", "inf", "13"):
-        found = run("check", TURRET, "--proof", bad)
+        found = run(TURRET, "--proof", bad)
         assert found.exit_code == 2
         assert "--proof" in found.stderr
         assert "must be above 0, at most 12 mm" in found.stderr

@@ -40,10 +40,10 @@ def run(
     name = table_as(output, format)
     results = list(verdicts(specs, settings or (), proof))
     judged = [v for v in results if not v.error]
-    if judged:
+    if judged or name == "json":
         is_short = is_watched(output, format) and not verbose
-        answer = of_checks(judged, not is_short, name == "json")
-        show_answer(answer, output, format, [file for v in judged for file in v.files])
+        answer = of_checks(results, not is_short, name == "json")
+        show_answer(answer, output, format, [file for v in results for file in v.files])
     for v in results:
         if v.error:
             print(clean(v.error), file=sys.stderr)
