@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.progress import Meter
 from geneva_cli.table import Table
 
@@ -14,7 +13,7 @@ from geneva_cli.table import Table
 def checked(table: Table, is_seen: bool = False) -> Table:
     """The table, checked; a table that is computed while it is written is checked then.
 
-    Its progress is reported, unless the rows are seen as they come. Raises GenevaError as
+    Its progress is reported, unless the rows are seen as they come. Raises ArithmeticError as
     ``refuse_nonsense`` does.
     """
     meter, done = None if is_seen else Meter("rows", len(table)), 0
@@ -31,7 +30,7 @@ def checked(table: Table, is_seen: bool = False) -> Table:
 
 
 def refuse_nonsense(names: Iterable[str], columns: Iterable[Any]) -> None:
-    """Raise GenevaError for columns, lists or arrays, with a NaN, or with infinity out of place.
+    """Raise ArithmeticError for columns, lists or arrays, with a NaN or a misplaced infinity.
 
     Such a number is always a fault of this program, and a file with it misleads.
     """
@@ -46,10 +45,7 @@ def refuse_nonsense(names: Iterable[str], columns: Iterable[Any]) -> None:
         else:
             wrong = any(_wrong(v, boundless) for v in column)
         if wrong:
-            raise GenevaError(
-                f"{name}: a value is not a number, which is a fault of this program; please report "
-                "it with the spec"
-            )
+            raise ArithmeticError(f"{name}: a value is not a number")
 
 
 def _any_endless(column: Any) -> bool:

@@ -54,7 +54,7 @@ class GrowingTable:
             sys.stdout.write(first)
 
     def append(self, rows: Sequence[Sequence[Any]]) -> None:
-        """Add rows. Raises GenevaError for NaN."""
+        """Add rows. Raises ArithmeticError for NaN."""
         refuse_nonsense(self.names, list(zip(*rows, strict=True)))
         text = "".join(map(one_line, rows))
         if self.file:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from geneva_cli.errors import GenevaError, clean
+from geneva_cli.errors import clean
 from geneva_cli.table import NO_BOUND, in_digits
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def value_text(value: Value | Row, unit: str = "", digits: int = 6) -> str:
-    """A value with its unit. Raises GenevaError for NaN, a fault of this program.
+    """A value with its unit. Raises ArithmeticError for NaN, a fault of this program.
 
     >>> value_text(182.612895, "°"), value_text(53.17, "W/m²"), value_text(None), value_text(True)
     ('182.613°', '53.17 W/m²', '–', 'yes')
@@ -50,9 +50,6 @@ def _bare(value: Value, digits: int) -> str:
     if not isinstance(value, float):
         return clean(str(value))
     if math.isnan(value):
-        raise GenevaError(
-            "a value of the report is not a number, which is a fault of this program; please "
-            "report it with the spec"
-        )
+        raise ArithmeticError("a value of the report is not a number")
     number, _, power = in_digits(value, digits).partition("e")
     return f"{number}{TIMES}10{str(int(power)).translate(RAISED)}" if power else number
