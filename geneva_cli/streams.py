@@ -102,8 +102,11 @@ class _Messages(io.TextIOWrapper):
 
 def columns() -> int:
     """The width of the terminal that shows messages, in letters."""
-    width = os.environ.get("COLUMNS", "")
-    return (int(width) if width.isdigit() else os.get_terminal_size(2).columns) or 80
+    try:
+        width = int(os.environ.get("COLUMNS", ""))
+    except ValueError:  # unset, or no number
+        width = 0
+    return width if width > 0 else os.get_terminal_size(2).columns or 80
 
 
 def _broken(line: str, width: int) -> list[str]:
