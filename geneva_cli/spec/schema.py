@@ -34,6 +34,7 @@ from geneva_cli.spec.rules import Csv, OneOf, Words, is_array, plain
 
 LIST: TypeAlias = tuple[float, ...]
 LIST_MAX = 1000
+TEXT_MAX = 500  # letters of a free text; a drawing fits a longer one into no title block
 SHOWN_MAX = 200  # characters of a value in a record that is shown shortly
 REQUIRED = dataclasses.MISSING
 _NAMES: dict[Any, str] = {
@@ -391,7 +392,18 @@ def _numbers(place: tuple[str, ...], field: Field, values: Any, whole: bool) -> 
     return np.where(wrong, np.nan, values.astype(np.float64))
 
 
+def free_text(key: str, text: str, place: tuple[str, ...]) -> str:
+    """The text. Raises GenevaError if it is too long, or has letters that UTF-8 has no code for."""
+    if len(text) > TEXT_MAX:
+        raise GenevaError(f"{key} has {len(text)} letters; at most {TEXT_MAX}", place)
+    if any("\ud800" <= letter <= "\udfff" for letter in text):
+        raise GenevaError(f"{key} = {shown(text)}: not UTF-8 text", place)
+    return text
+
+
 def _word(place: tuple[str, ...], field: Field, value: str, numeric: bool) -> str:
+    if field.rule is None:
+        return free_text(field.key, value, place)
     if isinstance(field.rule, OneOf) and value not in field.rule:
         raise GenevaError(
             f"{field.key} = {shown(value)} must be {field.rule}{nearest(value, field.rule)}", place

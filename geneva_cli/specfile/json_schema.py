@@ -14,13 +14,14 @@ from itertools import chain
 from typing import Any
 
 from geneva_cli.spec.rules import Csv, OneOf, Range, Words
-from geneva_cli.spec.schema import LIST, LIST_MAX, REQUIRED, Field, fields
+from geneva_cli.spec.schema import LIST, LIST_MAX, REQUIRED, TEXT_MAX, Field, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
 from geneva_cli.spec.units import pattern, unit_key
 from geneva_cli.specfile.writer import KindTable, kind_tables
 
 FILE = "geneva.schema.json"  # the file that the first line of a new spec names
 Schema = dict[str, Any]
+TEXT: Schema = {"type": "string", "maxLength": TEXT_MAX}
 
 
 def schema() -> Schema:
@@ -30,7 +31,7 @@ def schema() -> Schema:
     >>> schema()["properties"]["load"]["properties"]["efficiency"]["maximum"]
     1.0
     """
-    properties: Schema = {"title": {"type": "string", "description": "free text"}}
+    properties: Schema = {"title": {**TEXT, "description": "free text"}}
     for kinds in kind_tables():
         whole, _, part = kinds.table.partition(".")
         if part:
@@ -121,7 +122,7 @@ def _value(key: Field) -> Schema:
         items = _any([_number(key.rule, whole=False), *with_unit])
         kinds.append({"type": "array", "items": items, "minItems": 1, "maxItems": LIST_MAX})
     if str in key.types and (key.words or not number):
-        kinds.append({"type": "string", **({"enum": list(key.words)} if key.words else {})})
+        kinds.append({"type": "string", "enum": list(key.words)} if key.words else TEXT)
     return _any(kinds)
 
 

@@ -20,6 +20,7 @@ from geneva_cli.spec.schema import (
     Points,
     SpecTable,
     fields,
+    free_text,
     require,
     shown,
     unknown,
@@ -102,7 +103,7 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
         drive_before=None if before is None else _before(before, drives, files),
         motion=_motion(tree["motion"], files) if "motion" in tree else None,
         **_plain(tree, files),
-        title=clean(title),
+        title=clean(free_text("title", title, ("title",))),
         path=name,
         files=tuple(files.read),
     )

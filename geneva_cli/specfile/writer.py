@@ -116,12 +116,21 @@ def _own(table: SpecTable) -> dict[str, Any]:
 
 
 def quoted(value: Any) -> str:
-    """A value in TOML."""
+    """A value in TOML; letters that a terminal does not show stand as their codes.
+
+    >>> print(quoted("two" + chr(10) + "lines"))
+    "two\\u000Alines"
+    """
     if isinstance(value, (list, tuple)):
         return f"[{', '.join(quoted(v) for v in value)}]"
     if isinstance(value, bool):
         return str(value).lower()
     if not isinstance(value, str):
         return repr(value)
-    text = value.replace("\\", "\\\\").replace('"', '\\"')
-    return f'"{text}"'
+    return f'"{"".join(map(_letter, value))}"'
+
+
+def _letter(letter: str) -> str:
+    if letter.isprintable():
+        return f"\\{letter}" if letter in '"\\' else letter
+    return f"\\U{ord(letter):08X}" if letter > "\uffff" else f"\\u{ord(letter):04X}"

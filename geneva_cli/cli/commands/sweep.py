@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 from geneva_cli.cli import completion
 from geneva_cli.cli.options import Format, Settings, SpecPath, flag, option, output_option
-from geneva_cli.errors import GenevaError, cut
+from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.progress import tracked
 
 if TYPE_CHECKING:
@@ -124,7 +124,7 @@ def run(
     else:
         _show_some(plan, outcome)
     for note in outcome.notes():
-        print(f"{spec}: {note}", file=sys.stderr)
+        print(clean(f"{spec}: {note}"), file=sys.stderr)
 
 
 def _write_rows(plan: "SweepRequest", outcome: "Outcome", output: str, resume: bool) -> None:
@@ -139,7 +139,7 @@ def _write_rows(plan: "SweepRequest", outcome: "Outcome", output: str, resume: b
     growing = GrowingTable(sweep.names, plan.key, first, output, resume, plan.inputs)
     with closing(growing) as rows:
         if rows.message:
-            print(rows.message, file=sys.stderr)
+            print(clean(rows.message), file=sys.stderr)
         if rows.is_whole:
             return
         shows_all = is_seen(output)
@@ -198,7 +198,7 @@ def _write_best(plan: "SweepRequest", spec: str, output: str) -> None:
     lines = best_spec(outcome, _tracked(plan, 0))
     show_text("\n".join(lines) + "\n", output, plan.inputs)
     for note in outcome.refused():
-        print(f"{spec}: {note}", file=sys.stderr)
+        print(clean(f"{spec}: {note}"), file=sys.stderr)
 
 
 def _tracked(plan: "SweepRequest", done: int) -> Iterator[Rows]:

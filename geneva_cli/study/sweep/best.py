@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import chain
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.spec.schema import TEXT_MAX
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.fields import Cell
 from geneva_cli.study.sweep.best_search import Row, SweepSearch
@@ -60,6 +61,7 @@ def _lines(
     ]
     # the spec's own title may describe what was varied
     title = machine.spec.title and f"{word.capitalize()} {name}, varied from: {machine.spec.title}"
+    title = cut(title, TEXT_MAX)
     return [*notes, *([f"title = {quoted(title)}"] if title else []), *spec_lines(machine.spec)]
 
 
@@ -68,7 +70,7 @@ def _text(value: Cell) -> str:
         return "none"
     if isinstance(value, bool):
         return "yes" if value else "no"
-    return f"{value:.9g}" if is_number(value) else str(value)
+    return f"{value:.9g}" if is_number(value) else clean(str(value))
 
 
 class Tally:
