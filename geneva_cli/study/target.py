@@ -29,6 +29,7 @@ GEARINGS = ("external", "internal", "spherical")  # wheels; racks are searched a
 USUAL_RPM = 60.0
 PEAK = "acceleration.max"
 SPACE = 3.0  # centre distances that a linkage may take by default
+ROLLERS_MAX = 60  # on a crank; more run into each other
 TURNS = (3, 4, 5, 6)  # of the input in a cycle behind a first wheel: its step is a crank's motion
 
 
@@ -229,8 +230,7 @@ class Target(NamedTuple):
     @property
     def _every_count(self) -> Sequence[float]:
         """All numbers of motions in a turn: of rollers, or of turns behind a first wheel."""
-        most = 60  # more rollers run into each other
-        several = (self.rollers,) if self.rollers else range(1, most + 1)
+        several = (self.rollers,) if self.rollers else range(1, ROLLERS_MAX + 1)
         behind = [1.0 / turns for turns in TURNS] if self.rollers in (None, 1) else []
         return [*several, *behind]
 

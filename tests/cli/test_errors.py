@@ -454,7 +454,7 @@ OPTIONS = [
             "synth --tau",
         )
     ],
-    (f"synth --rollers {ZEROS} --tau 1/3", "at most 1000000"),
+    (f"synth --rollers {ZEROS} --tau 1/3", "at most 60"),
     (f"synth --rollers -{ZEROS} --tau 1/3", "at least 1"),
     (f"synth --write {ZEROS} --tau 1/3 --z 6 --external --space 0.1", "rows 1 to"),
     ("table --z 2", "at least 3"),

@@ -10,7 +10,7 @@ from geneva_cli.kinds.carousel.motion import Carousel
 from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.registry import STANDARD_LAWS as LAWS
-from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range, range_text
+from geneva_cli.spec.rules import POSITIVE, Range, range_text
 from geneva_cli.spec.schema import fields
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.survey import parse_z
@@ -21,7 +21,7 @@ from geneva_cli.study.sweep.constraints import (
     refuse_contradictions,
     refuse_words,
 )
-from geneva_cli.study.target import GEARINGS, PEAK, SPACE, Target
+from geneva_cli.study.target import GEARINGS, PEAK, ROLLERS_MAX, SPACE, Target
 
 # The requirements for a number or a range: allowed values, and name and unit in words.
 SPANS = {
@@ -207,8 +207,8 @@ def _rollers(rollers: int | None, racks: bool, frame: Spec | None) -> int | None
             f"--rollers {cut(rollers)}: a rack moves for half a turn, so that a second roller "
             "would leave no dwell: leave it out"
         )
-    if rollers is not None and not 1 <= rollers <= Z_MAX:
-        raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {Z_MAX}")
+    if rollers is not None and not 1 <= rollers <= ROLLERS_MAX:
+        raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {ROLLERS_MAX}")
     if frame is None or not frame.wheel.stopped:
         return rollers
     if rollers not in (None, 1):
