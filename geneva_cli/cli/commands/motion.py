@@ -3,6 +3,8 @@
 import sys
 from typing import Annotated
 
+import typer
+
 from geneva_cli.cli import completion
 from geneva_cli.cli.options import Output, Reverse, Settings, SpecPath, one_of, option, warn
 from geneva_cli.errors import GenevaError, clean
@@ -53,7 +55,8 @@ def run(
     If the engagements differ, it covers a whole period of the machine.
 
     --format cam writes an electronic cam: polynomials of degree five as csv, CODESYS points
-    (XYVA), or Beckhoff pairs. Standard error has the number of rows and the greatest error.
+    (XYVA), or Beckhoff pairs. Standard error has the number of rows and the greatest error. The
+    exit status is 1 if that is more than a --tolerance that was given.
     """
     from geneva_cli.design import load
     from geneva_cli.output import show, show_text
@@ -66,17 +69,22 @@ def run(
         show(design.motion(361 if samples is None else samples, turns), output, format, files)
         warn(design)
         return
-    from geneva_cli.extras.servo.cam_files import cam
+    from geneva_cli.extras.servo.cam_files import LIMITED, cam, rounded_up
 
     if samples is not None:
         raise GenevaError("--samples: a cam has the points that its --tolerance needs")
+    controller = controller or CONTROLLERS[0]
     content, rows, error_deg = cam(
-        design, controller or CONTROLLERS[0], turns, 1e-4 if tolerance is None else tolerance
+        design, controller, turns, 1e-4 if tolerance is None else tolerance
     )
     if isinstance(content, str):
         show_text(content, output, files)
     else:
         show(content, output, "csv", files)
-    text = f"{spec}: {rows} rows, greatest error {error_deg:.2g} degrees of the wheel"
-    print(clean(text), file=sys.stderr)
+    text = f"{spec}: {rows} rows, greatest error {rounded_up(error_deg)} degrees of the wheel"
+    is_met = tolerance is None or error_deg <= tolerance
+    why = "" if is_met else f", more than --tolerance {tolerance:g}: {LIMITED[controller]}"
+    print(clean(text + why), file=sys.stderr)
     warn(design)
+    if not is_met:
+        raise typer.Exit(1)

@@ -7,6 +7,7 @@ cam tables in ASCII, with master and slave in steps of 1e-4 degrees.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from decimal import ROUND_CEILING, Context
 
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError, cut
@@ -14,12 +15,21 @@ from geneva_cli.motion.electronic_cam import CamPoints, cam_pairs, cam_pieces, c
 from geneva_cli.output.formats import CONTROLLERS
 from geneva_cli.table import Table
 
+TOLERANCE_MIN_DEG = 1e-12  # an angle of 360 degrees is rounded by up to 3e-14, a sum by some more
+
+# Why a controller's cam may not meet a tolerance.
+LIMITED = {
+    "polynomial": "its shortest pieces are 0.001 degrees long",
+    "codesys": "a jump becomes a ramp over 0.01 degrees, so --for polynomial is nearer",
+    "beckhoff": "its table has 360 pairs in steps of 0.0001 degrees at most",
+}
+
 
 def codesys(cam: CamPoints, title: str) -> Iterator[str]:
     """A declaration in structured text: polynomials of degree five between points."""
     count, end = len(cam.master_deg), float(cam.master_deg[-1])
     yield f"(* {_plain(title)} *)\n"
-    yield f"(* greatest error {cam.error_deg:.2g} degrees of the slave *)\n"
+    yield f"(* greatest error {rounded_up(cam.error_deg)} degrees of the slave *)\n"
     yield "(* before MC_CamTableSelect: cam.pce := ADR(points); *)\n"
     yield "VAR\n"
     yield "  cam : MC_CAM_REF := (byType := 3, "
@@ -38,12 +48,21 @@ def beckhoff(cam: CamPoints, title: str) -> Iterator[str]:
     yield f"Tablename = geneva # {_plain(title)}\n"
     yield "Table-ID = 1 # any number that is free\n"
     yield "Tabletype = 7 # pairs of whole numbers, 1e-4 degrees\n"
-    yield f"Functiontype = 1 # linear; greatest error {cam.error_deg:.2g} degrees\n"
+    yield f"Functiontype = 1 # linear; greatest error {rounded_up(cam.error_deg)} degrees\n"
     yield f"Lines = {len(cam.master_deg)}\n"
     yield "Begintable\n"
     for master, slave in zip(cam.master_deg.tolist(), cam.slave_deg.tolist(), strict=True):
         yield f"{round(1e4 * master)} {round(1e4 * slave)}\n"
     yield "EndTable\n"
+
+
+def rounded_up(error_deg: float) -> str:
+    """An error in two digits, never less than it is.
+
+    >>> rounded_up(1.131e-3)
+    '0.0012'
+    """
+    return f"{float(Context(2, ROUND_CEILING).create_decimal(repr(error_deg))):.2g}"
 
 
 def _plain(title: str) -> str:
@@ -66,8 +85,11 @@ def cam(
     """
     if controller not in CONTROLLERS:
         raise GenevaError(f"--for {cut(controller)}: it must be one of {', '.join(CONTROLLERS)}")
-    if not 0.0 < tolerance_deg < 360.0:
-        raise GenevaError(f"--tolerance {tolerance_deg:.6g}: must be above 0, below 360 degrees")
+    if not TOLERANCE_MIN_DEG <= tolerance_deg < 360.0:
+        raise GenevaError(
+            f"--tolerance {tolerance_deg:.6g}: must be at least {TOLERANCE_MIN_DEG:g}, which is "
+            "rounding, and below 360 degrees"
+        )
     mechanism = design.mechanism
     if not mechanism.output.turns:
         raise GenevaError(
