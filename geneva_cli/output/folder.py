@@ -18,6 +18,7 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError, cut, few
 from geneva_cli.output.files import (
     digest_of,
+    holding_signals,
     place,
     real_path,
     stopping_cleanly,
@@ -72,7 +73,8 @@ def filling_folder(
             os.mkdir(filling.new)
             yield filling
             filling.require_own()  # a person may have changed a file meanwhile
-            filling.replace()
+            with holding_signals():
+                filling.replace()
         finally:
             shutil.rmtree(filling.new, ignore_errors=True)
 

@@ -71,6 +71,16 @@ def test_a_second_interrupt_leaves_nothing(folder):
     assert not folder.exists()
 
 
+@pytest.mark.parametrize(("n", "whole"), [(1, "old"), (2, "new"), (4, "new")])
+def test_an_interrupt_leaves_all_old_or_all_new_files(folder, n, whole):
+    """It waits while files are moved to their places."""
+    assert run("old") == 0
+    interrupt = f"at({n}, 'replace', lambda: os.kill(me, signal.SIGINT))"
+    assert run("new", interrupt) == 128 + signal.SIGINT
+    assert texts(folder) == {"a": whole, "b": whole}
+    assert sorted(os.listdir(folder)) == ["a", "b", LIST]
+
+
 def test_two_runs_at_once(folder):
     busy = pytest.raises(GenevaError, match="another run is writing into this folder")
     with filling_folder("out", []), busy, filling_folder("out", []):
