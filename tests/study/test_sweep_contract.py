@@ -119,6 +119,19 @@ def test_horns_of_machines_that_differ_in_size_alone(tmp_path, text):
     assert rows[1][1] / rows[0][1] == pytest.approx(1.1**-2, rel=1e-9)
 
 
+@pytest.mark.parametrize("friction", [0.0, 0.1])
+def test_horns_of_rollers_that_vary_alone(tmp_path, friction):
+    """Wider slots leave thinner horns under the same force, which rollers rub along otherwise."""
+    text = f"[wheel]\nz = 6\n[load]\ninertia_kgm2 = 0.4\nfriction = {friction}\n"
+    names = ("stress_MPa", "inwards_mm", "thickness_mm")
+    pick = ",".join(f"strength.horn.{name}" for name in names)
+    rows = swept(tmp_path, text, "size.roller_radius_mm=9,10", pick=pick)
+    for row in rows:
+        [alone] = swept(tmp_path, text, f"size.roller_radius_mm={row[0]}", pick=pick)
+        assert row == pytest.approx(alone, rel=1e-12)  # rounding of a search along the horn
+    assert rows[0][3] > rows[1][3]
+
+
 def test_a_machine_whose_parts_are_not_built_has_no_horns(tmp_path):
     """The gears between two cranks and a side-crank are not built, nor are the other parts."""
     text = "[wheel]\nz = 8\n[drive]\nrollers = 2\ncrank_steps = [0, 3]\n"
