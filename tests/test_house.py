@@ -19,7 +19,7 @@ ROOT = os.path.dirname(geneva_cli.__file__)
 
 # From the ground up. A room imports rooms of the floors below its own.
 FLOORS = [
-    {"errors", "names", "progress"},
+    {"errors", "names", "progress", "kept"},
     {"table"},
     {"numerics", "streams", "figure", "answer", "manual"},
     {"spec"},
