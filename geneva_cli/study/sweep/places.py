@@ -72,7 +72,7 @@ def closer(search: SweepSearch, rows: Sequence[Row]) -> list[Row]:
     Returns all designs unchanged if their quantities cannot be computed for a batch.
     """
     best = list(rows)
-    if not search.sweep.known([search.keys(row) for row in best]):
+    if not search.sweep.is_batched:
         return best
     draw = np.random.default_rng(0)
     count = 48  # designs about each place in a round
