@@ -48,6 +48,7 @@ LOADS = {
     "tolerance.center_distance_mm=0.02 tolerance.slot_angle_deg=0.05 product.radius_mm=300 "
     "product.swing_Hz=3",
 }
+pytestmark = pytest.mark.usefixtures("no_advice")  # which takes seconds, and nothing here reads
 every = pytest.mark.parametrize(
     ("design", "under"), [(design, under) for design in DESIGNS for under in LOADS]
 )
