@@ -10,8 +10,8 @@ PIP = $(BIN)/pip install --quiet --disable-pip-version-check --no-compile
 # some hundred times.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test pytest lint docs web web-test stress stress-numbers stress-sweep \
-  stress-windows certify jam cad editors page fuzz bench bench-start dist clean
+.PHONY: demo test pytest lint docs web web-test stress stress-numbers stress-windows \
+  certify jam cad editors page fuzz bench bench-start dist clean
 
 demo: .venv/demo
 	@mkdir -p build
@@ -44,13 +44,13 @@ bench: .venv/dev
 	@mkdir -p build/bench
 	$(BIN)/geneva bench --plots build/bench -o build/bench/bench.md
 
-# Numerical stress against mpmath, random machines turned, sweeps of every key, then every case of
-# the tests, of which `make test` takes a sample (tests/sampling.py), the certificates of all designs
-# among them (`make certify` adds random machines); an hour and a half on two cores. Sweeps take one
-# key of four, and screens six windows of twelve: see the texts of stress_sweep.py, stress_windows.py.
+# Numerical stress against mpmath, random machines turned, then every case of the tests, of which
+# `make test` takes a sample (tests/sampling.py): sweeps of every key of all designs are among them,
+# and their certificates (`make certify` adds random machines); an hour and a half on two cores.
+# Screens take six windows of twelve: see the text of stress_windows.py.
 # Each script has one process, so two of them run side by side; their lines mix.
 stress: .venv/dev
-	$(MAKE) --jobs=2 stress-numbers stress-sweep stress-windows
+	$(MAKE) --jobs=2 stress-numbers stress-windows
 	GENEVA_STRESS=1 $(BIN)/pytest -n logical --dist worksteal
 
 stress-numbers: .venv/dev
@@ -59,9 +59,6 @@ stress-numbers: .venv/dev
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_many.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_synth.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_loads_many.py --designs 5000
-
-stress-sweep: .venv/dev
-	PYTHONPATH=tests $(BIN)/python tests/stress/stress_sweep.py
 
 stress-windows: .venv/dev
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_windows.py

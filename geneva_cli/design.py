@@ -14,11 +14,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cached_property, wraps
+from functools import wraps
 from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self, TypeVar
 
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError, Notice, cut
+from geneva_cli.kept import cached_property
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build

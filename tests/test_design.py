@@ -383,6 +383,43 @@ def test_one_design_serves_several_threads():
     assert answers == [(repr(alone.peaks), repr(alone.loads))] * 4
 
 
+FORKED = """
+import os
+import signal
+import threading
+from geneva_cli import Design, External, design
+
+build, begins, ends = design.build, threading.Event(), threading.Event()
+def slowly(spec):
+    begins.set()
+    ends.wait()
+    return build(spec)
+
+one = Design(External(6))
+design.build = slowly
+thread = threading.Thread(target=lambda: one.mechanism)
+thread.start()
+begins.wait()
+child = os.fork()
+if not child:
+    signal.alarm(20)  # ends a child that waits for ever
+    design.build = build
+    known = one.timing.motion_deg, Design(External(5)).timing.motion_deg
+    os._exit(known != (120.0, 108.0))
+status = os.waitpid(child, 0)[1]
+ends.set()
+thread.join()
+assert status == 0 and one.timing.motion_deg == 120.0
+"""
+
+
+def test_a_child_that_is_forked_while_a_thread_computes():
+    """Python 3.11 held a lock for all designs, which the child waited for: 180° - 360°/z."""
+    command = [sys.executable, "-W", "ignore::DeprecationWarning", "-c", FORKED]
+    result = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    assert result.returncode == 0, result.stderr
+
+
 def test_a_design_with_answers_can_be_pickled():
     """The inputs alone are in the pickle, with the file's lines for messages."""
     read = load(str(repo.DESIGNS / "offset-slots.toml"), ["size.center_distance_mm=8 in"])

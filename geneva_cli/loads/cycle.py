@@ -10,11 +10,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import TypeAlias
 
 import numpy as np
 
+from geneva_cli.kept import cached_property
 from geneva_cli.loads.contact import Contact, contact, contacts
 from geneva_cli.loads.cycle_quantities import KINETIC, known_quantities, sources
 from geneva_cli.loads.forces import LoadCase, is_loaded, load_case, wheel_torque

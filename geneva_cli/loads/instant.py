@@ -6,11 +6,11 @@ They follow from the forces of ``forces``, and are the columns of the cycle's ta
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cached_property
 from typing import Generic
 
 import numpy as np
 
+from geneva_cli.kept import cached_property
 from geneva_cli.loads.contact import Contact, contact_values
 from geneva_cli.loads.forces import (
     LoadCase,

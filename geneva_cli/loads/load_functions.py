@@ -7,12 +7,12 @@ quantities, the signs that matter, and how widely samples are spread about mid-m
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
+from geneva_cli.kept import cached_property
 from geneva_cli.loads.contact import Contact, column, contact, rows
 from geneva_cli.loads.cycle_quantities import PV, QUANTITIES
 from geneva_cli.loads.forces import (

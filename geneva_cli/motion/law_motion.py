@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import ClassVar
 
 from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Peak, WheelMotion
 from geneva_cli.motion.laws.greatest import greatest
 from geneva_cli.motion.laws.law import Law, remaining

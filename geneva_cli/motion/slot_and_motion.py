@@ -10,8 +10,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import cached_property, partial
+from functools import partial
 
+from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Slot, SlotAxis
 from geneva_cli.motion.law_motion import LawMotion
 from geneva_cli.numerics.angles import radians

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Iterable
-from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, Self
 
 from geneva_cli.geometry.edges import Edge
 from geneva_cli.geometry.plates import Member, Plate, edged
+from geneva_cli.kept import cached_property
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.parts_of_machine import PartsOfMachine
 

@@ -7,7 +7,6 @@ use. Drawing, solid, list of parts, sheet and the checks of shafts are projectio
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -15,6 +14,7 @@ import numpy as np
 from geneva_cli.geometry.hole_walls import require_faces
 from geneva_cli.geometry.plates import Group, Member, Plate, plates
 from geneva_cli.geometry.shapes import Contour, Point
+from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension

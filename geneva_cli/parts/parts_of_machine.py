@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
-from functools import cached_property
 from typing import TYPE_CHECKING, Self
+
+from geneva_cli.kept import cached_property
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.plates import Member

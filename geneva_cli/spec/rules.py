@@ -7,9 +7,15 @@ from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError
 
+# Least size of a number but 0. Smaller ones lose their digits, and all of them in a product.
+TINY = 1e-300
+
 
 class Range(NamedTuple):
-    """Numbers from ``low`` to ``high``; a round bracket in ``ends`` excludes that end."""
+    """Numbers from ``low`` to ``high``, 0 or at least ``TINY`` in size.
+
+    A round bracket in ``ends`` excludes that end.
+    """
 
     low: float
     high: float = math.inf
@@ -21,7 +27,8 @@ class Range(NamedTuple):
     def holds(self, x: Any) -> Any:
         """True if a number is in the range; for an array, a truth value for each number."""
         above = self.low < x if self.ends[0] == "(" else self.low <= x
-        return above & (x < self.high if self.ends[1] == ")" else x <= self.high)
+        below = x < self.high if self.ends[1] == ")" else x <= self.high
+        return above & below & ((x == 0) | (abs(x) >= TINY))
 
     def __str__(self) -> str:
         if math.isinf(self.low) and math.isinf(self.high):

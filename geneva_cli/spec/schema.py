@@ -30,7 +30,7 @@ from typing import (
 )
 
 from geneva_cli.errors import GenevaError, cut, few, nearest, refuse
-from geneva_cli.spec.rules import Csv, OneOf, Words, is_array, plain
+from geneva_cli.spec.rules import TINY, Csv, OneOf, Words, is_array, plain
 
 LIST: TypeAlias = tuple[float, ...]
 LIST_MAX = 1000
@@ -365,8 +365,10 @@ def _number(place: tuple[str, ...], field: Field, value: float, whole: bool) -> 
             place,
         )
     if value not in field.rule:
+        # no reader of the rule would think of such numbers
+        least = f"; and 0, or at least {TINY:g} in size" if 0.0 < abs(value) < TINY else ""
         raise GenevaError(
-            f"{field.key} = {shown(value)} must be {field.rule} ({field.meaning})", place
+            f"{field.key} = {shown(value)} must be {field.rule}{least} ({field.meaning})", place
         )
     try:
         return value if whole else float(value)

@@ -5,10 +5,10 @@ other keys. The annotations are objects, since evaluating text on import would t
 """
 
 from collections.abc import Callable
-from functools import cached_property
 from typing import Annotated, ClassVar, Self
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.kept import cached_property
 from geneva_cli.spec.default_sizes import Thicknesses, unrounded, value_or
 from geneva_cli.spec.processes import PROCESSES, Allowances
 from geneva_cli.spec.rules import LENGTH, NOT_NEGATIVE, POSITIVE, OneOf, Range

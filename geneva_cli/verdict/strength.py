@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import TypeAlias
 
 import numpy as np
 
 from geneva_cli.errors import Notice
+from geneva_cli.kept import cached_property
 from geneva_cli.loads.strength import horn, lock, shafts
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Number

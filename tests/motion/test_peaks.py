@@ -7,10 +7,13 @@ solves on its own formulas. Tables: the reference values of the theory notes (se
 import math
 
 import pytest
+import repo
+from agreement import quantities
 from sampling import some
 from witness import Geneva, near
 from words import Drive, Keys, Spec, Wheel
 
+from geneva_cli import load
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peak_search import search_peaks
 from geneva_cli.motion.peaks import ends, peaks, peaks_of, worst, worst_of
@@ -219,3 +222,12 @@ def test_worst_of_two_that_are_nearly_one():
         assert getattr(found, name).max == second
         assert getattr(found, name) == worst_of(m, name)
         assert getattr(found, name).at_deg > 0.0  # the second's is below
+
+
+def test_peaks_at_a_speed():
+    """60 rpm are 2 pi rad/s; six slots: velocity 1 and at entry tan 30° (the tables above)."""
+    path = str(repo.DESIGNS / "side-crank-z6.toml")
+    values = quantities(load(path, ["drive.A=0", "drive.n_rpm=60"]).mechanism)
+    assert values["velocity.max_rad_s"] == pytest.approx(math.tau, rel=SIZE)
+    entry = math.tan(math.pi / 6) * math.tau**2
+    assert values["acceleration.entry_rad_s2"] == pytest.approx(entry, rel=SIZE)

@@ -81,6 +81,12 @@ OFFSET = [
     case("offset-steps", WHEEL + STEPS + "offset_mm = @\n", "5", 4, "steps_deg", "one of them"),
 ]
 
+# Numbers whose digits would be lost; an offset or inertia of 0 is one, and so is 1e-300.
+TINY = [
+    case("tiny-inertia", WHEEL + "[load]\ninertia_kgm2 = @", "5e-324", 4, "0, or at least 1e-300"),
+    case("tiny-offset", WHEEL + "offset_mm = @", "-9.9e-301", 3, "0, or at least 1e-300"),
+]
+
 STEP = [
     case("sum", WHEEL + "steps_deg = @", "[70, 60]", 3, "390", "not 360", "120"),
     case("sum-short", WHEEL + "steps_deg = @", "[20]", 3, "120", "not 360", "60"),
@@ -269,6 +275,7 @@ CAROUSELS = [
 
 GROUPS = {
     "offset": OFFSET,
+    "tiny": TINY,
     "steps": STEP,
     "rollers": ROLLERS,
     "spherical": SPHERICAL,

@@ -8,7 +8,7 @@ import shapely
 import trimesh
 from drawing_witness import polygon
 
-from geneva_cli import Design, External, Load, Size, Spherical
+from geneva_cli import Design, External, Internal, Load, Size, Spherical
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.mass import mass_properties
@@ -111,6 +111,17 @@ def test_check_compares_it_with_the_load(gearing, size):
     thread, bore, hub = (keys.wheel_clamp_mm, keys.wheel_bore_mm, keys.wheel_hub_mm)
     assert check.value == Clamp(screw("", thread), 0.5 * bore, 0.5 * hub).torque_Nm
     assert "wheel_clamp_Nm" not in {c.name for c in Design(gearing, size=keys).checks}
+
+
+@pytest.mark.parametrize(
+    ("gearing", "size"), [(Internal(6), {}), (External(6), {"wheel_bore_mm": 0.0})]
+)
+def test_a_clamp_without_a_bore_holds_no_torque(gearing, size):
+    """It cannot be built, as the check of the parts says; a division by the hub's 0 failed."""
+    design = Design(gearing, size=Size(wheel_clamp_mm=5.0, **size), load=Load(torque_Nm=1.0))
+    every = {check.name: check for check in design.checks}
+    assert "wheel_clamp_Nm" not in every
+    assert not every["parts"].passes and "a clamp needs a hub" in every["parts"].why
 
 
 def test_sheet_and_list_name_the_screw():

@@ -12,6 +12,7 @@ from scipy.optimize import brentq
 
 from geneva_cli import GenevaError, load
 from geneva_cli.drawings.model import PartsModel
+from geneva_cli.study.sweep import best_search
 from geneva_cli.study.sweep.best import best_spec
 from geneva_cli.study.sweep.best_search import SweepSearch
 from geneva_cli.study.sweep.outcome import Outcome
@@ -75,14 +76,30 @@ def test_of_the_best_alone_is_told_what_is_asked_for_beside(tmp_path, monkeypatc
     assert (said["drive.kind"], said["checks.passes"]) == ("side-crank", "yes")
 
 
-def test_where_designs_are_worked_out_one_by_one_no_clouds_are():
+@pytest.mark.parametrize(
+    ("goal", "bounds"),
+    [
+        ("min:timing.shortest_motion_s", []),
+        ("min:timing.motion_s", ["timing.shortest_motion_s >= 0.001"]),  # a batch has the goal
+    ],
+)
+def test_where_designs_are_worked_out_one_by_one_no_clouds_are(goal, bounds):
     """The shortest motion of all is: 18,000 designs about the best ones would take minutes."""
     spec = os.path.join(os.path.dirname(SPEC), "unequal-steps.toml")
-    goal = "min:timing.shortest_motion_s"
-    asked = request(spec, ["drive.n_rpm=10..60"], random=2, jobs=1, best=goal)
+    asked = request(spec, ["drive.n_rpm=10..60"], random=2, jobs=1, best=goal, subject_to=bounds)
     rows = [row for block in asked.blocks() for row in block]
     search = SweepSearch(asked.sweep, asked.objectives[0], asked.constraints)
     assert closer(search, rows) == rows
+
+
+def test_a_search_that_is_cut_short_says_so(tmp_path, monkeypatch):
+    """Steps of 0.05 of the range do not reach the greatest A, 1, in 5 designs."""
+    goal = "max:timing.shortest_motion_s"
+    whole, _ = best(tmp_path, "drive.A=0..0.9", best=goal, random=2)
+    monkeypatch.setattr(best_search, "MOST_ALONE", 5)
+    short, _ = best(tmp_path, "drive.A=0..0.9", best=goal, random=2)
+    said = "# The search near the best ended after 5 designs, as each is computed alone: for"
+    assert said in "\n".join(short) and "The search near" not in "\n".join(whole)
 
 
 @pytest.mark.long

@@ -5,22 +5,17 @@ import os
 import numpy as np
 import pytest
 from design_arrays import MACHINES
-from sweep_keys import NAMES, apart, base, every_key, keys, off
 from words import Motion
 
 from geneva_cli import Design, External, GearSector, Load, SideCrank
 from geneva_cli.design import load
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import alone, many, may_vary, taken
-from geneva_cli.motion.registry import STANDARD_LAWS
 from geneva_cli.study.sweep.best import best_spec
 from geneva_cli.study.sweep.outcome import Outcome
 from geneva_cli.study.sweep.request import request
 
 DESIGNS = os.path.join(os.path.dirname(__file__), os.pardir, os.pardir, "designs")
-OWN = ("wheel", "drive", "motion")  # tables of what makes the machine
-# of the laws that differ in their formula alone two stand for all; `make stress` has the rest
-SOME = [name for name in NAMES if name not in STANDARD_LAWS[2:]]
 
 
 def swept(tmp_path, text, *vary, pick):
@@ -32,42 +27,13 @@ def swept(tmp_path, text, *vary, pick):
     return [row[:-1] for row in rows]
 
 
-@pytest.mark.sampled(64)
-@pytest.mark.parametrize("name", SOME)
-def test_a_key_of_its_own_kind_alone(name):
-    """Its last ones; together with another, and equal in all, keys of all tables have their turn.
-
-    `make stress` varies keys of every machine (stress_sweep.py).
-    """
-    spec, number = base(name), SOME.index(name)
-    every = list(keys(spec))
-    own = [key for key in every if key.split(".")[0] in OWN][::-1]
-    rest = [key for key in every if key not in own]
-    key, first = next((k, pair) for k in own if (pair := apart(spec, k)))
-    assert off(spec, {key: first}) == []
-    other, pair = next((k, p) for k in rest[3 * number % len(rest) :] if (p := apart(spec, k)))
-    if number % 3 == 0:
-        assert off(spec, {key: [first[0]] * 2, other: pair}) == []
-    elif number % 3 == 1:
-        assert off(spec, {other: [pair[0]] * 3}) == []
-
-
-@pytest.mark.sampled(12)
-@pytest.mark.parametrize("name", SOME)
-def test_every_key_at_once(name):
-    """Each quantity of every group, of two designs that differ in all keys that a batch varies."""
-    spec = base(name)
-    assert off(spec, every_key(spec)) == []
-
-
 def test_slots_of_an_unbalanced_wheel_on_a_carrier_vary_alone(tmp_path):
     """A turn of the wheel has as many motions as slots: the sweep ended in a traceback."""
-    spec = base("unbalanced")
-    assert not may_vary(spec, "wheel.z")
     text = '[wheel]\nz = 5\n[drive]\nkind = "carousel"\n[load]\ninertia_kgm2 = 0.1\n[[mass]]\n'
     text += 'shape = "point"\nmass_kg = 0.7\nradius_mm = 120\nangle_deg = 40\n'
     rows = swept(tmp_path, text, "wheel.z=5,6", pick="loads.input_torque_Nm.max")
     path = str(tmp_path / "spec.toml")
+    assert not may_vary(load(path).spec, "wheel.z")
     single = [load(path, [f"wheel.z={z}"]).loads["input_torque_Nm"] for z in (5, 6)]
     assert [row[1] for row in rows] == [max(one.max, -one.min) for one in single]
 
@@ -119,6 +85,19 @@ def test_horns_of_machines_that_differ_in_size_alone(tmp_path, text):
     assert rows[1][1] / rows[0][1] == pytest.approx(1.1**-2, rel=1e-9)
 
 
+@pytest.mark.parametrize("friction", [0.0, 0.1])
+def test_horns_of_rollers_that_vary_alone(tmp_path, friction):
+    """Wider slots leave thinner horns under the same force, which rollers rub along otherwise."""
+    text = f"[wheel]\nz = 6\n[load]\ninertia_kgm2 = 0.4\nfriction = {friction}\n"
+    names = ("stress_MPa", "inwards_mm", "thickness_mm")
+    pick = ",".join(f"strength.horn.{name}" for name in names)
+    rows = swept(tmp_path, text, "size.roller_radius_mm=9,10", pick=pick)
+    for row in rows:
+        [alone] = swept(tmp_path, text, f"size.roller_radius_mm={row[0]}", pick=pick)
+        assert row == pytest.approx(alone, rel=1e-12)  # rounding of a search along the horn
+    assert rows[0][3] > rows[1][3]
+
+
 def test_a_machine_whose_parts_are_not_built_has_no_horns(tmp_path):
     """The gears between two cranks and a side-crank are not built, nor are the other parts."""
     text = "[wheel]\nz = 8\n[drive]\nrollers = 2\ncrank_steps = [0, 3]\n"
@@ -162,8 +141,8 @@ def test_shares_of_a_law_are_given_one_by_one(tmp_path):
     rows = swept(tmp_path, text, "motion.b=0.25,0.2500001", pick="acceleration.max")
     # of the modified trapezoid 8 pi / (2 + pi), over a third of a turn: 60 deg
     assert rows[0][1] == pytest.approx(8 * np.pi / (2 + np.pi) * (np.pi / 3) / (2 * np.pi / 3) ** 2)
-    assert not may_vary(base("scca"), "motion.b")
-    assert may_vary(base("scca"), "motion.alpha0_deg")
+    spec = load(str(tmp_path / "spec.toml")).spec
+    assert not may_vary(spec, "motion.b") and may_vary(spec, "motion.alpha0_deg")
 
 
 @pytest.mark.parametrize(

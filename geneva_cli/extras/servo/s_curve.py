@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from functools import cached_property, partial
+from functools import partial
 from typing import Annotated, ClassVar, NamedTuple
 
+from geneva_cli.kept import cached_property
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.spec.rules import Range

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import cached_property
 
 from geneva_cli.geometry.gear_teeth import Writer
 from geneva_cli.geometry.hole_walls import require_faces
 from geneva_cli.geometry.plates import Group, Member, Plate, plates
 from geneva_cli.geometry.shapes import Contour, Point, Shape
+from geneva_cli.kept import cached_property
 from geneva_cli.kinds.counter.frame import Heights, bore, heights, shafts_and_frame
 from geneva_cli.kinds.counter.outlines import (
     CounterSizes,

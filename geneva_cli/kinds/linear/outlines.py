@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.geometry.shapes import Contour
+from geneva_cli.kept import cached_property
 from geneva_cli.kinds.linear.rack import RackSizes, locking_sector, rack_contour, rack_sizes
 from geneva_cli.kinds.linear.sliding_stops import SlidingStops
 from geneva_cli.motion.mechanism import Mechanism

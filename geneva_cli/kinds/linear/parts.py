@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import cached_property
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.hole_walls import require_faces
 from geneva_cli.geometry.plates import Group, Member, Plate, plates
 from geneva_cli.geometry.shapes import Point
+from geneva_cli.kept import cached_property
 from geneva_cli.kinds.linear.arm import rack_arm, rack_crank
 from geneva_cli.kinds.linear.frame import (
     bar_bolts,

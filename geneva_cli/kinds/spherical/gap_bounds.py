@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +17,7 @@ import numpy as np
 from geneva_cli.geometry.sphere import Region
 from geneva_cli.geometry.sphere_arcs import SphereArcs
 from geneva_cli.geometry.sphere_extents import Circle, FromCircle, farthest, short_arcs
+from geneva_cli.kept import cached_property
 from geneva_cli.kinds.spherical.stops import about, polar
 from geneva_cli.kinds.spherical.wheel import POLE, QUARTER
 from geneva_cli.numerics.arrays import Array, Mask, Whole

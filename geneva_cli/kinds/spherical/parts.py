@@ -8,7 +8,6 @@ are projections of them.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
@@ -18,6 +17,7 @@ from geneva_cli.geometry.round_holes import RoundHole
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Shape
 from geneva_cli.geometry.sphere import Rotation, axis_frame, place
 from geneva_cli.geometry.sphere_hull import Cap
+from geneva_cli.kept import cached_property
 from geneva_cli.kinds.spherical.arm import CapArm, crank_arm, has_arm
 from geneva_cli.kinds.spherical.axles import crank_hub, refuse_wide
 from geneva_cli.kinds.spherical.ball import Ball

@@ -173,8 +173,10 @@ def _sampled(
     first = np.argmax(stress >= most[:, None] * (1.0 - TIE), axis=1)
     i, j = np.divmod(first, count)
     half, k = np.divmod(i, roller.shape[2])
-    if m > len(u):  # their loads differ, their slots do not
-        roller, u, thick, inwards = (np.repeat(of, m, axis=0) for of in (roller, u, thick, inwards))
+    # designs may differ in their loads or sizes alone, and share their slots
+    roller, u, thick, inwards = (
+        np.broadcast_to(of, (m, *of.shape[1:])) for of in (roller, u, thick, inwards)
+    )
     runs = roller[every, half]
     rows = (stress[every, first], runs[every, k], inwards[every, j], thick[every, j])
     sample = np.where(most > 0.0, rows, np.nan)
@@ -198,12 +200,13 @@ def _stress(
     case = load_case(mechanism)
     loads = bounded_loads(case, at)
     bears = np.asarray(loads.wheel_torque_Nm) * side.at.end < 0.0
-    force = np.atleast_2d(np.where(bears, np.abs(loads.pin_force_N), 0.0))
+    force = np.where(bears, np.abs(loads.pin_force_N), 0.0)
     own = np.flatnonzero(bears.any(axis=0) if bears.ndim > 1 else bears)  # elsewhere it is 0
     # a mouth is away from the axis, but for internal wheels
     rub = case.friction * mechanism.spec.wheel.SIGN * loads.slides * at.touches
-    rubs = np.broadcast_to(np.atleast_2d(rub), force.shape)
-    unit = side.unit_stress(x[:, own], rubs[:, own], sections, width)
+    # the force may be the same for all designs where they rub in different ways, and the reverse
+    force, rub = map(np.atleast_2d, np.broadcast_arrays(force, rub))
+    unit = side.unit_stress(x[:, own], rub[:, own], sections, width)
     m = max(len(force), len(unit.stress))
     stress = np.zeros((m, x.shape[1], sections.shape[1]))
     with np.errstate(invalid="ignore"):  # of a force without a bound

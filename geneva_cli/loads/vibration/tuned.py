@@ -10,10 +10,10 @@ Omega = 2 pi lambda, with the period ratio lambda. So the law is a pure shape, a
 lambda.
 """
 
-from functools import cached_property
 from typing import Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.kept import cached_property
 from geneva_cli.motion import registry
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.numerics.arrays import Truth, library, scalar

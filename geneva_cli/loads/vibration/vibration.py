@@ -21,11 +21,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from geneva_cli.kept import cached_property
 from geneva_cli.loads.carried import inertia_kgm2
 from geneva_cli.loads.vibration.centrifugal import STIFFEST, pull, stiffness_ratio, with_each_motion
 from geneva_cli.loads.vibration.load_acceleration import greatest_accelerations

@@ -6,10 +6,11 @@ conditions set velocity and acceleration to zero at both ends.
 
 from __future__ import annotations
 
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.kept import cached_property
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.spec.rules import Csv

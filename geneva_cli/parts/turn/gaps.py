@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import copy
 import math
-from functools import cached_property
 from typing import Protocol
 
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.shapes import Contour, backwards
+from geneva_cli.kept import cached_property
 from geneva_cli.motion.plane_motion import turned_points
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_LENGTH

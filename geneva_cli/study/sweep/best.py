@@ -35,9 +35,10 @@ def best_spec(outcome: Outcome, row_blocks: Iterable[Rows]) -> list[str]:
     for rows in outcome.counted(chain(row_blocks, own_design)):
         tally.add(rows)
     places = closer(search, tally.places.best()) if search.free else tally.places.best()
-    starts = [row for row in places if search.keeps(row)][:3]  # the best of them suffice
+    starts = [row for row in places if search.keeps(row)]
     if not starts:
         raise GenevaError(tally.none(places[0]))
+    starts = starts[: 3 if sweep.is_batched else 1]  # the best of them suffice
     best = min((search.refined(row) for row in starts), key=search.cost)
     best = search.refined(best, reach=2e-3)  # onto the bounds that bind
     best = sweep.row(search.keys(best))  # computed again as a single design: this row is the result
@@ -58,6 +59,7 @@ def _lines(
         f"bounds: {values[name]:.9g}.",
         *[f"# {c}: {values[c.name]:.9g}{c.standing(values[c.name])}" for c in request.constraints],
         *[f"# {other}: {_text(value)}" for other, value in extra],
+        *tally.search.left_out(),
     ]
     # the spec's own title may describe what was varied
     title = machine.spec.title and f"{word.capitalize()} {name}, varied from: {machine.spec.title}"

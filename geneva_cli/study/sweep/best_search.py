@@ -8,12 +8,18 @@ from typing import TypeAlias
 import numpy as np
 
 from geneva_cli.numerics.jet import Array
+from geneva_cli.progress import Meter
 from geneva_cli.study.fields import Cell
 from geneva_cli.study.sweep.constraints import Constraint, Objective, is_number
 from geneva_cli.study.sweep.run import Sweep
 from geneva_cli.study.sweep.values import Value
 
 Row: TypeAlias = Sequence[Cell]
+
+MOST = 300  # designs of one run of the optimiser, far more than it needs with one or two keys
+# The same where each design is computed alone, often with its parts: up to half a minute a run. It
+# then has some three digits of the keys.
+MOST_ALONE = 40
 
 FAR = 1e3  # violation, or scaled cost, of a design that cannot be built
 
@@ -31,6 +37,8 @@ class SweepSearch:
         self.free = [i for i, a in enumerate(axes) if a.span]
         ends = [axes[i].values for i in self.free]
         self.low, self.high = np.array(ends, dtype=float).reshape(-1, 2).T
+        self.most = MOST if sweep.is_batched else MOST_ALONE
+        self.is_cut_short = False  # True once the optimiser has reached that number
 
     def keys(self, row: Row) -> list[Value]:
         """The values of the varied keys of a row."""
@@ -81,6 +89,7 @@ class SweepSearch:
             return start
         from scipy.optimize import NonlinearConstraint, minimize
 
+        meter = Meter("designs near the best", self.most)
         scale = abs(self.cost(start)) or 1.0
         evaluated: dict[bytes, Row] = {}
 
@@ -88,6 +97,7 @@ class SweepSearch:
             place = x.tobytes()
             if place not in evaluated:
                 evaluated[place] = self.sweep.row(self.moved(start, x))
+                meter.report(len(evaluated))
             return evaluated[place]
 
         margin = 1e-13  # fraction of a bound, so that rounding does not leave a design outside
@@ -99,8 +109,20 @@ class SweepSearch:
             bounds=[(0.0, 1.0)] * len(self.free),
             constraints=[margins] if self.bounds else [],
             # a bound that binds is met to the last step
-            options={"maxfev": 300, "initial_tr_radius": reach, "final_tr_radius": 1e-12},
+            options={"maxfev": self.most, "initial_tr_radius": reach, "final_tr_radius": 1e-12},
         )
+        meter.close()
+        self.is_cut_short |= len(evaluated) >= self.most
         kept = [r for r in (start, *evaluated.values()) if self.keeps(r)]
         inside = [r for r in kept if min(self.margins(r), default=0.0) >= 0.0]
         return min(inside or kept, key=self.cost)
+
+    def left_out(self) -> list[str]:
+        """A comment that says which part of the search was left out, if any."""
+        if not self.is_cut_short:
+            return []
+        alone = "" if self.sweep.is_batched else ", as each is computed alone"
+        return [
+            f"# The search near the best ended after {self.most} designs{alone}: for more digits "
+            "give a narrower range."
+        ]

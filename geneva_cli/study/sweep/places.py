@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from geneva_cli.progress import tracked
 from geneva_cli.study.sweep.best_search import Row, SweepSearch
 from geneva_cli.study.sweep.values import Value
 
@@ -72,12 +73,12 @@ def closer(search: SweepSearch, rows: Sequence[Row]) -> list[Row]:
     Returns all designs unchanged if their quantities cannot be computed for a batch.
     """
     best = list(rows)
-    if not search.sweep.known([search.keys(row) for row in best]):
+    if not search.sweep.is_batched:
         return best
     draw = np.random.default_rng(0)
     count = 48  # designs about each place in a round
     width = 0.25  # half of the cloud's, as a fraction of the span; 16 rounds take it to 1e-4
-    for _ in range(16):
+    for _ in tracked(range(16), "rounds", 16):
         steps = draw.uniform(-width, width, (len(best), count, len(search.free)))
         about = [
             search.moved(row, search.fractions(row) + step)

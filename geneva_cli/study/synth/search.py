@@ -121,14 +121,14 @@ def _all_kinds(
     how_near: bool = False,
     which: Sequence[bool] = (),
 ) -> list[_KindRows]:
-    """The results of all kinds of machines, or of ``which``, in order, from all cores."""
+    """The results of all groups of machines, or of ``which``, in order, from all cores."""
     tasks = [task for i, task in enumerate(kinds(target)) if not which or which[i]]
     wheels = len(target.gearings) * len(target.z) * len(target.laws)
     many = which or wheels > 6  # a smaller search ends before a second process has started
     workers = min(len(tasks), cores()) if many else 1
     work = partial(_kind_rows, names=names, how_near=how_near)
     done = mapped(work, tasks, workers, "machines")
-    return list(tracked(done, "kinds of machines", len(tasks)))
+    return list(tracked(done, "groups of machines", len(tasks)))
 
 
 def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) -> _KindRows:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import cached_property
 
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
+from geneva_cli.kept import cached_property
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import CLEARLY
 from geneva_cli.parts.turn.full_turn import full_turn

@@ -99,11 +99,11 @@ def _shaft(size: Sizes) -> float:
 
 
 def held_torque(name: str, parts: FlatParts | SphereParts) -> Check | None:
-    """The torque that a clamp holds; None without a clamp or without a load."""
+    """The torque that a clamp holds; None without a load, or a clamp that the hub has space for."""
     spec = parts.mechanism.spec
     part = name.partition("_")[0]
     clamp = clamp_of(spec.size, part, *parts.hub_radii(part))
-    if clamp is None or not spec.is_loaded:
+    if clamp is None or not clamp.fits or not spec.is_loaded:
         return None
     from geneva_cli.loads.strength.part_loads import single_loads  # without a load none is needed
 

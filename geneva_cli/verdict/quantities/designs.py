@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.kept import cached_property
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import alone
 from geneva_cli.motion.mechanism import Mechanism, build

@@ -4,7 +4,6 @@ import math
 
 import mpmath
 import pytest
-from sweep_keys import base, every_key, off
 from typer.testing import CliRunner
 
 from geneva_cli import Counter, Crank, Design, Load, SideCrank, Size
@@ -141,12 +140,6 @@ def test_all_pinions_at_once():
     assert values["energy_J"] == pytest.approx(0.5 * 5e-6 * dw * dw, rel=1e-14)
     for name in ("impulse_Nms", "energy_J", "force_N"):
         assert values[name] == pytest.approx(other[name], rel=1e-12)
-
-
-def test_a_batch_has_the_numbers_of_single_designs():
-    """None of a vibration among them, as the wheel's speed jumps."""
-    spec = base("counter")
-    assert off(spec, every_key(spec)) == []
 
 
 def test_what_a_counter_refuses():

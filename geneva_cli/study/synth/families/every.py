@@ -7,6 +7,7 @@ If one motion angle is required, a family's free number has a closed form. If a 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
 from typing import TypeAlias
 
 from geneva_cli.kinds.carousel.motion import Carousel
@@ -64,19 +65,37 @@ Kind: TypeAlias = Callable[[Target, Sequence[Gearing]], Iterator[Family]]
 
 
 def kinds(target: Target) -> list[tuple[Kind, Target]]:
-    """Independent kinds of machines: all four-bars; straight slots, and laws, of each gearing.
+    """Independent groups of machines: four-bars; straight slots, and laws, of each gearing.
 
-    If the target has wheels on a carrier: the carousels of each gearing.
+    Each has some of the numbers of slots. If the target has wheels on a carrier: the carousels of
+    each gearing.
     """
-    each = [target._replace(gearings=(gearing,)) for gearing in target.gearings]
+    some = [target._replace(z=z) for z in _groups(target.z)]
+    each = [one._replace(gearings=(gearing,)) for gearing in target.gearings for one in some]
     if target.wheels:
         return [(carousels, one) for one in each]
     alone = target.only_acceleration
     return [
-        (four_bars, target),
+        *((four_bars, one) for one in some),
         *((_straight, one.by_bounds if alone else one) for one in each),
         *((with_laws, one._replace(laws=(law,))) for law in target.laws for one in each),
     ]
+
+
+# Least numbers of slots in a group: a search of so many four-bars has its fewest samples for each
+# (four_bar_search), so that groups find what one search of all does.
+GROUP = 24
+
+
+def _groups(z: tuple[int, ...]) -> list[tuple[int, ...]]:
+    """Divide numbers of slots into as many groups of at least ``GROUP`` as there may be.
+
+    >>> [len(group) for group in _groups(tuple(range(3, 80)))]
+    [26, 26, 25]
+    """
+    count = max(len(z) // GROUP, 1)
+    ends = [-(-len(z) * i // count) for i in range(count + 1)]
+    return [z[i:j] for i, j in pairwise(ends)]
 
 
 def families(kind: Kind, target: Target) -> Iterator[Family]:
