@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, ClassVar, NoReturn, TypeAlias, cast
+from typing import TYPE_CHECKING, ClassVar, NoReturn, Self, TypeAlias, cast
 
 import numpy as np
 
@@ -50,6 +50,11 @@ class Interval(Enclosed):
 
     def __init__(self, low: Bound, high: Bound) -> None:
         self.low, self.high = low, high
+
+    @classmethod
+    def exact(cls, x: float) -> Self:
+        """The interval of one double."""
+        return cls(x, x)
 
     @property
     def size(self) -> Array:
