@@ -164,7 +164,8 @@ def test_no_true_peak_is_excluded(kind):
                 entry = min(entries, key=lambda x, m=mid: abs(x - m)) - mid
                 exact = true_peak(angle, order, proof.at_deg - mid, entry)
             assert proof.low <= exact <= proof.high, f"{machine.spec}: {quantity} {exact}"
-            assert proof.high - proof.low <= 1e-13 * proof.high
+            # an end is known to 4e-15 radians, over which a steep jump changes by 1e4 times that
+            assert proof.high - proof.low <= 1e-10 * proof.high
 
 
 def scca(b, d, v=0):
