@@ -227,7 +227,7 @@ class LazyGroup(PlainValues, TyperGroup):
         module = importlib.import_module(f"geneva_cli.cli.commands.{name}")
         command = _command(name, module.run)
         command.examples = module.EXAMPLES
-        if name not in {"animate", "schema"}:  # these print no table
+        if name not in {"animate", "help", "new", "plot", "schema"}:  # these print no wide table
             command.params += _command(name, _table_options).params
         # lengths, forces or masses are in the tables of these; profile has units of its own
         if name in {"check", "compare", "loads", "plot", "report", "sweep", "synth", "tolerance"}:
