@@ -31,7 +31,7 @@ def test_files_that_a_page_names_are_there(page: str) -> None:
     """Files and folders in backquotes, from the top or from the package."""
     text = (ROOT / page).read_text(encoding="utf-8")
     named = set(re.findall(r"`([\w.]+(?:/[\w.]+)*/?(?:\.(?:py|md|yml|toml))?)`", text))
-    made = {"verdict/checks/motion.py", "build/"}  # by the worked example, and by make
+    made = {"build/", ".venv/bin"}  # by make, which may run elsewhere
     paths = {name for name in named if "/" in name} - made
     assert len(paths) > 5
     tops = (ROOT, ROOT / "geneva_cli")

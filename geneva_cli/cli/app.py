@@ -231,7 +231,7 @@ class LazyGroup(PlainValues, TyperGroup):
         module = importlib.import_module(f"geneva_cli.cli.commands.{name}")
         command = _command(name, module.run)
         command.examples = module.EXAMPLES
-        if name not in {"animate", "schema"}:  # these print no table
+        if name not in {"animate", "help", "new", "plot", "schema"}:  # these print no wide table
             command.params += _command(name, _table_options).params
         # lengths, forces or masses are in the tables of these; profile has units of its own
         if name in {"check", "compare", "loads", "plot", "report", "sweep", "synth", "tolerance"}:
@@ -300,6 +300,10 @@ def _command(name: str, run: Any) -> Any:
 def _usage(path: str, error: Any) -> str:
     """The message on wrong arguments of ``path``: the program and its command."""
     message = error.format_message().rstrip(".")
+    if getattr(error, "option_name", "") in ("--rpm", "--n-rpm", "--speed"):
+        has_n = any("--n" in param.opts for param in error.ctx.command.params)
+        speed = "--n" if has_n else "--set drive.n_rpm=RPM"
+        message = f"no such option: {error.option_name} (did you mean {speed}?)"
     if ". Did you mean " in message:
         message = message.replace(". Did you mean ", " (did you mean ") + ")"
     return f"{path}: {message[:1].lower()}{message[1:]}; see {path} -h"

@@ -89,8 +89,10 @@ def warn(design: Design) -> None:
 
 def say(path: str, warnings: Iterable[str]) -> None:
     """Print warnings about a spec on standard error, one a line."""
+    from geneva_cli.output import shown_text
+
     for warning in warnings:
-        print(clean(f"{path}: warning: {with_name(warning)}"), file=sys.stderr)
+        print(clean(f"{path}: warning: {shown_text(with_name(warning))}"), file=sys.stderr)
 
 
 def with_name(warning: str) -> str:

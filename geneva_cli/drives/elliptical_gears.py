@@ -18,7 +18,7 @@ from geneva_cli.motion.engagement import Displacement, Path
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import sin_cos_deg
-from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.arrays import enclosed, library
 from geneva_cli.numerics.jet import Jet, Number, cosines_after, sine_versine_of
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import Example
@@ -113,14 +113,14 @@ class Focal(NamedTuple):
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """sin d and 1 - cos d of the driven gear's rotation d, ``tau`` input radians later."""
-        e = self.e
-        m = library(tau, e, self.size)
+        e, sin_h, cos_h, sin_p, cos_p, size = enclosed(tau, self)
+        m = library(tau, e, size)
         least = (1.0 - e) * (1.0 + e)
         s, c = m.sin(0.5 * tau), m.cos(0.5 * tau)
         # Half angles: the driver's direction, and the driven gear's from its own at f.
-        sine, cosine = self.sin_p * c + self.cos_p * s, self.cos_p * c - self.sin_p * s
-        across = self.size * self.size * s
-        along = least * c - 4.0 * e * self.sin_h * self.cos_h * s
+        sine, cosine = sin_p * c + cos_p * s, cos_p * c - sin_p * s
+        across = size * size * s
+        along = least * c - 4.0 * e * sin_h * cos_h * s
         x, y = along * along - across * across, 2.0 * along * across
         W = ((1.0 + e) * cosine) ** 2 + ((1.0 - e) * sine) ** 2
         sin_phi, cos_phi = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)

@@ -13,7 +13,7 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.engagement import Peak, Vector
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians, sin_cos_deg
-from geneva_cli.numerics.arrays import choose, library, parameter
+from geneva_cli.numerics.arrays import choose, enclosed, library, parameter
 from geneva_cli.numerics.jet import Jet, Number, cosines_after, sin_cos, sine_versine_of
 
 
@@ -90,16 +90,16 @@ class Coulisse(NamedTuple):
 
     def _turned(self, tau: Number, order: int) -> tuple[Number, Number, Jet]:
         """The coulisse's vector (y, x) in the frame of its direction at f, and its rate."""
-        A, s, c, length = self.A, self.sin_f, self.cos_f, self.length
+        A, s, c, sin_h, cos_h, length, rest, grows = enclosed(tau, self)
         m = library(tau, A, s)
         sin_t, cos_t = m.sin(0.5 * tau), m.cos(0.5 * tau)
-        x = cos_t * cos_t * length - 2.0 * sin_t * cos_t * self.sin_h - sin_t * sin_t * self.rest
-        y = 2.0 * sin_t * (cos_t * self.cos_h - sin_t * self.sin_h)
+        x = cos_t * cos_t * length - 2.0 * sin_t * cos_t * sin_h - sin_t * sin_t * rest
+        y = 2.0 * sin_t * (cos_t * cos_h - sin_t * sin_h)
         # df/dphi = (1 + (1 - A²)/W)/2 with W = x² + y² = 1 + A² + 2 A cos phi. As A nears 1 the
         # coulisse turns at half speed, and nothing cancels.
         sine, cosine = x * s + y * c, x * c - y * s - A
         cosines = cosines_after(sine, cosine, max(order, 0))
-        W = choose(self.grows, length * length - 4.0 * A * c * sin_t * sin_t, x * x + y * y)
+        W = choose(grows, length * length - 4.0 * A * c * sin_t * sin_t, x * x + y * y)
         square = Jet((W, *[2.0 * A * t for t in cosines[1:]]))
         return y, x, 0.5 + (0.5 * (1.0 - A) * (1.0 + A)) / square
 

@@ -20,8 +20,12 @@ Curves: TypeAlias = "Callable[[Array], Sequence[Array]]"
 
 ROWS_MAX = 200_000  # of a table between two ends
 MANY_NODES = 5_000  # nodes from which on the first sufficient attempt is kept
-# Fractions of many short chords, which are parabolas, at which their errors are measured.
+# Fractions of a chord at which its error is measured, and of many short ones, whose curves are
+# polynomials of the fourth degree.
+PLACES = np.arange(1, 32) / 32.0
 MIDDLE = np.array([0.25, 0.5, 0.75])
+# Between measured errors the peak of an S is found to 3e-4 of itself.
+AIM = 1.0 - 5e-4  # fraction of a tolerance
 
 
 def nodes(curves: Curves, ends: Sequence[float], tolerance_mm: float, fewest: bool = True) -> Array:
@@ -36,7 +40,8 @@ def nodes(curves: Curves, ends: Sequence[float], tolerance_mm: float, fewest: bo
     """
     if not tolerance_mm > 0.0:
         raise GenevaError(f"--tolerance {tolerance_mm:g}: it must be above 0 mm")
-    parts = [_smooth(curves, a, b, tolerance_mm, fewest)[:-1] for a, b in pairwise(ends)]
+    aim = AIM * tolerance_mm
+    parts = [_smooth(curves, a, b, aim, fewest)[:-1] for a, b in pairwise(ends)]
     return np.concatenate((*parts, [ends[-1]]))
 
 
@@ -49,7 +54,7 @@ def _smooth(curves: Curves, a: float, b: float, tolerance_mm: float, fewest: boo
     for _ in range(20):  # attempts; a few are enough but at the limit of double precision
         if not count < ROWS_MAX:
             raise GenevaError(
-                f"--tolerance {tolerance_mm:g} mm takes more than {ROWS_MAX} rows: "
+                f"--tolerance {tolerance_mm / AIM:g} mm takes more than {ROWS_MAX} rows: "
                 f"use for example {2.0 * (total / ROWS_MAX) ** 2:.1g} mm"
             )
         places = np.interp(np.linspace(0.0, 1.0, count + 1), fraction, grid)
@@ -77,7 +82,7 @@ def _smooth(curves: Curves, a: float, b: float, tolerance_mm: float, fewest: boo
     if best is not None:
         return best
     raise GenevaError(
-        f"--tolerance {tolerance_mm:g} mm is finer than double precision can show at this size"
+        f"--tolerance {tolerance_mm / AIM:g} mm is finer than doubles can show at this size"
     )
 
 
@@ -116,7 +121,7 @@ def chord_errors(curves: Curves, at: Array, places: Array | None = None) -> Arra
     A chord that hides most of its curve between two measurements has its length as error.
     """
     if places is None:
-        places = np.arange(1, 16) / 16.0 if len(at) < MANY_NODES else MIDDLE
+        places = PLACES if len(at) < MANY_NODES else MIDDLE
     return _measured(curves, at, places)[0]
 
 
@@ -144,7 +149,7 @@ def _chord_errors(curves: Curves, at: Array, places: Array) -> tuple[Array, Mask
         square = np.maximum((chord * chord).sum(axis=2), 1e-300)
         fraction = np.clip((offset * chord).sum(axis=2) / square, 0.0, 1.0)
         off = offset - fraction[..., None] * chord
-        error = np.hypot(off[..., 0], off[..., 1]).max(axis=1)
+        error = _peaks(off if len(places) > len(MIDDLE) else BETWEEN @ off)
         along[:, 1:-1] = fraction
         # A curve that starts from rest with the fourth power of its parameter leaves 0.68. At 0.75
         # an arc's error is a third above the measured one.
@@ -152,3 +157,28 @@ def _chord_errors(curves: Curves, at: Array, places: Array) -> tuple[Array, Mask
         worst = np.maximum(worst, np.where(hidden, np.sqrt(square[:, 0]), error))
         hides |= hidden & (square[:, 0] > error * error)
     return worst, hides
+
+
+def _quartics() -> Array:
+    """Weights (31, 3) of the errors at ``MIDDLE`` for those at ``PLACES``; at both ends it is 0."""
+    knots = np.array([0.0, *MIDDLE, 1.0])
+    return np.column_stack(
+        [
+            np.prod([(PLACES - b) / (a - b) for b in knots if b != a], axis=0)
+            for a in MIDDLE  # Lagrange's polynomials
+        ]
+    )
+
+
+BETWEEN = _quartics()
+
+
+def _peaks(off: Array) -> Array:
+    """Greatest sizes of errors (n, m, 2) along chords: of the parabola about the largest."""
+    size = np.zeros((len(off), off.shape[1] + 2))
+    size[:, 1:-1] = np.hypot(off[..., 0], off[..., 1])
+    top = size[:, 1:-1].argmax(axis=1) + 1
+    before, most, after = (np.take_along_axis(size, top[:, None] + k, 1)[:, 0] for k in (-1, 0, 1))
+    bend = 2.0 * most - before - after
+    rise = np.divide((after - before) ** 2, 8.0 * bend, out=0.0 * bend, where=bend > 0.0)
+    return most + rise

@@ -92,6 +92,20 @@ class RecommendedMotor(NamedTuple):
         """
         return next((rated for rated in RATED_kW if 1e3 * rated >= self.needed_W), None)
 
+    @property
+    def torque_Nm(self) -> float:
+        """The torque of the needed power at the motor's speed."""
+        return self.needed_W * 60.0 / (self.rpm * math.tau)
+
+    @property
+    def is_small(self) -> bool:
+        """True if the needed power is below the least standard one.
+
+        >>> RecommendedMotor(0.025, 0.028, 15.0, 0.016).is_small
+        True
+        """
+        return self.needed_W < 1e3 * RATED_kW[0]
+
 
 def recommended_motor(sizing: Mapping[str, float | None]) -> RecommendedMotor | None:
     """The motor for the values of ``sizing``; None without a load, or for an unbounded one."""

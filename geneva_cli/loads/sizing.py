@@ -121,7 +121,7 @@ def sizings(
     loaded = np.ravel(case.inertia_Nm + case.resists_Nm > 0.0)
     values: dict[str, Number] = {}
     if names & set(CARRIED):
-        rpm = spec.drive.n_rpm * spec.motor.gear_ratio
+        rpm = spec.drive.n_rpm * spec.motor.ratio
         values |= {"inertia_kgm2": _some(inertia_kgm2(spec)), "motor_rpm": rpm}
     by_formula = bool(names & {*CAM_FACTORS, *INDEXER_FORMULA, "input_torque_ratio"})
     if peaks is None:
@@ -247,7 +247,7 @@ def greatest_motor_torque_Nm(motor: Motor, most: N, least: N) -> N:
     inertia takes no torque.
     """
     eta = motor.gear_efficiency
-    return larger(most / eta, -least * eta) / motor.gear_ratio
+    return larger(most / eta, -least * eta) / motor.ratio
 
 
 def rms_motor_torque_Nm(motor: Motor, square: N, returned: N) -> N:
@@ -259,12 +259,12 @@ def rms_motor_torque_Nm(motor: Motor, square: N, returned: N) -> N:
     eta = motor.gear_efficiency
     spent = larger(square - returned, 0.0 * square)
     mean = spent / eta**2 + returned * eta**2
-    return library(mean).sqrt(mean) / motor.gear_ratio
+    return library(mean).sqrt(mean) / motor.ratio
 
 
 def flywheel_to_add_kgm2(motor: Motor, whole: N) -> N:
     """The flywheel's inertia less the motor's own, at the input shaft."""
-    left = whole - motor.inertia_kgm2 * motor.gear_ratio**2
+    left = whole - motor.inertia_kgm2 * motor.ratio**2
     return larger(left, 0.0 * left)
 
 
@@ -279,7 +279,7 @@ def inertia_ratio(mechanism: Mechanism, fastest: N) -> tuple[N, N]:
     others = max(0, spec.drive.wheels_on_carrier - 1) * frame * frame
 
     def over_motor(turn: N) -> N:
-        own = inertia_kgm2(spec) * (turn * turn + others) / spec.motor.gear_ratio**2
+        own = inertia_kgm2(spec) * (turn * turn + others) / spec.motor.ratio**2
         return own / spec.motor.inertia_kgm2
 
     still, mu = over_motor(0.0 * fastest + frame), over_motor(fastest + frame)

@@ -99,6 +99,8 @@ class Hit(NamedTuple):
 def search(word: str) -> list[Hit]:
     """Sections of all pages in which a word begins so, in any case; one hit for each section.
 
+    Of words that stand nowhere together, the sections in which all of them stand.
+
     Sections with the word in their heading come first. The output of examples is not searched.
 
     >>> {hit.topic for hit in search("Whitworth")}
@@ -106,6 +108,16 @@ def search(word: str) -> list[Hit]:
     >>> {hit.topic for hit in search("taplo")}
     {'spec'}
     """
+    whole = _search(word)
+    first, *others = word.split() or [""]
+    if whole or not others:
+        return whole
+    # sections with all of the words
+    sections = [{hit[:2] for hit in _search(other)} for other in others]
+    return [hit for hit in _search(first) if all(hit[:2] in one for one in sections)]
+
+
+def _search(word: str) -> list[Hit]:
     wanted = re.compile(rf"(?<![^\W\d_]){re.escape(word)}", re.IGNORECASE)
     hits: dict[tuple[str, str], Hit] = {}
     for topic in TOPICS:

@@ -16,7 +16,7 @@ from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Slot, SlotAxis
 from geneva_cli.motion.law_motion import LawMotion
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Batchable
+from geneva_cli.numerics.arrays import Batchable, Enclosed, enclosed
 from geneva_cli.numerics.jet import Jet, Number, piecewise, sin, sin_cos
 from geneva_cli.numerics.latest import Latest
 
@@ -60,11 +60,17 @@ class SolvedPath(Batchable):
     @cached_property
     def _series(self) -> Sequence[Number]:
         """Coefficients of psi in powers of phi, about mid-motion."""
-        return self.motion(0.0, TERMS if self.motion.law.ANALYTIC else SPLINE_TERMS).c
+        return self._series_at(0.0)
+
+    def _series_at(self, zero: Number) -> Sequence[Number]:
+        return self.motion(zero, TERMS if self.motion.law.ANALYTIC else SPLINE_TERMS).c
 
     def _by_series(self, x: Number, order: int) -> Jet:
         """Both distances near mid-motion, where both sines vanish: each is first divided by phi."""
-        t, c = Jet.variable(radians(x), order), self._series[1:]
+        t = Jet.variable(radians(x), order)
+        # an enclosure knows nothing of the rounding of the cached series
+        own = self._series_at(*enclosed(x, (0.0,))) if isinstance(x, Enclosed) else self._series
+        c = own[1:]
         # psi / phi, each coefficient of its jet a polynomial of the angle
         slope = Jet(
             [
@@ -156,12 +162,9 @@ def _sinc(x: Jet) -> Jet:
     for k in range(order, -1, -1):
         first = (k + 1) // 2  # the lowest power of the square that is left after k derivatives
         # k-th derivative of (-1)^j x^2j / (2j + 1)!, over k!
-        term = _polynomial(
-            [
-                (-1.0) ** j * math.comb(2 * j, k) / math.factorial(2 * j + 1)
-                for j in range(first, first + 9)
-            ],
-            square,
-        )
+        powers = range(first, first + 9)
+        signed = enclosed(at, tuple((-1.0) ** j * math.comb(2 * j, k) for j in powers))
+        each = [c / math.factorial(2 * j + 1) for j, c in zip(powers, signed, strict=True)]
+        term = _polynomial(each, square)
         total = total * step + (term * at if k % 2 else term)
     return total

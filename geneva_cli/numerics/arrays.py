@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING, ClassVar, Protocol, TypeAlias, TypeVar, cast
+from typing import TYPE_CHECKING, ClassVar, Protocol, Self, TypeAlias, TypeVar, cast
 
 if TYPE_CHECKING:
     from decimal import Decimal
@@ -83,6 +83,11 @@ class Enclosed:
     # the ends are known to a few units in the last place of doubles (EDGE_DEG of enclosures).
     REACH: ClassVar[float] = 2.0**-39
 
+    @classmethod
+    def exact(cls, x: float) -> Self:
+        """The enclosure of one double."""
+        raise NotImplementedError
+
     def piece(self, cuts: Sequence[float]) -> int:
         """Number of the piece between ``cuts`` that holds it."""
         raise NotImplementedError
@@ -125,6 +130,17 @@ def narrowed(value: Number, f: Callable[[Number], Number], x: Number) -> Number:
     In a formula an enclosure stands several times, and each time counts its width anew.
     """
     return x.rising(f) if isinstance(x, Enclosed) else value
+
+
+def enclosed(x: Number, numbers: Record) -> Record:
+    """Numbers of a machine as enclosures of each alone, if x is an enclosure; else as they are.
+
+    Sums and quotients of doubles round before an enclosure meets them, and no bound knows of it.
+    """
+    if not isinstance(x, Enclosed):
+        return numbers
+    each = [x.exact(one) if isinstance(one, float) else one for one in numbers]
+    return record_of(numbers, each)
 
 
 def library(x: Number, y: Number = 0.0, z: Number = 0.0) -> Library:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, ClassVar, NoReturn, TypeAlias, cast
+from typing import TYPE_CHECKING, ClassVar, NoReturn, Self, TypeAlias, cast
 
 import numpy as np
 
@@ -34,6 +34,18 @@ TINY = 2.0**-1074  # the least double
 LIBRARY_UNITS = 2  # in the last place: greatest error of a function of ``math``
 
 
+def _operator(
+    f: Callable[[Interval, Interval | float], Interval],
+) -> Callable[[Interval, Interval | float], Interval]:
+    """An operator of intervals and numbers; a jet, for one, brings its own."""
+
+    def operator(x: Interval, y: Interval | float) -> Interval:
+        plain = isinstance(y, (Interval, float, int, np.ndarray))
+        return f(x, y) if plain else NotImplemented
+
+    return operator
+
+
 class Interval(Enclosed):
     """Numbers, each between two bounds: arrays (n,), or floats for the same bounds of all.
 
@@ -50,6 +62,11 @@ class Interval(Enclosed):
 
     def __init__(self, low: Bound, high: Bound) -> None:
         self.low, self.high = low, high
+
+    @classmethod
+    def exact(cls, x: float) -> Self:
+        """The interval of one double."""
+        return cls(x, x)
 
     @property
     def size(self) -> Array:
@@ -100,10 +117,12 @@ class Interval(Enclosed):
         low, high = np.maximum(self.low, -self.high), np.maximum(-self.low, self.high)
         return Interval(np.maximum(low, 0.0), high)
 
+    @_operator
     def __add__(self, other: Interval | float) -> Interval:
         low, high = _ends(other)
         return _outwards(self.low + low, self.high + high)
 
+    @_operator
     def __sub__(self, other: Interval | float) -> Interval:
         low, high = _ends(other)
         return _outwards(self.low - high, self.high - low)
@@ -111,6 +130,7 @@ class Interval(Enclosed):
     def __rsub__(self, other: Interval | float) -> Interval:
         return -(self - other)
 
+    @_operator
     def __mul__(self, other: Interval | float) -> Interval:
         if other is self:
             return self**2
@@ -119,6 +139,7 @@ class Interval(Enclosed):
         low, high = other.low, other.high
         return _between(self.low * low, self.low * high, self.high * low, self.high * high)
 
+    @_operator
     def __truediv__(self, other: Interval | float) -> Interval:
         if not isinstance(other, Interval):
             other = Interval(other, other)

@@ -14,7 +14,16 @@ from collections.abc import Callable, Sequence
 from math import factorial
 from typing import TYPE_CHECKING, TypeVar, cast
 
-from geneva_cli.numerics.arrays import SINGLE, Enclosed, Mask, Whole, library, piece_of, size
+from geneva_cli.numerics.arrays import (
+    SINGLE,
+    Enclosed,
+    Mask,
+    Whole,
+    enclosed,
+    library,
+    piece_of,
+    size,
+)
 from geneva_cli.numerics.arrays import Array as Array
 from geneva_cli.numerics.arrays import Number as Number
 
@@ -35,7 +44,8 @@ class Jet:
     @staticmethod
     def variable(x: Number, order: int) -> Jet:
         """The independent variable itself at x."""
-        return Jet((x, 1.0, *[0.0] * (order - 1))[: order + 1])
+        one = enclosed(x, (1.0,))
+        return Jet((x, *one, *[0.0] * (order - 1))[: order + 1])
 
     @property
     def order(self) -> int:

@@ -99,6 +99,15 @@ def shown(value: Any, unit: str) -> tuple[Any, str]:
     return value_in_inches(value, unit)
 
 
+def shown_text(text: str) -> str:
+    """A sentence with its numbers in the units that this run shows."""
+    if choice.units == "mm":
+        return text
+    from geneva_cli.output.inches import text_in_inches
+
+    return text_in_inches(text)
+
+
 def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
     """Print the table, or write it to the file ``output``; ``inputs`` are never overwritten.
 

@@ -5,15 +5,35 @@ Only what people read changes: tables, md, summaries, documents and plots.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
 from geneva_cli.figure import Axis, Curve, Figure, Panel
 from geneva_cli.names import UNITS, unit_end, unit_of
-from geneva_cli.output.document.blocks import Block, Curves, Document, Fact, Facts, Grid
+from geneva_cli.output.document.blocks import Block, Curves, Document, Fact, Facts, Grid, TextList
 from geneva_cli.spec.units import ratio
 from geneva_cli.table import Table
+
+INSTEAD = {
+    "mm": "in",
+    "µm": "thou",
+    "m": "ft",
+    "m/s": "in/s",
+    "m/s²": "in/s²",
+    "m/s³": "in/s³",
+    "mm/1e6": "in/1e6",
+    "N": "lbf",
+    "N m": "lbf in",
+    "J": "lbf in",
+    "N m/rad": "lbf in/rad",
+    "MPa": "ksi",
+    "GPa": "ksi",
+    "kg": "lb",
+    "kg m²": "lb in²",
+    "kg/m³": "lb/in³",
+}
 
 
 @cache
@@ -22,24 +42,7 @@ def _other(unit: str) -> tuple[str, float]:
 
     Numbers are divided by it, so that 25.4 mm are exactly 1 in.
     """
-    instead = {
-        "mm": "in",
-        "µm": "thou",
-        "m": "ft",
-        "m/s": "in/s",
-        "m/s²": "in/s²",
-        "m/s³": "in/s³",
-        "mm/1e6": "in/1e6",
-        "N": "lbf",
-        "N m": "lbf in",
-        "J": "lbf in",
-        "N m/rad": "lbf in/rad",
-        "MPa": "ksi",
-        "GPa": "ksi",
-        "kg": "lb",
-        "kg m²": "lb in²",
-        "kg/m³": "lb/in³",
-    }.get(unit)
+    instead = INSTEAD.get(unit)
     if instead is None:
         return unit, 1.0
     return instead, ratio(instead.removesuffix("/1e6"), unit.removesuffix("/1e6"))
@@ -53,6 +56,25 @@ def value_in_inches(value: Any, unit: str) -> tuple[Any, str]:
     """
     other, size = _other(unit)
     return _over(value, size), other
+
+
+def text_in_inches(text: str) -> str:
+    """A sentence with its lengths, forces and masses in inches and pounds, to 4 digits.
+
+    Keys keep their values, as their names have the unit.
+
+    >>> text_in_inches("the rim is 25.4 to 50.8 mm off at 30°: wheel_radius_mm = 254")
+    'the rim is 1 to 2 in off at 30°: wheel_radius_mm = 254'
+    """
+    number = r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?"
+    units = "|".join(sorted(INSTEAD, key=len, reverse=True))
+
+    def other(match: re.Match[str]) -> str:
+        unit, size = _other(match[2])
+        return f"{re.sub(number, lambda one: f'{float(one[0]) / size:.4g}', match[1])} {unit}"
+
+    each = rf"{number}(?:(?: to |, | and ){number})*"
+    return re.sub(rf"(?<![\w.-])(?<!= )({each}) ({units})(?![\w/²³])", other, text)
 
 
 def _over(value: Any, size: float) -> Any:
@@ -150,6 +172,8 @@ def figure_in_inches(figure: Figure) -> Figure:
 
 
 def _block(block: Block) -> Block:
+    if isinstance(block, TextList):
+        return block._replace(texts=tuple(map(text_in_inches, block.texts)))
     if isinstance(block, Facts):
         return block._replace(facts=tuple(map(_fact, block.facts)))
     if isinstance(block, Grid) and "Key" not in block.heads:

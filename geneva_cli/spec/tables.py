@@ -474,7 +474,9 @@ class Motor(SpecTable):
     TABLE: ClassVar[str] = "motor"
 
     service_factor: Annotated[float, Range(1.0, 100.0), "service factor of the makers"] = 1.0
-    gear_ratio: Annotated[float, POSITIVE, "turns of the motor per turn of the input shaft"] = 1.0
+    gear_ratio: Annotated[
+        float | None, POSITIVE, "turns of the motor per turn of the input shaft; default 1"
+    ] = None
     gear_efficiency: Annotated[float, Range(0.0, 1.0, "(]"), "efficiency of the reducer"] = 1.0
     inertia_kgm2: Annotated[float, NOT_NEGATIVE, "inertia of rotor and reducer"] = 0.0
     speed_variation: Annotated[
@@ -482,6 +484,11 @@ class Motor(SpecTable):
         Range(0.0, 2.0, "()"),
         "allowed speed variation, (greatest - least) / mean; sizes a flywheel",
     ] = None
+
+    @property
+    def ratio(self) -> float:
+        """Turns of the motor per turn of the input shaft: 1 without a reducer."""
+        return value_or(self.gear_ratio, 1.0)
 
 
 class Shaft(SpecTable):

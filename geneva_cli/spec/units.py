@@ -208,7 +208,9 @@ def _single(name: str) -> Unit:
         if name in units:
             return Unit(powers, Fraction(units[name]))
     known = [one for units in UNITS.values() for one in units]
-    raise GenevaError(f"unknown unit {cut(name, 20)}{nearest(name, known)}")
+    signs = {'"': "in", "”": "in", "″": "in", "'": "ft", "’": "ft", "′": "ft"}  # of drawings
+    hint = f' (did you mean "{signs[name]}"?)' if name in signs else nearest(name, known)
+    raise GenevaError(f"unknown unit {cut(name, 20)}{hint}")
 
 
 def _number(text: str) -> Fraction:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.manual.explained import Entry, entries
 from geneva_cli.motion import registry
-from geneva_cli.names import unit_of
+from geneva_cli.names import spoken, unit_of
 from geneva_cli.specfile.keys import Key, all_keys
 
 CHECKS, INPUTS = "checks.", "inputs."  # beginnings of a report's names of checks and of keys
@@ -40,7 +40,7 @@ def meanings(word: str) -> list[Meaning]:
     >>> [m.group for m in meanings("jerk_max")]
     ['check', 'quantity', 'key']
     """
-    known_meanings = _lookup(word)
+    known_meanings = _lookup(word) or _lookup(_spoken_name(word))
     if not known_meanings:
         known = [*names(), *(CHECKS + n for e in entries() if e.group == "check" for n in e.names)]
         among = dict.fromkeys([*known, *(name.rpartition(".")[2] for name in known)])
@@ -50,6 +50,17 @@ def meanings(word: str) -> list[Meaning]:
             f"key{hint}; `geneva explain` lists them"
         )
     return known_meanings
+
+
+def _spoken_name(words: str) -> str:
+    """The name that `check` and other summaries print as these words; else the words hyphened.
+
+    >>> _spoken_name("pin stress"), _spoken_name("drives the motor")
+    ('pin_stress_MPa', 'drives-the-motor')
+    """
+    plain = words.casefold()
+    named = (name for name in names() if spoken(name)[0].casefold() == plain)
+    return next(named, plain.replace(" ", "-"))
 
 
 def listed() -> list[tuple[str, str, str]]:

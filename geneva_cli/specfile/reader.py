@@ -130,6 +130,9 @@ def _hint(line: str) -> str:
     if comma := re.fullmatch(r"([+-]?\d+),(\d+)(.*)", value):
         quote = '"' if comma[3] else ""
         return f"; write {quote}{comma[1]}.{comma[2]}{comma[3]}{quote}, with a point"
+    inches = re.fullmatch(rf"""\s*[\w.-]+\s*=\s*({NUMBER})\s*["”″]\s*(#.*)?""", line)
+    if inches:
+        return f'; write "{inches[1]} in"'
     if re.fullmatch(rf"{NUMBER}\s*[A-Za-zµ°].*", value):
         return f'; write "{cut(value)}" in quotation marks, or the number alone in the key\'s unit'
     return f'; write "{cut(value)}" in quotation marks' if value[:1].isalpha() else ""

@@ -31,6 +31,10 @@ from geneva_cli.spec.units import with_unit
 TABLES = ("wheel", "drive", "motion", *dict.fromkeys(t.partition(".")[0] for t in PLAIN))
 
 
+# Other names of a size: here the pin's radius is that of the roller on it.
+ALSO_CALLED = {"pin_radius_mm": "roller_radius_mm", "crank_pin_radius_mm": "roller_radius_mm"}
+
+
 class _Kinds(NamedTuple):
     """A table whose keys depend on a word in it."""
 
@@ -229,17 +233,23 @@ def _unknown(key: str, value: object, table: str, known: Mapping[str, Field]) ->
     A single table is named with the key's meaning in it: a size in [tolerance] is a deviation.
     """
     meanings = _meanings(key)
+    half = key.replace("_diameter_", "_radius_")
+    twin = f"; {half} in [{table}] is half a diameter" if half != key and half in known else ""
     if tables := _tables(meanings):
         meaning = f" ({meanings.popitem()[1]})" if len(meanings) == 1 else ""
         where = (*table.split("."), key)
         return GenevaError(
-            f"unknown key {key} in [{table}]; it belongs to {tables}{meaning}", where
+            f"unknown key {key} in [{table}]; it belongs to {tables}{meaning}{twin}", where
         )
     from geneva_cli.specfile.writer import kind_tables  # only for messages
 
-    word = {of.word.key: of.word for of in kind_tables() if of.table == table}
-    known = {**word, **known}
-    return unknown(key, table, tuple(known), _hint(key, value, known.values()))
+    of_table = [of for of in kind_tables() if of.table == table]
+    kinds = [f'{of.word.key} = "{key}"' for of in of_table if key in of.keys]
+    other = ALSO_CALLED.get(key)
+    meant = kinds[0] if kinds else f'"{other}"' if other in known else ""
+    hint = f" (did you mean {meant}?)" if meant else twin
+    known = {**{of.word.key: of.word for of in of_table}, **known}
+    return unknown(key, table, tuple(known), hint or _hint(key, value, known.values()))
 
 
 def _meanings(key: str) -> dict[str, str]:

@@ -1,9 +1,9 @@
-"""The adviser: one change of the given spec with which all checks pass.
+"""The adviser: one change of the given spec with which all checks pass, or one for each check.
 
 It changes one value, builds the machine again and makes the checks, so its advice has been tried
 with the digits shown. The advice is the nearest value of its key, to ``NEARLY`` of the change.
 The work is counted, not timed, so that equal specs get equal advice on every machine. If no work is
-left, or no single change helps, it says so.
+left, or no change helps, it says so.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.both_ways import every_way
@@ -55,6 +55,9 @@ GAPS = ("gap_mm", "idle_roller_mm")
 NEAR = (*GAPS, "hand_over_play_deg", "hand_over_play_mm")
 
 
+Advice: TypeAlias = "tuple[Change, Value]"
+
+
 class OutOfWork(Exception):
     """The adviser has no work left: not a fault of the spec, so not a GenevaError."""
 
@@ -87,8 +90,15 @@ def _remedies(
     """
     adviser = Adviser(mechanism, list(failing), parts)
     change, why = adviser.advice(list(failing))
-    one_by_one = not change and len(failing) > 1
-    return change, why, [adviser.advice([c])[0] if one_by_one else "" for c in failing]
+    if change or len(failing) == 1:
+        return change and line(*change), why, [""] * len(failing)
+    each = [adviser.advice([c])[0] for c in failing]
+    own = [line(*one) if one else "" for one in each]
+    by_key = {one[0][:2]: one for one in each if one}
+    if all(each) and adviser.suffice([*by_key.values()]):
+        lines = [line(*one) for one in by_key.values()]
+        return " and ".join(sorted(lines, key=lambda one: one.startswith("leaving out"))), "", own
+    return "", why, own
 
 
 def _advised(check: Check, change: str, why: str, own_change: str) -> Check:
@@ -118,10 +128,10 @@ class Adviser:
         self.parts = parts
         self.work = WORK
 
-    def advice(self, wanted: list[Check]) -> tuple[str, str]:
-        """The change, a line of the spec, with which some failing checks pass and no other fails.
+    def advice(self, wanted: list[Check]) -> tuple[Advice | None, str]:
+        """The change and its value with which some failing checks pass and no other fails.
 
-        Without one, an empty text and the reason.
+        Without one, None and the reason.
         """
         try:
             search = _Search(self, wanted)
@@ -129,8 +139,18 @@ class Adviser:
                 if sufficient := search.least(change):
                     return sufficient, ""
         except OutOfWork:
-            return "", STOPPED
-        return "", NONE
+            return None, STOPPED
+        return None, NONE
+
+    def suffice(self, each: list[Advice]) -> bool:
+        """True if all failing checks pass with several changes at once, and no other fails."""
+        spec: Spec | None = self.mechanism.spec
+        for change, value in each:
+            spec = spec and changed(spec, change.table, change.key, value)
+        try:
+            return spec is not None and _Search(self, self.failing, kept=0.0).holds(spec)
+        except OutOfWork:
+            return False
 
     def _changes(self, wanted: list[Check]) -> Iterator[Change]:
         """Changes that may help any of some checks, each change once."""
@@ -152,10 +172,11 @@ class Adviser:
 class _Search:
     """The search for the least change with which some failing checks pass, and its trials."""
 
-    def __init__(self, adviser: Adviser, wanted: list[Check]) -> None:
+    def __init__(self, adviser: Adviser, wanted: list[Check], kept: float | None = None) -> None:
         self.adviser = adviser
         # of several searches the first may use a half of the work, others a quarter of what is left
-        kept = 0.0 if len(adviser.failing) == 1 else 0.5 if len(wanted) > 1 else 0.75
+        if kept is None:
+            kept = 0.0 if len(adviser.failing) == 1 else 0.5 if len(wanted) > 1 else 0.75
         self.reserve = kept * adviser.work
         self.mechanism, self.parts = adviser.mechanism, adviser.parts
         self.wanted = sorted(wanted, key=_needs_parts)  # the quick ones first
@@ -180,8 +201,8 @@ class _Search:
             finally:
                 self.adviser.work -= work.evaluations
 
-    def least(self, change: Change) -> str:
-        """The least sufficient change of one key, as a line of the spec; empty if there is none."""
+    def least(self, change: Change) -> Advice | None:
+        """The least sufficient value of one key; None if there is none."""
         from geneva_cli.verdict.changes import value_now
 
         now = value_now(self.mechanism, change.table, change.key)
@@ -193,18 +214,18 @@ class _Search:
                 continue
             if not (isinstance(now, float) and isinstance(bad, float) and isinstance(good, float)):
                 if self._holds(change, good):
-                    return line(change, good)
+                    return change, good
                 bad, short = good, left
                 continue
             if short < 0.0:
                 edge = self._edge(change, now, Falsi(good, left, bad, short))
                 bad = rounded(edge, good, now)
                 if self._holds(change, bad):
-                    return line(change, bad)
+                    return change, bad
             if bad != good and self._holds(change, good):
-                return line(change, self._halved(change, now, good, bad))
+                return change, self._halved(change, now, good, bad)
             bad, short = good, left
-        return ""
+        return None
 
     def _edge(self, change: Change, now: float, bracket: Falsi) -> float:
         """The nearest value to the present one that passes the failing checks in quick trials."""
@@ -266,11 +287,13 @@ class _Search:
     def _holds(self, change: Change, value: Value) -> bool:
         """Return True if the wanted checks pass with a value, and no other check begins to fail."""
         spec = changed(self.mechanism.spec, change.table, change.key, value)
-        if spec is None:
-            return False
+        turn = self.turned or (change.table, change.key) not in APART
+        return spec is not None and self.holds(spec, turn)
+
+    def holds(self, spec: Spec, turn: bool = True) -> bool:
+        """True if the wanted checks pass with a spec, and no other check begins to fail."""
         from geneva_cli.parts.turn.machine_parts import WorkLimit
 
-        turn = self.turned or (change.table, change.key) not in APART
         try:
             with self._trial():
                 return all(self._holds_one_way(way, turn) for way in every_way(build(spec)))

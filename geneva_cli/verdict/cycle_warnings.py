@@ -8,10 +8,14 @@ from collections.abc import Iterator, Mapping
 from geneva_cli.errors import Notice
 from geneva_cli.loads import loads
 from geneva_cli.loads.carried import weight_kg
+from geneva_cli.loads.contact import contact
 from geneva_cli.loads.cycle import Cycle, cycle_of
 from geneva_cli.loads.cycle_quantities import FORCE, STRESS
+from geneva_cli.loads.forces import wheel_grip
 from geneva_cli.loads.impacts.arrival import arrival
+from geneva_cli.loads.stretches import Stretch
 from geneva_cli.loads.summaries import LoadSummary
+from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import braking
 from geneva_cli.motion.peaks import worst
@@ -39,6 +43,7 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
         a, b = (engagement.mid_deg + x for x in stretch[:2])
         # Over less than 1e-4 of a motion, next to a rest, the sign is rounding.
         driven = stretch.feeds < 0.0 and b - a > 1e-4 * engagement.motion_deg
+        driven = driven and not _held(cycle, engagement, stretch)
         if driven and last == a:
             out[-1] = out[-1][0], shown(b)
         elif driven:
@@ -47,12 +52,20 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
     return out
 
 
+def _held(cycle: Cycle, engagement: Engagement, stretch: Stretch) -> bool:
+    """True if friction alone holds the wheel in a stretch, so that it drives nothing."""
+    at = contact(engagement, 0.5 * (stretch.start + stretch.end), 1, reactions=False)
+    return wheel_grip(cycle.case, at, stretch.drives, stretch.slides).scalars()[0] <= 0.0
+
+
 def _back_driven(
     cycle: Cycle, summaries: Mapping[str, LoadSummary[float | None]]
 ) -> Iterator[Notice]:
     torque, noun = summaries["input_torque_Nm"], cycle.mechanism.output.noun
-    least, most = torque.min, torque.max
-    if least is None or not least < -ROUNDED * abs(most or least):
+    # a torque without a bound is no measure of the rounding of another
+    largest = summaries["wheel_torque_Nm"].max if torque.max is None else torque.max
+    least = torque.min
+    if least is None or not least < -ROUNDED * abs(largest or least):
         return
     driven = back_driven_deg(cycle)
     if not driven:

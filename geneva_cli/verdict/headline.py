@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from geneva_cli.answer import FAILS, PASSES, WARNS, SummaryLine
 from geneva_cli.errors import Notice, is_warning
 from geneva_cli.names import spoken
-from geneva_cli.output import shown
+from geneva_cli.output import shown, shown_text
 from geneva_cli.output.document.values import value_text
 from geneva_cli.table import Table, record_table
 
@@ -69,7 +69,7 @@ def warning_lines(checks: Iterable[Check], warnings: Iterable[str]) -> list[Summ
 def warning(text: str) -> SummaryLine:
     """The line of a warning, and the command that explains it."""
     explained = f"geneva explain {text.name}" if isinstance(text, Notice) else ""
-    return SummaryLine("warning", text, explained, WARNS)
+    return SummaryLine("warning", shown_text(text), explained, WARNS)
 
 
 def input_lines(with_units: Iterable[str]) -> list[SummaryLine]:

@@ -23,6 +23,7 @@ def motion_warnings(mechanism: Mechanism) -> list[Notice]:
     """The warnings about a machine that need neither its loads nor its parts."""
     return [
         *_of_wheel(mechanism),
+        *_of_distance(mechanism),
         *_loose_fits(mechanism),
         *_rounded_points(mechanism),
         *_overtaken(mechanism),
@@ -44,6 +45,20 @@ def _of_wheel(mechanism: Mechanism) -> Iterator[Notice]:
             "nothing-holds",
             "nothing holds the wheel in the dwell, because there is no locking disc: set "
             'held_by = "brake", "detent" or "pin" in [wheel]',
+        )
+
+
+def _of_distance(mechanism: Mechanism) -> Iterator[Notice]:
+    """A warning for a rim that is given without the centre distance on which it depends."""
+    size = mechanism.spec.size
+    if size.wheel_radius_mm is None or size.center_distance_mm is not None:
+        return
+    L = mechanism.center_distance_mm
+    if mechanism.spec.given_distance_mm == L:  # some drives solve for it
+        yield Notice(
+            "no-centre-distance",
+            f"wheel_radius_mm = {size.wheel_radius_mm:g} is given without a centre distance, so "
+            f"L = {L:g} mm is taken: set center_distance_mm in [size]",
         )
 
 

@@ -30,7 +30,19 @@ from geneva_cli.verdict.checks.registry import LIMITS, MOTION
 
 
 def remedies(check: Check, mechanism: Mechanism) -> Iterator[Change]:
-    """Changes of the spec that may make a failing check pass, the likeliest first."""
+    """Changes of the spec that may make a failing check pass, the likeliest first.
+
+    A centre distance that the spec gives is changed for its limits only, and not for its parts.
+    """
+    spec = mechanism.spec
+    kept = spec.size.center_distance_mm is not None
+    if kept and spec.limits.as_dict().get(check.name) is None:
+        yield from (change for change in _candidates(check, mechanism) if change is not _LARGER)
+    else:
+        yield from _candidates(check, mechanism)
+
+
+def _candidates(check: Check, mechanism: Mechanism) -> Iterator[Change]:
     name = check.name
     own = {} if name in MOTION or name in LIMITS else _own_sizes(mechanism)
     # a size that the reason names, such as "wheel_bore_mm = 30: it must be below 20"
@@ -123,6 +135,7 @@ _MILDER = (
     *_MOTION,
     _SLOTS,
 )
+# The speed is a requirement: it is changed where a limit forbids it, not for a part's size.
 _SLOWER = scaled("drive", "n_rpm", 1e-3)
 _LARGER = scaled("size", "center_distance_mm", 20.0)
 _LESS_LOAD = (_SLOWER, _LARGER)
@@ -157,11 +170,10 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         scaled("size", "pin_mm", 1.9),
         scaled("size", "roller_radius_mm", 3.0),
         set_to("size", "pin_held", "fixed"),
-        scaled("size", "face_width_mm", 0.1),
         left_out("size", "pin_mm"),
-        *_LESS_LOAD,
+        _LARGER,
     ),
-    "horn_stress_MPa": (_WIDER_FACE, scaled("size", "lock_radius_mm", 0.5), *_LESS_LOAD),
+    "horn_stress_MPa": (_WIDER_FACE, scaled("size", "lock_radius_mm", 0.5), _LARGER),
     "lock_horn_stress_MPa": (_WIDER_FACE, scaled("size", "lock_radius_mm", 0.5), _LARGER),
     "lock_stress_max_MPa": _BLUNTER,
     "lock_deflection_max_deg": (scaled("size", "lock_clearance_mm", 0.1), _WIDER_FACE, _LARGER),
@@ -170,7 +182,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         scaled("shaft", "wheel_overhang_mm", 0.1),
         scaled("size", "wheel_bore_mm", 5.0),
         left_out("size", "wheel_bore_mm"),
-        *_LESS_LOAD,
+        _LARGER,
     ),
     "crank_shaft_stress_MPa": (
         scaled("shaft", "crank_diameter_mm", 5.0),
@@ -178,43 +190,43 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         scaled("size", "arm_bore_mm", 5.0),
         left_out("size", "arm_bore_mm"),
         left_out("size", "crank_bore_mm"),
-        *_LESS_LOAD,
+        _LARGER,
     ),
     "arm_stress_MPa": (
         scaled("size", "arm_thickness_mm", 10.0),
         scaled("size", "arm_eye_mm", 3.0),
         scaled("size", "arm_hub_mm", 3.0),
         left_out("size", "arm_thickness_mm"),
-        *_LESS_LOAD,
+        _LARGER,
     ),
     # a first wheel is as thick as its crank, which is a link
     "first_pin_stress_MPa": (
         scaled("size", "roller_radius_mm", 3.0),
         scaled("size", "pin_mm", 1.9),
-        *_LESS_LOAD,
+        _LARGER,
     ),
-    "first_horn_stress_MPa": (scaled("size", "link_thickness_mm", 10.0), *_LESS_LOAD),
-    "first_crank_shaft_stress_MPa": (scaled("size", "link_bore_mm", 5.0), *_LESS_LOAD),
-    "first_arm_stress_MPa": (scaled("size", "link_thickness_mm", 10.0), *_LESS_LOAD),
+    "first_horn_stress_MPa": (scaled("size", "link_thickness_mm", 10.0), _LARGER),
+    "first_crank_shaft_stress_MPa": (scaled("size", "link_bore_mm", 5.0), _LARGER),
+    "first_arm_stress_MPa": (scaled("size", "link_thickness_mm", 10.0), _LARGER),
     "wheel_clamp_Nm": (
         scaled("size", "wheel_hub_mm", 5.0),
         Change("size", "wheel_clamp_mm", _wider_screws),
-        *_LESS_LOAD,
+        _LARGER,
     ),
     "crank_clamp_Nm": (
         scaled("size", "crank_hub_mm", 5.0),
         Change("size", "crank_clamp_mm", _wider_screws),
-        *_LESS_LOAD,
+        _LARGER,
     ),
     "wheel_key_pressure_MPa": (
         scaled("size", "wheel_thickness_mm", 10.0),
         scaled("size", "wheel_bore_mm", 5.0),
-        *_LESS_LOAD,
+        _LARGER,
     ),
     "crank_key_pressure_MPa": (
         scaled("size", "arm_thickness_mm", 10.0),
         scaled("size", "arm_bore_mm", 5.0),
-        *_LESS_LOAD,
+        _LARGER,
     ),
     "pressure_angle_deg": (set_to("motion", "ratio", "matched"), *_MOTION, _SLOTS),
     "undercut_mm": (_SMALLER, *_MOTION),

@@ -254,9 +254,11 @@ def passes(command: str) -> dict[str, bool | None]:
 def warned(example: str) -> set[str]:
     """Names of the warnings that a command gives, or a spec with some more lines."""
     if not example.startswith("geneva "):
+        whole = example.startswith("[wheel]")
         spec = (repo.DESIGNS / "press-straight.toml").read_text(encoding="utf-8")
-        Path("more.toml").write_text("\n".join([spec, *example.split("; ")]), encoding="utf-8")
-        example = "geneva loads more.toml"
+        lines = example.split("; ") if whole else [spec, *example.split("; ")]
+        Path("more.toml").write_text("\n".join(lines), encoding="utf-8")
+        example = "geneva peaks more.toml" if whole else "geneva loads more.toml"
     result = CliRunner().invoke(app, shlex.split(example)[1:])
     assert result.exit_code == 0, result.output
     return set(re.findall(r"(?:explain |\[)([a-z-]+)", result.output))
@@ -330,3 +332,17 @@ def test_formats(tmp_path):
     run("horn_mm", "-o", str(tmp_path / "horn.md"))
     assert (tmp_path / "horn.md").read_text(encoding="utf-8") == page
     assert "check,horn_mm," in run("--format", "csv")
+
+
+@pytest.mark.parametrize(
+    ("words", "name"),
+    [
+        (["pin stress"], "pin_stress_MPa"),
+        (["pin", "stress"], "pin_stress_MPa"),
+        (["Wall", "between", "slots"], "wall_between_slots_mm"),
+        (["drives", "the", "motor"], "drives-the-motor"),
+    ],
+)
+def test_the_words_that_check_prints_are_explained(words, name):
+    result = CliRunner().invoke(app, ["explain", *words])
+    assert (result.exit_code, result.output.partition(" (")[0]) == (0, f"## {name}")

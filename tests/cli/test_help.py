@@ -11,7 +11,7 @@ from repo import GENEVA
 from typer.testing import CliRunner
 
 from geneva_cli.cli.app import COMMANDS, GROUPS, app
-from geneva_cli.manual import TOPICS
+from geneva_cli.manual import TOPICS, search
 
 EXAMPLES = [
     (name, example)
@@ -115,3 +115,18 @@ def test_the_help_of_a_command_fits_a_screen(name, monkeypatch):
 def test_help_names_the_pages_of_the_manual():
     block = geneva("--help").partition("\nManual, ")[2]
     assert all(topic in block.replace(",", "").split() for topic in TOPICS)
+
+
+def test_words_that_stand_nowhere_together_are_found_in_one_section():
+    both = [{hit[:2] for hit in search(word)} for word in ("start", "stop")]
+    assert {hit[:2] for hit in search("start stop")} == both[0] & both[1] != set()
+    assert "topic" in geneva("help", "start", "stop")
+
+
+@pytest.mark.parametrize(
+    ("command", "right"), [("table", "--n"), ("peaks", "--set drive.n_rpm=RPM")]
+)
+def test_a_speed_is_named_with_its_own_option(command, right):
+    result = CliRunner().invoke(app, [command, "--rpm", "30"])
+    assert result.exit_code == 2
+    assert f"no such option: --rpm (did you mean {right}?)" in result.output

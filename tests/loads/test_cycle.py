@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from typer.testing import CliRunner
 from words import Drive, Motion, Spec, Wheel, load
 
-from geneva_cli import Design, External, GenevaError, Load, Shaft, Size, Spherical
+from geneva_cli import Crank, Design, External, GenevaError, Internal, Load, Shaft, Size, Spherical
 from geneva_cli.cli.app import app
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.summary import reversals_deg, summaries
@@ -177,6 +177,21 @@ def test_where_the_wheel_drives_the_motor():
     assert any(f"{drag:.4g} N m in all" in text for text in warnings)
     dragged = Design.of(STEADY.replace(load=Load(0.4, drag * (1.0 + 1e-12))))
     assert dragged.loads["input_torque_Nm"].min >= 0.0
+
+
+@pytest.mark.parametrize(("n_rpm", "shown"), ((90, []), (600, [(9.194, 16.64)])))
+def test_a_wheel_that_friction_holds_drives_no_motor(n_rpm, shown):
+    """With r f = 240 mm, from -10.93 to -9.194 deg no force turns the wheel: the torque was noise.
+
+    There the pin force has no bound, and 90 rpm gave "up to 6e-15 N m". At 600 rpm the wheel does
+    drive the motor after mid-motion, by 0.9 N m.
+    """
+    size = Size(center_distance_mm=100.0, roller_radius_mm=8.0)
+    load = Load(0.1, 2.0, friction=30.0)
+    held = Design(Internal(6), Crank(n_rpm=n_rpm), size=size, load=load)
+    found = back_driven_deg(Cycle(held.mechanism))
+    assert [tuple(float(f"{x:.4g}") for x in pair) for pair in found] == shown
+    assert any("drives the motor" in text for text in held.warnings) is bool(shown)
 
 
 def test_each_bearing_of_a_shaft():

@@ -169,3 +169,16 @@ def test_jets_of_intervals_hold_those_of_floats():
         for at in np.linspace(low, low + 1.0, 5).tolist():
             for bound, value in zip(enclosed.c, curve(at, 3).c, strict=True):
                 assert bound.low <= value <= bound.high
+
+
+def test_a_jet_brings_its_own_arithmetic():
+    """A formula may begin with a number that is an interval: (high - D) of a coupler's point."""
+    three, x = Interval.exact(3.0), Jet.variable(Interval(1.0, 2.0), 1)
+    for got, (low, high) in (
+        (three - x, (1.0, 2.0)),
+        (three + x, (4.0, 5.0)),
+        (three * x, (3.0, 6.0)),
+        (three / x, (1.5, 3.0)),
+    ):
+        assert got.c[0].low <= low and high <= got.c[0].high
+        assert got.c[0].high - got.c[0].low < high - low + 1e-14

@@ -19,6 +19,7 @@ from geneva_cli.output.inches import (
     document_in_inches,
     figure_in_inches,
     table_in_inches,
+    text_in_inches,
     value_in_inches,
 )
 from geneva_cli.study.document import document
@@ -211,3 +212,26 @@ def test_pictures_of_a_report_have_their_distances_in_inches(tmp_path, ending):
     path = tmp_path / f"report.{ending}"
     run("report", TURRET, "--units", "inch", "-o", str(path))
     assert "L = 9.8425 in" in path.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("is 0.3024 kg m², 25.2 % of", f"is {0.3024 / ONE['lb in²']:.4g} lb in², 25.2 % of"),
+        ("at Ø 12 mm, 0.045 to 1.2 mm,", "at Ø 0.4724 in, 0.001772 to 0.04724 in,"),
+        ("up to -5 N m at 12.3°", f"up to {-5.0 / ONE['lbf in']:.4g} lbf in at 12.3°"),
+        ("reduce slot_clearance_mm to 0.06", "reduce slot_clearance_mm to 0.06"),
+        ("mass_kg = 15.6 and 2 m/s²", f"mass_kg = 15.6 and {2.0 / ONE['in/s²']:.4g} in/s²"),
+        ("H11/c11 of ISO 286 in 5 min", "H11/c11 of ISO 286 in 5 min"),
+    ],
+)
+def test_a_sentence_is_in_inches(text, shown):
+    assert text_in_inches(text) == shown
+
+
+def test_warnings_are_in_inches():
+    """The wheel's inertia: 0.3024 kg m² are 1033 lb in²."""
+    words = ["check", str(DESIGNS / "turret.toml"), "--units", "inch"]
+    result = CliRunner().invoke(app, words)
+    assert f"is {0.3024 / ONE['lb in²']:.4g} lb in²" in result.output
+    assert "kg m²" not in result.output and "kg m²" in CliRunner().invoke(app, words[:2]).output

@@ -146,6 +146,7 @@ def test_a_length_is_the_nearest_float(text, mm):
     [
         ("a_mm", "8 lb", "must be in mm or cm, m, in, ft"),
         ("a_mm", "8 inhc", 'unknown unit inhc (did you mean "inch"?); use mm or'),
+        ("a_mm", '8"', 'unknown unit " (did you mean "in"?); use mm or'),
         ("a_mm", "12,5", ": write 12.5, with a point"),
         ("a_mm", "12,5 mm", ": write 12.5, with a point"),
         ("a_mm", "8", ": write 8 without quotation marks"),

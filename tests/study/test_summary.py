@@ -5,11 +5,13 @@ import re
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import repo
 from sampling import some
 from typer.testing import CliRunner
 
+from geneva_cli import Crank, External, Load, Motor
 from geneva_cli.answer import FAILS, PASSES, WARNS, Summary, SummaryLine
 from geneva_cli.cli.app import app
 from geneva_cli.design import Design, load
@@ -78,6 +80,26 @@ def test_a_turret_gets_one_motor() -> None:
 def test_a_slow_input_without_a_reducer_gets_a_gear_ratio() -> None:
     first, *_ = of_loads(design("internal-z6")).summaries
     assert line(first, "motor").text.endswith("as gear ratio 46.7 from 1400 rpm")
+
+
+def test_a_motor_on_the_input_shaft_keeps_its_ratio_and_shows_its_need() -> None:
+    """A stepper without a reducer: the greatest T1 w of the cycle, and T1, far below 60 W.
+
+    T1 = (I w² psi'' + T) psi' is greatest at the root of its derivative, here by a scan; a step of
+    2e-5 of the motion is within 1e-8 of it.
+    """
+    w, a = 15.0 * math.tau / 60.0, np.linspace(-67.5, 67.5, 50_001) * math.pi / 180.0
+    l = math.sin(math.pi / 8)
+    D = 1.0 - 2.0 * l * np.cos(a) + l * l
+    speed, rate = l * (np.cos(a) - l) / D, -l * (1.0 - l * l) * np.sin(a) / D**2
+    torque = float(((0.01 * w * w * rate + 0.02) * speed).max())
+    direct = Design(
+        External(8), Crank(n_rpm=15.0), load=Load(0.01, 0.02), motor=Motor(gear_ratio=1.0)
+    )
+    first, *_ = of_loads(direct).summaries
+    motor = line(first, "motor")
+    assert motor.text == f"{torque * w:.4g} W, {torque:.4g} N m, 15 rpm, gear ratio 1"
+    assert "less than the smallest motor of IEC 60072-1, 0.06 kW" in motor.note
 
 
 def test_where_the_wheel_drives_the_motor_it_is_said() -> None:

@@ -9,21 +9,21 @@ from geneva_cli.cli.options import Format, Output
 
 EXAMPLES = (
     "geneva explain",
-    "geneva explain horn_mm",
+    "geneva explain pin stress",
     "geneva explain turns-back",
     "geneva explain loads.pin_force_N.max --format json",
 )
 
 
 def run(
-    word: Annotated[
-        str,
+    words: Annotated[
+        list[str] | None,
         typer.Argument(
             metavar="[CHECK|QUANTITY|KIND]",
             help="horn_mm, acceleration.max, side-crank, a warning, a part, ...; without one: all.",
             autocompletion=completion.words(completion.explained),
         ),
-    ] = "",
+    ] = None,
     output: Output = "-",
     format: Format = "",
 ) -> None:
@@ -33,6 +33,7 @@ def run(
     from geneva_cli.specfile.meanings import Meaning, as_markdown, listed, meanings
     from geneva_cli.table import Reading, rows_table
 
+    word = " ".join(words or ())
     if not word:
         reading = Reading(("name", "about"))
         table = rows_table(("group", "name", "about"), listed()).replaced(reading=reading)

@@ -16,20 +16,21 @@ EXAMPLES = (
 
 def run(
     context: typer.Context,
-    topic: Annotated[
-        str,
+    words: Annotated[
+        list[str] | None,
         typer.Argument(
-            metavar="[WORD]",
-            help="A page, a command, or a word to search for; without one: all pages.",
+            metavar="[WORD...]",
+            help="A page, a command, or words to search for; without one: all pages.",
             autocompletion=completion.words(completion.topics),
         ),
-    ] = "",
+    ] = None,
 ) -> None:
     """Show a page of the manual, the options of a command, or all places of a word."""
     from geneva_cli.manual import TOPICS, Hit, contents, page, search
     from geneva_cli.output import show, show_markdown, show_text
     from geneva_cli.table import Reading, rows_table
 
+    topic = " ".join(words or ())
     commands: Any = context.find_root().command
     if f"{topic}s" in TOPICS and topic not in commands.list_commands(context):
         topic = f"{topic}s"

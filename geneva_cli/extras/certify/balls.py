@@ -15,7 +15,7 @@ from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from fractions import Fraction
-from typing import ClassVar, NoReturn, cast
+from typing import ClassVar, NoReturn, Self, cast
 
 from flint import arb, ctx, fmpq
 
@@ -52,7 +52,7 @@ class Ball(Enclosed):
         self.arb = value
 
     @classmethod
-    def exact(cls, x: float) -> Ball:
+    def exact(cls, x: float) -> Self:
         """The ball of one double."""
         return cls(arb(x))
 

@@ -21,7 +21,7 @@ from geneva_cli.loads.forces import (
     wheel_torque,
 )
 from geneva_cli.loads.instant import Instant
-from geneva_cli.numerics.arrays import Undecided
+from geneva_cli.numerics.arrays import Undecided, enclosed
 from geneva_cli.numerics.jet import Jet, Number
 
 if TYPE_CHECKING:
@@ -58,7 +58,8 @@ def load_formula(mechanism: Mechanism, engagement: Engagement, quantity: str) ->
 
     def load(input_deg: Number, order: int) -> Jet:
         at = contact(engagement, input_deg, order, reactions=False)
-        instants = (Instant(case, at, *signs) for signs in _signs(case, at))
+        own = enclosed(input_deg, case)
+        instants = (Instant(own, at, *signs) for signs in _signs(own, at))
         return _joined([_bounded(QUANTITIES[quantity](instant)) for instant in instants])
 
     return torque if quantity == WHEEL_TORQUE else load

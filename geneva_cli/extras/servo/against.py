@@ -109,12 +109,12 @@ def alternative(design: Design, name: str, rotor: bool = False) -> Mechanism:
     n_rpm = 60.0 / first.cycle_s
     inertia, torque = inertia_kgm2(spec), resisting_torque_Nm(spec)
     # A cam's reducer lets the motor turn as fast as before.
-    motor = own.replace(gear_ratio=own.gear_ratio * spec.drive.n_rpm / n_rpm)
+    motor = own.replace(gear_ratio=own.ratio * spec.drive.n_rpm / n_rpm)
     efficiency = spec.load.efficiency
     if name == "servo":
         motor, efficiency = own, 1.0
     if rotor:
-        inertia = inertia / own.gear_efficiency + own.inertia_kgm2 * own.gear_ratio**2
+        inertia = inertia / own.gear_efficiency + own.inertia_kgm2 * own.ratio**2
         torque = torque / own.gear_efficiency
     # The extra dwell angle takes the place of the motion angle that z slots would have.
     extra = 180.0 - 360.0 / z - 360.0 * first.motion_s / first.cycle_s
@@ -140,12 +140,12 @@ def _values(design: Design, name: str) -> dict[str, Cell]:
     rotating = alternative(design, name, rotor=True)
     most, power = pick(("loads.torque_Nm.max", "cycle.power_W.max")).of(rotating)
     values |= {
-        "motor_torque_max_Nm": over(most, motor.gear_ratio),
+        "motor_torque_max_Nm": over(most, motor.ratio),
         "motor_torque_rms_Nm": _servo_rms_Nm(design) if most is not None else None,
         "power_max_W": power,
     }
     inertia = inertia_kgm2(design.spec)
-    values["inertia_ratio"] = over(inertia, motor.inertia_kgm2 * motor.gear_ratio**2)
+    values["inertia_ratio"] = over(inertia, motor.inertia_kgm2 * motor.ratio**2)
     return values
 
 
@@ -169,8 +169,7 @@ def _servo_rms_Nm(design: Design) -> float:
             drives = inertia * 0.5 * (one + two) + resisting > 0.0
             eta = 1.0 / motor.gear_efficiency if drives else motor.gear_efficiency
             a, b = (
-                (inertia * x + resisting) * eta / motor.gear_ratio
-                + motor.inertia_kgm2 * motor.gear_ratio * x
+                (inertia * x + resisting) * eta / motor.ratio + motor.inertia_kgm2 * motor.ratio * x
                 for x in (one, two)
             )
             share = (two - one) / (ends[1] - ends[0]) if inner else 1.0

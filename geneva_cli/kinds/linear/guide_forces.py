@@ -15,9 +15,10 @@ greater of |M|/h and mu F. The rack's balance along its travel is d F = T/R + D,
 D y' on top. Both are in ``loads.forces``. The friction is taken to act in the bar's middle: half
 a bar's width moves M by nu mu F/2 of it.
 
-Where D is F, no force moves the rack: its guide locks. The lever |M|/F is longest at entry and
-exit, where it is R - x0 without friction in the slot; while the roller drives, that friction
-shortens it. So the guide locks from nu = h/(R - x0) on.
+Where D is F, no force moves the rack: its guide locks. While the roller drives, friction in the
+slot takes mu |y + r| from the lever |M|/F. It is longest at entry, R - x0 - mu (R - r); above the
+greatest real friction it is negative, and longest at exit. So the guide locks from nu = h over the
+greatest of R - x0 - mu (R - r), mu (R + r) - (R - x0) and mu h.
 """
 
 from __future__ import annotations
@@ -56,6 +57,9 @@ def guide_force(mechanism: Mechanism) -> Peak[float]:
 
 
 def locks_at_friction(mechanism: Mechanism) -> float:
-    """The coefficient of friction from which a guide locks itself."""
-    place = guide_place(mechanism)
-    return place.half / (mechanism.center_distance_mm - place.middle)
+    """The friction from which a guide locks itself, with the slot's own friction as it is."""
+    place, mu = guide_place(mechanism), mechanism.spec.load.friction
+    R, r = mechanism.center_distance_mm, mechanism.roller_radius_mm
+    far = R - place.middle
+    levers = (far - mu * (R - r), mu * (R + r) - far, mu * place.half)
+    return place.half / max(levers)

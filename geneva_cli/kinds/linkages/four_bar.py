@@ -13,7 +13,7 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinds.linkages.linkage import Linkage, Moving, RodPath, refuse_proportions
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link
-from geneva_cli.numerics.arrays import larger, library, parameter, smaller
+from geneva_cli.numerics.arrays import enclosed, larger, library, parameter, smaller
 from geneva_cli.numerics.jet import Jet, sqrt, turned_at
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import Example
@@ -196,14 +196,15 @@ class CouplerDisplacement(NamedTuple):
 
     def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
         """Displacement from sin d and 1 - cos d of the crank's rotation d since then."""
-        x, y = sine * -self.s - versine * self.t, sine * self.t - versine * self.s
-        D = x * -self.span
-        u = 1.0 / (D + self.D0)
-        du = D * u / -self.D0
-        now = sqrt((self.high - D) * (D + self.low))
-        N = D * (self.high - self.low - D) / (now + self.root)
-        k, n = du * self.by_u, (N * u + du * self.root) * self.by_N
-        kk, nn = k + (self.by_u / self.D0 + self.half), n + self.root * self.by_N / self.D0
-        ex = y * nn - x * kk + k * self.x0 + n * self.s
-        ey = n * self.x0 - x * nn - y * kk - k * self.s
-        return x + ex * self.P - ey * self.Q, y + ey * self.P + ex * self.Q
+        s, t, x0, D0, span, high, low, root, half, by_u, by_N, P, Q = enclosed(sine.c[0], self)
+        x, y = sine * -s - versine * t, sine * t - versine * s
+        D = x * -span
+        u = 1.0 / (D + D0)
+        du = D * u / -D0
+        now = sqrt((high - D) * (D + low))
+        N = D * (high - low - D) / (now + root)
+        k, n = du * by_u, (N * u + du * root) * by_N
+        kk, nn = k + (by_u / D0 + half), n + root * by_N / D0
+        ex = y * nn - x * kk + k * x0 + n * s
+        ey = n * x0 - x * nn - y * kk - k * s
+        return x + ex * P - ey * Q, y + ey * P + ex * Q

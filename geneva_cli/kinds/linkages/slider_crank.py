@@ -12,6 +12,7 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinds.linkages.linkage import Linkage, Moving, RodPath, refuse_proportions
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link
+from geneva_cli.numerics.arrays import enclosed
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
 from geneva_cli.spec.schema import Example
@@ -142,9 +143,9 @@ class RodDisplacement(NamedTuple):
 
     def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
         """Displacement from sin d and 1 - cos d of the crank's rotation d since then."""
-        a, s, c = self.a, self.s, self.c
+        s, c, ey, ex, less, more, a, b, p, q = enclosed(sine.c[0], self)
         x, y = sine * (-a * s) - versine * (a * c), sine * (a * c) - versine * (a * s)
-        dy = y / -self.b
-        now = sqrt((self.less - dy) * (dy + self.more))
-        dx = dy * (dy + 2.0 * self.ey) / -(now + self.ex)
-        return x + dx * self.p - dy * self.q, y + dy * self.p + dx * self.q
+        dy = y / -b
+        now = sqrt((less - dy) * (dy + more))
+        dx = dy * (dy + 2.0 * ey) / -(now + ex)
+        return x + dx * p - dy * q, y + dy * p + dx * q

@@ -84,7 +84,7 @@ class Rotation(NamedTuple):
         turned = self._turned(input_deg, order)
         # the shaft never turns back, so the ends of an enclosure of angles decide
         angle = narrowed(turned.c[0], lambda x: self._turned(x, 0).c[0], input_deg)
-        return Jet((self.own_deg + angle / DEGREE, *turned.c[1:]))
+        return Jet((self.own_deg + library(angle).degrees(angle), *turned.c[1:]))
 
     def _turned(self, input_deg: Number, order: int) -> Jet:
         return _angle(self.advance, radians(input_deg - self.input_deg), order)
@@ -286,7 +286,7 @@ class RetimedLevel(NamedTuple):
 
     def __call__(self, tau: Number, order: int) -> Jet:
         """Position ``tau`` input radians after mid-motion."""
-        turned = self.timing(tau / DEGREE, order)
+        turned = self.timing(library(tau).degrees(tau), order)
         return composed(self.own(turned.c[0], order), turned)
 
 
@@ -298,7 +298,7 @@ class RetimedRate(NamedTuple):
 
     def __call__(self, tau: Number, order: int) -> Jet:
         """Rate in radians per input radian, positive with the wheel, ``tau`` after mid-motion."""
-        at, turned = self.timing.at(tau / DEGREE, order + 1)
+        at, turned = self.timing.at(library(tau).degrees(tau), order + 1)
         return _of_rate(self.own.carrier(at, order), turned)
 
 

@@ -9,9 +9,10 @@ a middle fraction v of the whole motion without acceleration.
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 from geneva_cli.motion.laws.law import from_velocity
-from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.arrays import enclosed, library
 from geneva_cli.numerics.jet import Jet, Number, piecewise, sin
 
 
@@ -46,8 +47,12 @@ def _ends(b: float, d: float, v: float) -> tuple[float, float, float]:
 
 def first_half(u: Number, order: int, b: float, d: float, v: float = 0.0) -> Jet:
     """Fraction s on 0 <= u <= 1/2, with its derivatives; c is 1 - b - d."""
-    ends = _ends(b, d, v)
-    sine, constant, cosine = ends[0], ends[1] - ends[0], ends[2] - ends[1]
+    joints = (0.0, *_ends(b, d, v), 0.5)
+    b, d, v = enclosed(u, (b, d, v))
+    rise = 0.5 * (1.0 - v)
+    sine = rise * b
+    level = rise * (1.0 - d) if joints[1] < joints[2] else sine  # where the cosine begins
+    constant, cosine = level - sine, rise - level
     # v only stretches the time: top speed V of the rise alone, in 1 - v of its time
     m = library(u)
     pi, greatest = m.pi, peak(b, d, m.pi)
@@ -80,7 +85,7 @@ def first_half(u: Number, order: int, b: float, d: float, v: float = 0.0) -> Jet
 
     def end(x: Number) -> Jet:
         rate = 0.5 * pi / cosine
-        t = x - ends[1]
+        t = x - level
 
         def position(x: Number) -> Number:
             return s_2 + v_2 * t + 2.0 * a * (m.sin(0.5 * rate * t) / rate) ** 2
@@ -89,14 +94,14 @@ def first_half(u: Number, order: int, b: float, d: float, v: float = 0.0) -> Jet
             x,
             order,
             position,
-            lambda x: sin((x - ends[1]) * rate) * (a / rate) + v_2,
+            lambda x: sin((x - level) * rate) * (a / rate) + v_2,
         )
 
     def middle(x: Number) -> Jet:
         return from_velocity(x, order, lambda x: 0.5 - top * (0.5 - x), lambda x: x * 0.0 + top)
 
-    lasting = ((sine, start), (constant, flat), (cosine, end), (0.5 * v, middle))
-    pieces = [(until, piece) for until, (t, piece) in zip((*ends, 0.5), lasting, strict=True) if t]
+    each = zip(pairwise(joints), (start, flat, end, middle), strict=True)
+    pieces = [(until, piece) for (since, until), piece in each if since < until]
     if len(pieces) == 1:
         return pieces[0][1](u)
     return piecewise(u, [until for until, _ in pieces[:-1]], [piece for _, piece in pieces])

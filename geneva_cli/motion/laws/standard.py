@@ -197,13 +197,13 @@ def _tilted(u: Number, order: int, shape: Number) -> Jet:
 
     def position(u: Number) -> Number:
         x = m.pi * u
-        even = x - 2.0 / 3.0 * m.sin(2.0 * x) + m.sin(4.0 * x) / 12.0
-        return (even - 64.0 / 15.0 * shape * m.sin(x) ** 5) / m.pi
+        even = x - 2.0 * m.sin(2.0 * x) / 3.0 + m.sin(4.0 * x) / 12.0
+        return (even - 64.0 * shape * m.sin(x) ** 5 / 15.0) / m.pi
 
     def velocity(u: Jet) -> Jet:
         s, c = sin_cos(u * m.pi)
         squared = s * s
-        out: Jet = squared * squared * (1.0 - c * (8.0 * shape)) * (8.0 / 3.0)
+        out: Jet = squared * squared * (1.0 - c * (8.0 * shape)) * 8.0 / 3.0
         return out
 
     return from_velocity(u, order, position, velocity)

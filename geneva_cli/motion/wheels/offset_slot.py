@@ -8,7 +8,7 @@ from functools import partial
 from geneva_cli.motion.engagement import Anchor, Slot, SlotAxis
 from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion, turned
 from geneva_cli.motion.wheels.skew import Skew
-from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.arrays import enclosed, library
 from geneva_cli.numerics.jet import Array, Jet, Number, integral, moment, piecewise, sqrt
 
 
@@ -29,7 +29,8 @@ class OffsetSlot(Slot):
         return SlotAxis(depth.lower, depth.derivative())
 
     def _depth(self, input_deg: Number, order: int) -> Jet:
-        return _depth(self.skew, self.path.middle.displacement_at(input_deg, order)[0])[0]
+        e, deepest = enclosed(input_deg, (self.skew.e, self.skew.deepest))
+        return _depth(e, deepest, self.path.middle.displacement_at(input_deg, order)[0])[0]
 
 
 class OffsetSlotMotion(StraightSlotMotion):
@@ -67,7 +68,7 @@ class OffsetSlotMotion(StraightSlotMotion):
         -e) with s² = rho² - e². The excess of s over ``along`` is written so that it vanishes with
         ``across``. The wheel's angle and speed then vanish too.
         """
-        e = self.skew.e
+        (e,) = enclosed(x, (self.skew.e,))
         along, across = anchor.place(x, order)
         more = across * (across - 2.0 * e)  # s² - along²
         square = along * along + more
@@ -82,9 +83,10 @@ class OffsetSlotMotion(StraightSlotMotion):
 
     def _inside(self, x: Number, order: int, angle: bool) -> Jet:
         """Wheel angle or rate near mid-motion: the pin's direction minus the slot's angle to it."""
-        e, deepest, mid = self.skew.e, self.skew.deepest, self.path.middle
+        e, deepest = enclosed(x, (self.skew.e, self.skew.deepest))
+        mid = self.path.middle
         toward, across = mid.displacement_at(x, order)
-        s, rho2 = _depth(self.skew, toward)
+        s, rho2 = _depth(e, deepest, toward)
         along = toward + mid.along
         rate = _turning(along, across, s * e, rho2)
         if not angle:
@@ -96,14 +98,14 @@ class OffsetSlotMotion(StraightSlotMotion):
         return integral(rate, value)
 
 
-def _depth(skew: Skew, toward: Jet) -> tuple[Jet, Jet]:
+def _depth(e: float, deepest: float, toward: Jet) -> tuple[Jet, Jet]:
     """Coordinate s of the pin along its slot's axis, and rho² = s² + e².
 
     From mid-motion the pin moves by u = l (1 - cos a) along the line of centres. So s² = deepest² +
     2 u is a sum of positive terms.
     """
-    square = toward * 2.0 + skew.deepest**2
-    return sqrt(square), square + skew.e**2
+    square = toward * 2.0 + deepest**2
+    return sqrt(square), square + e**2
 
 
 def exact_rate(e: float, sin_b: float, cos_b: float) -> Callable[[Jet, Jet], Jet]:

@@ -17,7 +17,7 @@ from geneva_cli.output.document.blocks import (
     Prose,
     TextList,
 )
-from geneva_cli.output.document.pdf_table import facts, grid
+from geneva_cli.output.document.pdf_table import caption, facts, grid
 from geneva_cli.output.letters import western
 from geneva_cli.output.pdf import pdf_file
 from geneva_cli.output.pdf.paper import (
@@ -80,6 +80,7 @@ def _block(block: Block) -> Iterator[Item]:
     elif isinstance(block, Grid):
         yield from grid(block)
     elif isinstance(block, Picture):
+        yield from caption(block.drawing.title)
         yield drawing(block.drawing)
     else:
         assert isinstance(block, Curves)

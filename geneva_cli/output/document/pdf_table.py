@@ -40,7 +40,7 @@ def grid(table: Grid) -> Iterator[Item]:
     ]
     widths = _widths(table.heads, rows)
     head = _row(table.heads, right, widths, bold=True)
-    yield from _caption(table.caption)
+    yield from caption(table.caption)
     has_head = any(table.heads)
     if has_head:
         yield head._replace(keeps=True)
@@ -53,7 +53,7 @@ def facts(table: Facts) -> Iterator[Item]:
     """Names and values, in two columns read downwards."""
     texts = [(fact.name, value_text(fact.value, fact.unit)) for fact in table.facts]
     half = (len(texts) + 1) // 2
-    yield from _caption(table.caption)
+    yield from caption(table.caption)
     gap = 6.0  # between facts side by side
     long = 0.5 * (WIDE - gap)
     for i in range(half):
@@ -64,7 +64,8 @@ def facts(table: Facts) -> Iterator[Item]:
     yield _space()
 
 
-def _caption(text: str) -> Iterator[Item]:
+def caption(text: str) -> Iterator[Item]:
+    """The line above a table or a picture; nothing without a text."""
     if text:
         yield Item(
             STEP + 1.4,

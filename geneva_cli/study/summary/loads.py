@@ -12,6 +12,7 @@ from geneva_cli.loads.summaries import LoadSummary
 from geneva_cli.loads.summary import no_load
 from geneva_cli.motion.both_ways import every_way
 from geneva_cli.numerics.tolerances import TIE
+from geneva_cli.spec.tables import Motor
 from geneva_cli.study.fields import pick
 from geneva_cli.study.summary.titles import summary_of
 from geneva_cli.verdict.headline import bare, measured
@@ -111,18 +112,22 @@ def motor_line(design: Design) -> SummaryLine:
     if motor.rated_kW is None:
         text = f"{needed}: more than any standard motor has"
         return SummaryLine("motor", text, "geneva explain motor", WARNS)
+    power, source = measured(motor.rated_kW, "kW"), "the next power of IEC 60072-1"
+    if motor.is_small:
+        source = f"less than the smallest motor of IEC 60072-1, {power}"
+        power = f"{measured(motor.needed_W, 'W')}, {measured(motor.torque_Nm, 'N m')}"
     return SummaryLine(
         "motor",
-        f"{measured(motor.rated_kW, 'kW')}, {_geared(motor, keys.gear_ratio)}",
-        f"{needed}, {torque} on the input; the next power of IEC 60072-1 (geneva explain motor)",
+        f"{power}, {_geared(motor, keys)}",
+        f"{needed}, {torque} on the input; {source} (geneva explain motor)",
     )
 
 
-def _geared(motor: RecommendedMotor, gear_ratio: float) -> str:
-    """Speed and gear ratio; a suggestion for a slow input without a reducer."""
+def _geared(motor: RecommendedMotor, keys: Motor) -> str:
+    """Speed and gear ratio; a suggestion for a slow input, if the spec leaves the ratio open."""
     four_poles_rpm = 1400.0  # at full load, of small motors with four poles at 50 Hz
-    if gear_ratio != 1.0 or 2.0 * motor.rpm > four_poles_rpm:
-        return f"{measured(motor.rpm, 'rpm')}, gear ratio {measured(gear_ratio)}"
+    if keys.gear_ratio is not None or 2.0 * motor.rpm > four_poles_rpm:
+        return f"{measured(motor.rpm, 'rpm')}, gear ratio {measured(keys.ratio)}"
     ratio = measured(four_poles_rpm / motor.rpm, digits=3)
     return (
         f"{measured(motor.rpm, 'rpm')} behind its reducer, as gear ratio {ratio} from "

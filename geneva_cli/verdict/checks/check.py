@@ -23,8 +23,9 @@ class Check(NamedTuple):
     ``passes`` is None if it is not known. ``why`` is the reason for an unknown value, or for
     missing advice on a failing check; of a check that passes it says what is proved. ``at_deg`` is
     the input angle of the value, None if it is not a value at one angle. ``nearest`` is one change
-    of the spec with which all checks pass. ``direction`` is that of the worse value, "forwards" or
-    "backwards", of a machine that turns both ways; empty if both are equal.
+    of the spec with which all checks pass, or one for each failing check: "a = 1 and b = 2".
+    ``direction`` is that of the worse value, "forwards" or "backwards", of a machine that turns
+    both ways; empty if both are equal.
     """
 
     name: str

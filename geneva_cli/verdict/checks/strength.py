@@ -46,6 +46,8 @@ def _part(
     return Bound(limit, f"{name}.{stress}", place, "at most", f"{name}.allowed_MPa", what, *sizes)
 
 
+# A change of one size moves others, such as bores and overhangs by load.
+AS_DRAWN = "with the other parts as they are"
 BOUNDS = {
     "pv_max_W_m2": Bound("limits.pv_max_W_m2", LIMITED["pv_max_W_m2"]),
     # L10
@@ -75,10 +77,10 @@ BOUNDS = {
     # shear stresses, by the ASME code
     "wheel_shaft_stress_MPa": _part(
         "shaft.shear_stress_max_MPa", "wheel_shaft", "the wheel's shaft", "diameter_mm"
-    ),
+    )._replace(held=AS_DRAWN),
     "crank_shaft_stress_MPa": _part(
         "shaft.shear_stress_max_MPa", "crank_shaft", "the crank's shaft", "diameter_mm"
-    ),
+    )._replace(held=AS_DRAWN),
     "arm_stress_MPa": _part(
         "material.wheel.stress_max_MPa", "arm", "arm_thickness_mm", "thickness_mm"
     )._replace(held="with these bores"),

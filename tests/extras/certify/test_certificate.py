@@ -75,6 +75,14 @@ def test_the_bounds_hold_a_closed_form():
             assert found.where == "unique"
 
 
+def test_the_bounds_hold_the_jerk_of_seven_slots():
+    """It is l (1 + l)/(1 - l)³; a third that was rounded to a double excluded it by 4e-17."""
+    with mpmath.workdps(40):
+        l = mpmath.sin(mpmath.pi / 7)
+        found = Design(External(7)).certificate("jerk")
+        assert found.low <= l * (1 + l) / (1 - l) ** 3 <= found.high
+
+
 # Machines, and the wheel's angle at an input angle in 50 digits, from decimals.
 def _crank(l, a):
     return mpmath.atan2(l * mpmath.sin(a), 1 - l * mpmath.cos(a))

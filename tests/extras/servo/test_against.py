@@ -106,7 +106,7 @@ def test_the_servo_turns_its_rotor(eta, torque):
     settings = (f"motor.gear_efficiency={eta}", f"load.torque_Nm={torque}")
     spec = load(TURRET, settings).spec
     own = columns(settings=settings)["servo"]
-    i, rotor, inertia = spec.motor.gear_ratio, spec.motor.inertia_kgm2, spec.load.inertia_kgm2
+    i, rotor, inertia = spec.motor.ratio, spec.motor.inertia_kgm2, spec.load.inertia_kgm2
     motion, cycle = own["motion_s"], own["motion_s"] + own["dwell_s"]
     u = (np.arange(400_000) + 0.5) / 400_000
     corners = np.array([0.0, 0.25, 0.75, 1.0]) / 3.0

@@ -7,8 +7,10 @@ import math
 
 import numpy as np
 import pytest
+import repo
 
 from geneva_cli import Design, EllipticalGears, External, Linear, Load, SideCrank, Size
+from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.moments import moments
@@ -462,7 +464,8 @@ def test_the_guide_bears_what_balances_the_roller(mass, force, mu):
     ends = [max(map(abs, ends_by_equilibrium(a, loaded, x0, half))) for a in angles]
     # the scan's spacing of 0.009 degrees is within 1e-7 of a smooth peak, and has both ends
     assert values["guide.force_N"] == pytest.approx(max(ends), rel=1e-7)
-    assert values["guide.locks_at_friction"] == pytest.approx(half / (R - x0), rel=1e-14)
+    lever = R - x0 - mu * (R - r)
+    assert values["guide.locks_at_friction"] == pytest.approx(half / lever, rel=1e-14)
 
 
 def test_racks_of_a_batch_have_the_guides_of_each():
@@ -485,9 +488,21 @@ def test_a_guide_locks_where_its_friction_takes_all_of_the_push():
     assert rows["guide_locks"].limit == 0.2
     assert rows["guide_locks"].passes
     assert "guide_locks" not in {one.name for one in loaded.checks}
-    assert not {one.name: one for one in loaded.with_("load.friction", 0.7).checks}[
-        "guide_locks"
-    ].passes
+    dry = loaded.with_("load.guide_friction", 0.7)
+    assert not {one.name: one for one in dry.checks}["guide_locks"].passes
+
+
+@pytest.mark.parametrize("mu", (0.0, 0.3, 0.63))
+def test_a_guide_locks_where_the_loads_lose_their_bound(mu):
+    """A percent below that friction the pin's force has a bound, a percent above it has none."""
+    feeder = load(str(repo.DESIGNS / "linear.toml"), [f"load.friction={mu}"])
+    feeder = feeder.with_("load.guide_friction", 0.1)
+    locks = feeder.report.table.to_dict()["guide.locks_at_friction"]
+    for guide_friction, bounded in ((0.99 * locks, True), (1.01 * locks, False)):
+        slid = feeder.with_("load.guide_friction", guide_friction)
+        assert (slid.loads["pin_force_N"].max is not None) is bounded
+        rows = {one.name: one for one in slid.checks}
+        assert rows["guide_locks"].passes is bounded
 
 
 def test_screws_leave_walls_in_the_bars_of_a_small_printed_guide():
