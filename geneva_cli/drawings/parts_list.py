@@ -176,6 +176,7 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
         entries.append(Dimension("roller radius", r, "mm"))
         entries.append(Dimension("slot width", 2.0 * (r + clear), "mm"))
     entries += _screws_and_edges(spec.size)
+    entries += or_missing("screws", lambda: _screws(model))
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     entries += model.kind.dimensions(model)
     cranked = spec.drive.CRANKED and not spec.wheel.toothed
@@ -205,6 +206,12 @@ def _screws_and_edges(size: Size) -> Iterator[Dimension]:
     if size.edge_mm:
         kind = "rounding" if size.edge_chamfer_mm is None else "chamfer"
         yield Dimension(f"{kind} of all edges", size.edge_mm, "mm")
+
+
+def _screws(model: PartsModel) -> Iterator[Dimension]:
+    """Yield the screws between the parts, with their threads and the parts that are tapped."""
+    if model.mechanism.spec.has_parts:
+        yield from (Dimension(one.name, one.text) for one in model.built.screws)
 
 
 def _straight(mechanism: Mechanism) -> Iterator[Dimension]:

@@ -22,7 +22,7 @@ from geneva_cli.geometry.shapes import Circle, Contour, Shape
 from geneva_cli.parts.outlines.crank_outline import crank_circles
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.reliefs import is_whole, keyway_direction, reliefs, sectors
-from geneva_cli.parts.shafts.bolt_holes import bolt_radius
+from geneva_cli.parts.shafts.bolt_holes import bolt_radius, refuse_no_screw, tapped
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
 from geneva_cli.parts.sizes.arm_sizes import (
     arm_passing,
@@ -41,7 +41,7 @@ class CrankArm(NamedTuple):
     outline: Contour
     bore: Shape
     pins: list[Circle]
-    bolts: list[Circle]
+    bolts: list[Circle]  # tapped, for the screws of the locking disc
     hub: float
     eye: float
     hub_gap: float  # from the arm's end to the wheel's shaft or hub; infinite if internal
@@ -70,6 +70,7 @@ def crank_arm(parts: Outlines) -> CrankArm:
     away = [math.hypot(*c) for c in centres]
     # the wheel's hub stands on the roller's side, where the arm's end passes below the wheel
     passing = arm_passing(assembly, sizes, max(away))
+    free = 0.0 if spec.size.has_hub("wheel") else max(sizes.wheel_hub - sizes.wheel_bore, 0.0)
     standing = 0.0 if is_whole(assembly, sizes) else sizes.lock  # the sectors stand on the hub
     radius, wall = sizes.arm_bore, sizes.wall_min
     form = bore_of(spec.size, "crank", radius)
@@ -85,7 +86,8 @@ def crank_arm(parts: Outlines) -> CrankArm:
     bolted = wall_of_bolts(spec.size, wall)
     about += [Circle("ARM", c.centre, eye_about(c.radius, bolted)) for c in screwed]
     bored = form.shape("BORE", keyway_direction(assembly))
-    return CrankArm(convex_hull("ARM", about), bored, pins, screwed, hub, eye, passing - eye)
+    threads = [tapped(hole) for hole in screwed]
+    return CrankArm(convex_hull("ARM", about), bored, pins, threads, hub, eye, passing + free - eye)
 
 
 def bolts(parts: Outlines) -> list[Circle]:
@@ -101,7 +103,7 @@ def bolts(parts: Outlines) -> list[Circle]:
     if held or not (parts.crank and has_arm(parts)):
         return []
     fitting = (_bolts(parts, count) for count in (2, 1))
-    return next((some for some in fitting if _leave_walls(parts, some)), [])
+    return next((some for some in fitting if some and _leave_walls(parts, some)), [])
 
 
 def _bolts(parts: Outlines, count: int) -> list[Circle]:
@@ -111,10 +113,13 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
     directions = lock_bolt_directions([(start, end - start) for start, end in spans], count)
     rings = [_widest(parts, at) for at in directions]
     r = bolt_radius(size.lock_bolt_mm, L, min((half for _, half in rings), default=0.0))
+    if directions:
+        refuse_no_screw("lock_bolt", size.lock_bolts or 0, r)
     return [
         Circle("BORE", (far * math.cos(turn), far * math.sin(turn)), r)
         for (far, _), at in zip(rings, directions, strict=True)
         for turn in at
+        if r
     ]
 
 
@@ -153,7 +158,7 @@ def walls(arm: CrankArm, parts: Outlines) -> float:
 
     Sectors that do not reach the crank's axis have no wall around its bore.
     """
-    in_disc: list[Shape] = [*arm.bolts]
+    in_disc: list[Shape] = [*bolts(parts)]
     if parts.sizes.crank_bore and is_whole(parts.assembly, parts.sizes):
         in_disc += [s for s in crank_circles(parts.assembly, parts.sizes) if s.layer == "BORE"]
     return min(

@@ -8,12 +8,22 @@ from typing import TYPE_CHECKING, NamedTuple, Self
 
 from geneva_cli.geometry.edges import Edge
 from geneva_cli.geometry.plates import Member, Plate, edged
+from geneva_cli.geometry.shapes import Circle
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.parts.mounted_plate import mounts_of
 from geneva_cli.parts.parts_of_machine import PartsOfMachine
+from geneva_cli.parts.shafts.bolt_holes import Screws, tapped
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.gear_teeth import Writer
+
+
+class Screwed(NamedTuple):
+    """A screw of a part that is fixed to the frame: its clearance hole, and the part's name."""
+
+    hole: Circle
+    part: str
 
 
 class FrameAndShafts(NamedTuple):
@@ -22,6 +32,7 @@ class FrameAndShafts(NamedTuple):
     plate: Plate
     shafts: tuple[Member, ...]
     spacers: tuple[Member, ...] = ()  # below the parts that are screwed to it
+    screwed: tuple[Screwed, ...] = ()
 
 
 class EdgedParts(PartsOfMachine):
@@ -72,6 +83,29 @@ class EdgedParts(PartsOfMachine):
     def frame(self) -> Member:
         """The frame, which holds the shafts."""
         return self._edged([Member(self._framed.plate)])[0]
+
+    @property
+    def frame_threads(self) -> tuple[Circle, ...]:
+        """The tapped holes of the frame."""
+        return tuple(tapped(one.hole) for one in self._framed.screwed)
+
+    @property
+    def frame_screws(self) -> tuple[Screws, ...]:
+        """The screws that fix parts to the frame, and those of its mounting holes."""
+        screwed = self._framed.screwed
+        kinds = dict.fromkeys((one.part, one.hole.radius) for one in screwed)
+        fixed = (
+            Screws(
+                part,
+                sum((one.part, one.hole.radius) == (part, radius) for one in screwed),
+                2.0 * radius,
+                "the frame",
+            )
+            for part, radius in kinds
+        )
+        mounts = mounts_of(self._framed.plate)
+        own = Screws("frame", len(mounts), 2.0 * mounts[0].radius, "its base") if mounts else None
+        return (*fixed, own) if own else tuple(fixed)
 
     @property
     def _edge(self) -> Edge:

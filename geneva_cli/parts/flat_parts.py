@@ -18,7 +18,7 @@ from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension
-from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
+from geneva_cli.parts.arm import CrankArm, bolts, crank_arm, has_arm
 from geneva_cli.parts.crank_solids import arm_plate, locking_plates, roller_plates
 from geneva_cli.parts.edged_parts import EdgedParts, FrameAndShafts
 from geneva_cli.parts.frame import framed
@@ -26,7 +26,8 @@ from geneva_cli.parts.links.link_sizes import roller_pins
 from geneva_cli.parts.links.links import Links, drawn_links
 from geneva_cli.parts.outlines.outline_sizes import outlines
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
+from geneva_cli.parts.outlines.wheel_outline import dial_bolts, slot_walls, wheel_contour
+from geneva_cli.parts.shafts.bolt_holes import Screws
 from geneva_cli.parts.shafts.hub_and_shafts import crank_hub
 from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses, pin_radius
 from geneva_cli.parts.slots.roller_paths import roller_centres
@@ -164,6 +165,11 @@ class FlatParts(EdgedParts):
         }
         return radii[part]
 
+    def axle_radius(self, part: str) -> float:
+        """Return the radius of a part's shaft, or of its hub if the spec has one, mm; 0 if none."""
+        bore, hub = self.hub_radii(part)
+        return max(bore, hub) if self.mechanism.spec.size.has_hub(part) else bore
+
     @cached_property
     def crank(self) -> Member:
         """The crank: locking disc or sectors, arm, rollers on their pins, hub."""
@@ -282,6 +288,21 @@ class FlatParts(EdgedParts):
     def standing(self) -> tuple[Member, ...]:
         """The parts that stand still: a cam's groove plate, the frame, and what is between."""
         return (*self.groove_plate, *self.spacers, self.frame)
+
+    @property
+    def screws(self) -> tuple[Screws, ...]:
+        """The screws of dial, locking disc, and what is fixed to the frame."""
+        framed = self.frame_screws if self.mechanism.spec.wheel.FLAT else ()
+        if not self.drawn:
+            return framed
+        own = []
+        for fixed, holes, thread in (
+            ("dial", dial_bolts(self.drawn.assembly, self.drawn.sizes), "the dial"),
+            (self.locking[0].name, bolts(self.drawn), "the arm") if self.locking else ("", [], ""),
+        ):
+            if holes:
+                own.append(Screws(fixed, len(holes), 2.0 * holes[0].radius, thread))
+        return (*own, *framed)
 
     def require(self) -> None:
         """Raise GenevaError for a part that cannot be built, without fitting curves for it."""

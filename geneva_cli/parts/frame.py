@@ -21,7 +21,7 @@ from geneva_cli.geometry.shapes import ORIGIN, Circle, Point
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import has_arm
-from geneva_cli.parts.edged_parts import FrameAndShafts
+from geneva_cli.parts.edged_parts import FrameAndShafts, Screwed
 from geneva_cli.parts.links.link_positions import same
 from geneva_cli.parts.links.link_shafts import outside_links
 from geneva_cli.parts.links.links import Links, placed_holes
@@ -36,12 +36,13 @@ from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_hub import wheel_hub
 from geneva_cli.parts.shafts.all_shafts import all_shafts, passing, passing_arm
 from geneva_cli.parts.shafts.bearings import shoulder_length
+from geneva_cli.parts.shafts.bolt_holes import tapped
 from geneva_cli.parts.shafts.built_shafts import built_shafts
 from geneva_cli.parts.shafts.shaft import Seat
 from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses
 from geneva_cli.spec.least_wall import wall_min
 
-Screwed: TypeAlias = tuple[Circle, Plate]  # a screw's hole in the frame, and the part that it fixes
+Fixed: TypeAlias = tuple[Circle, Plate]  # a screw's clearance hole, and the part that it fixes
 
 
 def framed(
@@ -76,7 +77,7 @@ def framed(
     drilled = list(_drilled(mechanism, axles, places, top))
     require_walls(drilled, wall_min(size, L), axles)
     fixed = [*_fixed(bars), *(_mounted(base, L) if base else ())]
-    holes = [*drilled, *(hole for hole, _ in fixed)]
+    holes = [*drilled, *(tapped(hole) for hole, _ in fixed)]
     near = SAME_LENGTH * L
     spacers = [_spacer(hole, part, top) for hole, part in fixed if part.low - top > near]
     eye = corner_radius(size, L)
@@ -88,7 +89,8 @@ def framed(
         # a frame contains every axis, drilled or not
         within = [*holes, *(Circle("BORE", at, 0.0) for at in (ORIGIN, *places))]
         plate = mounted_plate(holes, within, eye, (bottom, top))
-    return FrameAndShafts(plate, tuple(outside_links(axles, bars, L)), tuple(spacers))
+    screwed = tuple(Screwed(hole, part.name) for hole, part in fixed)
+    return FrameAndShafts(plate, tuple(outside_links(axles, bars, L)), tuple(spacers), screwed)
 
 
 def _drilled(
@@ -129,7 +131,7 @@ def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
             yield axis.at
 
 
-def _fixed(bars: Links) -> Iterator[Screwed]:
+def _fixed(bars: Links) -> Iterator[Fixed]:
     """Yield the screws of parts that are fixed to the frame, such as a guide or a gear."""
     for member in bars.cut:
         if isinstance(member.part, Plate) and member.part.name in bars.standing:
@@ -140,7 +142,7 @@ def _fixed(bars: Links) -> Iterator[Screwed]:
             yield Circle("BORE", (x + u, y + v), hole.radius), gear.plate
 
 
-def _mounted(base: Plate, L: float) -> Iterator[Screwed]:
+def _mounted(base: Plate, L: float) -> Iterator[Fixed]:
     """Yield the screws of a plate about the crank's axis."""
     holes = placed_holes(Member(base, (L, 0.0)))
     yield from ((hole, base) for hole in holes if not same(hole.centre, (L, 0.0), L))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from itertools import combinations
 
@@ -9,9 +10,10 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.hole_walls import apart
 from geneva_cli.geometry.hull import convex_hull
 from geneva_cli.geometry.plates import Member, Plate, Stack
-from geneva_cli.geometry.shapes import Circle, Point
-from geneva_cli.numerics.preferred import bore_radius, rounded_radius
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Point
+from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.parts.shafts.bearings import SERIES_60
+from geneva_cli.parts.shafts.bolt_holes import screw_through
 from geneva_cli.parts.shafts.bores import around
 from geneva_cli.parts.sizes.plain_sizes import half_or
 from geneva_cli.spec.least_wall import wall_min
@@ -25,8 +27,8 @@ def mounted_plate(
 ) -> Plate:
     """Return a frame with its holes, around circles that it contains.
 
-    Four mounting holes are in its corners, whose radius is ``eye``. ``span`` has its lower and
-    upper face.
+    Four mounting holes are in its corners, whose radius is ``eye``, if there is a screw for them.
+    ``span`` has its lower and upper face.
     """
     inside = list(within)
     low, high = (
@@ -35,8 +37,22 @@ def mounted_plate(
     )
     corners = [(x, y) for x in (low[0], high[0]) for y in (low[1], high[1])]
     outline = convex_hull("FRAME", [Circle("FRAME", corner, eye) for corner in corners])
-    mounts = [Circle("BORE", corner, rounded_radius(0.4 * eye)) for corner in corners]
+    mount = screw_through(0.8 * eye)
+    mounts = [Circle("BORE", corner, 0.5 * mount.through) for corner in corners] if mount else []
     return Plate(NAME, "FRAME", outline, (*holes, *mounts), *span)
+
+
+def mounts_of(frame: Plate) -> list[Circle]:
+    """Return the mounting holes of a frame: those about its corners; none of a carrier."""
+    if frame.name != NAME or not isinstance(frame.outline, Contour):
+        return []
+    corners = [piece.centre for piece in frame.outline.segments if isinstance(piece, Arc)]
+    near = 1e-9  # of a corner: rounding
+    return [
+        hole
+        for hole in frame.holes
+        if isinstance(hole, Circle) and any(math.dist(hole.centre, at) <= near for at in corners)
+    ]
 
 
 def corner_radius(size: Size, L: float) -> float:

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from geneva_cli.motion.mechanism import Mechanism
     from geneva_cli.parts.gears.gear_blanks import Gear
     from geneva_cli.parts.missing import NamedParts
+    from geneva_cli.parts.shafts.bolt_holes import Screws
 
 
 class PartsOfMachine(ABC):
@@ -42,6 +43,11 @@ class PartsOfMachine(ABC):
     def round_gears(self) -> tuple[Member, ...]:
         """Those gears in the machine."""
         return tuple(gear.member for gear in self.toothed)
+
+    @property
+    def screws(self) -> tuple[Screws, ...]:
+        """The screws between the parts; none without."""
+        return ()
 
     @property
     def outside_mm(self) -> float | None:

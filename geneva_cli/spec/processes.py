@@ -23,23 +23,19 @@ class Allowances(NamedTuple):
     pin_gap_mm: float = 0.0  # along the axis, between wheel and crank arm
     source: str | None = None
 
+    @property
+    def around_shaft_mm(self) -> float:
+        """Clearance per side between a bore and its shaft, mm."""
+        return 0.5 * self.shaft_fit_mm
+
 
 PROCESSES = {
     # its clearances follow the plates' thicknesses: ``Size.allowances``
     "laser": Allowances(
         pin_gap_mm=0.5, source="ISO 9013:2017, class 1, at the thickness of each plate"
     ),
-    # H8/f7 leaves 16 to 61 um at 10 to 18 mm and 30 to 106 um at 50 to 80 mm: half of the middle
-    # per side. H7/p6 is 0 to 24 um tight at 6 to 10 mm. H7/g6 leaves 6 to 35 um at 10 to 18 mm.
-    "mill": Allowances(
-        0.02,
-        0.035,
-        0.012,
-        0.02,
-        0.2,
-        "ISO 286: the middle of running fit H8/f7, roller 10 to 18 mm, disc 50 to 80, of press "
-        "fit H7/p6, pin 6 to 10, and of H7/g6, shaft 10 to 18",
-    ),
+    # It keeps the fits of a sheet. All sizes stay nominal, for which there are reamers and bars.
+    "mill": Allowances(pin_gap_mm=0.2, source="the fits of ISO 286 on the drawing sheet"),
     # A hole is printed slightly too narrow, and holds its pin without a press fit. A printed shaft
     # and its bore may both be off by 0.2 mm.
     "print": Allowances(

@@ -74,7 +74,9 @@ class Size(SpecTable):
         "radius of the locking disc, 0 for none; default: horns as thick as r, if possible",
     ] = None
     relief: Annotated[
-        str | None, OneOf(("arc", "sector")), "locking disc's relief; default: the one that clears"
+        str | None,
+        OneOf(("arc", "sector")),
+        "locking disc's relief; default: the one that clears wheel, bore and hub",
     ] = None
     relief_clearance_mm: Annotated[
         float | None, NOT_NEGATIVE, "clearance from wheel to bottom of the relief; default L/200"
@@ -85,7 +87,9 @@ class Size(SpecTable):
         "least wall that passes `check`; default L/200, or by process",
     ] = None
     wheel_bore_mm: Annotated[
-        float | None, NOT_NEGATIVE, "diameter of the wheel's bore; default up to L/6, or by load"
+        float | None,
+        NOT_NEGATIVE,
+        "diameter of the wheel's shaft in its bore; default up to L/6, or by load",
     ] = None
     wheel_hub_mm: Annotated[
         float | None, NOT_NEGATIVE, "diameter of the wheel's hub, on the side of the crank arm"
@@ -102,7 +106,7 @@ class Size(SpecTable):
     crank_bore_mm: Annotated[
         float | None,
         NOT_NEGATIVE,
-        "diameter of the crank's bore; default arm_bore_mm; 0: the shaft ends below",
+        "diameter of the crank's shaft in its bore; default arm_bore_mm; 0: the shaft ends below",
     ] = None
     crank_hub_mm: Annotated[
         float | None, NOT_NEGATIVE, "diameter of the crank's hub in the wheel's plane"
@@ -129,7 +133,7 @@ class Size(SpecTable):
     shaft_fit_mm: Annotated[
         float | None,
         NOT_NEGATIVE,
-        "diameter of bores minus that of their shafts and pins; default 0, or by process",
+        "diameter by which bores are wider than their shafts and pins; default 0, or by process",
     ] = None
     shafts: Annotated[
         str, OneOf(("plain", "turned")), "turned: with bearing seat, shoulder and circlip grooves"
@@ -137,7 +141,7 @@ class Size(SpecTable):
     arm_bore_mm: Annotated[
         float | None,
         POSITIVE,
-        "diameter of the crank arm's bore; default crank_bore_mm, or by load",
+        "diameter of the crank's shaft in the arm; default crank_bore_mm, or by load",
     ] = None
     arm_hub_mm: Annotated[
         float | None, POSITIVE, "width of the crank arm round its bore; default 1.6 bores"
@@ -178,7 +182,9 @@ class Size(SpecTable):
         float | None, POSITIVE, "clamp screw of the crank's slit hub: its thread's diameter"
     ] = None
     dial_bolts: Annotated[int, Range(0, 100), "number of bolts between dial and wheel"] = 0
-    dial_bolt_mm: Annotated[float | None, POSITIVE, "dial's bolt holes: diameter, max. L/40"] = None
+    dial_bolt_mm: Annotated[
+        float | None, POSITIVE, "dial's bolt holes: diameter; default for a screw, up to L/40"
+    ] = None
     dial_bolt_circle_mm: Annotated[
         float | None, POSITIVE, "dial's bolt circle: diameter; default: amid bore and slots"
     ] = None
@@ -199,7 +205,9 @@ class Size(SpecTable):
     gear_bolts: Annotated[
         int, Range(0, 100), "number of screws between a fixed gear and the frame, evenly spaced"
     ] = 4
-    gear_bolt_mm: Annotated[float | None, POSITIVE, "fixed gear's screw holes, max. L/40"] = None
+    gear_bolt_mm: Annotated[
+        float | None, POSITIVE, "fixed gear's screw holes: diameter; default up to L/40"
+    ] = None
     gear_bolt_circle_mm: Annotated[
         float | None, POSITIVE, "fixed gear's screw circle; default: amid bore and pitch circle"
     ] = None
@@ -208,7 +216,9 @@ class Size(SpecTable):
         Range(0, 100),
         "bolts through each sector of the locking disc and the arm; default 2 where they fit",
     ] = None
-    lock_bolt_mm: Annotated[float | None, POSITIVE, "lock's bolt holes: diameter, max. L/40"] = None
+    lock_bolt_mm: Annotated[
+        float | None, POSITIVE, "lock's bolt holes: diameter; default for a screw, up to L/40"
+    ] = None
     lock_bolt_circle_mm: Annotated[
         float | None, POSITIVE, "locking disc's bolt circle; default: where the disc is widest"
     ] = None
@@ -265,6 +275,15 @@ class Size(SpecTable):
         """
         own = self.edge_fillet_mm if self.edge_chamfer_mm is None else self.edge_chamfer_mm
         return 0.0 if own is None else own
+
+    def has_hub(self, part: str) -> bool:
+        """True if the spec has a size of a part's hub; otherwise only its space is kept free.
+
+        >>> Size(crank_hub_length_mm=20.0).has_hub("crank"), Size().has_hub("wheel")
+        (True, False)
+        """
+        keys = f"{part}_hub_mm", f"{part}_hub_length_mm"
+        return any(vars(self)[key] is not None for key in keys)
 
     def roller_radius(self, L: float) -> float:
         """Radius of a roller for a centre distance, mm; by default a twentieth of it."""

@@ -36,8 +36,8 @@ def _wheel_inertia(spec: Spec, plate: MassProperties | None) -> Iterator[Notice]
     if plate is None or not inertia or any(mass.name == "wheel" for mass in spec.mass):
         return
     own = plate.inertia_kgm2
-    # An inertia of the wheel below a hundredth of the load's is not mentioned.
-    if own <= 0.01 * inertia:
+    # A twentieth of the load's inertia is within what loads are known to.
+    if own <= 0.05 * inertia:
         return
     across = 1e3 * math.sqrt(8.0 * own / plate.mass_kg)
     helps = (
@@ -142,8 +142,20 @@ def _keys_without_effect(spec: Spec) -> Iterator[Notice]:
 
 
 def unlikely_warnings(mechanism: Mechanism) -> list[Notice]:
-    """Warnings about an inertia or a speed that may be in another unit; none for a rack."""
-    return [*_heavy(mechanism), *_fast(mechanism)] if mechanism.output.turns else []
+    """Warnings about a length, an inertia or a speed that may be in another unit."""
+    turning = (*_heavy(mechanism), *_fast(mechanism)) if mechanism.output.turns else ()
+    return [*_tiny(mechanism), *turning]
+
+
+def _tiny(mechanism: Mechanism) -> Iterator[Notice]:
+    L, least_mm = mechanism.center_distance_mm, 5.0  # the smallest watches have stops of some mm
+    if not least_mm <= L:
+        name = mechanism.spec.wheel.DISTANCE
+        yield Notice(
+            "tiny-machine",
+            f"the {name} of {L:.4g} mm is below {least_mm:g} mm: check that it is in mm. If it is "
+            f"in metres, write {1e3 * L:.4g}; if it is in inches, {25.4 * L:.4g}",
+        )
 
 
 def _heavy(mechanism: Mechanism) -> Iterator[Notice]:

@@ -83,7 +83,7 @@ def _holes(solid: Solid) -> Iterator[tuple[float, float]]:
 
 
 def _narrow(mechanism: Mechanism, sizes: Sizes) -> Iterator[Notice]:
-    """Warnings about clearances of the process that are narrow for the plates as they are."""
+    """Warnings about clearances that are narrower than the process needs for the plates."""
     size = mechanism.spec.size
     built = size.replace(
         center_distance_mm=mechanism.center_distance_mm,
@@ -93,13 +93,17 @@ def _narrow(mechanism: Mechanism, sizes: Sizes) -> Iterator[Notice]:
         arm_thickness_mm=sizes.arm_thickness,
     )
     for key in ("slot_clearance_mm", *(["lock_clearance_mm"] if sizes.lock else [])):
-        own, needed = getattr(size.allowances, key), getattr(built.allowances, key)
-        if getattr(size, key) is None and not keeps(own, "at least", needed):
-            yield Notice(
-                "narrow-for-process",
-                f"{key} = {own:g} is that of the default thickness; the wheel is "
-                f"{sizes.wheel_thickness:.4g} mm thick: set {key} to {needed:g}",
+        own = getattr(size.allowances, key)
+        needed = getattr(built.replace(**{key: None}).allowances, key)
+        if keeps(own, "at least", needed):
+            continue
+        why = f"is that of the default thickness; the wheel is {sizes.wheel_thickness:.4g} mm thick"
+        if getattr(size, key) is not None:
+            why = (
+                f'is less than process = "{size.process}" holds at these sizes, so that the parts '
+                "may not go together; a fit coupon shows what your machine holds"
             )
+        yield Notice("narrow-for-process", f"{key} = {own:g} {why}: set {key} to {needed:g}")
 
 
 def turn_warnings(model: PartsModel) -> Iterator[Notice]:

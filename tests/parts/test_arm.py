@@ -84,7 +84,7 @@ def test_defaults_work(z, gearing, rollers):
     if gearing == "external":
         axis = Point(-found.assembly.L, 0.0)  # of the wheel, seen from the crank, in any position
         reach = max(math.hypot(*c.centre) for c in made.pins) + made.eye
-        assert found.assembly.L - reach - found.sizes.wheel_hub == pytest.approx(made.hub_gap)
+        assert found.assembly.L - reach - found.sizes.wheel_bore == pytest.approx(made.hub_gap)
         assert made.hub_gap > -1e-9
         assert outline.distance(axis) > found.sizes.wheel_hub - 1e-9
 
@@ -106,11 +106,13 @@ def test_pins_are_pressed_in(z, gearing, motion):
 
 
 def test_the_disc_is_fixed_to_the_arm():
-    """Two dowels in each sector, the same holes in both parts, with walls."""
+    """Two screws in each sector: holes of 3 mm, which M2.5 passes, and below them its thread."""
     design = of(Wheel(4), drive=Drive(rollers=3), lock_bolts=2, lock_bolt_mm=3.0)
     crank, arm = design.drawing("crank"), design.drawing("arm")
-    bolts = {s for s in arm.shapes if isinstance(s, Circle) and s.radius == 1.5}
-    assert len(bolts) == 6 and bolts <= set(crank.shapes)
+    threads = {s for s in arm.shapes if isinstance(s, Circle) and s.radius == 0.5 * (2.5 - 0.45)}
+    assert len(threads) == 6
+    bolts = {s._replace(radius=1.5) for s in threads}
+    assert bolts <= set(crank.shapes)
     (disc,) = [polygon(s) for s in crank.shapes if s.layer == "CRANK"]
     plate = polygon(arm.shapes[0])
     for bolt in bolts:
@@ -245,7 +247,7 @@ def test_an_arm_that_meets_the_hub_is_told():
     design = of(Wheel(6), arm_eye_mm=90.0)
     (check,) = [c for c in design.checks if c.name == "arm_to_hub_mm"]
     found = design.parts
-    free = found.assembly.L * (1.0 - 0.5) - 45.0 - found.sizes.wheel_hub
+    free = found.assembly.L * (1.0 - 0.5) - 45.0 - found.sizes.wheel_bore  # without a hub
     assert check.value == pytest.approx(free) and not check.passes
     name, value = check.nearest.split(" = ")
     fixed = design.with_(f"size.{name}", float(value))

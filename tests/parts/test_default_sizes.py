@@ -59,19 +59,20 @@ def test_default_sizes_of_an_internal_wheel():
 def test_default_sizes_of_the_arm():
     """An eye is twice as wide as its hole, up to what passes the wheel's hub; a hub is 1.6 bores.
 
-    The bolts' holes are at most L/40 wide, and at most half as wide as the ring that they are in.
+    The bolts' holes are at most L/40 wide, and at most half as wide as the ring that they are in:
+    for M2 and M1.6, whose threads in the arm have a pitch of 0.4 and 0.35 mm.
     """
     parts = of(arm_bore_mm=25.0, crank_bore_mm=0.0).parts
     arm = crank_arm(parts)
     assert (arm.hub, arm.eye) == (20.0, 6.0)
-    assert [bolt.radius for bolt in arm.bolts] == [L / 80.0, L / 80.0]
+    assert [bolt.radius for bolt in arm.bolts] == [0.8, 0.8]
     wide = crank_arm(of(wheel_hub_mm=90.0, pin_mm=6.0).parts)
     # from the pin, at R = L/2, to the hub are 5 mm
     assert (wide.eye, wide.hub_gap) == (pytest.approx(5.0), pytest.approx(0.0, abs=1e-12))
-    ring = crank_arm(of(lock_bolts=1, lock_bolt_circle_mm=74.0, crank_bore_mm=8.0).parts)
+    ring = crank_arm(of(lock_bolts=1, lock_bolt_circle_mm=72.0, crank_bore_mm=8.0).parts)
     (bolt,) = ring.bolts
-    # the disc's radius is R - 2 r, so that 1 mm is left outside of the bolts' circle
-    assert (*bolt.centre, bolt.radius) == pytest.approx((-37.0, 0.0, 0.5))
+    # the disc's radius is R - 2 r, so that 2 mm are left outside of the bolts' circle
+    assert (*bolt.centre, bolt.radius) == pytest.approx((-36.0, 0.0, 0.625))
 
 
 def test_bores_and_hubs_of_a_narrow_wheel():
@@ -167,7 +168,7 @@ def test_bores_of_a_sphere():
 def test_bolts_of_a_dial():
     """Amid the bore and the slots' ends, or those and the edge of an internal wheel.
 
-    They are L/40 wide, and the first is between two slots, 30° from each.
+    They are for M2, and the first is between two slots, 30° from each.
     """
     for gearing, far in (
         ("external", 0.5 * (10.0 + L - 50.0 - 6.0 - 0.3)),
@@ -177,7 +178,7 @@ def test_bolts_of_a_dial():
         size = Size(L, 6.0, dial_bolts=3, **own)
         parts = Design.of(Spec(Wheel(6, gearing), size=size)).parts
         bolts = dial_bolts(parts.assembly, parts.sizes)
-        assert {(round(math.hypot(*one.centre), 9), one.radius) for one in bolts} == {(far, 1.25)}
+        assert {(round(math.hypot(*one.centre), 9), one.radius) for one in bolts} == {(far, 1.2)}
         first = math.degrees(math.atan2(*reversed(bolts[0].centre)))
         assert first % 60.0 == pytest.approx(30.0)
 

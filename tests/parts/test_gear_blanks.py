@@ -84,7 +84,7 @@ def test_planet_and_sun_are_discs_with_their_holes():
     of = design("epicyclic-z4")
     R0 = 120.0 * math.sqrt(0.5) * 25.0 / 24.0
     assert found(of, "planet") == pytest.approx(disc(R0 / 5.0, 12.0) - disc(6.0, 12.0), rel=1e-12)
-    sun, bore, bolt = 4.0 * R0 / 5.0, 12.5, 1.5
+    sun, bore, bolt = 4.0 * R0 / 5.0, 12.5, 1.45  # M2.5
     far = (sun + bore) / 2.0
     holes = 4.0 * disc(bolt, 12.0)
     holes[1] += holes[0] * far * far * 1e-6  # Steiner
@@ -141,8 +141,11 @@ def test_the_screws_of_a_fixed_gear_are_in_the_frame(keys):
     count = 5 if keys else 4
     holes = {(round(s.centre[0] + 100.0, 9), round(s.centre[1], 9), s.radius)
              for s in drawn.shapes if isinstance(s, Circle) and s.layer == "BORE"}  # fmt: skip
-    framed = {(round(s.centre[0], 9), round(s.centre[1], 9), s.radius)
-              for s in of.drawing("frame").shapes if isinstance(s, Circle)}  # fmt: skip
+    # M3 passes 4 mm, M2 the default below L/40 = 2.5 mm: clearance hole and core of the thread
+    through, core = (2.0, 1.25) if keys else (1.2, 0.8)
+    framed = {(round(s.centre[0], 9), round(s.centre[1], 9), through)
+              for s in of.drawing("frame").shapes
+              if isinstance(s, Circle) and s.radius == core}  # fmt: skip
     screws = {hole for hole in holes & framed if math.dist(hole[:2], (100.0, 0.0)) > 1.0}
     assert len(screws) == count
     if keys:

@@ -76,7 +76,8 @@ def test_the_arm_is_the_hull_of_hub_and_eyes():
     """The pin is at L sin 30°, and the bolts at 120° and 240°.
 
     The disc locks over 240°, from 60° after the roller: its two bolts are a quarter and three
-    quarters of that on. Each has an eye of twice its hole.
+    quarters of that on. Each has an eye of twice the disc's hole of 3 mm, through which M2.5 passes
+    (2.9 mm, ISO 273). In the arm is its thread, of a pitch of 0.45 mm.
     """
     design = of(**ARM, **BOLTS, crank_bore_mm=12.0)
     arm = crank_arm(design.parts)
@@ -84,11 +85,11 @@ def test_the_arm_is_the_hull_of_hub_and_eyes():
     eyes = [(x, -y, 3.0), (x, y, 3.0), (0.0, 0.0, 13.0), (50.0, 0.0, 8.0)]
     assert rounds(arm.outline) == [pytest.approx(one) for one in eyes]
     holes = [(*bolt.centre, bolt.radius) for bolt in arm.bolts]
-    assert holes == [pytest.approx((x, y, 1.5)), pytest.approx((x, -y, 1.5))]
+    assert holes == [pytest.approx((x, y, 1.025)), pytest.approx((x, -y, 1.025))]
     (pin,) = arm.pins
     assert (*pin.centre, pin.radius) == pytest.approx((50.0, 0.0, 3.0))
     on_sheet = {"R 8", "R 13", "2× R 3", "50", "Ø 6 P7 (-0.008/-0.02)"}
-    on_sheet |= {"Ø 12 H7 (+0.018/0)", "2× Ø 3 H7 (+0.01/0) on Ø 30"}
+    on_sheet |= {"Ø 12 H7 (+0.018/0)", "2× Ø 2.05, tapped M2.5 on Ø 30"}
     assert dimensions(draw_arm, design.mechanism, arm) == on_sheet
 
 
@@ -123,15 +124,16 @@ def test_each_sector_has_its_own_bolts():
 def test_the_bolts_of_a_racks_arm_are_amid_its_locking_sector():
     """R = 50, r = 6: the sector reaches from R - rho + R/200 to rho = R - 2 r.
 
-    It lies over half a turn opposite the roller, so the bolts are at 135° and 225°.
+    It lies over half a turn opposite the roller, so the bolts are at 135° and 225°. A hole of up to
+    2 R/40 = 2.5 mm is one of 2.4 mm for M2, whose pitch is 0.4 mm.
     """
     design = Design(Linear(6), size=Size(center_distance_mm=50.0, roller_radius_mm=6.0))
     far = 0.5 * (50.0 - 38.0 + 0.25 + 38.0)
     arm, at = rack_arm(design.mechanism), far * math.sqrt(0.5)
     holes = [(*bolt.centre, bolt.radius) for bolt in arm.bolts]
-    assert holes == [pytest.approx((-at, at, 1.25)), pytest.approx((-at, -at, 1.25))]
+    assert holes == [pytest.approx((-at, at, 0.8)), pytest.approx((-at, -at, 0.8))]
     on_sheet = {"50", "Ø 6 P7 (-0.008/-0.02)", "R 38", "R 6", "Ø 10 H7 (+0.015/0)"}
-    on_sheet.add(f"2× Ø 2.5 H7 (+0.01/0) on Ø {2.0 * far:g}")
+    on_sheet.add(f"2× Ø 1.6, tapped M2 on Ø {2.0 * far:g}")
     assert dimensions(draw_arm, design.mechanism, arm) == on_sheet
 
 
@@ -139,7 +141,8 @@ def test_a_guide_is_as_long_as_its_block_needs():
     """A crank of 40 on a rod of 100 moves the block from 60 to 140 mm off the crank's axis.
 
     The block is 1.6 holes wide and half as long again, and a quarter of a hole is left at either
-    end of its slot. The guide's screws are two holes beyond the slot, with eyes as on pins.
+    end of its slot. The guide's screws are two pins beyond the slot, with eyes as on pins of 10 mm,
+    and M8 has the largest clearance hole below that, 9 mm.
     """
     keys = Keys("slider-crank", 40.0, 100.0, 80.0, 90.0)
     size = Size(roller_radius_mm=6.0, link_pin_mm=10.0)
@@ -153,14 +156,14 @@ def test_a_guide_is_as_long_as_its_block_needs():
     assert rounds(slot) == [pytest.approx((x, 0.0, 8.0), abs=near) for x in ends]
     beyond = ends[0] - 8.0 - 10.0, ends[1] + 8.0 + 10.0
     assert [(*one.centre, one.radius) for one in screws] == [
-        pytest.approx((x, 0.0, 5.0), abs=near) for x in beyond
+        pytest.approx((x, 0.0, 4.5), abs=near) for x in beyond
     ]
     eyes = {(x, 0.0, 10.0) for x in beyond} | {(x, 0.0, 13.0) for x in ends}
     outline = {tuple(round(x, 3) for x in one) for one in rounds(cut["guide"].outline)}
     assert outline == eyes
     # from the first screw to the slot, and from end to end of the slot and of the screws
     on_sheet = {"18", "90.5", "126.5", "16 H7 (+0.018/0)", "4× R 13", "2× R 10"}
-    on_sheet.add("2× Ø 10 H7 (+0.015/0)")
+    on_sheet.add("2× Ø 9 for M8")
     views = [on_sheet, {"24", "16 g6 (-0.006/-0.017)", "Ø 10 H7 (+0.015/0)"}]
     shown = [one for one in links.cut if one.part.name.startswith("guide")]
     assert [dimensions(draw_link, one, links, design.mechanism) for one in shown] == views
@@ -174,7 +177,7 @@ def test_a_guide_is_as_long_as_its_block_needs():
 
 
 def test_pins_and_rollers_run_with_the_fit():
-    """A pin in links is thinner than its hole by ``shaft_fit_mm``, and a roller's bore wider."""
+    """Pins are as thick as their keys say; their holes and rollers' bores are wider by the fit."""
     size = Size(L, 4.0, pin_mm=4.0, shaft_fit_mm=0.2)
     plain, cam = (
         Design.of(Spec(Wheel(6), drive, motion=motion, size=size))
@@ -189,8 +192,11 @@ def test_pins_and_rollers_run_with_the_fit():
     keys = Keys("slider-crank", 40.0, 100.0, 80.0, 90.0)
     size = Size(roller_radius_mm=6.0, link_pin_mm=10.0, shaft_fit_mm=0.2)
     sliding = Design.of(Spec(Wheel(8), Drive("slider-crank"), keys, size=size))
-    joined = drawn_links(sliding.mechanism, sliding.parts).joined
-    assert {one.part.outline.radius for one in joined if one.part.name.startswith("pin")} == {4.9}
+    links = drawn_links(sliding.mechanism, sliding.parts)
+    pins = {one.part.outline.radius for one in links.joined if one.part.name.startswith("pin")}
+    assert pins == {5.0}
+    (rod,) = (plate for plate in links.plates if plate.name == "rod")
+    assert 5.1 in {hole.radius for hole in rod.holes}
 
 
 def test_heights_above_and_below_the_wheel():
@@ -217,7 +223,7 @@ def test_heights_above_and_below_the_wheel():
 
 
 def test_a_groove_plate_has_its_screws_amid_its_rim():
-    """The rim is 1.5 rollers wide, with four screws at 45°, each half as wide as the rim."""
+    """The rim is 1.5 rollers wide, with four screws at 45°: M2.5 for half of 6 mm."""
     drive, motion = Drive("cam"), Motion("cycloidal")
     design = Design.of(Spec(Wheel(6), drive, motion=motion, size=Size(L, 4.0, wheel_hub_mm=12.0)))
     base, ring, _ = plates(design.drawing("groove-plate").solid)
@@ -228,7 +234,7 @@ def test_a_groove_plate_has_its_screws_amid_its_rim():
     at = (base.outline.radius - 3.0) * math.sqrt(0.5)
     corners = [(at, at), (-at, at), (-at, -at), (at, -at)]
     assert [one.centre for one in screws] == [pytest.approx(corner) for corner in corners]
-    assert {one.radius for one in screws} == {1.5}
+    assert {one.radius for one in screws} == {1.45}
     assert (base.low, base.high, ring.high) == (-30.0, -20.0, -10.0)
 
 
@@ -259,7 +265,8 @@ def test_screws_are_amid_the_guides_bars():
 def test_a_fixed_gear_is_screwed_to_the_frame_below_the_hub():
     """Three screws, from 45° on; a hub of 60 mm lowers the frame, so rings stand between both.
 
-    The planet of 19.5 mm rolls about the gear of 58.5 mm, and so past the hub of 20 mm.
+    The planet of 19.5 mm rolls about the gear of 58.5 mm, and so past the hub of 20 mm. M3 passes
+    holes of 4 mm (3.4 mm by ISO 273), and its thread in the frame has a pitch of 0.5 mm.
     """
     sizes = {"wheel_hub_mm": 40, "wheel_hub_length_mm": 60, "gear_bolts": 3}
     sizes |= {"gear_bolt_circle_mm": 66, "gear_bolt_mm": 4}
@@ -269,7 +276,7 @@ def test_a_fixed_gear_is_screwed_to_the_frame_below_the_hub():
     turns = [math.radians(45.0 + 120.0 * k) for k in range(3)]
     screws = [(160.0 + 33.0 * math.cos(turn), 33.0 * math.sin(turn)) for turn in turns]
     assert [ring.at for ring in parts.spacers] == [pytest.approx(at) for at in screws]
-    held = [hole.centre for hole in parts.frame.part.holes if hole.radius == 2.0]
+    held = [hole.centre for hole in parts.frame.part.holes if hole.radius == 1.25]
     assert held == [pytest.approx(at) for at in screws]
     for ring in (one.part for one in parts.spacers):
         (bore,) = ring.holes
@@ -368,34 +375,34 @@ def test_set_screws_are_amid_their_hubs():
 
 
 def test_a_frame_leaves_three_corners_about_its_holes():
-    """Corners of L/20 have screws of 0.8 of that; their centres are three corners beyond the holes.
+    """Corners of L/20 have holes of up to 0.8 of that, three corners beyond the others: M3.
 
     The shafts of 16 and 8 mm are at 0 and L: the frame is L + 8 + 4 + 8 (L/20) long.
     """
     parts = of(wheel_bore_mm=16.0, crank_bore_mm=8.0).parts_model.flat
     shown = {f"{L + 12.0 + 40.0:g}", "56", "28", "100", "23", "119", "4× R 5"}
-    shown |= {"Ø 16 H7 (+0.018/0)", "Ø 8 H7 (+0.015/0)", "4× Ø 4 H7 (+0.012/0)"}
+    shown |= {"Ø 16 H7 (+0.018/0)", "Ø 8 H7 (+0.015/0)", "4× Ø 3.4 for M3"}
     assert dimensions(draw_frame, parts.frame.part) == shown
 
 
 def test_holes_of_a_frame_are_bores_for_its_shafts():
     """They are ``shaft_fit_mm`` wider than a shaft, and L/10 for a wheel of one piece with its own.
 
-    Corners are at least three walls wide. A rounded number is below 0.8 of 6 mm: 4.5 mm.
+    Corners are at least three walls wide. M4 has a clearance hole below 0.8 of 6 mm: 4.5 mm.
     """
     fit = {"shaft_fit_mm": 0.2, "wall_min_mm": 2.0}
-    for bore, hole in ((16.0, 8.0), (0.0, 5.0)):
+    for bore, hole in ((16.0, 8.1), (0.0, 5.0)):
         parts = of(wheel_bore_mm=bore, crank_bore_mm=8.0, **fit).parts_model.flat
         wheel, crank, *mounts = parts.frame.part.holes
-        assert (wheel.radius, crank.radius) == (pytest.approx(hole), pytest.approx(4.0))
+        assert (wheel.radius, crank.radius) == (pytest.approx(hole), pytest.approx(4.1))
         assert {one.radius for one in mounts} == {2.25}
         assert {radius for *_, radius in rounds(parts.frame.part.outline)} == {6.0}
         shafts = {one.part.name: one.part.outline.radius for one in parts.shafts}
-        assert shafts["crank's shaft"] == pytest.approx(3.9)
+        assert shafts["crank's shaft"] == 4.0
 
 
 def test_a_ring_gear_is_as_wide_as_two_eyes():
-    """A link's pin is L/20 wide, and an eye twice that; screws of L/40 are amid the rim, at 45°."""
+    """A link's pin is L/20 wide, and an eye twice that; M2 for L/40 is amid the rim, at 45°."""
     keys = Keys("epicyclic", "shockless", fixed="ring")
     design = Design.of(Spec(Wheel(4), Drive("epicyclic"), keys, size=Size(L)))
     (ring,) = (one for one in design.parts_model.flat.links.gears if one.teeth.inside)
@@ -404,7 +411,7 @@ def test_a_ring_gear_is_as_wide_as_two_eyes():
     assert [one.centre for one in ring.bolts] == [
         pytest.approx(corner) for corner in ((at, at), (-at, at), (-at, -at), (at, -at))
     ]
-    assert {one.radius for one in ring.bolts} == {L / 80.0}
+    assert {one.radius for one in ring.bolts} == {1.2}
 
 
 def test_the_crank_of_a_sphere():

@@ -11,11 +11,13 @@ from geneva_cli import (
     Design,
     External,
     Internal,
+    Linear,
     Load,
     Mass,
     Motor,
     RollerMaterial,
     Size,
+    Spherical,
     Support,
     WheelMaterial,
     load,
@@ -24,7 +26,7 @@ from geneva_cli.drawings.parts_list import parts_table
 from geneva_cli.geometry.mass import MassProperties
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.verdict.carried_warnings import carried_warnings
+from geneva_cli.verdict.carried_warnings import carried_warnings, unlikely_warnings
 
 
 def told(spec, plate):
@@ -79,14 +81,28 @@ def test_the_mass_that_is_suggested_adds_the_wheel():
 
 def test_behind_gears_the_wheel_is_no_mass_on_the_table():
     spec = Spec(External(6), load=Load(inertia_kgm2=0.1), support=Support(gear_ratio=2.0))
-    (said,) = told(spec, MassProperties(2.0, (0.0, 0.0), 0.005))
-    assert "add 0.005 on inertia_kgm2 in [load]" in said
+    (said,) = told(spec, MassProperties(2.0, (0.0, 0.0), 0.05))
+    assert "add 0.05 on inertia_kgm2 in [load]" in said
 
 
 def test_a_wheel_that_hardly_counts_is_not_mentioned():
-    spec = Spec(External(6), load=Load(inertia_kgm2=0.6))
-    assert not told(spec, MassProperties(2.0, (0.0, 0.0), 0.005))
+    """From 5 % of the load's inertia on it is: 0.005 of 0.1 kg m²."""
+    plate = MassProperties(2.0, (0.0, 0.0), 0.005)
+    for inertia, names in ((0.1001, []), (0.0999, ["wheel-left-out"])):
+        spec = Spec(External(6), load=Load(inertia_kgm2=inertia))
+        assert [one.name for one in told(spec, plate)] == names
     assert not told(Spec(External(6)), MassProperties(2.0, (0.0, 0.0), 0.005))
+
+
+@pytest.mark.parametrize("wheel", [External(6), Internal(6), Spherical(6), Linear(6)])
+def test_lengths_in_metres_are_said(wheel):
+    """A quarter of a metre is 250 mm, and no machine is below 5 mm."""
+    (said,) = unlikely_warnings(build(Spec(wheel, size=Size(0.25))))
+    assert said.name == "tiny-machine"
+    assert "in metres, write 250;" in said
+    assert f"in inches, {0.25 * 25.4:.4g}" in said
+    assert unlikely_warnings(build(Spec(wheel, size=Size(4.99))))
+    assert not unlikely_warnings(build(Spec(wheel, size=Size(5.0))))
 
 
 def test_without_a_thickness_nothing_is_known():

@@ -43,6 +43,56 @@ def test_walls_and_shafts_of_a_plain_wheel(z: int) -> None:
     assert {name: rows[name] for name in by_hand} == pytest.approx(by_hand, abs=2e-6 * L)
 
 
+def values(z: int, **keys: float | str) -> dict[str, float]:
+    """All checks of a plain wheel that have to do with its parts."""
+    parts = FlatParts(build(Spec(Wheel(z), size=Size(**keys))))
+    return {c.name: c.value for c in standing_checks(parts) if c.value is not None}
+
+
+def test_a_hub_that_is_not_built_takes_no_space() -> None:
+    """The gaps of shafts alone: L - rim - bore/2, depth - bore/2, slot's end - bore/2, arm's end.
+
+    The arm passes the wheel's axis at L - R less its eye. Default hubs are 1.5 and 1.6 bores wide.
+    """
+    b, rim = math.pi / 6.0, math.hypot(L * math.cos(math.pi / 6.0), r)
+    keys = {"center_distance_mm": L, "roller_radius_mm": r, "lock_radius_mm": rk}
+    rows = values(6, crank_bore_mm=17.0, wheel_bore_mm=50.0, arm_eye_mm=46.0, **keys)
+    by_hand = {
+        "crank_shaft_mm": L - rim - 8.5,
+        "crank_hub_mm": rk / 50.0 * (L - L * math.cos(b)) - 8.5,
+        "arm_to_hub_mm": L - 50.0 - 25.0 - 23.0,
+    }
+    assert {name: rows[name] for name in by_hand} == pytest.approx(by_hand, abs=2e-6 * L)
+    assert rows["wheel_shaft_mm"] == pytest.approx(rows["wheel_bore_wall_mm"], abs=1e-12)
+    assert min(by_hand.values()) > 0.0
+    built = values(6, crank_bore_mm=17.0, crank_hub_mm=19.0, wheel_bore_mm=50.0, **keys)
+    assert built["crank_hub_mm"] == pytest.approx(by_hand["crank_hub_mm"] - 1.0, abs=2e-6 * L)
+
+
+@pytest.mark.parametrize(
+    ("keys", "relief"),
+    [
+        ({}, "arc"),
+        ({"crank_bore_mm": 40.5}, "arc"),
+        ({"crank_bore_mm": 41.5}, "sector"),
+        ({"crank_bore_mm": 48.5}, "sector"),
+        ({"crank_hub_mm": 42.5}, "arc"),
+        ({"crank_hub_mm": 43.5}, "sector"),
+    ],
+)
+def test_the_default_relief_clears_bore_and_hub(keys: dict[str, float], relief: str) -> None:
+    """L = 200, r = 10: rk = 80, so an arc is 0.8 · 200 (1 - cos 30°) = 21.44 mm deep, less 1 mm.
+
+    A sector is L - sqrt(L² cos² 30° + r²) - L/200 = 25.51 mm deep.
+    """
+    size = Size(center_distance_mm=200.0, roller_radius_mm=10.0, **keys)
+    parts = FlatParts(build(Spec(Wheel(6), size=size)))
+    assert parts.outlines.relief == relief
+    rows = {c.name: c.passes for c in standing_checks(parts)}
+    assert rows["crank_bore_wall_mm"]
+    assert rows["crank_hub_mm"]
+
+
 def curved(law: str, ratio: float) -> Spec:
     """Six slots, a law over the natural 120 degrees."""
     return Spec(Wheel(6), motion=Motion(law, ratio=ratio), size=Size(L, r))

@@ -13,7 +13,7 @@ from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import Circle, Contour, Shape
 from geneva_cli.geometry.sheet import CENTRE
 from geneva_cli.parts.outlines.wheel_hub import about_axis
-from geneva_cli.parts.shafts.bores import bore_of, radius_of
+from geneva_cli.parts.shafts.bores import bore_in
 from geneva_cli.parts.written import length, number
 from geneva_cli.spec.tables import Size
 
@@ -36,7 +36,7 @@ def holes_of(plates: Iterable[Plate]) -> Holes:
 def bored(view: View, bores: Sequence[Shape], size: Size, part: str) -> None:
     """Draw the diameter of a part's bore, and what else its shape needs; a remark has its angle."""
     for shape in bores[:1]:
-        form = bore_of(size, part, radius_of(shape))
+        form = bore_in(size, part, shape).cut
         if form.is_round:
             view.diameter([Circle("", (0.0, 0.0), form.radius)], sized.bore(view.fits, form.radius))
         if isinstance(shape, Contour):
@@ -54,12 +54,12 @@ def circle_of(view: View, screwed: Sequence[Circle]) -> None:
         view.draw(Circle("", (0.0, 0.0), far), CENTRE)
 
 
-def bolted(view: View, screwed: Sequence[Circle]) -> None:
+def bolted(view: View, screwed: Sequence[Circle], tapped: bool = False) -> None:
     """Draw the diameters of the bolts' holes and of their circle."""
     if not screwed:
         return
     far = math.hypot(*screwed[0].centre)
-    hole = sized.bore(view.fits, screwed[0].radius)
+    hole = sized.screw_hole(screwed[0].radius, tapped)
     view.diameter(screwed, times(len(screwed), f"{hole} on Ø {length(2.0 * far)}"))
     angles = [math.degrees(math.atan2(c.centre[1], c.centre[0])) for c in screwed]
     view.notes.append("holes at " + ", ".join(f"{number(angle, 2)}°" for angle in angles))

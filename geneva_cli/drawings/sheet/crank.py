@@ -102,7 +102,7 @@ def draw_arm(view: View, mechanism: Mechanism, arm: CrankArm) -> None:
     hole = sized.pin_hole(view.fits, mechanism, arm.pins[0].radius)
     view.diameter(arm.pins, times(len(arm.pins), hole))
     view.radii(arm.outline.segments)
-    bolted(view, arm.bolts)
+    bolted(view, arm.bolts, tapped=True)
 
 
 def _between(view: View, arm: CrankArm) -> None:

@@ -38,6 +38,8 @@ def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> 
     pressed = [centre for _, centre in roller_pins(mechanism)]  # in a link or in its block
 
     def written(hole: Circle, there: Circle) -> str:
+        if plate.name in bars.standing:
+            return sized.screw_hole(hole.radius)
         if any(same(there.centre, p, mechanism.center_distance_mm) for p in pressed):
             return sized.pin_hole(view.fits, mechanism, hole.radius)
         return sized.bore(view.fits, hole.radius)

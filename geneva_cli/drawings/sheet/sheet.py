@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from geneva_cli.drawings.machine_drawing import machine
-from geneva_cli.drawings.sheet import links, points
+from geneva_cli.drawings.sheet import links, points, sized
 from geneva_cli.drawings.sheet.content import (
     SheetContent,
     Views,
@@ -93,7 +93,7 @@ def _standing(parts: FlatParts, begin: Begin) -> Iterator[View]:
         yield view
     (frame,) = flat_plates([parts.frame])
     view = begin(frame.name)
-    draw_frame(view, frame)
+    draw_frame(view, frame, screws=sized.threads(parts.frame_threads))
     yield view
 
 

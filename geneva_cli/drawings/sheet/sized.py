@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
+from geneva_cli.geometry.shapes import Circle
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.parts.shafts.fits import Fits
+from geneva_cli.numerics.tolerances import SAME_ON_SHEET
+from geneva_cli.parts.shafts.bolt_holes import screw_through
+from geneva_cli.parts.shafts.fits import Fits, toleranced
+from geneva_cli.parts.shafts.screws import SCREWS
 from geneva_cli.parts.written import deviation, length
 from geneva_cli.spec.tables import Size
+from geneva_cli.spec.workshops import workshop
 
 
 def plain(value: float, sign: str = "", off: float = 0.0, fine: bool = False) -> str:
@@ -49,9 +56,17 @@ def recess(fits: Fits, mechanism: Mechanism, radius: float) -> str:
 
 
 def pin_hole(fits: Fits, mechanism: Mechanism, radius: float) -> str:
-    """Return the diameter of the pin's hole: P7, or H7 if ``press_fit_mm`` makes it smaller."""
-    smaller = mechanism.spec.size.allowances.press_fit_mm
-    return fitted(fits, 2.0 * radius, "Ø ", "H7" if smaller else "P7")
+    """Return the diameter of the pin's hole: P7, or H7 if ``press_fit_mm`` makes it smaller.
+
+    No cut holds a press fit. By default it leaves a hole that is never wider than the pin, to ream.
+    """
+    size = mechanism.spec.size
+    smaller = size.allowances.press_fit_mm
+    hole = fitted(fits, 2.0 * radius, "Ø ", "H7" if smaller else "P7")
+    if size.press_fit_mm is not None or workshop(size.process).cut_mm is None:
+        return hole
+    pin = 2.0 * radius + smaller
+    return f"{hole}, drill and ream to {toleranced(pin, plain(pin, 'Ø ', fine=True), 'P7')}"
 
 
 def roller_bore(fits: Fits, mechanism: Mechanism, radius: float) -> str:
@@ -63,6 +78,25 @@ def roller_bore(fits: Fits, mechanism: Mechanism, radius: float) -> str:
 def bore(fits: Fits, radius: float) -> str:
     """Return the diameter of a bore."""
     return fitted(fits, 2.0 * radius, "Ø ", "H7")
+
+
+def screw_hole(radius: float, tapped: bool = False) -> str:
+    """Return the diameter of a screw's hole with its thread: a clearance hole, or one to tap.
+
+    >>> screw_hole(2.75), screw_hole(2.1, tapped=True), screw_hole(0.5)
+    ('Ø 5.5 for M5', 'Ø 4.2, tapped M5', 'Ø 1')
+    """
+    hole = plain(2.0 * radius, "Ø ")
+    if tapped:
+        thread = next((s.thread for s in SCREWS if abs(s.core - 2.0 * radius) < SAME_ON_SHEET), 0.0)
+        return f"{hole}, tapped M{thread:g}" if thread else hole
+    screw = screw_through(2.0 * radius)
+    return f"{hole} for M{screw.thread:g}" if screw else hole
+
+
+def threads(holes: Iterable[Circle]) -> dict[Circle, str]:
+    """Return the texts of tapped holes."""
+    return {hole: screw_hole(hole.radius, tapped=True) for hole in holes}
 
 
 def shaft(fits: Fits, radius: float) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, circle_of
@@ -12,18 +13,27 @@ from geneva_cli.geometry.plates import Plate, Stack
 from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, Shape, polygon
 from geneva_cli.geometry.sheet import CENTRE, OUTLINE
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
+from geneva_cli.parts.mounted_plate import mounts_of
 from geneva_cli.parts.shafts.bores import around, radius_of, section_note
 from geneva_cli.parts.written import length
 
 
 def draw_frame(
-    view: View, plate: Plate, axis: Point = ORIGIN, axis_name: str = "the wheel's axis"
+    view: View,
+    plate: Plate,
+    axis: Point = ORIGIN,
+    axis_name: str = "the wheel's axis",
+    screws: Mapping[Circle, str] | None = None,
 ) -> None:
-    """Draw the frame: its size, and diameter and position of each hole from an axis."""
+    """Draw the frame: its size, and diameter and position of each hole from an axis.
+
+    ``screws`` has the texts of holes for screws, without those for mounting.
+    """
     view.draw_plate(plate)
     holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
     # the axis may have no hole
-    for centre, radius in {axis: holes[0].radius, **{h.centre: h.radius for h in holes}}.items():
+    first = {axis: holes[0].radius} if holes else {}
+    for centre, radius in {**first, **{h.centre: h.radius for h in holes}}.items():
         view.cross(centre, radius)
     box = bounds(plate.outline)
     up = 0.5 * math.pi
@@ -37,11 +47,16 @@ def draw_frame(
                 texts.add(text)
                 view.linear(axis, centre, turn, text, f"{way}, from {axis_name} to a hole")
     corner = (box.x0, box.y0)
-    view.linear(corner, axis, 0.0, length(axis[0] - box.x0), f"from the left edge to {axis_name}")
-    view.linear(corner, axis, up, length(axis[1] - box.y0), f"from the lower edge to {axis_name}")
+    if holes:
+        to_left, to_low = length(axis[0] - box.x0), length(axis[1] - box.y0)
+        view.linear(corner, axis, 0.0, to_left, f"from the left edge to {axis_name}")
+        view.linear(corner, axis, up, to_low, f"from the lower edge to {axis_name}")
     view.linear(corner, (box.x1, box.y0), 0.0, length(box.x1 - box.x0), "wide")
     view.linear(corner, (box.x0, box.y1), up, length(box.y1 - box.y0), "high")
-    for text, some in grouped((sized.bore(view.fits, hole.radius), hole) for hole in holes):
+    texts_of = {hole: sized.bore(view.fits, hole.radius) for hole in holes}
+    texts_of |= {hole: sized.screw_hole(hole.radius) for hole in mounts_of(plate)}
+    texts_of |= screws or {}
+    for text, some in grouped((texts_of[hole], hole) for hole in holes):
         u, v = axis
         places = ", ".join(f"({length(x - u)}, {length(y - v)})" for _, (x, y), _ in some)
         view.diameter(some, text, f"at {places} from {axis_name}")

@@ -50,7 +50,7 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
     _steps(view, outlines, reach)
     _rims(view, arcs, reach)
     clear = assembly.mechanism.spec.size.allowances
-    if clear.source:  # of a process, whose fits do not say it
+    if clear.source and clear.slot_clearance_mm:  # of a process, whose fits do not say it
         text = f"clearance a side: {length(clear.slot_clearance_mm)} from roller to slot"
         lock = f", {length(clear.lock_clearance_mm)} from locking disc to recess"
         view.remark(text + (lock if sizes.lock else ""))

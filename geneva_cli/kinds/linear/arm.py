@@ -17,7 +17,7 @@ from geneva_cli.kinds.linear.rack import locking_sector, rack_sizes
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.crank_solids import roller_plates
-from geneva_cli.parts.shafts.bolt_holes import bolt_radius
+from geneva_cli.parts.shafts.bolt_holes import bolt_radius, refuse_no_screw, tapped
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.sizes.arm_sizes import arm_bore, hub_and_eye, lock_bolt_directions, pin_hole
 from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses, half_or, pin_radius
@@ -53,7 +53,8 @@ def crank_arm(mechanism: Mechanism) -> CrankArm:
     hub, eye = hub_and_eye(size, wall_min(size, R), hole, bore, math.inf, sizes.lock)
     outline = convex_hull("ARM", [Circle("ARM", (0.0, 0.0), hub), Circle("ARM", (R, 0.0), eye)])
     pins, bored = [Circle("BORE", (R, 0.0), hole)], form.shape("BORE", math.pi)
-    return CrankArm(outline, bored, pins, lock_bolts(mechanism), hub, eye, math.inf)
+    threads = [tapped(hole) for hole in lock_bolts(mechanism)]
+    return CrankArm(outline, bored, pins, threads, hub, eye, math.inf)
 
 
 def rack_bore(mechanism: Mechanism) -> float:
@@ -73,12 +74,11 @@ def lock_bolts(mechanism: Mechanism) -> list[Circle]:
     half_turn = [(0.5 * math.pi, math.pi)] if sizes.lock else []
     away = half_or(size.lock_bolt_circle_mm, 0.5 * (sizes.floor + sizes.lock))
     half_width = min(away - sizes.floor, sizes.lock - away)
+    turns = [turn for some in lock_bolt_directions(half_turn, count) for turn in some]
     r = bolt_radius(size.lock_bolt_mm, 2.0 * sizes.arm, half_width)
-    return [
-        Circle("BORE", (away * math.cos(turn), away * math.sin(turn)), r)
-        for directions in lock_bolt_directions(half_turn, count)
-        for turn in directions
-    ]
+    refuse_no_screw("lock_bolt", size.lock_bolts or 0, r)
+    at = [(away * math.cos(turn), away * math.sin(turn)) for turn in turns if r]
+    return [Circle("BORE", centre, r) for centre in at]
 
 
 def rack_crank(mechanism: Mechanism) -> tuple[Member, ...]:

@@ -23,7 +23,7 @@ from geneva_cli.kinds.linear.arm import rack_bore
 from geneva_cli.kinds.linear.rack import RackSizes, rack_ends, rack_sizes, slot_places
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension
-from geneva_cli.parts.edged_parts import FrameAndShafts
+from geneva_cli.parts.edged_parts import FrameAndShafts, Screwed
 from geneva_cli.parts.gears.gear_pair import gear_seats, gear_shafts
 from geneva_cli.parts.mounted_plate import (
     corner_radius,
@@ -33,7 +33,7 @@ from geneva_cli.parts.mounted_plate import (
     shaft_holes,
 )
 from geneva_cli.parts.shafts.bearings import bearing_up_to, shoulder_length
-from geneva_cli.parts.shafts.bolt_holes import bolt_radius
+from geneva_cli.parts.shafts.bolt_holes import bolt_radius, tapped
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.shafts.built_shafts import built_shafts
 from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, shaft_ends
@@ -90,9 +90,12 @@ def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
     if not has_arm(mechanism):
         diameter = mechanism.spec.shaft.crank_diameter_mm
         bored.insert(0, hole_without_shaft(diameter, mechanism.crank_shaft.at, L))
-    holes = [*bored, *(hole for at in _rows(sizes) for hole in _row(sizes, at))]
-    frame = mounted_plate(holes, holes, corner_radius(size, L), (bottom, heights.top))
-    return FrameAndShafts(frame, tuple(axles))
+    rows = zip(("guide rail", "guide wall"), _rows(sizes), strict=True)
+    screwed = tuple(Screwed(hole, name) for name, at in rows for hole in _row(sizes, at))
+    within = [*bored, *(tapped(one.hole) for one in screwed)]
+    holes, screwed = [one for one in within if one.radius], screwed if _bolt(sizes) else ()
+    frame = mounted_plate(holes, within, corner_radius(size, L), (bottom, heights.top))
+    return FrameAndShafts(frame, tuple(axles), screwed=screwed)
 
 
 def _shafts(mechanism: Mechanism, heights: RackFrame) -> Iterator[Shaft]:
@@ -128,7 +131,8 @@ def guide_bar(mechanism: Mechanism, count: int) -> Plate:
 def bar_bolts(sizes: RackSizes, count: int) -> tuple[Circle, ...]:
     """Return the holes that fix the bar to a rack, behind each of its slots."""
     x = sizes.guide.middle
-    return tuple(Circle("BORE", (x, y), _bolt(sizes)) for y in slot_places(sizes, count))
+    places = slot_places(sizes, count) if _bolt(sizes) else ()
+    return tuple(Circle("BORE", (x, y), _bolt(sizes)) for y in places)
 
 
 def guide(mechanism: Mechanism) -> tuple[Plate, ...]:
@@ -146,7 +150,7 @@ def guide(mechanism: Mechanism) -> tuple[Plate, ...]:
             ("size", "roller_radius_mm"),
         )
     over = heights.rack + mechanism.spec.size.allowances.pin_gap_mm
-    on_rail, on_wall = (tuple(_row(sizes, at)) for at in _rows(sizes))
+    on_rail, on_wall = (tuple(one for one in _row(sizes, at) if one.radius) for at in _rows(sizes))
     rail = rectangle("FRAME", x + bar + slide, -half, x + 2.0 * bar + slide, half)
     wall = rectangle("FRAME", x - slide - 2.0 * bar, -half, x - slide, half)
     # the cover ends a tenth of a bar inside the edges of wall and bar
@@ -184,7 +188,10 @@ def _rows(sizes: RackSizes) -> tuple[float, float]:
 
 
 def _row(sizes: RackSizes, x: float) -> Iterator[Circle]:
-    """Yield three screws' holes along the guide, half a bar's width from its ends."""
+    """Yield three screws' holes along the guide, half a bar's width from its ends.
+
+    They have no width where no screw is so thin.
+    """
     far = sizes.guide.half - 0.5 * sizes.guide.bar
     for y in (-far, 0.0, far):
         yield Circle("BORE", (x, y), _bolt(sizes))

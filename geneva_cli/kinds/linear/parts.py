@@ -16,7 +16,7 @@ from geneva_cli.geometry.hole_walls import require_faces
 from geneva_cli.geometry.plates import Group, Member, Plate, plates
 from geneva_cli.geometry.shapes import Point
 from geneva_cli.kept import cached_property
-from geneva_cli.kinds.linear.arm import rack_arm, rack_crank
+from geneva_cli.kinds.linear.arm import lock_bolts, rack_arm, rack_crank
 from geneva_cli.kinds.linear.frame import (
     bar_bolts,
     guide,
@@ -29,6 +29,7 @@ from geneva_cli.kinds.linear.rack import RackSizes, rack_contour, rack_sizes
 from geneva_cli.parts.edged_parts import EdgedParts, FrameAndShafts
 from geneva_cli.parts.gears.gear_pair import gear_pair
 from geneva_cli.parts.missing import NamedParts
+from geneva_cli.parts.shafts.bolt_holes import Screws
 from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses
 
 
@@ -109,6 +110,20 @@ class RackParts(EdgedParts):
     def horn_mm(self) -> float | None:
         """Thickness of the horns between slots and recesses; None without a lock."""
         return self.sizes.horn if self.sizes.lock else None
+
+    @property
+    def screws(self) -> tuple[Screws, ...]:
+        """The screws of locking sector, guide bar, and what is fixed to the frame."""
+        count = self.mechanism.spec.wheel.z
+        own = [
+            Screws(fixed, len(holes), 2.0 * holes[0].radius, thread)
+            for fixed, holes, thread in (
+                ("locking sector", lock_bolts(self.mechanism) if self.arm else [], "the arm"),
+                ("rack", bar_bolts(self.sizes, count), "nuts under the guide bar"),
+            )
+            if holes
+        ]
+        return (*own, *(self.frame_screws if self.mechanism.spec.has_parts else ()))
 
     @property
     def standing(self) -> tuple[Member, ...]:

@@ -22,12 +22,13 @@ from geneva_cli.drawings.sheet.standing import draw_frame
 from geneva_cli.drawings.sheet.view import View, times
 from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.plates import Plate, plates
-from geneva_cli.geometry.shapes import Arc, Circle, Contour
+from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour
 from geneva_cli.geometry.sheet import HIDDEN, OUTLINE, Sheet
 from geneva_cli.kinds.linear.arm import crank_arm
 from geneva_cli.kinds.linear.drawings import assembly
 from geneva_cli.kinds.linear.parts import RackParts
 from geneva_cli.kinds.linear.rack import slot_places
+from geneva_cli.parts.shafts.bolt_holes import NO_SCREW
 from geneva_cli.parts.written import length
 
 
@@ -64,12 +65,16 @@ def _views(
     yield from shafted(begin, parts.shafts)
     for plate in flat_plates((parts.bar, *parts.guide)):
         view = begin(plate.name)
-        centres = [hole.centre for hole in plate.holes if isinstance(hole, Circle)]
-        draw_frame(view, plate, min(centres, key=lambda at: at[1]), "the lowest hole")
+        screws = {h: sized.screw_hole(h.radius) for h in plate.holes if isinstance(h, Circle)}
+        lowest = min((hole.centre for hole in screws), key=lambda at: at[1], default=ORIGIN)
+        draw_frame(view, plate, lowest, "the lowest hole", screws)
+        if not screws:
+            view.remark(NO_SCREW)
         yield view
     for plate in frames:
         view = begin(plate.name)
-        draw_frame(view, plate, parts.axis, "the crank's axis")
+        screws = sized.threads(parts.frame_threads)
+        draw_frame(view, plate, parts.axis, "the crank's axis", screws)
         yield view
 
 
@@ -99,8 +104,9 @@ def _draw_rack(view: View, parts: RackParts) -> None:
     view.linear((box.x1, box.y0), edge, up, sized.plain(first - box.y0))
     view.linear(corner, (box.x1, box.y0), 0.0, length(box.x1 - box.x0))
     view.linear(corner, (box.x0, box.y1), up, length(box.y1 - box.y0))
-    bolt = holes_of([rack]).bolts[-1].centre
-    view.linear((box.x0, box.y1), bolt, 0.0, sized.plain(bolt[0] - box.x0))
+    for bolt in holes_of([rack]).bolts[-1:]:
+        x, _ = bolt.centre
+        view.linear((box.x0, box.y1), bolt.centre, 0.0, sized.plain(x - box.x0))
 
 
 def _draw_arcs(view: View, parts: RackParts, rack: Plate) -> None:
@@ -115,8 +121,11 @@ def _draw_arcs(view: View, parts: RackParts, rack: Plate) -> None:
         text = times(len(recesses), sized.recess(view.fits, mechanism, sizes.recess))
         view.of_arcs(recesses, text, whole=True)
     screwed = holes_of([rack]).bolts
-    text = times(len(screwed), sized.bore(view.fits, screwed[0].radius))
-    view.diameter(screwed, f"{text} on the slots' axes")
+    if screwed:
+        text = times(len(screwed), sized.screw_hole(screwed[0].radius))
+        view.diameter(screwed, f"{text} on the slots' axes")
+    else:
+        view.remark(NO_SCREW)
 
 
 def _draw_sector(view: View, parts: RackParts) -> None:

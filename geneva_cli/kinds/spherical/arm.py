@@ -18,7 +18,7 @@ from geneva_cli.geometry.sphere_hull import Cap, convex_hull
 from geneva_cli.kinds.spherical.axles import refuse_wide
 from geneva_cli.kinds.spherical.crank import locked
 from geneva_cli.kinds.spherical.wheel import POLE
-from geneva_cli.parts.shafts.bolt_holes import bolt_radius
+from geneva_cli.parts.shafts.bolt_holes import bolt_radius, refuse_no_screw
 from geneva_cli.parts.shafts.bores import Bore, bore_of
 from geneva_cli.parts.sizes.arm_sizes import (
     hub_and_eye,
@@ -131,10 +131,13 @@ def _bolts(parts: Shells, count: int) -> tuple[RoundHole, ...]:
     rims = [sector.boundary[0] for sector in parts.crank]
     widths = [(math.atan2(rim.start[1], rim.start[0]), rim.sweep) for rim in rims]
     narrow = min((0.5 * L * (high - low) for low, high in rings), default=0.0)
+    directions = lock_bolt_directions(widths, count)
     r, holes = bolt_radius(size.lock_bolt_mm, L, narrow), []
-    for ring, at in zip(rings, lock_bolt_directions(widths, count), strict=False):
+    if directions:
+        refuse_no_screw("lock_bolt", size.lock_bolts or 0, r)
+    for ring, at in zip(rings, directions, strict=False):
         far = 0.5 * sum(ring) if own is None else math.asin(min(1.0, 0.5 * own / L))
-        holes += [RoundHole(place(far, azimuth), r) for azimuth in at]
+        holes += [RoundHole(place(far, azimuth), r) for azimuth in at if r]
     return tuple(holes)
 
 

@@ -54,7 +54,7 @@ def about_crank(size: Size, L: float) -> float:
 def crank_hub(size: Size, L: float) -> float:
     """Return the radius of the crank's hub inside the arm, mm; 0 unless the spec has one."""
     bore = 0.5 * (size.crank_bore_mm or 0.0)
-    if size.crank_hub_mm is None and size.crank_hub_length_mm is None:
+    if not size.has_hub("crank"):
         return 0.0
     _, hub = crank_reach_and_hub(size, bore, wall_min(size, L))
     return hub if hub > bore else 0.0

@@ -224,7 +224,7 @@ def _shafts(parts: Shells, arm: CapArm | None) -> Iterator[Member]:
     for one, frame in _axles(parts, arm, lowest):
         turned = size.shafts == "turned" and one.low <= lowest
         bearing = face - shoulder_length(size, ball.radius_mm)
-        part = (turned_shaft(size, one, bearing) if turned else one.plain(size)).part
+        part = (turned_shaft(size, one, bearing) if turned else one.plain()).part
         yield Member(inwards(part, outside), frame=frame)
 
 

@@ -93,7 +93,7 @@ def _arm(parts: SphereParts, arm: CapArm, flat: list[Contour], scale: float) -> 
     view.remark(f"pins: {times(len(arm.pins), text)}; pin {sized.shaft(view.fits, pin)}")
     view.remark(f"hub: {sized.plain(2.0 * arm.hub, 'Ø ')} through, about the crank's axis")
     if arm.bolts:
-        text = f"{sized.bore(view.fits, arm.bolts[0].radius)} through, to the sphere's centre"
+        text = f"{sized.screw_hole(arm.bolts[0].radius)} through, to the sphere's centre"
         view.remark(f"locking sectors: {times(len(arm.bolts), text)}")
     return view
 

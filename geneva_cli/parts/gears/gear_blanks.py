@@ -101,7 +101,7 @@ def link_gear(
     else:
         inner, outer = bore, radius
         holes += [Circle("BORE", ORIGIN, bore)] if bore else []
-        hub = sizes.hub(bore)
+        hub = sizes.hub(max(bore - sizes.loose, 0.0))
         if not teeth.all_round:
             _refuse(link.name, radius - hub, "hub", shaft)
             outline = sectors(radius, hub, teeth)

@@ -167,7 +167,7 @@ def _driver_bore(mechanism: Mechanism, parts: Outlines | None) -> float:
 def gear_bores(
     mechanism: Mechanism, parts: Outlines | None, on_crank: float = 0.0
 ) -> list[tuple[Point, float]]:
-    """Return position and radius of the bores of driven gear and driver; 0 for none.
+    """Return position and radius of the bores of driven gear and driver, as cut; 0 for none.
 
     Raises GenevaError, naming the key, for a bore larger than its gear, and where a pitch curve is
     no gear.
@@ -177,14 +177,15 @@ def gear_bores(
     if teeth := pair_teeth(pair, mechanism.spec.size):
         driven, driver = driven - teeth.roots[0], driver - teeth.roots[1]
     (axis, wide), (other, _) = _shafts(mechanism, parts, on_crank)
-    bores = wide, _driver_bore(mechanism, parts)
+    loose = mechanism.spec.size.allowances.around_shaft_mm
+    bores = [radius + loose if radius else 0.0 for radius in (wide, _driver_bore(mechanism, parts))]
     for name, bore, least, key in zip(
         NAMES, bores, (driven, driver), ("arm_bore_mm", "link_bore_mm"), strict=True
     ):
         if bore >= least:
             raise GenevaError(
-                f"no blank of the {name} is left: its bore, {2.0 * bore:.6g} as its shaft, must be "
-                f"below {2.0 * least:.6g}, twice its least radius; reduce {key}",
+                f"no blank of the {name} is left: its bore of {2.0 * bore:.6g} mm must be below "
+                f"{2.0 * least:.6g}, twice its least radius; reduce {key}",
                 ("size", key),
             )
     return [(axis, bores[0]), (other, bores[1])]

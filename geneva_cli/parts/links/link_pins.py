@@ -49,8 +49,8 @@ def pins(links: Iterable[Link], sizes: LinkSizes, near: float) -> Iterator[Membe
         where = point_at_zero(one.path)
         spans = [sizes.span(plane) for plane in one.planes]
         origin = (0.0, 0.0)
-        hole = Circle("LINK", origin, sizes.pin)
-        pin = Circle("ROLLER", origin, sizes.pin - 0.5 * sizes.shaft_fit)
+        hole = Circle("LINK", origin, sizes.pin + sizes.loose)
+        pin = Circle("ROLLER", origin, sizes.pin)
         name = " and ".join(one.names)
         yield Member(Plate(f"pin of {name}", "ROLLER", pin, (), spans[-1][0], spans[0][1]), where)
         for (high, _), (_, low) in zip(spans, spans[1:], strict=False):
@@ -66,7 +66,7 @@ def rollers(
     """Yield rollers below the wheel's plane: a first wheel's, with its pin, and a groove's."""
     if not pin_radius:
         return
-    bored = pin_radius + 0.5 * sizes.shaft_fit
+    bored = pin_radius + sizes.loose
     pin, hole, whole = (Circle("ROLLER", (0.0, 0.0), r) for r in (pin_radius, bored, roller))
     for link in links:
         for at, kind in zip(places(link), link.kinds, strict=True):

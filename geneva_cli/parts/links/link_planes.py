@@ -159,8 +159,9 @@ def _on_wheel(parts: Outlines, links: list[Link], sizes: LinkSizes, axis: Array)
     """Yield the wheel's hub in the planes that it reaches, and its shaft in those below."""
     if parts.assembly.sign < 0.0:
         return
-    hub, shaft = parts.sizes.wheel_hub, wheel_shaft_radius(parts)
-    reach = -wheel_hub_length(parts.assembly.mechanism.spec.size, parts.sizes)
+    size, shaft = parts.assembly.mechanism.spec.size, wheel_shaft_radius(parts)
+    hub = parts.sizes.wheel_hub if size.has_hub("wheel") else 0.0
+    reach = -wheel_hub_length(size, parts.sizes)
     low, _ = wheel_shaft_ends(parts, -math.inf)
     for plane in sorted({link.plane for link in links}):
         high = sizes.span(plane)[1]

@@ -45,17 +45,17 @@ class LinkSizes(NamedTuple):
     arm: float  # thickness of arm or link in the first plane
     gap: float  # from the wheel to the first plane
     washer: float
-    shaft_fit: float  # diameter of a hole minus that of the pin in it
+    loose: float  # by which the radius of a hole is above that of the pin or shaft in it
 
     @property
     def ring(self) -> float:
         """The radius of washers and spacers on a pin."""
-        return 0.5 * (self.pin + self.eye)
+        return 0.5 * (self.pin + self.loose + self.eye)
 
     def hole(self, kind: Joint) -> float:
         """Return the radius of a pin's hole; for shafts see ``bore``."""
         own = kind in (Joint.ROLLER, Joint.CARRIED)
-        return self.roller_pin if own and self.roller_pin else self.pin
+        return self.roller_pin if own and self.roller_pin else self.pin + self.loose
 
     def block(self, hole: float) -> tuple[float, float]:
         """Return half a sliding block's width, and the offset of its round ends' centres."""
@@ -71,7 +71,7 @@ class LinkSizes(NamedTuple):
 
     def hub(self, bore: float) -> float:
         """Return the radius of a link's plate around a bore, or on a shaft's end."""
-        return max(rounded_radius(HUB * bore), bore + self.wall)
+        return max(rounded_radius(HUB * bore), bore + self.loose + self.wall)
 
     def span(self, plane: int) -> tuple[float, float]:
         """Return lower and upper end, along the axis, of links in a plane below the wheel's."""
@@ -115,7 +115,7 @@ def link_sizes(
         arm=arm,
         gap=size.allowances.pin_gap_mm,
         washer=size.washer_mm,
-        shaft_fit=size.allowances.shaft_fit_mm,
+        loose=size.allowances.around_shaft_mm,
     )
 
 
@@ -124,17 +124,13 @@ def _pin_and_eye(size: Size, links: Iterable[Link], wall: float, L: float) -> tu
     nearest = min((distance for link in links for distance in _pin_distances(link)), default=L)
     # a fifth of the distance to the next joint leaves eyes and a gap between
     pin = half_or(size.link_pin_mm, rounded_radius(min(L / 40.0, 0.2 * nearest)))
-    eye = half_or(size.link_width_mm, eye_about(pin, wall))
-    if eye <= pin:
+    hole = pin + size.allowances.around_shaft_mm
+    eye = half_or(size.link_width_mm, eye_about(hole, wall))
+    if eye <= hole:
         raise GenevaError(
-            f"link_width_mm = {2.0 * eye:g}: it must be above {2.0 * pin:.6g}, the pins' diameter",
+            f"link_width_mm = {2.0 * eye:g}: it must be above {2.0 * hole:.6g}, the diameter of "
+            "the pins' holes",
             ("size", "link_width_mm"),
-        )
-    if pin <= 0.5 * size.allowances.shaft_fit_mm:
-        raise GenevaError(
-            f"shaft_fit_mm = {size.allowances.shaft_fit_mm:g}: it leaves no pin in the links' "
-            f"holes of {2.0 * pin:.6g} mm",
-            ("size", "shaft_fit_mm"),
         )
     return pin, eye
 

@@ -34,6 +34,7 @@ from geneva_cli.parts.links.link_sizes import (
     refuse_hexagon,
 )
 from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.shafts.bolt_holes import screw_through
 
 if TYPE_CHECKING:
     from geneva_cli.parts.gears.gear_blanks import Gear
@@ -176,7 +177,8 @@ def _with_shaft(
     radius = known or min(own, default=bore_radius(L / 20.0))
     if not known and sizes.shaft is not None:  # of the spec: a check reports the wall that is left
         return axis._replace(radius=radius)
-    tight = frozenset(name for name, limit in distances.items() if radius + sizes.wall > limit)
+    least = sizes.loose + sizes.wall
+    tight = frozenset(name for name, limit in distances.items() if radius + least > limit)
     return axis._replace(radius=radius, one_piece=tight)
 
 
@@ -218,7 +220,8 @@ def _gears(
                 ("size", "gear_module_mm"),
             )
     cut = mesh.gears if mesh else {}
-    bores = [next(axis.radius for axis in turning if same(axis.at, p, L)) for p in at]
+    radii = (next(axis.radius for axis in turning if same(axis.at, p, L)) for p in at)
+    bores = [radius + sizes.loose if radius else 0.0 for radius in radii]
     return mesh, [
         link_gear(link, p, bore, sizes, mechanism, cut.get(link.name))
         for link, p, bore in zip(links, at, bores, strict=True)
@@ -253,7 +256,9 @@ def _bar(link: Link, sizes: LinkSizes, L: float) -> _UnboredLink:
             if link.kinds[0] is Joint.NONE:  # it is fixed to the frame beyond both ends
                 beyond = half + 2.0 * sizes.pin
                 fixed = [(ends[0] - beyond) * along, (ends[1] + beyond) * along]
-                holes += [_circle("BORE", f, sizes.pin) for f in fixed]
+                screw = screw_through(2.0 * sizes.pin)
+                bolt = 0.5 * screw.through if screw else sizes.pin
+                holes += [_circle("BORE", f, bolt) for f in fixed]
                 eyes += [_circle("LINK", f, sizes.eye) for f in fixed]
             block = Plate(
                 f"{link.name}'s block",
@@ -277,7 +282,8 @@ def _members(
             there = bar.at + z * bar.unit
             axis = next(one for one in turning if same(one.at, (there.real, there.imag), L))
             eyes.append(_circle("LINK", z, sizes.hub(axis.radius)))
-            holes += [] if name in axis.one_piece else [_circle("BORE", z, axis.radius)]
+            bored = [] if name in axis.one_piece else [axis.radius + sizes.loose]
+            holes += [_circle("BORE", z, radius) for radius in bored]
     low, high = sizes.span(bar.link.plane)
     plate = Plate(name, "LINK", convex_hull("LINK", eyes), tuple(holes), low, high)
     _refuse(plate)

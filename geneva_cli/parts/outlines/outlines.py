@@ -16,7 +16,7 @@ from geneva_cli.numerics.latest import KEPT
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.outlines.crank_outline import crank_contours
-from geneva_cli.parts.outlines.reliefs import has_arcs, is_whole, without_lock
+from geneva_cli.parts.outlines.reliefs import arc_leaves_hub, has_arcs, is_whole, without_lock
 from geneva_cli.parts.outlines.wheel_outline import CURVED, turned_walls, wheel_contour
 from geneva_cli.parts.sizes.plain_sizes import Sizes
 from geneva_cli.parts.turn.gaps import Gaps
@@ -109,8 +109,9 @@ def _drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
 def _relieved(bare: Gaps, sizes: Sizes, close: float) -> tuple[list[Contour], str, Gaps]:
     """Return the crank with the relief of the spec, or else the first kind that clears the wheel.
 
-    An arc leaves the most of the disc and is one cut. If it collides, as with many slots, the whole
-    sector is cut down to where the wheel never comes.
+    An arc leaves the most of the disc and is one cut. If it collides, as with many slots, or leaves
+    too little around the crank's bore or hub, the whole sector is cut down to where the wheel never
+    comes.
     """
     assembly = bare.assembly
     if not sizes.lock:
@@ -118,7 +119,8 @@ def _relieved(bare: Gaps, sizes: Sizes, close: float) -> tuple[list[Contour], st
     requested = assembly.mechanism.spec.size.relief
     whole = is_whole(assembly, sizes)
     swept = cache(lambda i: bare.swept(i, SWEPT_DEG))
-    if whole and not requested and not without_lock(assembly) and has_arcs(assembly, sizes.lock):
+    arcs = whole and not requested and not without_lock(assembly) and has_arcs(assembly, sizes.lock)
+    if arcs and arc_leaves_hub(assembly, sizes):
         crank = crank_contours(assembly, sizes, "arc", swept)
         gaps = bare.with_crank(crank)
         if _overlap(gaps, close) <= close:

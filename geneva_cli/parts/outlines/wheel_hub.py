@@ -28,8 +28,7 @@ def wheel_hub(assembly: Assembly, sizes: Sizes) -> Plate | None:
 
 def _plate(assembly: Assembly, sizes: Sizes) -> Plate | None:
     size = assembly.mechanism.spec.size
-    requested = size.wheel_hub_mm is not None or size.wheel_hub_length_mm is not None
-    if not requested or sizes.wheel_hub <= sizes.wheel_bore:
+    if not size.has_hub("wheel") or sizes.wheel_hub <= sizes.wheel_bore:
         return None
     bores = about_axis(wheel_circles(assembly, sizes) if sizes.wheel_bore else [])
     outline = Circle("HUB", ORIGIN, sizes.wheel_hub)

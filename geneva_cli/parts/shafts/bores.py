@@ -1,15 +1,16 @@
 """Bores for shafts: round, round with a keyway, with one flat ("D"), or hexagonal.
 
-A bore's radius is that of its circle, or of the circle inside a hexagon. It has a direction about
-its axis: that of the keyway, of the flat, or of one side of the hexagon.
+A bore's nominal radius is that of its shaft: of the circle, or of the circle inside a hexagon. The
+bore is cut wider by the fit. It has a direction about its axis: that of the keyway, of the flat, or
+of one side of the hexagon.
 """
 
 from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, replace
-from typing import ClassVar
+from dataclasses import dataclass, field, replace
+from typing import ClassVar, Self
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import at
@@ -32,26 +33,40 @@ from geneva_cli.spec.tables import Size
 
 @dataclass(frozen=True)
 class Bore(ABC):
-    """A bore, and the section of the shaft in it; round in all that a shape does not change."""
+    """A bore, and the section of the shaft in it; round in all that a shape does not change.
+
+    >>> round_bore(Size(shaft_fit_mm=0.4), 6.0).reach
+    6.2
+    """
 
     is_round: ClassVar[bool] = True  # a diameter is a dimension of the bore
     is_plain: ClassVar[bool] = False  # the bore is a circle, which has no direction
     keyed: ClassVar[bool] = False  # the shaft has a keyway
 
-    radius: float
+    radius: float  # of the shaft
+    loose: float = field(default=0.0, kw_only=True)  # by which the bore's is greater
 
     @abstractmethod
+    def _outline(self, layer: Layer, direction: float) -> Shape:
+        """Return a bore as wide as its shaft."""
+
     def shape(self, layer: Layer, direction: float) -> Shape:
         """Return the bore about the origin, with its feature in a direction, radians."""
+        return self.cut._outline(layer, direction)
 
     def section(self, layer: Layer, direction: float) -> Shape:
-        """Return the section of a shaft of this size."""
-        return self.shape(layer, direction)
+        """Return the section of the shaft."""
+        return replace(self, loose=0.0)._outline(layer, direction)
+
+    @property
+    def cut(self) -> Self:
+        """The bore as it is cut: as wide as it is, without a fit."""
+        return replace(self, radius=self.radius + self.loose, loose=0.0)
 
     @property
     def reach(self) -> float:
         """Greatest distance of the bore's wall from its axis."""
-        return self.radius
+        return self.radius + self.loose
 
     @property
     def around(self) -> float:
@@ -66,7 +81,7 @@ class Bore(ABC):
     @property
     def shaft_note(self) -> str:
         """What a drawing of the shaft says besides the diameter."""
-        return self.note
+        return replace(self, loose=0.0).note
 
     @property
     def end_diameter(self) -> float | None:
@@ -75,7 +90,7 @@ class Bore(ABC):
 
     def running(self, turned: bool) -> Bore:
         """Return the bore of a part that turns on the shaft, which a lathe has turned or not."""
-        return RoundBore(self.radius if turned else self.around)
+        return RoundBore(self.radius if turned else self.around, loose=self.loose)
 
 
 @dataclass(frozen=True)
@@ -84,7 +99,7 @@ class RoundBore(Bore):
 
     is_plain: ClassVar[bool] = True
 
-    def shape(self, layer: Layer, direction: float) -> Shape:
+    def _outline(self, layer: Layer, direction: float) -> Shape:
         """Return the circle."""
         return Circle(layer, ORIGIN, self.radius)
 
@@ -101,12 +116,12 @@ class KeyedBore(Bore):
     @property
     def reach(self) -> float:
         """Distance of the keyway's top from the axis."""
-        return self.radius + self.key.in_hub
+        return self.radius + self.loose + self.key.in_hub
 
     @property
     def note(self) -> str:
         """Width of the keyway, and the bore's height over it."""
-        over = 2.0 * self.radius + self.key.in_hub
+        over = self.cut.radius + self.reach
         wide = length(self.key.width, fine=True)
         return f"keyway {wide} JS9, {length(over)} over bore ({self.standard})"
 
@@ -116,8 +131,8 @@ class KeyedBore(Bore):
         wide, deep = length(self.key.width, fine=True), length(self.key.in_shaft)
         return f"keyway {wide} P9, {deep} deep ({self.standard})"
 
-    def shape(self, layer: Layer, direction: float) -> Shape:
-        """Return the bore about the origin; its first piece is the keyway's top."""
+    def _outline(self, layer: Layer, direction: float) -> Shape:
+        """Return the bore; its first piece is the keyway's top."""
         first, second = self._arcs(direction)
         low, high = self._across(self.reach, direction)
         sides = Line(high, first.start), first, second, Line(second.end, low)
@@ -148,15 +163,15 @@ class FlatBore(Bore):
     @property
     def note(self) -> str:
         """Height of the bore over its flat."""
-        return f"flat, {length(2.0 * self.radius - self.depth)} to the far side"
+        return f"flat, {length(2.0 * self.cut.radius - self.depth)} to the far side"
 
     @property
     def end_diameter(self) -> float | None:
         """None: the flat is milled up to the shaft's end."""
         return None
 
-    def shape(self, layer: Layer, direction: float) -> Shape:
-        """Return the bore about the origin; its first piece is the flat."""
+    def _outline(self, layer: Layer, direction: float) -> Shape:
+        """Return the bore; its first piece is the flat."""
         half = math.acos(1.0 - self.depth / self.radius)
         first, second = _arcs(self.radius, direction, half)
         return closed(layer, [Line(second.end, first.start), first, second])
@@ -171,25 +186,25 @@ class HexBore(Bore):
     @property
     def reach(self) -> float:
         """Distance of a corner from the axis."""
-        return self.radius / math.cos(math.pi / 6.0)
+        return self.cut.radius / math.cos(math.pi / 6.0)
 
     @property
     def around(self) -> float:
-        """Distance of a corner from the axis."""
-        return self.reach
+        """Distance of a corner of the shaft from the axis."""
+        return replace(self, loose=0.0).reach
 
     @property
     def note(self) -> str:
         """Width across flats."""
-        return f"hexagon {length(2.0 * self.radius)} across flats"
+        return f"hexagon {length(2.0 * self.cut.radius)} across flats"
 
     @property
     def end_diameter(self) -> float | None:
         """Diameter that the lathe leaves within the hexagon, a twentieth below its flats."""
         return 1.9 * self.radius
 
-    def shape(self, layer: Layer, direction: float) -> Shape:
-        """Return the bore about the origin; its first piece is the side in the direction."""
+    def _outline(self, layer: Layer, direction: float) -> Shape:
+        """Return the bore; its first piece is the side in the direction."""
         corners = [
             _turned(self.reach, 0.0, direction + (2 * k - 1) * math.pi / 6.0) for k in range(6)
         ]
@@ -197,7 +212,7 @@ class HexBore(Bore):
 
 
 def bore_of(size: Size, part: str, radius: float) -> Bore:
-    """Return the bore of a part, "wheel" or "crank", with a radius in mm.
+    """Return the bore of a part, "wheel" or "crank", for a shaft with a radius in mm.
 
     Raises GenevaError, naming the key, for a keyway that its standard does not have, for one in a
     bore that is not round, for a flat that leaves no bore, and for a shape without a bore.
@@ -207,11 +222,15 @@ def bore_of(size: Size, part: str, radius: float) -> Bore:
     >>> bore_of(Size(wheel_bore="D"), "wheel", 5.0).note
     'flat, 9 to the far side'
     """
-    values = vars(size)
+    values, loose = vars(size), size.allowances.around_shaft_mm
     shape, standard = values[f"{part}_bore"], values[f"{part}_keyway"]
     if shape == "round":
-        fitted = key(standard, radius, part)
-        return KeyedBore(radius, standard, fitted) if fitted else RoundBore(radius)
+        fitting = key(standard, radius, part)
+        return (
+            KeyedBore(radius, standard, fitting, loose=loose)
+            if fitting
+            else RoundBore(radius, loose=loose)
+        )
     if standard is not None:
         raise GenevaError(
             f'{part}_keyway: {part}_bore = "{shape}" holds the shaft without a key; remove one',
@@ -222,7 +241,24 @@ def bore_of(size: Size, part: str, radius: float) -> Bore:
             f'{part}_bore = "{shape}": the {part} has no bore; set {part}_bore_mm, or remove it',
             ("size", f"{part}_bore"),
         )
-    return HexBore(radius) if shape == "hex" else _flat(values[f"{part}_flat_mm"], part, radius)
+    if shape == "hex":
+        return HexBore(radius, loose=loose)
+    return replace(_flat(values[f"{part}_flat_mm"], part, radius), loose=loose)
+
+
+def round_bore(size: Size, radius: float) -> RoundBore:
+    """Return the round bore for a shaft, or for a pin on which a part turns, with a radius in mm.
+
+    >>> round_bore(Size(process="print"), 6.0)
+    RoundBore(radius=6.0, loose=0.2)
+    """
+    return RoundBore(radius, loose=size.allowances.around_shaft_mm)
+
+
+def bore_in(size: Size, part: str, shape: Shape) -> Bore:
+    """Return the bore of a part from its shape."""
+    # without the rounding errors of the sum, which would choose another key
+    return bore_of(size, part, round(radius_of(shape) - size.allowances.around_shaft_mm, 9))
 
 
 def _flat(depth: float | None, part: str, radius: float) -> FlatBore:
@@ -238,21 +274,6 @@ def _flat(depth: float | None, part: str, radius: float) -> FlatBore:
             ("size", f"{part}_flat_mm"),
         )
     return FlatBore(radius, depth)
-
-
-def fitted(size: Size, bore: Bore) -> Bore:
-    """Return the size of a shaft for a bore: its diameter is ``shaft_fit_mm`` smaller.
-
-    Raises GenevaError where nothing is left of the shaft.
-    """
-    radius = bore.radius - 0.5 * size.allowances.shaft_fit_mm
-    if not radius > 0.0:
-        raise GenevaError(
-            f"shaft_fit_mm = {size.allowances.shaft_fit_mm:g}: nothing is left of the shaft in a "
-            f"bore of {2.0 * bore.radius:g} mm",
-            ("size", "shaft_fit_mm"),
-        )
-    return replace(bore, radius=radius)
 
 
 def has_shape(size: Size, part: str) -> bool:

@@ -31,7 +31,7 @@ def built_shafts(
         if steps:
             axles.append(turned_shaft(size, one, top, free if _is_passed(one, adjacent) else None))
         else:
-            axles.append(one._replace(low=bottom if one.low == usual else one.low).plain(size))
+            axles.append(one._replace(low=bottom if one.low == usual else one.low).plain())
     return axles, bottom
 
 

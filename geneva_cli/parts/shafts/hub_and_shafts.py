@@ -42,8 +42,7 @@ def crank_hub(parts: Outlines) -> Plate | None:
 
 def _crank_hub(parts: Outlines) -> Plate | None:
     size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
-    requested = size.crank_hub_mm is not None or size.crank_hub_length_mm is not None
-    if not requested or sizes.crank_hub <= sizes.crank_bore:
+    if not size.has_hub("crank") or sizes.crank_hub <= sizes.crank_bore:
         return None
     on_arm = 0.0 - size.allowances.pin_gap_mm  # no -0.0
     disc = bool(parts.crank) and is_whole(parts.assembly, sizes)

@@ -28,7 +28,8 @@ class Screw(NamedTuple):
         return 0.25 * math.pi * (self.thread - 0.9382 * self.pitch) ** 2
 
 
-# Coarse pitches by ISO 261, clearance holes by ISO 273 (medium), cylindrical heads by ISO 4762.
+# Sizes by ISO 262, coarse pitches by ISO 261, clearance holes by ISO 273 (medium), cylindrical
+# heads by ISO 4762.
 SCREWS = [
     Screw(*row)
     for row in (
@@ -45,6 +46,12 @@ SCREWS = [
         (16, 2.0, 17.5, 24.0),
         (20, 2.5, 22.0, 30.0),
         (24, 3.0, 26.0, 36.0),
+        (30, 3.5, 33.0, 45.0),
+        (36, 4.0, 39.0, 54.0),
+        (42, 4.5, 45.0, 63.0),
+        (48, 5.0, 52.0, 72.0),
+        (56, 5.5, 62.0, 84.0),
+        (64, 6.0, 70.0, 96.0),
     )
 ]
 

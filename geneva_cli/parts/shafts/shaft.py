@@ -7,7 +7,7 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Member, Part, Plate
 from geneva_cli.geometry.shapes import Point
-from geneva_cli.parts.shafts.bores import Bore, fitted
+from geneva_cli.parts.shafts.bores import Bore
 from geneva_cli.spec.tables import Size
 
 
@@ -46,11 +46,10 @@ class Shaft(NamedTuple):
         own = f"{self.part}_bore_mm"
         return own if hasattr(Size, own) else "link_bore_mm"
 
-    def plain(self, size: Size) -> Member:
-        """Return the shaft with one section all along: that of its bore, less the fit.
+    def plain(self) -> Member:
+        """Return the shaft with one section all along.
 
-        Raises GenevaError, naming the key, where its lower end is not below its upper one, and
-        where ``shaft_fit_mm`` leaves nothing of it.
+        Raises GenevaError, naming the key, where its lower end is not below its upper one.
         """
         if not self.low < self.high:
             key = f"{self.part}_shaft_low_mm"
@@ -60,7 +59,7 @@ class Shaft(NamedTuple):
                 f"{self.part}_shaft_high_mm",
                 ("size", key),
             )
-        section = fitted(size, self.bore).section("SHAFT", self.direction)
+        section = self.bore.section("SHAFT", self.direction)
         return Member(
             Plate(self.name, "SHAFT", section, (), self.low, self.high), self.at, self.turn
         )

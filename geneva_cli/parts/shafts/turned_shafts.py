@@ -18,7 +18,7 @@ from geneva_cli.geometry.pieces import SHORTEST_MM
 from geneva_cli.geometry.plates import Member, Plate, Stack
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Shape
 from geneva_cli.parts.shafts.bearings import Bearing, bearing_up_to, circlip_up_to
-from geneva_cli.parts.shafts.bores import Bore, fitted, rounded
+from geneva_cli.parts.shafts.bores import Bore, rounded
 from geneva_cli.parts.shafts.shaft import Seat, Shaft
 from geneva_cli.spec.tables import Size
 
@@ -50,7 +50,7 @@ def turned_shaft(size: Size, shaft: Shaft, frame: float, free: float | None = No
     otherwise it reaches the lowest part. Raises GenevaError, naming the key, for
     a shaft that is too thin for a bearing, and for ends that leave no space for the circlips.
     """
-    bearing, own = bearing_of(shaft), fitted(size, shaft.bore)
+    bearing, own = bearing_of(shaft), shaft.bore
     under = frame - bearing.width
     ring = circlip_up_to(bearing.bore)
     groove = under - ring.width

@@ -55,9 +55,8 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     size = spec.size
     contact = value_or(size.face_width_mm, sizes.wheel_thickness)
     crank = sizes.arm_bore or sizes.crank_bore
-    requested = size.wheel_hub_mm is not None or size.wheel_hub_length_mm is not None
     length = 0.0  # of the wheel's hub
-    if requested and sizes.wheel_hub > sizes.wheel_bore:
+    if size.has_hub("wheel") and sizes.wheel_hub > sizes.wheel_bore:
         usual = size.allowances.pin_gap_mm + sizes.arm_thickness
         length = value_or(size.wheel_hub_length_mm, usual)
     end = ShaftEnd(_to_frame(assembly, sizes, length), sizes.arm_thickness, assembly.L)

@@ -15,11 +15,11 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import fit
 from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import Circle, Contour, Layer, closed
-from geneva_cli.numerics.preferred import rounded_radius
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.links.links import Links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_hub import about_axis
+from geneva_cli.parts.shafts.bolt_holes import screw_through
 from geneva_cli.parts.sizes.plain_sizes import Sizes
 from geneva_cli.parts.slots.groove import groove_curve
 
@@ -62,13 +62,14 @@ def groove_base(parts: Outlines, bars: Links) -> Plate:
     assert bars.sizes is not None  # the crank is a link
     L = parts.assembly.L
     far, rim = groove_reaches(parts.assembly, parts.sizes)
-    mount, at = rounded_radius(0.25 * rim), far + 0.5 * rim
+    screw, at = screw_through(0.5 * rim), far + 0.5 * rim
     mounts = [
-        Circle("BORE", (at * math.cos(turn), at * math.sin(turn)), mount)
+        Circle("BORE", (at * math.cos(turn), at * math.sin(turn)), 0.5 * screw.through)
         for turn in (math.tau * (k + 0.5) / MOUNTS for k in range(MOUNTS))
+        if screw
     ]
     shaft = bars.shaft((L, 0.0), L)
-    bore = [Circle("BORE", (0.0, 0.0), shaft)] if shaft else []
+    bore = [Circle("BORE", (0.0, 0.0), shaft + bars.sizes.loose)] if shaft else []
     edge = Circle("FRAME", (0.0, 0.0), far + rim)
     high, _ = bars.sizes.span(BELOW)
     low = high - parts.sizes.arm_thickness

@@ -40,7 +40,7 @@ def _edge(parts: FlatParts) -> tuple[Array, Array]:
     contours = [*outlines.crank, *([parts.arm.outline] if parts.arm else [])]
     x, y = Polyarc(contours).samples(near, L).T if contours else np.empty((2, 0))
     centres = [0.0, *(complex(*at) for at in roller_centres(outlines.assembly))]
-    reach = [sizes.crank_hub, *[sizes.roller] * (len(centres) - 1)]
+    reach = [parts.axle_radius("crank"), *[sizes.roller] * (len(centres) - 1)]
     return np.append(x + 1j * y, centres), np.append(np.full(len(x), near), reach)
 
 

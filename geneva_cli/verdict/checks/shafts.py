@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.reliefs import is_whole
 from geneva_cli.parts.shafts.clamps import clamp_of
-from geneva_cli.parts.sizes.plain_sizes import Sizes
 from geneva_cli.verdict.checks.check import Check, compared, gap
 
 if TYPE_CHECKING:
@@ -18,7 +17,7 @@ if TYPE_CHECKING:
 def crank_shaft(name: str, parts: FlatParts) -> Check | None:
     """The gap between the crank's shaft or hub, whichever is thicker, and the wheel's rim."""
     assembly, size = parts.outlines.assembly, parts.outlines.sizes
-    shaft = _shaft(size)
+    shaft = parts.axle_radius("crank")
     if not shaft:
         return None
     # An internal wheel's horns sweep over the crank's axis, so there is no clearance at all.
@@ -29,7 +28,7 @@ def crank_shaft(name: str, parts: FlatParts) -> Check | None:
 def crank_hub(name: str, parts: FlatParts) -> Check | None:
     """The gap between the crank's shaft or hub and the bottom of the locking disc's relief."""
     outlines = parts.outlines
-    shaft = _shaft(outlines.sizes)
+    shaft = parts.axle_radius("crank")
     if not (shaft and outlines.crank and is_whole(outlines.assembly, outlines.sizes)):
         return None
     return compared(name, outlines.relief_depth - shaft, "at least", 0.0)
@@ -38,7 +37,7 @@ def crank_hub(name: str, parts: FlatParts) -> Check | None:
 def wheel_shaft(name: str, parts: FlatParts) -> Check | None:
     """The gap between the wheel's shaft or hub and a roller at the bottom of its slot."""
     size = parts.outlines.sizes
-    hub = max(size.wheel_bore, size.wheel_hub)
+    hub = parts.axle_radius("wheel")
     if not (hub and parts.outlines.assembly.sign > 0.0):
         return None
     return compared(name, size.slot_end - hub, "at least", 0.0)
@@ -92,10 +91,6 @@ def passing_rack_gears(name: str, parts: RackParts) -> Check | None:
     from geneva_cli.verdict.shaft_gap import rack_gear_gap
 
     return gap(name, lambda: rack_gear_gap(parts), parts.mechanism.center_distance_mm)
-
-
-def _shaft(size: Sizes) -> float:
-    return max(size.crank_bore, size.crank_hub if size.crank_bore else 0.0)
 
 
 def held_torque(name: str, parts: FlatParts | SphereParts) -> Check | None:

@@ -76,7 +76,7 @@ def wheel_bore(name: str, parts: FlatParts) -> Check | None:
     if not size.wheel_bore:
         return None
     hub = wheel_hub(parts.outlines.assembly, size)
-    wall = size.slot_end - size.wheel_bore
+    wall = size.slot_end - size.wheel_bore - _around_shaft(parts)
     return _wall(name, min(wall, size.wheel_hub - size.wheel_reach) if hub else wall, size)
 
 
@@ -98,9 +98,13 @@ def crank_bore(name: str, parts: FlatParts) -> Check | None:
     size = outlines.sizes
     if not (size.crank_bore and outlines.crank and is_whole(outlines.assembly, size)):
         return None
-    wall = outlines.relief_depth - size.crank_bore
+    wall = outlines.relief_depth - size.crank_bore - _around_shaft(parts)
     in_hub = size.crank_hub - size.crank_reach
     return _wall(name, min(wall, in_hub) if parts.crank_hub else wall, size)
+
+
+def _around_shaft(parts: FlatParts) -> float:
+    return parts.mechanism.spec.size.allowances.around_shaft_mm
 
 
 def _wall(name: str, value: float, sizes: Sizes) -> Check:

@@ -199,17 +199,20 @@ def test_area_of_the_arm():
     shaft, pin, *bolts = shapes[1:]
     assert shaft.centre == (0.0, 0.0)
     assert pin.centre == (R, 0.0)
-    assert [(one.centre[0] < 0.0, one.radius) for one in bolts] == [(True, 1.25)] * 2
+    assert [(one.centre[0] < 0.0, one.radius) for one in bolts] == [
+        (True, 0.8)
+    ] * 2  # M2, to be tapped
 
 
 def test_ring_and_roller_stand_on_the_arm():
-    """The arm is pin_gap_mm below the rack; its bolts go through arm and ring."""
+    """The arm is pin_gap_mm below the rack; M2 passes the ring (2.4 mm) into the arm (1.6 mm)."""
     machine = design(slot_clearance_mm=0.1, pin_gap_mm=1.0)
     rack, _, crank = (one.part for one in machine.drawing("assembly").solid.members[:3])
     arm, _, pin, ring = (one.part for one in crank.members)
     assert (rack.low, arm.high, ring.low) == (0.0, -1.0, -1.0)
     assert pin.low == arm.low
-    assert set(ring.holes) == set(arm.holes[2:])
+    assert {hole.radius for hole in ring.holes} == {1.2}
+    assert {hole._replace(radius=0.8) for hole in ring.holes} == set(arm.holes[2:])
 
 
 @pytest.mark.parametrize(
@@ -286,6 +289,7 @@ def test_the_rack_covers_its_guide_in_each_step(count, lock):
 
 
 def test_screws_hold_the_guide_on_the_frame_and_the_bar_on_the_rack():
+    """M2 passes rail and wall, and its thread is in the frame; bar and rack have through holes."""
     s = solids_of()
 
     def holes(name: str) -> set:
@@ -293,7 +297,8 @@ def test_screws_hold_the_guide_on_the_frame_and_the_bar_on_the_rack():
 
     for name in ("guide rail", "guide wall"):
         assert len(holes(name)) == 3
-        assert holes(name) <= holes("frame")
+        assert {hole.radius for hole in holes(name)} == {1.2}
+        assert {hole._replace(radius=0.8) for hole in holes(name)} <= holes("frame")
     assert holes("guide cover") == holes("guide wall")
     assert holes("guide bar") == holes("rack")
     assert len(holes("rack")) == 6

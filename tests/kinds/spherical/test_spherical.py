@@ -316,7 +316,7 @@ def test_an_arm_with_bolts_keyway_and_hub_inside():
     design = Design(Spherical(4, axes_deg=40), size=size)
     found = PartsModel(design.mechanism).shells
     whole = SphereParts(found)
-    assert [hole.radius for hole in whole.arm.bolts] == [1.25, 1.25]
+    assert [hole.radius for hole in whole.arm.bolts] == [1.2, 1.2]  # M2
     names = Counter(one.name for one in solids(whole.crank.part))
     assert names["crank's hub"] == 1
     (sector,) = (one for one in solids(whole.crank.part) if one.name == "locking sector")

@@ -1,0 +1,108 @@
+"""Holes for screws: those of the standards, and which of two parts has the thread."""
+
+import pytest
+from repo import DESIGNS
+
+from geneva_cli import Design, External, Size, load
+from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.shapes import Circle
+from geneva_cli.parts.shafts.bolt_holes import bolt_radius, screw_through, tapped
+from geneva_cli.parts.shafts.screws import SCREWS
+
+# Coarse threads of ISO 262, their clearance holes of the medium series of ISO 273, and the drills
+# before the threads are cut by ISO 2306.
+STANDARD = """
+1.6  1.8  1.25
+2    2.4  1.6
+2.5  2.9  2.05
+3    3.4  2.5
+4    4.5  3.3
+5    5.5  4.2
+6    6.6  5.0
+8    9    6.8
+10   11   8.5
+12   13.5 10.2
+16   17.5 14
+20   22   17.5
+24   26   21
+30   33   26.5
+36   39   32
+42   45   37.5
+48   52   43
+56   62   50.5
+64   70   58
+"""
+
+
+def test_clearance_holes_and_drills_are_the_standards() -> None:
+    rows = [[float(x) for x in line.split()] for line in STANDARD.split("\n") if line]
+    assert [(row.thread, row.through) for row in SCREWS] == [(a, b) for a, b, _ in rows]
+    # a drill is thread less pitch, rounded to what drills there are
+    assert [row.core for row in SCREWS] == [pytest.approx(drill, abs=0.051) for *_, drill in rows]
+
+
+@pytest.mark.parametrize(
+    ("L", "half_width", "thread", "through"),
+    [
+        (71.9, 9.0, None, 0.0),  # L/40 is below the 1.8 mm of M1.6
+        (72.0, 9.0, 1.6, 1.8),
+        (100.0, 9.0, 2.0, 2.4),
+        (250.0, 9.0, 5.0, 5.5),
+        (250.0, 3.4, 3.0, 3.4),  # half of the ring
+        (440.0, 99.0, 10.0, 11.0),
+    ],
+)
+def test_a_default_hole_is_for_the_largest_screw(
+    L: float, half_width: float, thread: float | None, through: float
+) -> None:
+    assert 2.0 * bolt_radius(None, L, half_width) == pytest.approx(through, abs=1e-12)
+    screw = screw_through(through)
+    assert (screw and screw.thread) == thread
+
+
+def test_a_hole_of_the_spec_stays() -> None:
+    """The largest screw that passes 6.25 mm is M5, whose pitch is 0.8 mm; none passes 1 mm."""
+    assert 2.0 * bolt_radius(6.25, 100.0, 9.0) == 6.25
+    hole = Circle("BORE", (1.0, 2.0), 3.125)
+    assert tapped(hole) == hole._replace(radius=pytest.approx(0.5 * (5.0 - 0.8)))
+    thin = hole._replace(radius=0.5)
+    assert tapped(thin) == thin
+
+
+def listed(design: Design) -> dict[str, object]:
+    rows = design.part_table("parts").to_rows()
+    return {str(row["name"]): row["value"] for row in rows if "screws of" in str(row["name"])}
+
+
+def test_the_list_names_the_screws() -> None:
+    """L = 250: M5 for 6.25 mm, and M8 for 0.8 of the frame's corners of 12.5 mm; dials are given.
+
+    L = 160 of an epicyclic drive: its fixed gear takes M3 for 4 mm.
+    """
+    turret = load(str(DESIGNS / "turret.toml"), ["size.dial_bolts=6", "size.dial_bolt_mm=9"])
+    assert listed(turret) == {
+        "screws of the dial, tapped in the dial": "6 × M8",
+        "screws of the locking disc, tapped in the arm": "2 × M5",
+        "screws of the frame, tapped in its base": "4 × M8",
+    }
+    epicyclic = listed(load(str(DESIGNS / "epicyclic-soft-z6.toml")))
+    assert epicyclic["screws of the fixed gear, tapped in the frame"] == "4 × M3"
+
+
+def test_a_sheet_says_which_hole_is_tapped() -> None:
+    texts = {label.text for label in load(str(DESIGNS / "turret.toml")).sheet(0.05).texts}
+    assert any(text.startswith("2× Ø 5.5 for M5 on Ø ") for text in texts)
+    assert any(text.startswith("2× Ø 4.2, tapped M5 on Ø ") for text in texts)
+    assert "4× Ø 9 for M8" in texts
+
+
+def test_small_machines_have_no_screws() -> None:
+    """At L = 40 a hole of L/40 is 1 mm; a dial that needs some is told so."""
+    small = Design(External(6), size=Size(40.0))
+    assert not listed(small)
+    assert not small.parts_model.flat.arm.bolts
+    for key in ("dial_bolts", "lock_bolts"):
+        parts = Design(External(6), size=Size(40.0, **{key: 2})).parts_model.flat
+        with pytest.raises(GenevaError, match=f"{key} = 2: .* too small for a screw of M1.6") as no:
+            parts.require()
+        assert no.value.key == ("size", key)
