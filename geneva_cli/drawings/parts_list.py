@@ -11,10 +11,12 @@ sphere inwards from the wheel's outer face.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.drawings.model import PartsModel
+from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.mass import MM, solid_properties
 from geneva_cli.geometry.measure import bounds_of
 from geneva_cli.geometry.plates import Part, Shell, Solid
@@ -25,6 +27,7 @@ from geneva_cli.motion.rollers import places
 from geneva_cli.parts.alike import alike
 from geneva_cli.parts.missing import Missing, built_of, or_missing
 from geneva_cli.parts.projection import outlines_of
+from geneva_cli.parts.shafts.shaft import FIX
 from geneva_cli.spec.materials import roller_material, wheel_material
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.spec.tables import Size
@@ -176,6 +179,7 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
         entries.append(Dimension("roller radius", r, "mm"))
         entries.append(Dimension("slot width", 2.0 * (r + clear), "mm"))
     entries += _screws_and_edges(spec.size)
+    entries += _to_fix(model)
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     entries += model.kind.dimensions(model)
     cranked = spec.drive.CRANKED and not spec.wheel.toothed
@@ -205,6 +209,13 @@ def _screws_and_edges(size: Size) -> Iterator[Dimension]:
     if size.edge_mm:
         kind = "rounding" if size.edge_chamfer_mm is None else "chamfer"
         yield Dimension(f"{kind} of all edges", size.edge_mm, "mm")
+
+
+def _to_fix(model: PartsModel) -> Iterator[Dimension]:
+    """Yield what to do with each part that turns with its shaft in a round bore."""
+    for _, build in model.all_built:
+        with suppress(GenevaError):  # the rows of what cannot be built have the reason
+            yield from (Dimension(f"bore of the {name}", FIX) for name in build().to_fix)
 
 
 def _straight(mechanism: Mechanism) -> Iterator[Dimension]:

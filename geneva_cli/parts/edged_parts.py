@@ -22,6 +22,7 @@ class FrameAndShafts(NamedTuple):
     plate: Plate
     shafts: tuple[Member, ...]
     spacers: tuple[Member, ...] = ()  # below the parts that are screwed to it
+    to_fix: tuple[str, ...] = ()  # names of what the shafts turn, and nothing holds on them
 
 
 class EdgedParts(PartsOfMachine):
@@ -72,6 +73,11 @@ class EdgedParts(PartsOfMachine):
     def frame(self) -> Member:
         """The frame, which holds the shafts."""
         return self._edged([Member(self._framed.plate)])[0]
+
+    @property
+    def to_fix(self) -> tuple[str, ...]:
+        """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
+        return tuple({"crank": "arm"}.get(name, name) for name in self._framed.to_fix)
 
     @property
     def _edge(self) -> Edge:

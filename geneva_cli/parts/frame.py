@@ -88,7 +88,10 @@ def framed(
         # a frame contains every axis, drilled or not
         within = [*holes, *(Circle("BORE", at, 0.0) for at in (ORIGIN, *places))]
         plate = mounted_plate(holes, within, eye, (bottom, top))
-    return FrameAndShafts(plate, tuple(outside_links(axles, bars, L)), tuple(spacers))
+    whole = {name for axis in bars.axes for name in axis.one_piece}
+    to_fix = (name for one in own for name in one.to_fix(size) if name not in whole)
+    shafts = tuple(outside_links(axles, bars, L))
+    return FrameAndShafts(plate, shafts, tuple(spacers), tuple(dict.fromkeys(to_fix)))
 
 
 def _drilled(

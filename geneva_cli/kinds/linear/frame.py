@@ -84,7 +84,8 @@ def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
     size, sizes, heights = mechanism.spec.size, rack_sizes(mechanism), rack_frame(mechanism)
     L = 2.0 * sizes.arm  # as a wheel of 6 slots has it
     span = heights.plain, heights.top, heights.top
-    axles, bottom = built_shafts(size, list(_shafts(mechanism, heights)), [], span)
+    own = list(_shafts(mechanism, heights))
+    axles, bottom = built_shafts(size, own, [], span)
     bored = shaft_holes(size, axles, heights.top)
     require_walls(bored, wall_min(size, sizes.arm), axles)
     if not has_arm(mechanism):
@@ -92,7 +93,8 @@ def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
         bored.insert(0, hole_without_shaft(diameter, mechanism.crank_shaft.at, L))
     holes = [*bored, *(hole for at in _rows(sizes) for hole in _row(sizes, at))]
     frame = mounted_plate(holes, holes, corner_radius(size, L), (bottom, heights.top))
-    return FrameAndShafts(frame, tuple(axles))
+    to_fix = tuple(name for one in own for name in one.to_fix(size))
+    return FrameAndShafts(frame, tuple(axles), to_fix=to_fix)
 
 
 def _shafts(mechanism: Mechanism, heights: RackFrame) -> Iterator[Shaft]:
