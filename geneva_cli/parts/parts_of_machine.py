@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Self
 if TYPE_CHECKING:
     from geneva_cli.geometry.plates import Member
     from geneva_cli.motion.mechanism import Mechanism
+    from geneva_cli.parts.edged_parts import Unborne
     from geneva_cli.parts.gears.gear_blanks import Gear
     from geneva_cli.parts.missing import NamedParts
 
@@ -45,6 +46,11 @@ class PartsOfMachine(ABC):
     @property
     def to_fix(self) -> tuple[str, ...]:
         """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
+        return ()
+
+    @property
+    def unborne(self) -> tuple[Unborne, ...]:
+        """The shafts that turn and have no bearing."""
         return ()
 
     @property
