@@ -10,17 +10,10 @@ from typing import TYPE_CHECKING, NamedTuple, Self
 from geneva_cli.geometry.edges import Edge
 from geneva_cli.geometry.plates import Member, Plate, edged
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.parts.parts_of_machine import PartsOfMachine
+from geneva_cli.parts.parts_of_machine import PartsOfMachine, Unborne
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.gear_teeth import Writer
-
-
-class Unborne(NamedTuple):
-    """A shaft that turns and does not reach the frame, and the reason."""
-
-    name: str
-    reason: str
 
 
 class FrameAndShafts(NamedTuple):
