@@ -12,7 +12,7 @@ from geneva_cli.geometry.shapes import Circle
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.mounted_plate import mounts_of
-from geneva_cli.parts.parts_of_machine import PartsOfMachine
+from geneva_cli.parts.parts_of_machine import PartsOfMachine, Unborne
 from geneva_cli.parts.shafts.bolt_holes import Screws, tapped
 
 if TYPE_CHECKING:
@@ -33,6 +33,9 @@ class FrameAndShafts(NamedTuple):
     shafts: tuple[Member, ...]
     spacers: tuple[Member, ...] = ()  # below the parts that are screwed to it
     screwed: tuple[Screwed, ...] = ()
+    to_fix: tuple[str, ...] = ()  # names of what the shafts turn, and nothing holds on them
+    bridge: Member | None = None  # bears the crank's shaft from above
+    unborne: tuple[Unborne, ...] = ()
 
 
 class EdgedParts(PartsOfMachine):
@@ -106,6 +109,15 @@ class EdgedParts(PartsOfMachine):
         mounts = mounts_of(self._framed.plate)
         own = Screws("frame", len(mounts), 2.0 * mounts[0].radius, "its base") if mounts else None
         return (*fixed, own) if own else tuple(fixed)
+
+    def to_fix(self) -> tuple[str, ...]:
+        """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
+        return tuple({"crank": "arm"}.get(name, name) for name in self._framed.to_fix)
+
+    @property
+    def unborne(self) -> tuple[Unborne, ...]:
+        """The shafts that have no bearing."""
+        return self._framed.unborne
 
     @property
     def _edge(self) -> Edge:

@@ -22,10 +22,12 @@ from geneva_cli.parts.arm import CrankArm, bolts, crank_arm, has_arm
 from geneva_cli.parts.crank_solids import arm_plate, locking_plates, roller_plates
 from geneva_cli.parts.edged_parts import EdgedParts, FrameAndShafts
 from geneva_cli.parts.frame import framed
+from geneva_cli.parts.links.link_shafts import links_to_fix
 from geneva_cli.parts.links.link_sizes import roller_pins
 from geneva_cli.parts.links.links import Links, drawn_links
 from geneva_cli.parts.outlines.outline_sizes import outlines
 from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.outlines.reliefs import is_whole
 from geneva_cli.parts.outlines.wheel_outline import dial_bolts, slot_walls, wheel_contour
 from geneva_cli.parts.shafts.bolt_holes import Screws
 from geneva_cli.parts.shafts.hub_and_shafts import crank_hub
@@ -284,10 +286,15 @@ class FlatParts(EdgedParts):
         """The rings between the frame and parts that are screwed to it."""
         return self._edged(self._framed.spacers)
 
+    @cached_property
+    def bridge(self) -> tuple[Member, ...]:
+        """The bridge that bears a crank's shaft from above; none where the frame bears it."""
+        return self._edged([self._framed.bridge] if self._framed.bridge else [])
+
     @property
     def standing(self) -> tuple[Member, ...]:
-        """The parts that stand still: a cam's groove plate, the frame, and what is between."""
-        return (*self.groove_plate, *self.spacers, self.frame)
+        """The parts that stand still: a cam's groove plate, the frame, and what is on it."""
+        return (*self.groove_plate, *self.spacers, *self.bridge, self.frame)
 
     @property
     def screws(self) -> tuple[Screws, ...]:
@@ -314,6 +321,26 @@ class FlatParts(EdgedParts):
             from geneva_cli.parts.gears.gear_pair import pair_with_teeth
 
             pair_with_teeth(self.mechanism)
+
+    @property
+    def to_fix(self) -> tuple[str, ...]:
+        """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
+        if not self.mechanism.spec.wheel.FLAT:
+            return tuple(links_to_fix(self.links, self.mechanism))
+        links = {plate.name: [plate.name] for plate in self.links.plates}
+        named = {**links, "crank": [*links.get("crank", []), *self._on_crank_shaft()]}
+        return tuple(one for name in self._framed.to_fix for one in named.get(name, [name]))
+
+    def _on_crank_shaft(self) -> Iterator[str]:
+        """Yield the names of the crank's parts about its shaft; bolts fix the disc to the arm."""
+        if self.drawn is None:
+            return
+        if self.arm:
+            yield "arm"
+        sizes = self.outlines.sizes
+        bored = sizes.crank_bore > 0.0 and is_whole(self.outlines.assembly, sizes)
+        if self.locking and bored and not (self.arm and self.arm.bolts):
+            yield "locking disc"
 
     @property
     def linked(self) -> tuple[Member, ...]:
@@ -346,4 +373,4 @@ class FlatParts(EdgedParts):
         yield "first wheel", lambda: [one.part for one in self.first]
         yield "shafts", lambda: [one.part for one in self.shafts]
         yield "groove plate", lambda: [one.part for one in self.groove_plate]
-        yield "frame", lambda: [one.part for one in (*self.spacers, self.frame)]
+        yield "frame", lambda: [one.part for one in (*self.spacers, *self.bridge, self.frame)]

@@ -21,6 +21,7 @@ from geneva_cli.geometry.shapes import ORIGIN, Circle, Point
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import has_arm
+from geneva_cli.parts.bearing_bridge import bearing_bridge
 from geneva_cli.parts.edged_parts import FrameAndShafts, Screwed
 from geneva_cli.parts.links.link_positions import same
 from geneva_cli.parts.links.link_shafts import outside_links
@@ -34,13 +35,15 @@ from geneva_cli.parts.mounted_plate import (
 )
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_hub import wheel_hub
+from geneva_cli.parts.parts_of_machine import Unborne
 from geneva_cli.parts.shafts.all_shafts import all_shafts, passing, passing_arm
 from geneva_cli.parts.shafts.bearings import shoulder_length
 from geneva_cli.parts.shafts.bolt_holes import tapped
 from geneva_cli.parts.shafts.built_shafts import built_shafts
-from geneva_cli.parts.shafts.shaft import Seat
+from geneva_cli.parts.shafts.shaft import Seat, Shaft
 from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses
 from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.tables import Size
 
 Fixed: TypeAlias = tuple[Circle, Plate]  # a screw's clearance hole, and the part that it fixes
 
@@ -70,13 +73,22 @@ def framed(
     top = free - shoulder_length(size, L)
     thick = drawn_thicknesses(size, L, outlines.sizes if outlines else None).arm
     own = list(all_shafts(mechanism, outlines, bars, top - thick, first))
+    hanging = [one for one in own if one.turns and one.low >= top]
+    crank = next((one for one in hanging if same(one.at, mechanism.crank_shaft.at, L)), None)
+    bridge = None
+    if outlines and crank:
+        bridge = bearing_bridge(mechanism, outlines, bars, crank, thick)
+    if bridge and crank:
+        own[own.index(crank)] = crank._replace(high=bridge.high)
+        hanging.remove(crank)
     if size.shafts == "turned" and outlines:
         adjacent += passing_arm(outlines, own)
     axles, bottom = built_shafts(size, own, adjacent, (top - thick, top, free))
     places = list(_standing(mechanism, bars))
     drilled = list(_drilled(mechanism, axles, places, top))
     require_walls(drilled, wall_min(size, L), axles)
-    fixed = [*_fixed(bars), *(_mounted(base, L) if base else ())]
+    mounted = (_mounted(plate, L) for plate in (base, bridge) if plate)
+    fixed = [*_fixed(bars), *(screwed for one in mounted for screwed in one)]
     holes = [*drilled, *(tapped(hole) for hole, _ in fixed)]
     near = SAME_LENGTH * L
     spacers = [_spacer(hole, part, top) for hole, part in fixed if part.low - top > near]
@@ -89,8 +101,30 @@ def framed(
         # a frame contains every axis, drilled or not
         within = [*holes, *(Circle("BORE", at, 0.0) for at in (ORIGIN, *places))]
         plate = mounted_plate(holes, within, eye, (bottom, top))
-    screwed = tuple(Screwed(hole, part.name) for hole, part in fixed)
-    return FrameAndShafts(plate, tuple(outside_links(axles, bars, L)), tuple(spacers), screwed)
+    whole = {name for axis in bars.axes for name in axis.one_piece}
+    to_fix = (name for one in own for name in one.to_fix(size) if name not in whole)
+    shafts = tuple(outside_links(axles, bars, L))
+    return FrameAndShafts(
+        plate,
+        shafts,
+        tuple(spacers),
+        tuple(Screwed(hole, part.name) for hole, part in fixed),
+        tuple(dict.fromkeys(to_fix)),
+        Member(bridge, (L, 0.0)) if bridge else None,
+        tuple(Unborne(one.name, _why_above(one, size, bars, top)) for one in hanging),
+    )
+
+
+def _why_above(shaft: Shaft, size: Size, bars: Links, top: float) -> str:
+    """Return the reason why a shaft ends above the frame's upper face ``top``."""
+    ends = f"it ends at {shaft.low:.4g} mm, above the frame at {top:.4g} mm"
+    key = f"{shaft.part}_shaft_low_mm"
+    if vars(size).get(key) is not None:
+        return f"{ends}, because {key} = {shaft.low:g}"
+    if shaft.part == "wheel":
+        return f"{ends}, because wheel_hub_mm = 0 ends it in the wheel"
+    below = [plate.name for plate in bars.plates if plate.high <= shaft.low]
+    return f"{ends}, because the {' and the '.join(below)} passes below it"
 
 
 def _drilled(
@@ -149,9 +183,12 @@ def _mounted(base: Plate, L: float) -> Iterator[Fixed]:
 
 
 def _spacer(screw: Circle, part: Plate, top: float) -> Member:
-    """Return the ring about a screw, twice as wide, between the frame and the fixed part."""
-    outline, bore = Circle("FRAME", ORIGIN, 2.0 * screw.radius), screw._replace(centre=ORIGIN)
-    plate = Plate(f"spacer of the {part.name}", "FRAME", outline, (bore,), top, part.low)
+    """Return the ring about a screw, twice as wide, between the frame and the fixed part.
+
+    It is turned from a rod: often it is higher than wide.
+    """
+    outline, bore = Circle("SHAFT", ORIGIN, 2.0 * screw.radius), screw._replace(centre=ORIGIN)
+    plate = Plate(f"spacer of the {part.name}", "SHAFT", outline, (bore,), top, part.low)
     return Member(plate, screw.centre)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 from geneva_cli.kept import cached_property
 
@@ -14,6 +14,13 @@ if TYPE_CHECKING:
     from geneva_cli.parts.gears.gear_blanks import Gear
     from geneva_cli.parts.missing import NamedParts
     from geneva_cli.parts.shafts.bolt_holes import Screws
+
+
+class Unborne(NamedTuple):
+    """A shaft that turns and does not reach the frame, and the reason."""
+
+    name: str
+    reason: str
 
 
 class PartsOfMachine(ABC):
@@ -47,6 +54,16 @@ class PartsOfMachine(ABC):
     @property
     def screws(self) -> tuple[Screws, ...]:
         """The screws between the parts; none without."""
+        return ()
+
+    @property
+    def to_fix(self) -> tuple[str, ...]:
+        """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
+        return ()
+
+    @property
+    def unborne(self) -> tuple[Unborne, ...]:
+        """The shafts that turn and have no bearing."""
         return ()
 
     @property

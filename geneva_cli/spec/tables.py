@@ -150,21 +150,25 @@ class Size(SpecTable):
         float | None, POSITIVE, "width of the crank arm round a pin; default up to 2 pin diameters"
     ] = None
     crank_keyway: Annotated[
-        str | None, OneOf(("DIN 6885-1",)), "keyway in the bores of crank arm and locking disc"
+        str | None,
+        OneOf(("DIN 6885-1",)),
+        "keyway in the bores of all that turns with the crank's shaft",
     ] = None
     crank_bore: Annotated[
         str,
         OneOf(("round", "D", "hex")),
-        "shape of the crank's bores; a hex bore is across flats",
+        "shape of the bores on the crank's shaft; a hex bore is across flats",
     ] = "round"
     crank_flat_mm: Annotated[
         float | None, POSITIVE, "depth of the flat in the crank's D bore; default bore/10"
     ] = None
-    wheel_keyway: Annotated[str | None, OneOf(("DIN 6885-1",)), "keyway in the wheel's bore"] = None
+    wheel_keyway: Annotated[
+        str | None, OneOf(("DIN 6885-1",)), "keyway in the bores on the wheel's shaft"
+    ] = None
     wheel_bore: Annotated[
         str,
         OneOf(("round", "D", "hex")),
-        "shape of the wheel's bore; a hex bore is across flats",
+        "shape of the bores on the wheel's shaft; a hex bore is across flats",
     ] = "round"
     wheel_flat_mm: Annotated[
         float | None, POSITIVE, "depth of the flat in the wheel's D bore; default bore/10"
@@ -200,8 +204,10 @@ class Size(SpecTable):
         "smaller gear's profile shift, in modules; default: half of the sum, without undercut",
     ] = None
     gear_backlash_mm: Annotated[
-        float, NOT_NEGATIVE, "backlash of gear teeth along their pitch circles"
-    ] = 0.0
+        float | None,
+        NOT_NEGATIVE,
+        "backlash of gear teeth along their pitch circles; default 0, or by process",
+    ] = None
     gear_bolts: Annotated[
         int, Range(0, 100), "number of screws between a fixed gear and the frame, evenly spaced"
     ] = 4
@@ -314,6 +320,8 @@ class Size(SpecTable):
         usual = Allowances() if self.process is None else PROCESSES[self.process]
         if cut_mm := workshop(self.process).cut_mm:
             usual = self._cut(usual, cut_mm)
+        # a tooth in its gap has the clearance of a roller in its slot, on both sides
+        usual = usual._replace(gear_backlash_mm=2.0 * usual.slot_clearance_mm)
         own = {key: vars(self).get(key) for key in usual._fields}
         return usual._replace(**{key: v for key, v in own.items() if v is not None})
 

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.geometry.measure import bounds
+from geneva_cli.motion.compatible import is_geared
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.sizes.plain_sizes import Sizes
@@ -26,6 +28,7 @@ def process_warnings(model: PartsModel) -> Iterator[Notice]:
     spec = model.mechanism.spec
     if not (spec.has_parts and spec.size.process):
         return
+    yield from gears_without_teeth(spec)
     shop = workshop(spec.size.process)
     try:
         named = list(model.built.by_name())
@@ -41,6 +44,33 @@ def process_warnings(model: PartsModel) -> Iterator[Notice]:
     yield from _small_holes(named, shop.hole)
     if spec.is_flat:
         yield from _narrow(model.mechanism, model.outlines.sizes)
+
+
+def bearing_warnings(model: PartsModel) -> Iterator[Notice]:
+    """A warning for each shaft that turns and has no bearing."""
+    if not model.mechanism.spec.has_parts:
+        return
+    try:
+        unborne = model.built.unborne
+    except GenevaError:  # the check of the parts has the reason
+        return
+    for one in unborne:
+        part = one.name.partition("'")[0]
+        yield Notice(
+            "no-bearing",
+            f"the {one.name} has no bearing: {one.reason}. Hold it from above: "
+            f"{part}_shaft_high_mm makes it longer",
+        )
+
+
+def gears_without_teeth(spec: Spec) -> Iterator[Notice]:
+    """A warning about gears that end at their pitch curves; for machines that go to a shop."""
+    if is_geared(spec) and spec.size.gear_module_mm is None:
+        yield Notice(
+            "gears-without-teeth",
+            "the gears have no teeth. Their solids end at the pitch curves, and files to cut leave "
+            "them out: set gear_module_mm in [size]",
+        )
 
 
 def _small_holes(named: list[NamedParts], least: float) -> Iterator[Notice]:

@@ -6,16 +6,18 @@ import math
 from collections.abc import Iterator, Sequence
 
 from geneva_cli.drawings.sheet import sized
+from geneva_cli.drawings.sheet.bores import bored
 from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.view import Block, View, grouped
 from geneva_cli.geometry.measure import at
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Point
+from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.links.link_positions import same
 from geneva_cli.parts.links.link_sizes import roller_pins
 from geneva_cli.parts.links.links import Links, placed_holes
+from geneva_cli.parts.shafts.bores import radius_of
 from geneva_cli.parts.shafts.fits import Fits
 from geneva_cli.parts.written import degrees, length
 
@@ -28,10 +30,11 @@ def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> 
     assert isinstance(plate, Plate)
     view.draw_plate(plate)
     holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
-    slots = [hole for hole in plate.holes if isinstance(hole, Contour)]
+    slots = [hole for hole in plate.holes if isinstance(hole, Contour) and hole.layer == "LINK"]
+    shaped = [hole for hole in plate.holes if isinstance(hole, Contour) and hole not in slots]
     for hole in holes:
         view.cross(hole.centre, 2.0 * hole.radius)
-    base = _base(view, plate, holes)
+    base = ORIGIN if shaped else _base(view, plate, holes)
     for slot in slots:
         _slot(view, slot, base)
     _places(view, holes, base)
@@ -47,6 +50,9 @@ def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> 
     pairs = zip(holes, placed_holes(member), strict=True)
     for text, some in grouped((written(hole, there), hole) for hole, there in pairs):
         view.diameter(some, text)
+    if shaped:
+        view.cross(ORIGIN, 2.0 * radius_of(shaped[0]))
+        bored(view, shaped, mechanism.spec.size, "crank")  # no other shaft of links has a shape
     _outline(view, plate, plate.name in bars.blocks)
 
 
@@ -111,7 +117,7 @@ def _outline(view: View, plate: Plate, slides: bool) -> None:
 
 
 def round_parts(members: Sequence[Member], mechanism: Mechanism) -> list[Block]:
-    """Return a table of the pins, washers, spacers and rollers between links."""
+    """Return a table of the pins, washers, spacers and rollers between links, and on the frame."""
     rows = list(_rows(members, mechanism))
     if not rows:
         return []
@@ -124,11 +130,16 @@ def _rows(members: Sequence[Member], mechanism: Mechanism) -> Iterator[tuple[str
         assert isinstance(plate.outline, Circle)
         fits = Fits(mechanism.spec.size.process, plate.thickness)
         outer, bores = plate.outline.radius, [h for h in plate.holes if isinstance(h, Circle)]
-        rolls = plate.layer == "ROLLER"
+        rolls, on_screw = plate.layer == "ROLLER", plate.layer == "SHAFT"
         outside = sized.plain(2.0 * outer, "Ø ")
         if not bores:
             outside = sized.shaft(fits, outer)
         elif rolls:
             outside = sized.roller(fits, mechanism, outer)
-        inside = "".join(sized.roller_bore(fits, mechanism, bore.radius) for bore in bores)
+        inside = "".join(
+            sized.plain(2.0 * bore.radius, "Ø ")
+            if on_screw
+            else sized.roller_bore(fits, mechanism, bore.radius)
+            for bore in bores
+        )
         yield plate.name, outside, inside, length(plate.thickness)

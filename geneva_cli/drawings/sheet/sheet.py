@@ -46,7 +46,7 @@ def sheet(parts: FlatParts) -> Sheet:
     fixed = [
         *points.tables(parts.outlines, tolerance),
         *points.gear_tables(mechanism, tolerance),
-        *links.round_parts(parts.links.joined, mechanism),
+        *links.round_parts((*parts.links.joined, *parts.spacers), mechanism),
         *layout(mechanism),
     ]
     views = Views(partial(_views, shown, parts), partial(_together, shown, parts), (0.0, L))
@@ -55,7 +55,7 @@ def sheet(parts: FlatParts) -> Sheet:
 
 def _views(shown: SheetContent, parts: FlatParts, scale: float) -> Iterator[View]:
     """Yield a view of each part."""
-    begin = titled(shown.rows, scale, parts.mechanism.spec.size.process)
+    begin = titled(shown.rows, scale, parts)
     yield from _wheels(parts, begin)
     if parts.arm:
         view = begin("arm")
@@ -90,6 +90,10 @@ def _standing(parts: FlatParts, begin: Begin) -> Iterator[View]:
     if grooved:
         view = begin(*(plate.name for plate in grooved), "groove")
         draw_groove(view, parts.groove, parts.outlines.sizes.half_width, grooved[0])
+        yield view
+    for plate in flat_plates(parts.bridge):
+        view = begin(plate.name)
+        draw_frame(view, plate, axis_name="the crank's axis")
         yield view
     (frame,) = flat_plates([parts.frame])
     view = begin(frame.name)

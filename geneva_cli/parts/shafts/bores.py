@@ -249,10 +249,12 @@ def bore_of(size: Size, part: str, radius: float) -> Bore:
 def round_bore(size: Size, radius: float) -> RoundBore:
     """Return the round bore for a shaft, or for a pin on which a part turns, with a radius in mm.
 
+    Without a shaft, of radius 0, there is no bore.
+
     >>> round_bore(Size(process="print"), 6.0)
     RoundBore(radius=6.0, loose=0.2)
     """
-    return RoundBore(radius, loose=size.allowances.around_shaft_mm)
+    return RoundBore(radius, loose=size.allowances.around_shaft_mm if radius else 0.0)
 
 
 def bore_in(size: Size, part: str, shape: Shape) -> Bore:
