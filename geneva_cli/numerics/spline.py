@@ -12,7 +12,7 @@ import math
 from collections.abc import Sequence
 from decimal import Decimal
 from itertools import pairwise
-from typing import NamedTuple, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
@@ -65,7 +65,7 @@ class Doubt(NamedTuple):
 def taylor(t: N, c: Sequence[N], order: int) -> list[N]:
     """Taylor coefficients 0 to ``order`` at t of the polynomial sum c_k t^k."""
     if isinstance(t, Enclosed):  # products of doubles round without a bound
-        c = [cast("N", t.exact(one)) for one in c]
+        c = [cast("N", t.exact(cast("Any", one))) for one in c]
     out = []
     for k in range(order + 1):
         sum_ = 0.0 * t

@@ -110,6 +110,7 @@ class EdgedParts(PartsOfMachine):
         own = Screws("frame", len(mounts), 2.0 * mounts[0].radius, "its base") if mounts else None
         return (*fixed, own) if own else tuple(fixed)
 
+    @property
     def to_fix(self) -> tuple[str, ...]:
         """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
         return tuple({"crank": "arm"}.get(name, name) for name in self._framed.to_fix)

@@ -12,7 +12,7 @@ import repo
 from geneva_cli import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.figure import JOINED, POINTS, Axis, Curve, Figure, Mark, Panel
-from geneva_cli.output import letters, plot
+from geneva_cli.output import letters, show_figure
 from geneva_cli.output.plot import plot_svg, plot_text, strokes
 from geneva_cli.output.plot.ticks import labels, mark_text, ticks
 from geneva_cli.study.figures import of_specs
@@ -338,7 +338,7 @@ def test_a_chart_of_several_has_letters_for_each():
 
 def test_what_is_asked_for_is_written(pressed, tmp_path):
     for name, start in (("a.svg", b"<svg "), ("a.txt", b"Press"), ("a.csv", b"quantity,curve,")):
-        plot(pressed, str(tmp_path / name))
+        show_figure(pressed, str(tmp_path / name))
         assert (tmp_path / name).read_bytes().startswith(start)
 
 
@@ -355,14 +355,14 @@ def test_pictures(kind, tmp_path):
     )
     figure = Figure("a $ title", Axis("x", "x"), (panel,), (0.0, 1.0), ((0.5, 0.8),))
     file = tmp_path / f"a.{format}"
-    plot(figure, str(file))
+    show_figure(figure, str(file))
     found = file.read_bytes()
     assert found.startswith(start)
-    plot(figure, str(file))
+    show_figure(figure, str(file))
     assert file.read_bytes() == found  # the same bytes
     if format == "png":
         with pytest.raises(GenevaError, match="not for standard output"):
-            plot(figure, "-", format)
+            show_figure(figure, "-", format)
 
 
 def test_a_failing_picture_leaves_the_old_file(pressed, tmp_path, monkeypatch):
@@ -370,5 +370,5 @@ def test_a_failing_picture_leaves_the_old_file(pressed, tmp_path, monkeypatch):
     file.write_text("old")
     monkeypatch.setitem(__import__("sys").modules, "matplotlib", None)
     with pytest.raises(GenevaError, match=r"geneva-cli\[plot\]"):
-        plot(pressed, str(file))
+        show_figure(pressed, str(file))
     assert file.read_text() == "old" and list(tmp_path.iterdir()) == [file]

@@ -48,7 +48,7 @@ def run(
     Without -o it prints a chart in text. png and pdf need the extra geneva-cli[plot]. More:
     `geneva help plots`.
     """
-    from geneva_cli.output import plot
+    from geneva_cli.output import show_figure
     from geneva_cli.output.formats import plotted_as
     from geneva_cli.study.figures import of_specs, of_table
 
@@ -56,12 +56,12 @@ def run(
     tables = [path for path in specs if path.lower().endswith(".csv")]
     if tables:
         _refuse_with_csv(tables[0], specs, {"--pick": pick, "--set": settings, "--vary": vary})
-        plot(of_table(tables[0], x, _names(y)), output, format, tables)
+        show_figure(of_table(tables[0], x, _names(y)), output, format, tables)
         return
     if x or y:
         raise GenevaError(f"--x and --y are for a .csv; for {cut(specs[0], 300)} give --pick")
     figure, designs, left_out = of_specs(specs, settings or (), _names(pick), vary or (), reverse)
-    plot(figure, output, format, [file for d in designs for file in d.spec.files])
+    show_figure(figure, output, format, [file for d in designs for file in d.spec.files])
     for design in designs:
         warn(design)
     for path, text in left_out:
