@@ -139,7 +139,8 @@ def enclosed(x: Number, numbers: Record) -> Record:
     """
     if not isinstance(x, Enclosed):
         return numbers
-    each = [x.exact(one) if isinstance(one, float) else one for one in numbers]
+    kept = (int, str, tuple, type(None), Enclosed)
+    each = [one if isinstance(one, kept) else x.exact(cast("float", one)) for one in numbers]
     return record_of(numbers, each)
 
 

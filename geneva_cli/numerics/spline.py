@@ -12,11 +12,11 @@ import math
 from collections.abc import Sequence
 from decimal import Decimal
 from itertools import pairwise
-from typing import Any, NamedTuple, cast
+from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import SINGLE, Array, Enclosed, N, pieces_of
+from geneva_cli.numerics.arrays import SINGLE, Array, N, enclosed, pieces_of
 
 SPLINE_DEGREE = 5
 
@@ -64,8 +64,7 @@ class Doubt(NamedTuple):
 
 def taylor(t: N, c: Sequence[N], order: int) -> list[N]:
     """Taylor coefficients 0 to ``order`` at t of the polynomial sum c_k t^k."""
-    if isinstance(t, Enclosed):  # products of doubles round without a bound
-        c = [cast("N", t.exact(cast("Any", one))) for one in c]
+    c = enclosed(t, tuple(c))
     out = []
     for k in range(order + 1):
         sum_ = 0.0 * t

@@ -218,7 +218,9 @@ def draw_sheet(
     _put(module.chunks(sheet, **own), output, inputs)
 
 
-def show_figure(figure: Figure, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
+def show_figure(
+    figure: Figure, output: str = "-", format: str = "", inputs: Iterable[str] = ()
+) -> None:
     """Print the figure, or write it to the file ``output``; ``inputs`` are never overwritten.
 
     ``table`` is a chart in text, as wide as the terminal; csv, json and md get the curves' points.
