@@ -72,7 +72,7 @@ def _set_on(before: Drive) -> object:
     return reduce(or_, (own[key.key] != key.default for key in fields(Drive)))
 
 
-def _toothed(spec: Spec) -> bool:
+def is_geared(spec: Spec) -> bool:
     """True if the spec's drive, or the one before it, has gears."""
     drives = (spec.drive, spec.drive_before) if spec.drive_before else (spec.drive,)
     return any(drive.TOOTHED or drive.GEARED for drive in drives)
@@ -333,7 +333,7 @@ CONFLICTS = (
         "stop_stress_max_MPa limits a stop: set stop = true in [wheel] of an external wheel",
     ),
     Conflict(
-        lambda s: s.size.gear_module_mm is not None and not _toothed(s),
+        lambda s: s.size.gear_module_mm is not None and not is_geared(s),
         ("size", "gear_module_mm"),
         'gear_module_mm cuts the teeth of gears, and kind = "{drive}" has none: remove it',
     ),

@@ -22,6 +22,7 @@ class Allowances(NamedTuple):
     shaft_fit_mm: float = 0.0  # difference of diameters, bore minus shaft or pin in it
     pin_gap_mm: float = 0.0  # along the axis, between wheel and crank arm
     source: str | None = None
+    gear_backlash_mm: float = 0.0  # of teeth; with a process twice slot_clearance_mm
 
     @property
     def around_shaft_mm(self) -> float:

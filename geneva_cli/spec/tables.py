@@ -200,8 +200,10 @@ class Size(SpecTable):
         "smaller gear's profile shift, in modules; default: half of the sum, without undercut",
     ] = None
     gear_backlash_mm: Annotated[
-        float, NOT_NEGATIVE, "backlash of gear teeth along their pitch circles"
-    ] = 0.0
+        float | None,
+        NOT_NEGATIVE,
+        "backlash of gear teeth along their pitch circles; default 0, or by process",
+    ] = None
     gear_bolts: Annotated[
         int, Range(0, 100), "number of screws between a fixed gear and the frame, evenly spaced"
     ] = 4
@@ -314,6 +316,8 @@ class Size(SpecTable):
         usual = Allowances() if self.process is None else PROCESSES[self.process]
         if cut_mm := workshop(self.process).cut_mm:
             usual = self._cut(usual, cut_mm)
+        # a tooth in its gap has the clearance of a roller in its slot, on both sides
+        usual = usual._replace(gear_backlash_mm=2.0 * usual.slot_clearance_mm)
         own = {key: vars(self).get(key) for key in usual._fields}
         return usual._replace(**{key: v for key, v in own.items() if v is not None})
 

@@ -17,6 +17,7 @@ from geneva_cli.output.formats import curve_tolerance, usual_curves
 from geneva_cli.parts.missing import Missing
 from geneva_cli.spec.schema import Points, SpecTable, fields
 from geneva_cli.specfile.writer import quoted, spec_lines
+from geneva_cli.verdict.parts_warnings import gears_without_teeth
 
 T = TypeVar("T", bound=SpecTable)
 
@@ -90,6 +91,12 @@ def export_files(design: Design, trade: Trade) -> tuple[list[ExportFile], list[M
         ExportFile("parts.csv", "list of parts", partial(show, design.part_table("parts")))
     )
     return [*files, *_spec_files(design, {file.name for file in files})], missing
+
+
+def shop_warnings(design: Design) -> list[str]:
+    """The warnings about a design whose files go to a shop, with or without a process."""
+    # with a process the design's own warnings have it already
+    return list(dict.fromkeys((*design.warnings, *gears_without_teeth(design.spec))))
 
 
 def _single(parts: list[SinglePart], format: str) -> Iterator[ExportFile]:

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.geometry.measure import bounds
+from geneva_cli.motion.compatible import is_geared
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.spec import Spec
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.sizes.plain_sizes import Sizes
 from geneva_cli.parts.turn.full_turn import SAME
@@ -26,6 +28,7 @@ def process_warnings(model: PartsModel) -> Iterator[Notice]:
     spec = model.mechanism.spec
     if not (spec.has_parts and spec.size.process):
         return
+    yield from gears_without_teeth(spec)
     shop = workshop(spec.size.process)
     try:
         named = list(model.built.by_name())
@@ -41,6 +44,16 @@ def process_warnings(model: PartsModel) -> Iterator[Notice]:
     yield from _small_holes(named, shop.hole)
     if spec.is_flat:
         yield from _narrow(model.mechanism, model.outlines.sizes)
+
+
+def gears_without_teeth(spec: Spec) -> Iterator[Notice]:
+    """A warning about gears that end at their pitch curves; for machines that go to a shop."""
+    if is_geared(spec) and spec.size.gear_module_mm is None:
+        yield Notice(
+            "gears-without-teeth",
+            "the gears have no teeth. Their solids end at the pitch curves, and files to cut leave "
+            "them out: set gear_module_mm in [size]",
+        )
 
 
 def _small_holes(named: list[NamedParts], least: float) -> Iterator[Notice]:

@@ -335,7 +335,23 @@ def test_a_process_is_its_keys(process: str) -> None:
 def test_a_key_that_is_given_wins() -> None:
     size = Size(process="print", slot_clearance_mm=0.0)
     assert size.allowances[:3] == (0.0, 0.25, 0.0)
-    assert Size().allowances == (0.0, 0.0, 0.0, 0.0, 0.0, None)
+    assert Size().allowances == (0.0, 0.0, 0.0, 0.0, 0.0, None, 0.0)
+
+
+def test_teeth_have_the_clearance_of_the_process_on_both_sides() -> None:
+    """Twice 0.25, 0.02, and 0.4 mm of a laser at 18 mm; a key that is given wins."""
+    keys = {"wheel_thickness_mm": 18.0, "roller_radius_mm": 12.0}
+    backlashes = [Size(process=p, **keys).allowances.gear_backlash_mm for p in PROCESSES]
+    assert backlashes == [0.8, 0.04, 0.5]
+    assert Size(process="print", gear_backlash_mm=0.1).allowances.gear_backlash_mm == 0.1
+    printed = PROCESSES["print"]._asdict() | {"lock_thickness_mm": 12, "wall_min_mm": 0.8}
+    left_out = "source", "gear_backlash_mm"
+    spelled = [f"size.{key}={value}" for key, value in printed.items() if key not in left_out]
+    drawn = [
+        load(str(DESIGNS / "gear-sector.toml"), ("size.gear_module_mm=3", *more)).drawing("gears")
+        for more in (["size.process=print"], [*spelled, "size.gear_backlash_mm=0.5"], spelled)
+    ]
+    assert drawn[0].shapes == drawn[1].shapes != drawn[2].shapes
 
 
 def test_a_clearance_that_leaves_no_machine_says_whose_it_is() -> None:

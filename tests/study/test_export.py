@@ -53,6 +53,25 @@ def test_the_files_of_a_laser(spec, tmp_path):
         }
 
 
+@pytest.mark.parametrize(
+    ("design", "trade", "keys", "warned"),
+    [
+        ("behind-gears", "print", ["process=print"], True),
+        ("gear-sector", "laser", [], True),
+        ("gear-sector", "laser", ["gear_module_mm=3"], False),
+        ("turret", "laser", [], False),
+    ],
+)
+def test_gears_without_teeth_are_a_warning(design, trade, keys, warned, tmp_path):
+    settings = (word for key in keys for word in ("--set", f"size.{key}"))
+    source, folder = repo.DESIGNS / f"{design}.toml", tmp_path / "out"
+    result = run(source, "--for", trade, *settings, "-o", folder)
+    assert result.exit_code == 0
+    assert result.stderr.count("set gear_module_mm in [size] [gears-without-teeth]") == warned
+    cut = any("gear" in path.name and path.suffix == ".dxf" for path in folder.iterdir())
+    assert cut == (keys == ["gear_module_mm=3"])
+
+
 def test_what_is_printed_is_as_large_as_the_list_says(spec, tmp_path):
     """Files alone: mass over density of parts.csv, and the volume that trimesh has."""
     folder = tmp_path / "out"

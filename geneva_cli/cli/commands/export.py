@@ -55,7 +55,7 @@ def run(
     from geneva_cli.design import load
     from geneva_cli.output import refuse_columns, show
     from geneva_cli.output.folder import Entry, filling_folder
-    from geneva_cli.study.export import export_files, trade_of
+    from geneva_cli.study.export import export_files, shop_warnings, trade_of
     from geneva_cli.table import rows_table
 
     refuse_columns()
@@ -86,4 +86,4 @@ def run(
             ),
             file=sys.stderr,
         )
-    say(design.spec.path, design.warnings)
+    say(design.spec.path, shop_warnings(design))

@@ -57,7 +57,7 @@ def counter_sizes(mechanism: Mechanism) -> CounterSizes:
     spec, L = mechanism.spec, mechanism.center_distance_mm
     z = spec.wheel.z
     large = round(2 * z * mechanism.ratio / (1.0 - mechanism.ratio))
-    counts, backlash_mm = (large, 2 * z), spec.size.gear_backlash_mm
+    counts, backlash_mm = (large, 2 * z), spec.size.allowances.gear_backlash_mm
     number, pinion, shifts, angle, contact = _meshing(counts, L, backlash_mm)
     rim = _touching_circle(pinion, L) - spec.size.allowances.lock_clearance_mm
     driver = number._replace(tip=min(number.tip, rim))

@@ -190,7 +190,7 @@ class _Pair:
         angle = math.acos(cosine)
         # the shift, in modules, that thins each tooth by half of the backlash; that is measured
         # along the pitch circles at work
-        thinner = 0.5 * self.size.gear_backlash_mm * (apart / self.distance)
+        thinner = 0.5 * self.size.allowances.gear_backlash_mm * (apart / self.distance)
         off = 0.5 * thinner / (self.module * math.tan(self.rack.angle))
         shifts = self._shifts(angle, off)
         small, large = self._teeth(shifts, off, angle)

@@ -87,7 +87,7 @@ def pair_teeth(gears: Gears | None, size: Size) -> PairTeeth | None:
         )
     even = Rack(whole / (math.pi * count))
     shift = size.gear_shift or 0.0
-    off = 0.25 * size.gear_backlash_mm / (even.module * math.tan(even.angle))
+    off = 0.25 * size.allowances.gear_backlash_mm / (even.module * math.tan(even.angle))
     driver, driven = (even._replace(shift=x - off) for x in (shift, -shift))
     return PairTeeth(length, count, driver, driven, shift)
 
