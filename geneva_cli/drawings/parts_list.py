@@ -11,10 +11,12 @@ sphere inwards from the wheel's outer face.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.drawings.model import PartsModel
+from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.mass import MM, solid_properties
 from geneva_cli.geometry.measure import bounds_of
 from geneva_cli.geometry.plates import Part, Shell, Solid
@@ -25,6 +27,7 @@ from geneva_cli.motion.rollers import places
 from geneva_cli.parts.alike import alike
 from geneva_cli.parts.missing import Missing, built_of, or_missing
 from geneva_cli.parts.projection import outlines_of
+from geneva_cli.parts.shafts.shaft import FIX
 from geneva_cli.spec.materials import roller_material, wheel_material
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.spec.tables import Size
@@ -177,6 +180,7 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
         entries.append(Dimension("slot width", 2.0 * (r + clear), "mm"))
     entries += _screws_and_edges(spec.size)
     entries += or_missing("screws", lambda: _screws(model))
+    entries += _to_fix(model)
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     entries += model.kind.dimensions(model)
     cranked = spec.drive.CRANKED and not spec.wheel.toothed
@@ -212,6 +216,13 @@ def _screws(model: PartsModel) -> Iterator[Dimension]:
     """Yield the screws between the parts, with their threads and the parts that are tapped."""
     if model.mechanism.spec.has_parts:
         yield from (Dimension(one.name, one.text) for one in model.built.screws)
+
+
+def _to_fix(model: PartsModel) -> Iterator[Dimension]:
+    """Yield what to do with each part that turns with its shaft in a round bore."""
+    for _, build in model.all_built:
+        with suppress(GenevaError):  # the rows of what cannot be built have the reason
+            yield from (Dimension(f"bore of the {name}", FIX) for name in build().to_fix)
 
 
 def _straight(mechanism: Mechanism) -> Iterator[Dimension]:

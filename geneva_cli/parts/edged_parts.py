@@ -33,6 +33,7 @@ class FrameAndShafts(NamedTuple):
     shafts: tuple[Member, ...]
     spacers: tuple[Member, ...] = ()  # below the parts that are screwed to it
     screwed: tuple[Screwed, ...] = ()
+    to_fix: tuple[str, ...] = ()  # names of what the shafts turn, and nothing holds on them
 
 
 class EdgedParts(PartsOfMachine):
@@ -106,6 +107,11 @@ class EdgedParts(PartsOfMachine):
         mounts = mounts_of(self._framed.plate)
         own = Screws("frame", len(mounts), 2.0 * mounts[0].radius, "its base") if mounts else None
         return (*fixed, own) if own else tuple(fixed)
+
+    @property
+    def to_fix(self) -> tuple[str, ...]:
+        """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
+        return tuple({"crank": "arm"}.get(name, name) for name in self._framed.to_fix)
 
     @property
     def _edge(self) -> Edge:

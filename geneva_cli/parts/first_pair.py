@@ -19,6 +19,7 @@ from geneva_cli.parts.links.links import Links, drawn_links
 from geneva_cli.parts.outlines.outline_sizes import outlines
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.projection import titled
+from geneva_cli.parts.shafts.bores import RoundBore, has_shape
 from geneva_cli.parts.sizes.first_sizes import first_spec
 from geneva_cli.parts.wheel import wheel_plate
 from geneva_cli.spec.least_wall import wall_min
@@ -37,6 +38,12 @@ def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:
             f'--part first-wheel, first-crank: kind = "{spec.drive.NAME}" has one wheel; '
             f"{' or '.join(having)} has two"
         )
+    if has_shape(spec.size, "crank"):
+        key = "crank_bore" if spec.size.crank_keyway is None else "crank_keyway"
+        raise GenevaError(
+            f"{key}: the first wheel on the crank's shaft has a round bore; remove {key}",
+            ("size", key),
+        )
     if bars is None:
         bars = drawn_links(mechanism, outlines(mechanism) if spec.is_flat else None)
     second, own = (L, 0.0), (L + first.distance_mm, 0.0)
@@ -54,7 +61,7 @@ def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:
             arm_thickness_mm=link.thickness,
             pin_mm=2.0 * link.roller_stands,
             arm_bore_mm=2.0 * shaft,
-            arm_hub_mm=2.0 * link.hub(shaft),
+            arm_hub_mm=2.0 * link.hub(RoundBore(shaft)),
             arm_eye_mm=2.0 * link.roller_eye,
         )
     return build(alone.replace(size=size, title=f"{titled(mechanism)}, first pair"))

@@ -22,10 +22,12 @@ from geneva_cli.parts.arm import CrankArm, bolts, crank_arm, has_arm
 from geneva_cli.parts.crank_solids import arm_plate, locking_plates, roller_plates
 from geneva_cli.parts.edged_parts import EdgedParts, FrameAndShafts
 from geneva_cli.parts.frame import framed
+from geneva_cli.parts.links.link_shafts import links_to_fix
 from geneva_cli.parts.links.link_sizes import roller_pins
 from geneva_cli.parts.links.links import Links, drawn_links
 from geneva_cli.parts.outlines.outline_sizes import outlines
 from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.outlines.reliefs import is_whole
 from geneva_cli.parts.outlines.wheel_outline import dial_bolts, slot_walls, wheel_contour
 from geneva_cli.parts.shafts.bolt_holes import Screws
 from geneva_cli.parts.shafts.hub_and_shafts import crank_hub
@@ -314,6 +316,25 @@ class FlatParts(EdgedParts):
             from geneva_cli.parts.gears.gear_pair import pair_with_teeth
 
             pair_with_teeth(self.mechanism)
+
+    @property
+    def to_fix(self) -> tuple[str, ...]:
+        """Names of the parts that turn with a shaft in a round bore, which holds nothing.
+
+        Bolts fix the locking disc to the arm.
+        """
+        if not self.mechanism.spec.wheel.FLAT:
+            return tuple(links_to_fix(self.links, self.mechanism))
+        links = {plate.name for plate in self.links.plates}  # one may be called crank
+        names = [name for name in self._framed.to_fix if name != "crank" or name in links]
+        if "crank" in self._framed.to_fix and self.drawn:
+            names += ["arm"] if self.arm else []
+            bored = self.outlines.sizes.crank_bore and is_whole(
+                self.outlines.assembly, self.outlines.sizes
+            )
+            if self.locking and bored and not (self.arm and self.arm.bolts):
+                names.append("locking disc")
+        return tuple(names)
 
     @property
     def linked(self) -> tuple[Member, ...]:

@@ -90,7 +90,10 @@ def framed(
         within = [*holes, *(Circle("BORE", at, 0.0) for at in (ORIGIN, *places))]
         plate = mounted_plate(holes, within, eye, (bottom, top))
     screwed = tuple(Screwed(hole, part.name) for hole, part in fixed)
-    return FrameAndShafts(plate, tuple(outside_links(axles, bars, L)), tuple(spacers), screwed)
+    whole = {name for axis in bars.axes for name in axis.one_piece}
+    to_fix = (name for one in own for name in one.to_fix(size) if name not in whole)
+    shafts = tuple(outside_links(axles, bars, L))
+    return FrameAndShafts(plate, shafts, tuple(spacers), screwed, tuple(dict.fromkeys(to_fix)))
 
 
 def _drilled(

@@ -50,6 +50,11 @@ class PartsOfMachine(ABC):
         return ()
 
     @property
+    def to_fix(self) -> tuple[str, ...]:
+        """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
+        return ()
+
+    @property
     def outside_mm(self) -> float | None:
         """Radius of the outer face from which heights count inwards; None in the plane."""
         return None

@@ -4,13 +4,16 @@ import math
 
 import pytest
 from drawing_witness import polygon
+from repo import DESIGNS
+from shapely.affinity import rotate
 from shapely.geometry import Point
 from step_witness import File, Solid
 
-from geneva_cli import Design, External, Size, Spherical
+from geneva_cli import Design, External, Size, Spherical, load
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.moments import area
+from geneva_cli.geometry.placed import in_place
 from geneva_cli.geometry.plates import plates
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.kinds.spherical.parts import SphereParts
@@ -68,6 +71,65 @@ def test_walls_are_those_of_the_shape(shape):
     assert row(design, "arm_wall_mm").value == pytest.approx(own, abs=1e-4)
     wall = wheel[0].exterior.distance(wheel[1])
     assert row(design, "dial_wall_mm").value == pytest.approx(wall, abs=2e-3)
+
+
+def face(shape):
+    return polygon(shape, 1e-6)
+
+
+@pytest.mark.parametrize("shafts", ["plain", "turned"])
+@pytest.mark.parametrize("bore", ["D", "hex", "DIN 6885-1"])
+@pytest.mark.parametrize(
+    ("design", "axis", "names"),
+    [
+        ("elliptical-gears", "crank", {"arm", "locking disc", "driven gear"}),
+        ("side-crank-z6", "crank", {"arm", "locking disc", "coulisse"}),
+        ("gear-sector", "crank", {"arm", "locking disc", "crank gear"}),
+        ("gear-sector", "wheel", {"wheel", "wheel gear"}),
+        ("epicyclic-z4", "crank", {"locking disc", "carrier"}),
+        ("cam-geneva", "crank", {"crank", "locking disc"}),
+        ("slider-crank", "crank", {"crank"}),
+    ],
+)
+def test_all_that_turns_with_a_shaft_is_held_by_it(design, axis, names, bore, shafts):
+    """Placed at input 0: the shaft fits all bores, and turned by 20 degrees it fits none.
+
+    A shaft with a keyway is round: its keyway meets that of each bore.
+    """
+    key = f"size.{axis}_keyway={bore}" if bore.startswith("DIN") else f"size.{axis}_bore={bore}"
+    made = load(str(DESIGNS / f"{design}.toml"), (key, f"size.shafts={shafts}"))
+    flat = made.parts_model.flat
+    at = (0.0, 0.0) if axis == "wheel" else (made.mechanism.center_distance_mm, 0.0)
+    placed_plates = [plate for _, plate in in_place(flat.members)]
+    steps = [plate for plate in placed_plates if plate.layer == "SHAFT"]
+    held = set()
+    for plate in placed_plates:
+        for hole in plate.holes if plate.layer != "SHAFT" else ():
+            if not isinstance(hole, Contour) or hole.layer != "BORE":
+                continue
+            opening, middle = face(hole), 0.5 * (plate.low + plate.high)
+            (step,) = [
+                one
+                for one in steps
+                if one.low < middle < one.high
+                and opening.contains(Point(*at))
+                and face(one.outline).contains(Point(*at))
+            ]
+            section = face(step.outline)
+            held.add(plate.name)
+            assert opening.buffer(1e-4).contains(section)
+            if bore.startswith("DIN"):
+                far = max(math.dist(at, p) for p in section.exterior.coords)
+                circle = Point(*at).buffer(far, quad_segs=500)
+                ways = opening.difference(circle), circle.difference(section)
+                # without slivers of chords between
+                middles = [way.buffer(-1e-2).centroid for way in ways]
+                angles = [math.atan2(p.y - at[1], p.x - at[0]) for p in middles]
+                assert math.remainder(angles[0] - angles[1], math.tau) == pytest.approx(0, abs=1e-3)
+            else:
+                turned = rotate(section, 20.0, origin=at)
+                assert turned.difference(opening).area > 0.01
+    assert held == names
 
 
 @pytest.mark.parametrize("shape", ["D", "hex"])
@@ -301,3 +363,30 @@ def test_set_screws_that_no_hub_holds(size, said):
         design.drawing("assembly")
     assert caught.value.key[1].endswith("_screw_mm")
     assert any(check.passes is False and said in (check.why or "") for check in design.checks)
+
+
+FIX = "fix on the shaft: pin, key or adhesive"
+
+
+@pytest.mark.parametrize(
+    ("design", "keys", "names"),
+    [
+        ("turret", (), {"wheel", "arm"}),
+        ("turret", ("lock_bolts=0",), {"wheel", "arm", "locking disc"}),
+        ("turret", ("crank_bore=D",), {"wheel"}),
+        ("turret", ("crank_bore=D", "wheel_hub_mm=60", "wheel_screw_mm=6"), set()),
+        ("side-crank-z6", (), {"wheel", "arm", "coulisse", "input crank"}),
+        ("side-crank-z6", ("crank_bore=D", "wheel_bore=D"), {"input crank"}),
+        ("four-bar-z4", (), {"wheel", "crank"}),
+        ("spherical-z6", (), {"wheel's hub", "arm's hub"}),
+        ("linear", (), {"arm"}),
+    ],
+)
+def test_what_a_round_bore_does_not_hold_is_said(design, keys, names):
+    """In the list of parts, and on the sheet once a view."""
+    made = load(str(DESIGNS / f"{design}.toml"), [f"size.{key}" for key in keys])
+    rows = made.part_table("parts").rows()
+    listed = {row[1] for row in rows if FIX in row}
+    assert listed == {f"bore of the {name}" for name in names}
+    texts = [label.text for label in made.sheet(0.05).texts]
+    assert texts.count(FIX) == len(names)

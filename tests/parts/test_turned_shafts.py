@@ -8,7 +8,7 @@ import trimesh
 from drawing_witness import polygon
 from step_witness import File, Solid
 
-from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, load
+from geneva_cli import Design, External, GenevaPair, Internal, SideCrank, Size, Spherical, load
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.drawing import Drawing
@@ -361,7 +361,8 @@ def test_shafts_of_a_sphere_fit_too(shape):
     assert math.isclose(body.centroid.y, bore.centroid.y, abs_tol=0.1)
 
 
-def test_links_on_a_hexagon_are_refused():
-    design = Design(External(6), SideCrank(A=0.3), size=Size(crank_bore="hex"))
-    with pytest.raises(GenevaError, match="shaft have round bores; use"):
+@pytest.mark.parametrize("crank", [{"crank_bore": "hex"}, {"crank_keyway": "DIN 6885-1"}])
+def test_a_first_wheel_on_a_shaft_that_is_not_round_is_refused(crank):
+    design = Design(External(6), GenevaPair(first_z=4), size=Size(**crank))
+    with pytest.raises(GenevaError, match="the first wheel on the crank's shaft has a round bore"):
         design.drawing("assembly")

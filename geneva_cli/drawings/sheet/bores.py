@@ -10,10 +10,10 @@ from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.view import View, times
 from geneva_cli.geometry.measure import at
 from geneva_cli.geometry.plates import Plate
-from geneva_cli.geometry.shapes import Circle, Contour, Shape
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Point, Shape
 from geneva_cli.geometry.sheet import CENTRE
 from geneva_cli.parts.outlines.wheel_hub import about_axis
-from geneva_cli.parts.shafts.bores import bore_in
+from geneva_cli.parts.shafts.bores import Bore, RoundBore, bore_in, radius_of
 from geneva_cli.parts.written import length, number
 from geneva_cli.spec.tables import Size
 
@@ -33,17 +33,22 @@ def holes_of(plates: Iterable[Plate]) -> Holes:
     return Holes(tuple(bores), tuple(dict.fromkeys(bolts)))
 
 
-def bored(view: View, bores: Sequence[Shape], size: Size, part: str) -> None:
-    """Draw the diameter of a part's bore, and what else its shape needs; a remark has its angle."""
+def bored(view: View, bores: Sequence[Shape], size: Size, part: str, axis: Point = ORIGIN) -> None:
+    """Draw the diameter of a part's bore, and what else its shape needs; a remark has its angle.
+
+    The bores are about the part's own origin, which is drawn at ``axis``.
+    """
     for shape in bores[:1]:
-        form = bore_in(size, part, shape).cut
+        form: Bore = RoundBore(radius_of(shape))
+        if isinstance(shape, Contour):
+            form = bore_in(size, part, shape).cut
         if form.is_round:
-            view.diameter([Circle("", (0.0, 0.0), form.radius)], sized.bore(view.fits, form.radius))
+            view.diameter([Circle("", axis, form.radius)], sized.bore(view.fits, form.radius))
         if isinstance(shape, Contour):
             x, y = at(shape.segments[0], 0.5)
             turn = math.degrees(math.atan2(y, x))
             note = form.note if view.fits.is_iso else form.note.replace(" JS9", "")
-            view.note((x, y), note)
+            view.note((x + axis[0], y + axis[1]), note)
             what = note.split()[0].rstrip(",")
             view.remark(f"{what} at {number(turn, 2)}°, counterclockwise from the right")
 

@@ -6,19 +6,23 @@ import math
 from collections.abc import Sequence
 
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.bores import bolted, circle_of
+from geneva_cli.drawings.sheet.bores import bolted, bored, circle_of
 from geneva_cli.drawings.sheet.view import View, times
 from geneva_cli.geometry.measure import legs
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Point, Shape
+from geneva_cli.geometry.plates import Group, Member, plates
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Shape
 from geneva_cli.geometry.sheet import CENTRE, OUTLINE
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.gears.gear_blanks import Gear
 from geneva_cli.parts.gears.gear_mesh import ToothedGear
 from geneva_cli.parts.gears.pair_teeth import PairTeeth
+from geneva_cli.parts.projection import outlines_of
+from geneva_cli.parts.shafts.bores import radius_of
 from geneva_cli.parts.written import is_metric, length, number
+from geneva_cli.spec.tables import Size
 
 
-def draw_gear(view: View, gear: Gear) -> None:
+def draw_gear(view: View, gear: Gear, size: Size) -> None:
     """Draw a gear with its teeth, or else its pitch circle, with its bore and its bolts."""
     outline, axis, screwed = gear.plate.outline, (0.0, 0.0), gear.bolts
     pitch = Circle("", axis, gear.radius)
@@ -37,8 +41,8 @@ def draw_gear(view: View, gear: Gear) -> None:
         view.diameter([pitch], text)
     if isinstance(outline, Circle) and gear.teeth.inside:
         view.diameter([outline], sized.plain(2.0 * outline.radius, "Ø "))
-    if gear.bore:
-        view.diameter([Circle("", axis, gear.bore)], sized.bore(view.fits, gear.bore))
+    if gear.bore.bore.radius:
+        bored(view, [gear.bore.hole()], size, gear.bore.part)
     bolted(view, screwed)
     if gear.cut:
         return
@@ -73,7 +77,7 @@ def _draw_blank(view: View, gear: Gear) -> None:
     if isinstance(outline, Contour):
         pieces[:1] = [Contour("", (piece,), closed=False) for piece in outline.segments]
     for shape in pieces:
-        (arc,) = shape.segments if isinstance(shape, Contour) else (shape,)
+        arc = shape.segments[0] if isinstance(shape, Contour) and not shape.closed else shape
         on_pitch = isinstance(arc, (Arc, Circle)) and abs(arc.radius - gear.radius) < SAME_ON_SHEET
         view.draw(shape, CENTRE if on_pitch else OUTLINE)
 
@@ -95,17 +99,16 @@ def _sectors(view: View, gear: Gear, outline: Contour, pitch: str) -> None:
         view.angular([(a, a + turn) for a, _ in ends], gear.radius, gear.radius, step)
 
 
-def draw_gears(
-    view: View, shapes: Sequence[Shape], ends: tuple[Point, Point], teeth: PairTeeth | None
-) -> None:
+def draw_gears(view: View, gears: Sequence[Member], size: Size, teeth: PairTeeth | None) -> None:
     """Draw two noncircular gears in mesh at input angle 0, with bores, about their axes."""
-    for shape in shapes:
-        view.draw(shape, OUTLINE if teeth or isinstance(shape, Circle) else CENTRE)
+    for shape in outlines_of(Group("", tuple(gears))):
+        view.draw(shape, OUTLINE if teeth or shape.layer == "BORE" else CENTRE)
+    ends = gears[0].at, gears[1].at
     view.centre_line(*ends)
-    for bore in shapes:
-        if isinstance(bore, Circle):
-            view.cross(bore.centre, bore.radius)
-            view.diameter([bore], sized.bore(view.fits, bore.radius))
+    for gear, part in zip(gears, ("crank", ""), strict=True):
+        for bore in plates(gear.part)[0].holes:
+            view.cross(gear.at, radius_of(bore))
+            bored(view, [bore], size, part, gear.at)
     view.linear(*ends, 0.0, sized.plain(math.dist(*ends)))
     if teeth:
         each, rack = f"{teeth.z} teeth each", teeth.driver

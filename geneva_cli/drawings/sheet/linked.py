@@ -12,8 +12,9 @@ from geneva_cli.drawings.sheet.view import View
 from geneva_cli.geometry.plates import Group, Member, Plate, Shell
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.projection import outlines_of
+from geneva_cli.parts.parts_of_machine import PartsOfMachine
 from geneva_cli.parts.shafts.fits import Fits
+from geneva_cli.parts.shafts.shaft import FIX
 from geneva_cli.parts.written import length
 
 if TYPE_CHECKING:
@@ -22,11 +23,12 @@ if TYPE_CHECKING:
 Begin: TypeAlias = Callable[..., View]
 
 
-def titled(rows: Sequence[Mapping[str, object]], scale: float, process: str | None) -> Begin:
+def titled(rows: Sequence[Mapping[str, object]], scale: float, parts: PartsOfMachine) -> Begin:
     """Return a function that begins a view, titled with its parts' numbers and thicknesses.
 
-    Its fits are those of a process, for the thickness of the first part.
+    Its fits are those of the process, for the thickness of the first part.
     """
+    process, to_fix = parts.mechanism.spec.size.process, parts.to_fix
 
     def begin(*names: str, thick: bool = True) -> View:
         titles: list[str] = []
@@ -37,7 +39,10 @@ def titled(rows: Sequence[Mapping[str, object]], scale: float, process: str | No
                 assert isinstance(long, float)
                 fits = fits if titles else Fits(process, long)
                 titles.append(f"{i} {row['name']}" + f", t = {length(long)}" * thick)
-        return View("; ".join(titles) or names[0], scale, fits)
+        view = View("; ".join(titles) or names[0], scale, fits)
+        for name in names:
+            view.to_fix(name, to_fix)
+        return view
 
     return begin
 
@@ -53,7 +58,7 @@ def linked(begin: Begin, parts: FlatParts) -> Iterator[View]:
         from geneva_cli.drawings.sheet.gears import draw_gear  # most machines have no gears
 
         view = begin(gear.name)
-        draw_gear(view, gear)
+        draw_gear(view, gear, parts.mechanism.spec.size)
         yield view
 
 
@@ -63,11 +68,12 @@ def geared(begin: Begin, parts: FlatParts | RackParts) -> Iterator[View]:
         from geneva_cli.drawings.sheet.gears import draw_gears
         from geneva_cli.parts.gears.pair_teeth import pair_teeth
 
-        view = begin(*(member.part.name for member in parts.gear_pair))
-        driven, driver = parts.gear_pair
-        teeth = pair_teeth(parts.mechanism.spec.gears, parts.mechanism.spec.size)
-        shapes = outlines_of(Group("", parts.gear_pair))
-        draw_gears(view, shapes, (driven.at, driver.at), teeth)
+        names = [member.part.name for member in parts.gear_pair]
+        view, to_fix = begin(*names), set(names).intersection(parts.to_fix)
+        if len(to_fix) == 1:  # of the two gears in this view
+            view.notes[view.notes.index(FIX)] = f"{to_fix.pop()}: {FIX}"
+        size = parts.mechanism.spec.size
+        draw_gears(view, parts.gear_pair, size, pair_teeth(parts.mechanism.spec.gears, size))
         yield view
 
 

@@ -6,16 +6,18 @@ import math
 from collections.abc import Iterator, Sequence
 
 from geneva_cli.drawings.sheet import sized
+from geneva_cli.drawings.sheet.bores import bored
 from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.view import Block, View, grouped
 from geneva_cli.geometry.measure import at
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Point
+from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.links.link_positions import same
 from geneva_cli.parts.links.link_sizes import roller_pins
 from geneva_cli.parts.links.links import Links, placed_holes
+from geneva_cli.parts.shafts.bores import radius_of
 from geneva_cli.parts.shafts.fits import Fits
 from geneva_cli.parts.written import degrees, length
 
@@ -28,10 +30,11 @@ def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> 
     assert isinstance(plate, Plate)
     view.draw_plate(plate)
     holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
-    slots = [hole for hole in plate.holes if isinstance(hole, Contour)]
+    slots = [hole for hole in plate.holes if isinstance(hole, Contour) and hole.layer == "LINK"]
+    shaped = [hole for hole in plate.holes if isinstance(hole, Contour) and hole not in slots]
     for hole in holes:
         view.cross(hole.centre, 2.0 * hole.radius)
-    base = _base(view, plate, holes)
+    base = ORIGIN if shaped else _base(view, plate, holes)
     for slot in slots:
         _slot(view, slot, base)
     _places(view, holes, base)
@@ -47,6 +50,9 @@ def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> 
     pairs = zip(holes, placed_holes(member), strict=True)
     for text, some in grouped((written(hole, there), hole) for hole, there in pairs):
         view.diameter(some, text)
+    if shaped:
+        view.cross(ORIGIN, 2.0 * radius_of(shaped[0]))
+        bored(view, shaped, mechanism.spec.size, "crank")  # no other shaft of links has a shape
     _outline(view, plate, plate.name in bars.blocks)
 
 

@@ -55,7 +55,7 @@ def sheet(parts: FlatParts) -> Sheet:
 
 def _views(shown: SheetContent, parts: FlatParts, scale: float) -> Iterator[View]:
     """Yield a view of each part."""
-    begin = titled(shown.rows, scale, parts.mechanism.spec.size.process)
+    begin = titled(shown.rows, scale, parts)
     yield from _wheels(parts, begin)
     if parts.arm:
         view = begin("arm")

@@ -108,7 +108,8 @@ def shafts_and_frame(mechanism: Mechanism, sizes: CounterSizes) -> FrameAndShaft
     require_walls(holes, wall_min(size, L), axles)
     reach = [*holes, *(Circle("BORE", one.at, 0.0) for one in own)]
     frame = mounted_plate(holes, reach, corner_radius(size, L), (bottom, top))
-    return FrameAndShafts(frame, tuple(axles))
+    to_fix = tuple(name for one in own for name in one.to_fix(size))
+    return FrameAndShafts(frame, tuple(axles), to_fix=to_fix)
 
 
 def _shafts(mechanism: Mechanism, sizes: CounterSizes, lowest: float) -> Iterator[Shaft]:
@@ -130,7 +131,7 @@ def _pinions(tall: Heights) -> Iterator[Seat]:
     """Yield the places of the pinions on their shaft, from the lowest up."""
     for k in range(tall.pinions):
         low = k * tall.pitch
-        yield Seat("pinion", low, low + tall.pinion)
+        yield Seat("pinion", low, low + tall.pinion, held=tall.pinions == 1)
 
 
 def _wheels(tall: Heights) -> Iterator[Seat]:
@@ -138,6 +139,6 @@ def _wheels(tall: Heights) -> Iterator[Seat]:
     low = 0.0
     for k in range(tall.pinions):
         high = k * tall.pitch + tall.tooth
-        yield Seat("number wheel", low, high)
+        yield Seat("number wheel", low, high, held=False)
         low = high + tall.gap
     yield Seat("driver", low, tall.top)

@@ -127,6 +127,12 @@ class CounterParts(EdgedParts):
         return shafts_and_frame(self.mechanism, self.sizes)
 
     @property
+    def to_fix(self) -> tuple[str, ...]:
+        """Names of the plates that turn with a shaft in a round bore, which holds nothing."""
+        named = {"pinion": "pinion's teeth", "driver": "driver's rim"}
+        return tuple(named[name] for name in self._framed.to_fix)
+
+    @property
     def moving(self) -> tuple[Member, ...]:
         """The parts on the shafts."""
         return (*self.pinions, *self.number_wheels, self.driver)

@@ -39,7 +39,7 @@ def sheet(parts: CounterParts) -> Sheet:
 
 def _views(shown: SheetContent, parts: CounterParts, scale: float) -> Iterator[View]:
     """Yield a view of each part; a number wheel between two pinions has that of the driver too."""
-    begin = titled(shown.rows, scale, parts.mechanism.spec.size.process)
+    begin = titled(shown.rows, scale, parts)
     alone = "wheel" if len(parts.pinions) == 1 else ""
     for gear, member, fixed in (
         ("pinion", parts.pinions[-1], alone),

@@ -84,7 +84,8 @@ def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
     size, sizes, heights = mechanism.spec.size, rack_sizes(mechanism), rack_frame(mechanism)
     L = 2.0 * sizes.arm  # as a wheel of 6 slots has it
     span = heights.plain, heights.top, heights.top
-    axles, bottom = built_shafts(size, list(_shafts(mechanism, heights)), [], span)
+    own = list(_shafts(mechanism, heights))
+    axles, bottom = built_shafts(size, own, [], span)
     bored = shaft_holes(size, axles, heights.top)
     require_walls(bored, wall_min(size, sizes.arm), axles)
     if not has_arm(mechanism):
@@ -95,7 +96,8 @@ def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
     within = [*bored, *(tapped(one.hole) for one in screwed)]
     holes, screwed = [one for one in within if one.radius], screwed if _bolt(sizes) else ()
     frame = mounted_plate(holes, within, corner_radius(size, L), (bottom, heights.top))
-    return FrameAndShafts(frame, tuple(axles), screwed=screwed)
+    to_fix = tuple(name for one in own for name in one.to_fix(size))
+    return FrameAndShafts(frame, tuple(axles), screwed=screwed, to_fix=to_fix)
 
 
 def _shafts(mechanism: Mechanism, heights: RackFrame) -> Iterator[Shaft]:

@@ -48,7 +48,7 @@ def _views(
     shown: SheetContent, parts: RackParts, frames: list[Plate], scale: float
 ) -> Iterator[View]:
     """Yield a view of each part."""
-    begin = titled(shown.rows, scale, parts.mechanism.spec.size.process)
+    begin = titled(shown.rows, scale, parts)
     view = begin("rack")
     _draw_rack(view, parts)
     yield view

@@ -81,6 +81,15 @@ class SphereParts(PartsOfMachine):
         return tuple(_shafts(self.shells, self.arm))
 
     @property
+    def to_fix(self) -> tuple[str, ...]:
+        """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
+        size, ball = self.mechanism.spec.size, self.ball
+        wheel = "wheel's hub" if ball.hub_mm > ball.bore_mm else "wheel"
+        names = {"wheel": wheel, "crank": "arm's hub"}
+        axles = (shaft for shaft, _ in _axles(self.shells, self.arm, 0.0))
+        return tuple(names[name] for shaft in axles for name in shaft.to_fix(size))
+
+    @property
     def outside_mm(self) -> float | None:
         """Radius of the wheel's outer face, from which heights count inwards."""
         return self.ball.span_mm[1]

@@ -108,6 +108,7 @@ def _axles(parts: SphereParts, scale: float) -> Iterator[View]:
             view = View(hub.name, scale, Fits(size.process))
             view.draw_plate(hub)
             bored(view, hub.holes, size, whose)
+            view.to_fix(hub.name, parts.to_fix)
             draw_hub(view, hub, hub_note(size, whose) if hub.layer == "HUB" else "")
             view.remark(f"{length(hub.thickness)} long")
             yield view

@@ -15,23 +15,34 @@ from geneva_cli.geometry.gear_teeth import Writer
 from geneva_cli.geometry.hole_walls import plate_wall
 from geneva_cli.geometry.measure import turned_pieces
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Line, Point, Segment, about, closed
+from geneva_cli.geometry.shapes import (
+    ORIGIN,
+    Circle,
+    Contour,
+    Line,
+    Point,
+    Segment,
+    Shape,
+    about,
+    closed,
+)
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Link, Teeth
 from geneva_cli.parts.gears.gear_mesh import ToothedGear
 from geneva_cli.parts.links.link_sizes import LinkSizes
 from geneva_cli.parts.shafts.bolt_holes import bolt_circle
+from geneva_cli.parts.shafts.shaft_bores import ShaftBore
 
 
 class Gear(NamedTuple):
-    """A gear about its axis: pitch circle, radius of its bore (0 for none or a ring), and plate.
+    """A gear about its axis: pitch circle, bore (of radius 0 for none or a ring), and plate.
 
     The plate of a gear with teeth ends where they begin, until ``with_teeth`` draws them.
     """
 
     at: Point
     radius: float
-    bore: float
+    bore: ShaftBore
     teeth: Teeth
     plate: Plate
     cut: ToothedGear | None = None
@@ -77,13 +88,14 @@ class Gear(NamedTuple):
 def link_gear(
     link: Link,
     at: Point,
-    bore: float,
+    on: ShaftBore,
     sizes: LinkSizes,
     mechanism: Mechanism,
     cut: ToothedGear | None,
 ) -> Gear:
-    """Return the gear of a link that is a pitch circle, with a bore; ``cut`` has its teeth.
+    """Return the gear of a link that is a pitch circle, on a shaft; ``cut`` has its teeth.
 
+    A gear that is fixed to the frame does not turn with the shaft, and is bored round.
     Raises GenevaError, naming the key, where its bore or its bolts leave nothing of it.
     """
     teeth, size, L = link.teeth, mechanism.spec.size, mechanism.center_distance_mm
@@ -92,16 +104,18 @@ def link_gear(
         radius = cut.teeth.tip if teeth.inside else cut.teeth.root
     shaft = _bored_by(at, L)
     low, high = sizes.span(link.plane)
-    hole = 0.0 if teeth.inside else bore
-    holes: list[Circle] = []
+    if teeth.fixed:
+        on = ShaftBore(on.bore.running(False))
+    bore = on.bore.reach
+    holes: list[Shape] = []
     outline: Circle | Contour = Circle("PITCH", ORIGIN, radius)
     if teeth.inside:
         inner, outer = radius, radius + 2.0 * sizes.eye
         outline, holes = Circle("LINK", ORIGIN, outer), [Circle("PITCH", ORIGIN, inner)]
     else:
         inner, outer = bore, radius
-        holes += [Circle("BORE", ORIGIN, bore)] if bore else []
-        hub = sizes.hub(max(bore - sizes.loose, 0.0))
+        holes += [on.hole()] if bore else []
+        hub = sizes.hub(on.bore)
         if not teeth.all_round:
             _refuse(link.name, radius - hub, "hub", shaft)
             outline = sectors(radius, hub, teeth)
@@ -111,7 +125,7 @@ def link_gear(
         holes += bolt_circle(size, "gear", L, (inner, outer), 0.25 * math.pi).holes
     plate = Plate(link.name, "PITCH", outline, tuple(holes), low, high)
     _refuse(link.name, plate_wall(plate), "bolts" if teeth.fixed else "bore", shaft)
-    return Gear(at, link.radius_mm, hole, teeth, plate, cut)
+    return Gear(at, link.radius_mm, ShaftBore() if teeth.inside else on, teeth, plate, cut)
 
 
 def _toothed(gear: ToothedGear, hub: float, write: Writer) -> Contour:

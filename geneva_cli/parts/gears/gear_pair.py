@@ -14,7 +14,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.gear_teeth import Writer
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import Circle, Layer, Point, closed
+from geneva_cli.geometry.shapes import Layer, Point, closed
 from geneva_cli.motion.drive import Gears
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, array
@@ -27,6 +27,7 @@ from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import RoundBore
 from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, shaft_ends
+from geneva_cli.parts.shafts.shaft_bores import ShaftBore, bore_at
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -71,9 +72,9 @@ def gear_pair(
         layer, outlines = "PITCH", [list(write(curve, -np.pi, np.pi)) for curve in both]
     members = []
     seats, bores = gear_seats(mechanism, parts), gear_bores(mechanism, parts, on_crank)
-    for seat, pieces, (at, bore) in zip(seats, outlines, bores, strict=True):
+    for seat, pieces, (at, on) in zip(seats, outlines, bores, strict=True):
         outline = closed(layer, pieces)
-        holes = (Circle("BORE", (0.0, 0.0), bore),) if bore else ()
+        holes = (on.hole(),) if on.bore.radius else ()
         members.append(Member(Plate(seat.part, layer, outline, holes, seat.low, seat.high), at))
     return tuple(members)
 
@@ -129,7 +130,9 @@ def gear_shafts(
     at_crank = same(first, mechanism.crank_shaft.at, mechanism.center_distance_mm)
     if at_crank and not (ends.crank_has_one or _on_links(mechanism, parts)):
         reach = shaft_ends(size, "crank", ends.lowest, driven.high)
-        yield Shaft("crank's shaft", "crank", RoundBore(wide), (driven,), *reach, first)
+        on = bore_at(mechanism, first, wide)
+        shaft = Shaft("crank's shaft", "crank", on.bore, (driven,), *reach, first)
+        yield shaft._replace(direction=on.direction)
     name, bore, bored = driver.part, RoundBore(radius), _driver_bore(mechanism, parts) > 0.0
     seats, top = ((driver,), driver.high) if bored else ((), driver.low)  # or one piece with it
     yield Shaft(f"{name}'s shaft", name, bore, seats, ends.lowest, top, at)
@@ -166,8 +169,8 @@ def _driver_bore(mechanism: Mechanism, parts: Outlines | None) -> float:
 
 def gear_bores(
     mechanism: Mechanism, parts: Outlines | None, on_crank: float = 0.0
-) -> list[tuple[Point, float]]:
-    """Return position and radius of the bores of driven gear and driver, as cut; 0 for none.
+) -> list[tuple[Point, ShaftBore]]:
+    """Return position and bore of driven gear and driver; of radius 0 for none.
 
     Raises GenevaError, naming the key, for a bore larger than its gear, and where a pitch curve is
     no gear.
@@ -177,14 +180,16 @@ def gear_bores(
     if teeth := pair_teeth(pair, mechanism.spec.size):
         driven, driver = driven - teeth.roots[0], driver - teeth.roots[1]
     (axis, wide), (other, _) = _shafts(mechanism, parts, on_crank)
-    loose = mechanism.spec.size.allowances.around_shaft_mm
-    bores = [radius + loose if radius else 0.0 for radius in (wide, _driver_bore(mechanism, parts))]
-    for name, bore, least, key in zip(
+    radius = _driver_bore(mechanism, parts)
+    on_driver = ShaftBore(round_bore(mechanism.spec.size, radius)) if radius else ShaftBore()
+    bores = bore_at(mechanism, axis, wide), on_driver
+    for name, one, least, key in zip(
         NAMES, bores, (driven, driver), ("arm_bore_mm", "link_bore_mm"), strict=True
     ):
-        if bore >= least:
+        reach = one.bore.reach
+        if reach >= least:
             raise GenevaError(
-                f"no blank of the {name} is left: its bore of {2.0 * bore:.6g} mm must be below "
+                f"no blank of the {name} is left: its bore of {2.0 * reach:.6g} mm must be below "
                 f"{2.0 * least:.6g}, twice its least radius; reduce {key}",
                 ("size", key),
             )

@@ -16,6 +16,7 @@ from geneva_cli.geometry.shapes import Point
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.links.link_sizes import places, point_at_zero
+from geneva_cli.parts.shafts.shaft_bores import ShaftBore
 
 
 class LinkAxis(NamedTuple):
@@ -25,8 +26,13 @@ class LinkAxis(NamedTuple):
     kinds: tuple[Joint, ...]
     at: Point
     stands: bool  # it does not move with the input angle
-    radius: float = 0.0  # of its shaft or pivot; 0 until that is known
+    bore: ShaftBore = ShaftBore()  # for its shaft or pivot; of radius 0 until that is known
     one_piece: frozenset[str] = frozenset()  # names of the links that have no bore for it
+
+    @property
+    def radius(self) -> float:
+        """Radius of its bore."""
+        return self.bore.bore.radius
 
 
 def axes(links: Iterable[Link], near: float) -> Iterator[LinkAxis]:

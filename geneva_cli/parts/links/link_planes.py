@@ -29,6 +29,7 @@ from geneva_cli.parts.links.links import Links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_hub import wheel_hub_length
 from geneva_cli.parts.shafts.hub_and_shafts import wheel_shaft_ends, wheel_shaft_radius
+from geneva_cli.parts.shafts.shaft_bores import bore_at
 
 
 class Meeting(NamedTuple):
@@ -102,9 +103,10 @@ def _gears(parts: Outlines, bars: Links, links: tuple[Link, ...], turn: Array) -
         for one in _on_wheel(parts, [link], bars.sizes, 0.0 * turn):
             gaps = away - gear.outer - one.radius
             if on_shaft:
-                if one.radius <= gear.bore:
+                wide = gear.bore.bore.around
+                if one.radius <= wide:
                     continue
-                gaps = away + (gear.bore - one.radius)
+                gaps = away + (wide - one.radius)
             least = int(np.argmin(gaps))
             yield Meeting(float(gaps[least]), float(turn[least]), gear.name, one.name)
 
@@ -195,7 +197,8 @@ class _Shaft:
         self.through = parts.sizes.crank_bore > 0.0  # through the locking disc
         if self.through:
             self.carries.add(0)
-        self.radius = sizes.crank_shaft or bars.shaft((L, 0.0), L)
+        radius = sizes.crank_shaft or bars.shaft((L, 0.0), L)
+        self.radius = bore_at(parts.assembly.full, (L, 0.0), radius).bore.around
         low = parts.assembly.full.spec.size.crank_shaft_low_mm
         ends = math.inf if low is None else low + SAME_LENGTH * L
         self.reached = {link.plane for link in links if sizes.span(link.plane)[1] > ends}

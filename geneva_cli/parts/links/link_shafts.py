@@ -18,7 +18,6 @@ from geneva_cli.motion.pivots import Joint
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.links.link_positions import same
 from geneva_cli.parts.links.links import Links, placed_holes
-from geneva_cli.parts.shafts.bores import RoundBore
 from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, seat_of, shaft_ends
 
 if TYPE_CHECKING:
@@ -40,7 +39,7 @@ def link_shafts(
             continue
         seats = on(axis.at)
         low, high = seats[0].low, max(seat.high for seat in seats)
-        bore = RoundBore(axis.radius)
+        bore, direction = axis.bore.bore, axis.bore.direction
         if axis.stands:
             turns = Joint.SHAFT in axis.kinds
             whose = "crank" if on_crank else "wheel" if on_wheel else axis.names[0]
@@ -48,7 +47,7 @@ def link_shafts(
             high = ends.top if on_wheel else high
             low, high = shaft_ends(size, whose, low, high)
             name = f"{whose}'s {'shaft' if turns else 'pivot'}"
-            yield Shaft(name, whose, bore, seats, low, high, axis.at, turns=turns)
+            yield Shaft(name, whose, bore, seats, low, high, axis.at, direction, turns=turns)
         elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # ``link_pins`` has the pins
             name = f"shaft of {', '.join(axis.names)}"
             yield Shaft(name, axis.names[0], bore, seats, low, high, axis.at, turns=False)
@@ -57,10 +56,15 @@ def link_shafts(
 def carried(bars: Links, axis: LinkAxis, others: Iterable[Member], L: float) -> Iterator[Seat]:
     """Yield the links and gears on an axis, with or without a bore.
 
-    ``others`` are plates that turn with a link: a first wheel, whose gear is no part then, and the
-    locking disc on a first crank.
+    A link is fixed on the shaft of its first joint, and turns on others. ``others`` are plates
+    that turn with a link: a first wheel, whose gear is no part then, and the locking disc on a
+    first crank.
     """
-    yield from (seat_of(plate) for plate in bars.plates if plate.name in axis.names)
+    yield from (
+        seat_of(bar.part, same(bar.at, axis.at, L) and Joint.SHAFT in axis.kinds)
+        for bar in bars.cut
+        if isinstance(bar.part, Plate) and bar.part.name in axis.names
+    )
     on_axis = [
         seat_of(member.part)
         for member in others
@@ -70,7 +74,15 @@ def carried(bars: Links, axis: LinkAxis, others: Iterable[Member], L: float) -> 
     names = {*axis.names} - {seat.part for seat in on_axis}
     for gear in bars.gears:
         if gear.name in names and not gear.teeth.inside:
-            yield seat_of(gear.plate)
+            yield seat_of(gear.plate, not gear.teeth.fixed)
+
+
+def links_to_fix(bars: Links, mechanism: Mechanism) -> Iterator[str]:
+    """Yield the links and gears that turn with a shaft, but that nothing holds on it."""
+    for axis in bars.axes:
+        if axis.bore.bore.is_plain:
+            seats = carried(bars, axis, (), mechanism.center_distance_mm)
+            yield from (s.part for s in seats if s.held and s.part not in axis.one_piece)
 
 
 def outside_links(shafts: Iterable[Member], bars: Links, L: float) -> Iterator[Member]:

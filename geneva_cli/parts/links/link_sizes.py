@@ -22,6 +22,7 @@ from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.outlines.outline_sizes import sized
 from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.shafts.bores import Bore
 from geneva_cli.parts.sizes.arm_sizes import HUB, pin_hole
 from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses, half_or, pin_radius, plane_span
 from geneva_cli.spec.least_wall import eye_about, wall_min
@@ -69,9 +70,9 @@ class LinkSizes(NamedTuple):
         radius = bore_radius(min(L / 20.0, 0.35 * space))  # leaves most of the space as a wall
         return radius if radius >= 0.01 * L else 0.0
 
-    def hub(self, bore: float) -> float:
+    def hub(self, bore: Bore) -> float:
         """Return the radius of a link's plate around a bore, or on a shaft's end."""
-        return max(rounded_radius(HUB * bore), bore + self.loose + self.wall)
+        return max(rounded_radius(HUB * bore.radius), bore.reach + self.wall)
 
     def span(self, plane: int) -> tuple[float, float]:
         """Return lower and upper end, along the axis, of links in a plane below the wheel's."""
@@ -136,11 +137,7 @@ def _pin_and_eye(size: Size, links: Iterable[Link], wall: float, L: float) -> tu
 
 
 def _crank_shaft(mechanism: Mechanism, parts: Outlines | None) -> float | None:
-    """Return the radius of the crank's shaft: of arm, locking disc or spec; None for none.
-
-    Raises GenevaError for a hexagonal one.
-    """
-    refuse_hexagon(mechanism.spec.size, "crank")
+    """Return the radius of the crank's shaft: of arm, locking disc or spec; None for none."""
     if parts and has_arm(parts):
         return parts.sizes.arm_bore
     if parts and parts.sizes.crank_bore:
@@ -190,13 +187,3 @@ def _eye_limit(mechanism: Mechanism, links: Iterable[Link]) -> float:
     w = mechanism.roller_radius_mm * 1.05 + size.allowances.slot_clearance_mm
     hub = 0.75 * (min(near) - w) if size.wheel_hub_mm is None else 0.5 * size.wheel_hub_mm
     return min(near) - hub
-
-
-def refuse_hexagon(size: Size, part: str) -> None:
-    """Raise GenevaError for a hexagonal shaft with links or gears, whose bores are round."""
-    if vars(size)[f"{part}_bore"] == "hex":
-        raise GenevaError(
-            f'{part}_bore = "hex": links or gears on the {part}\'s shaft have round bores; use '
-            '"round" or "D"',
-            ("size", f"{part}_bore"),
-        )

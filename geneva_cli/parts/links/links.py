@@ -31,10 +31,11 @@ from geneva_cli.parts.links.link_sizes import (
     link_sizes,
     places,
     point_at_zero,
-    refuse_hexagon,
 )
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bolt_holes import screw_through
+from geneva_cli.parts.shafts.bores import round_bore
+from geneva_cli.parts.shafts.shaft_bores import ShaftBore, bore_at
 
 if TYPE_CHECKING:
     from geneva_cli.parts.gears.gear_blanks import Gear
@@ -110,7 +111,7 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
     bars = [link for link in links if not link.radius_mm]
     unbored = [_bar(link, sizes, L) for link in bars]
     turning = [
-        _with_shaft(axis, unbored, links, sizes, parts, L)
+        _with_shaft(axis, unbored, links, sizes, parts, mechanism)
         for axis in axes_of(links, SAME_LENGTH * L)
     ]
     _refuse_unused(mechanism, turning, sizes, parts)
@@ -141,15 +142,11 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
 
 
 def _known(axis: LinkAxis, sizes: LinkSizes, parts: Outlines | None, L: float) -> float:
-    """Return the radius of the shaft of wheel or crank, from their own bores; 0 for another.
-
-    Raises GenevaError for a hexagonal one.
-    """
+    """Return the radius of the shaft of wheel or crank, from their own bores; 0 for another."""
     if same(axis.at, (L, 0.0), L):
         return sizes.crank_shaft or 0.0
     if parts is None or not same(axis.at, (0.0, 0.0), L):
         return 0.0
-    refuse_hexagon(parts.assembly.mechanism.spec.size, "wheel")
     return parts.sizes.wheel_bore
 
 
@@ -159,12 +156,12 @@ def _with_shaft(
     links: Iterable[Link],
     sizes: LinkSizes,
     parts: Outlines | None,
-    L: float,
+    mechanism: Mechanism,
 ) -> LinkAxis:
-    """Return an axis with its shaft's radius, and the links that are too small to be bored."""
+    """Return an axis with its shaft's bore, and the links that are too small to be bored."""
     if SHAFT not in axis.kinds:
-        return axis._replace(radius=sizes.pin)
-    z = complex(*axis.at)
+        return axis._replace(bore=ShaftBore(round_bore(mechanism.spec.size, sizes.pin)))
+    z, L = complex(*axis.at), mechanism.center_distance_mm
     distances = {
         bar.link.name: bar.clearance((z - bar.at) / bar.unit)
         for bar in bars
@@ -175,11 +172,12 @@ def _with_shaft(
     known = _known(axis, sizes, parts, L)
     own = [radius for limit in limits if (radius := sizes.bore(limit, L)) > 0.0]
     radius = known or min(own, default=bore_radius(L / 20.0))
+    bore = bore_at(mechanism, axis.at, radius)
     if not known and sizes.shaft is not None:  # of the spec: a check reports the wall that is left
-        return axis._replace(radius=radius)
-    least = sizes.loose + sizes.wall
-    tight = frozenset(name for name, limit in distances.items() if radius + least > limit)
-    return axis._replace(radius=radius, one_piece=tight)
+        return axis._replace(bore=bore)
+    least = bore.bore.reach + sizes.wall
+    tight = frozenset(name for name, limit in distances.items() if least > limit)
+    return axis._replace(bore=bore, one_piece=tight)
 
 
 def _refuse_unused(
@@ -220,8 +218,7 @@ def _gears(
                 ("size", "gear_module_mm"),
             )
     cut = mesh.gears if mesh else {}
-    radii = (next(axis.radius for axis in turning if same(axis.at, p, L)) for p in at)
-    bores = [radius + sizes.loose if radius else 0.0 for radius in radii]
+    bores = [next(axis.bore for axis in turning if same(axis.at, p, L)) for p in at]
     return mesh, [
         link_gear(link, p, bore, sizes, mechanism, cut.get(link.name))
         for link, p, bore in zip(links, at, bores, strict=True)
@@ -281,9 +278,10 @@ def _members(
         if kind is SHAFT:
             there = bar.at + z * bar.unit
             axis = next(one for one in turning if same(one.at, (there.real, there.imag), L))
-            eyes.append(_circle("LINK", z, sizes.hub(axis.radius)))
-            bored = [] if name in axis.one_piece else [axis.radius + sizes.loose]
-            holes += [_circle("BORE", z, radius) for radius in bored]
+            eyes.append(_circle("LINK", z, sizes.hub(axis.bore.bore)))
+            if name not in axis.one_piece:
+                bored = axis.bore.hole(cmath.phase(bar.unit))
+                holes.append(placed(bored, (z.real, z.imag), 0.0))
     low, high = sizes.span(bar.link.plane)
     plate = Plate(name, "LINK", convex_hull("LINK", eyes), tuple(holes), low, high)
     _refuse(plate)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
@@ -10,6 +11,9 @@ from geneva_cli.geometry.shapes import Point
 from geneva_cli.parts.shafts.bores import Bore
 from geneva_cli.spec.tables import Size
 
+# what the sheet and the list of parts say of a part in a round bore that turns with its shaft
+FIX = "fix on the shaft: pin, key or adhesive"
+
 
 class Seat(NamedTuple):
     """Where a part sits on its shaft: its name, its lower and its upper face."""
@@ -17,12 +21,13 @@ class Seat(NamedTuple):
     part: str
     low: float
     high: float
+    held: bool = True  # it turns with the shaft; False if it turns on it, or stands still
 
 
-def seat_of(part: Part) -> Seat:
+def seat_of(part: Part, held: bool = True) -> Seat:
     """Return where a plate sits."""
     assert isinstance(part, Plate)
-    return Seat(part.name, part.low, part.high)
+    return Seat(part.name, part.low, part.high, held)
 
 
 class Shaft(NamedTuple):
@@ -31,7 +36,7 @@ class Shaft(NamedTuple):
     name: str
     part: str  # whose keys of [size] set its ends
     bore: Bore  # of the parts on it
-    seats: tuple[Seat, ...]  # from the lowest up; the bore's shape is that of the last
+    seats: tuple[Seat, ...]  # from the lowest up; held ones have the bore's shape
     low: float
     high: float
     at: Point
@@ -45,6 +50,13 @@ class Shaft(NamedTuple):
         """The key of ``[size]`` that sets the bore."""
         own = f"{self.part}_bore_mm"
         return own if hasattr(Size, own) else "link_bore_mm"
+
+    def to_fix(self, size: Size) -> Iterator[str]:
+        """Yield the names of parts that turn with the shaft, but that nothing holds on it."""
+        for seat in self.seats:
+            screws = (vars(size).get(f"{seat.part}_{key}_mm") for key in ("screw", "clamp"))
+            if seat.held and self.bore.is_plain and not any(screws):
+                yield seat.part
 
     def plain(self) -> Member:
         """Return the shaft with one section all along.

@@ -84,7 +84,12 @@ def _above(shaft: Shaft, own: Bore, free: float | None) -> Iterator[Step]:
     if first - top > SHORTEST_MM:
         yield Step("shaft", below, first)
     for seat, after in pairwise(shaft.seats):
-        yield Step(f"seat of {seat.part}", below, seat.high)
+        if seat.held:
+            yield from _on_part(own, seat, section, ends_here=True)
+            # a flat or a hexagon does not pass a round step; what is keyed does
+            below = below if own.keyed else section
+        else:
+            yield Step(f"seat of {seat.part}", below, seat.high)
         if after.low - seat.high > SHORTEST_MM:  # faces that touch may differ by rounding
             yield Step("shaft", below, after.low)
     if shaft.seats:
@@ -92,7 +97,7 @@ def _above(shaft: Shaft, own: Bore, free: float | None) -> Iterator[Step]:
 
 
 def _on_part(own: Bore, seat: Seat, section: Shape, ends_here: bool) -> Iterator[Step]:
-    """Yield the steps of the highest part's seat, and a circlip where there is space."""
+    """Yield the steps of a part's seat, and a circlip where there is space above it."""
     name, long = f"seat of {seat.part}", seat.high - seat.low
     if own.keyed:
         # a keyway that ends before both faces leaves a round seat on each side
