@@ -26,6 +26,13 @@ class Screwed(NamedTuple):
     part: str
 
 
+class Unborne(NamedTuple):
+    """A shaft that turns and does not reach the frame, and the reason."""
+
+    name: str
+    reason: str
+
+
 class FrameAndShafts(NamedTuple):
     """The frame, what is on it, and the shafts, whether they reach it or not."""
 
@@ -34,6 +41,8 @@ class FrameAndShafts(NamedTuple):
     spacers: tuple[Member, ...] = ()  # below the parts that are screwed to it
     screwed: tuple[Screwed, ...] = ()
     to_fix: tuple[str, ...] = ()  # names of what the shafts turn, and nothing holds on them
+    bridge: Member | None = None  # bears the crank's shaft from above
+    unborne: tuple[Unborne, ...] = ()
 
 
 class EdgedParts(PartsOfMachine):
@@ -112,6 +121,11 @@ class EdgedParts(PartsOfMachine):
     def to_fix(self) -> tuple[str, ...]:
         """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
         return tuple({"crank": "arm"}.get(name, name) for name in self._framed.to_fix)
+
+    @property
+    def unborne(self) -> tuple[Unborne, ...]:
+        """The shafts that have no bearing."""
+        return self._framed.unborne
 
     @property
     def _edge(self) -> Edge:

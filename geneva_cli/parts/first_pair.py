@@ -19,7 +19,7 @@ from geneva_cli.parts.links.links import Links, drawn_links
 from geneva_cli.parts.outlines.outline_sizes import outlines
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.projection import titled
-from geneva_cli.parts.shafts.bores import RoundBore, has_shape
+from geneva_cli.parts.shafts.bores import has_shape, round_bore
 from geneva_cli.parts.sizes.first_sizes import first_spec
 from geneva_cli.parts.wheel import wheel_plate
 from geneva_cli.spec.least_wall import wall_min
@@ -61,7 +61,7 @@ def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:
             arm_thickness_mm=link.thickness,
             pin_mm=2.0 * link.roller_stands,
             arm_bore_mm=2.0 * shaft,
-            arm_hub_mm=2.0 * link.hub(RoundBore(shaft)),
+            arm_hub_mm=2.0 * link.hub(round_bore(spec.size, shaft)),
             arm_eye_mm=2.0 * link.roller_eye,
         )
     return build(alone.replace(size=size, title=f"{titled(mechanism)}, first pair"))

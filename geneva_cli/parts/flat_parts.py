@@ -286,10 +286,15 @@ class FlatParts(EdgedParts):
         """The rings between the frame and parts that are screwed to it."""
         return self._edged(self._framed.spacers)
 
+    @cached_property
+    def bridge(self) -> tuple[Member, ...]:
+        """The bridge that bears a crank's shaft from above; none where the frame bears it."""
+        return self._edged([self._framed.bridge] if self._framed.bridge else [])
+
     @property
     def standing(self) -> tuple[Member, ...]:
-        """The parts that stand still: a cam's groove plate, the frame, and what is between."""
-        return (*self.groove_plate, *self.spacers, self.frame)
+        """The parts that stand still: a cam's groove plate, the frame, and what is on it."""
+        return (*self.groove_plate, *self.spacers, *self.bridge, self.frame)
 
     @property
     def screws(self) -> tuple[Screws, ...]:
@@ -367,4 +372,4 @@ class FlatParts(EdgedParts):
         yield "first wheel", lambda: [one.part for one in self.first]
         yield "shafts", lambda: [one.part for one in self.shafts]
         yield "groove plate", lambda: [one.part for one in self.groove_plate]
-        yield "frame", lambda: [one.part for one in (*self.spacers, self.frame)]
+        yield "frame", lambda: [one.part for one in (*self.spacers, *self.bridge, self.frame)]

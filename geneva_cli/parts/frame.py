@@ -21,7 +21,8 @@ from geneva_cli.geometry.shapes import ORIGIN, Circle, Point
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import has_arm
-from geneva_cli.parts.edged_parts import FrameAndShafts, Screwed
+from geneva_cli.parts.bearing_bridge import bearing_bridge
+from geneva_cli.parts.edged_parts import FrameAndShafts, Screwed, Unborne
 from geneva_cli.parts.links.link_positions import same
 from geneva_cli.parts.links.link_shafts import outside_links
 from geneva_cli.parts.links.links import Links, placed_holes
@@ -38,9 +39,10 @@ from geneva_cli.parts.shafts.all_shafts import all_shafts, passing, passing_arm
 from geneva_cli.parts.shafts.bearings import shoulder_length
 from geneva_cli.parts.shafts.bolt_holes import tapped
 from geneva_cli.parts.shafts.built_shafts import built_shafts
-from geneva_cli.parts.shafts.shaft import Seat
+from geneva_cli.parts.shafts.shaft import Seat, Shaft
 from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses
 from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.tables import Size
 
 Fixed: TypeAlias = tuple[Circle, Plate]  # a screw's clearance hole, and the part that it fixes
 
@@ -70,13 +72,23 @@ def framed(
     top = free - shoulder_length(size, L)
     thick = drawn_thicknesses(size, L, outlines.sizes if outlines else None).arm
     own = list(all_shafts(mechanism, outlines, bars, top - thick, first))
+    hanging = [one for one in own if one.turns and one.low >= top]
+    bridge = None
+    for one in hanging:
+        if one.part == "crank" and outlines:
+            bridge = bearing_bridge(mechanism, outlines, bars, one, thick)
+        if bridge:
+            own[own.index(one)] = one._replace(high=bridge.high)
+            hanging.remove(one)
+            break
     if size.shafts == "turned" and outlines:
         adjacent += passing_arm(outlines, own)
     axles, bottom = built_shafts(size, own, adjacent, (top - thick, top, free))
     places = list(_standing(mechanism, bars))
     drilled = list(_drilled(mechanism, axles, places, top))
     require_walls(drilled, wall_min(size, L), axles)
-    fixed = [*_fixed(bars), *(_mounted(base, L) if base else ())]
+    mounted = (_mounted(plate, L) for plate in (base, bridge) if plate)
+    fixed = [*_fixed(bars), *(screwed for one in mounted for screwed in one)]
     holes = [*drilled, *(tapped(hole) for hole, _ in fixed)]
     near = SAME_LENGTH * L
     spacers = [_spacer(hole, part, top) for hole, part in fixed if part.low - top > near]
@@ -93,7 +105,27 @@ def framed(
     whole = {name for axis in bars.axes for name in axis.one_piece}
     to_fix = (name for one in own for name in one.to_fix(size) if name not in whole)
     shafts = tuple(outside_links(axles, bars, L))
-    return FrameAndShafts(plate, shafts, tuple(spacers), screwed, tuple(dict.fromkeys(to_fix)))
+    return FrameAndShafts(
+        plate,
+        shafts,
+        tuple(spacers),
+        screwed,
+        tuple(dict.fromkeys(to_fix)),
+        Member(bridge, (L, 0.0)) if bridge else None,
+        tuple(Unborne(one.name, _why_above(one, size, bars, top)) for one in hanging),
+    )
+
+
+def _why_above(shaft: Shaft, size: Size, bars: Links, top: float) -> str:
+    """Return the reason why a shaft ends above the frame's upper face ``top``."""
+    ends = f"it ends at {shaft.low:.4g} mm, above the frame at {top:.4g} mm"
+    key = f"{shaft.part}_shaft_low_mm"
+    if vars(size).get(key) is not None:
+        return f"{ends}, because {key} = {shaft.low:g}"
+    if shaft.part == "wheel":
+        return f"{ends}, because wheel_hub_mm = 0 ends it in the wheel"
+    below = [plate.name for plate in bars.plates if plate.high <= shaft.low]
+    return f"{ends}, because the {' and the '.join(below)} passes below it"
 
 
 def _drilled(

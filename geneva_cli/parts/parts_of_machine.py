@@ -11,6 +11,7 @@ from geneva_cli.kept import cached_property
 if TYPE_CHECKING:
     from geneva_cli.geometry.plates import Member
     from geneva_cli.motion.mechanism import Mechanism
+    from geneva_cli.parts.edged_parts import Unborne
     from geneva_cli.parts.gears.gear_blanks import Gear
     from geneva_cli.parts.missing import NamedParts
     from geneva_cli.parts.shafts.bolt_holes import Screws
@@ -52,6 +53,11 @@ class PartsOfMachine(ABC):
     @property
     def to_fix(self) -> tuple[str, ...]:
         """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
+        return ()
+
+    @property
+    def unborne(self) -> tuple[Unborne, ...]:
+        """The shafts that turn and have no bearing."""
         return ()
 
     @property

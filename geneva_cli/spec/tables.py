@@ -150,21 +150,25 @@ class Size(SpecTable):
         float | None, POSITIVE, "width of the crank arm round a pin; default up to 2 pin diameters"
     ] = None
     crank_keyway: Annotated[
-        str | None, OneOf(("DIN 6885-1",)), "keyway in the bores of crank arm and locking disc"
+        str | None,
+        OneOf(("DIN 6885-1",)),
+        "keyway in the bores of all that turns with the crank's shaft",
     ] = None
     crank_bore: Annotated[
         str,
         OneOf(("round", "D", "hex")),
-        "shape of the crank's bores; a hex bore is across flats",
+        "shape of the bores on the crank's shaft; a hex bore is across flats",
     ] = "round"
     crank_flat_mm: Annotated[
         float | None, POSITIVE, "depth of the flat in the crank's D bore; default bore/10"
     ] = None
-    wheel_keyway: Annotated[str | None, OneOf(("DIN 6885-1",)), "keyway in the wheel's bore"] = None
+    wheel_keyway: Annotated[
+        str | None, OneOf(("DIN 6885-1",)), "keyway in the bores on the wheel's shaft"
+    ] = None
     wheel_bore: Annotated[
         str,
         OneOf(("round", "D", "hex")),
-        "shape of the wheel's bore; a hex bore is across flats",
+        "shape of the bores on the wheel's shaft; a hex bore is across flats",
     ] = "round"
     wheel_flat_mm: Annotated[
         float | None, POSITIVE, "depth of the flat in the wheel's D bore; default bore/10"

@@ -46,6 +46,23 @@ def process_warnings(model: PartsModel) -> Iterator[Notice]:
         yield from _narrow(model.mechanism, model.outlines.sizes)
 
 
+def bearing_warnings(model: PartsModel) -> Iterator[Notice]:
+    """A warning for each shaft that turns and has no bearing."""
+    if not model.mechanism.spec.has_parts:
+        return
+    try:
+        unborne = model.built.unborne
+    except GenevaError:  # the check of the parts has the reason
+        return
+    for one in unborne:
+        part = one.name.partition("'")[0]
+        yield Notice(
+            "no-bearing",
+            f"the {one.name} has no bearing: {one.reason}. Hold it from above: "
+            f"{part}_shaft_high_mm makes it longer",
+        )
+
+
 def gears_without_teeth(spec: Spec) -> Iterator[Notice]:
     """A warning about gears that end at their pitch curves; for machines that go to a shop."""
     if is_geared(spec) and spec.size.gear_module_mm is None:

@@ -18,7 +18,7 @@ from geneva_cli.motion.peaks import worst
 from geneva_cli.parts.wheel_body import known_wheel_body
 from geneva_cli.verdict.carried_warnings import carried_warnings, unlikely_warnings
 from geneva_cli.verdict.motion_warnings import motion_warnings
-from geneva_cli.verdict.parts_warnings import process_warnings, turn_warnings
+from geneva_cli.verdict.parts_warnings import bearing_warnings, process_warnings, turn_warnings
 
 
 def warnings(model: PartsModel) -> list[Notice]:
@@ -51,6 +51,7 @@ def one_way_warnings(model: PartsModel) -> list[Notice]:
         *carried_warnings(mechanism, known_wheel_body(mechanism)),
         *(_of_strength(mechanism) if is_loaded else ()),
         *turn_warnings(model),
+        *bearing_warnings(model),
         *process_warnings(model),
     ]
 

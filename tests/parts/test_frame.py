@@ -1,17 +1,24 @@
 """The frame: a hole for every shaft that reaches it, and for nothing else."""
 
+import cmath
 import math
 from functools import cache
 from itertools import combinations
 
+import numpy as np
 import pytest
 import repo
+from drawing_witness import polygon
+from shapely.affinity import rotate, translate
+from shapely.geometry import Point
 
 from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.hole_walls import least_wall
+from geneva_cli.geometry.placed import in_place
 from geneva_cli.geometry.plates import plates
 from geneva_cli.geometry.shapes import Circle
+from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.outlines.outline_sizes import machine_sizes
 from geneva_cli.parts.sizes.stressed import stressed
 from geneva_cli.spec.least_wall import wall_min
@@ -89,8 +96,8 @@ def test_a_hole_for_every_shaft_that_reaches_it(name):
     design, _, drawing = made(name)
     holes = [shape for shape in drawing.shapes if isinstance(shape, Circle)]
     pivots = rows(design, "pivot")
-    # two screws hold a guide besides, and four a gear
-    guide = {"slider-crank": 2, "epicyclic-z4": 4}.get(name, 0)
+    # two screws hold a guide or a bridge besides, and four a gear
+    guide = {"slider-crank": 2, "epicyclic-z4": 4, "side-crank-z6": 2}.get(name, 0)
     assert len(holes) == len(STANDING[name]) + guide + MOUNTS
     for pivot, hole in zip(STANDING[name], holes, strict=False):
         at = pivots[pivot]["x_mm"], pivots[pivot]["y_mm"]
@@ -114,7 +121,10 @@ def test_no_two_holes_cross_where_the_crank_ends_above_its_input(z, A):
     """The base offset of the input crank is A times the crank, R = L sin(pi/z)."""
     plate, holes = drilled(Design(External(z), SideCrank(A=A)))
     offset = 100.0 * math.sin(math.pi / z) * A
-    assert [at for at, _ in holes] == [(0.0, 0.0), (pytest.approx(100.0 - offset), 0.0)]
+    standing, posts = [at for at, _ in holes][:2], [at for at, _ in holes][2:]
+    assert standing == [(0.0, 0.0), (pytest.approx(100.0 - offset), 0.0)]
+    # a bridge bears the shaft where it leaves through the locking disc, which needs a bore
+    assert [x for x, _ in posts] == ([100.0, 100.0] if z == 6 else [])
     for one, other in combinations(plate.holes, 2):
         assert math.dist(one.centre, other.centre) > one.radius + other.radius
 
@@ -144,7 +154,8 @@ def test_it_is_below_all_that_moves_and_has_walls(name):
     (plate,) = plates(drawing.solid)
     parts = rows(design, "part")
     own = parts.pop("frame")
-    lows = [part["z_low_mm"] for name, part in parts.items() if not name.endswith("shaft")]
+    standing = "shaft", "spacer of the bearing bridge"
+    lows = [part["z_low_mm"] for name, part in parts.items() if not name.endswith(standing)]
     assert own["z_high_mm"] == plate.high == min(lows)
     L = design.mechanism.center_distance_mm
     assert least_wall(plate.holes, [plate.outline]) > wall_min(design.spec.size, L)
@@ -169,6 +180,74 @@ def test_shafts_have_the_size_of_what_they_carry():
     assert crank == proof.outlines.sizes.crank_bore
     thick = Design(External(6)).with_("shaft.crank_diameter_mm", 30.0).drawing("frame")
     assert [s.radius for s in thick.shapes if isinstance(s, Circle)][1] == 15.0
+
+
+def outline_at(link, plate, index):
+    """The outline of a link where its joints are, as chords."""
+    places = [complex(x[index], y[index]) for x, y in link.joints]
+    ahead = places[1] - places[0]
+    turned = rotate(polygon(plate.outline, 1e-3), cmath.phase(ahead), (0, 0), use_radians=True)
+    return translate(turned, places[0].real, places[0].imag)
+
+
+@pytest.mark.parametrize("A", [-0.6, 0.3, None])
+def test_a_bridge_bears_the_crank_of_a_side_crank(A):
+    """Its bore and the shaft are on one axis, and its posts stand beside all that turns.
+
+    The links are placed by their joints, by shapely, at 73 input angles.
+    """
+    design = made("side-crank-z6")[0]
+    design = design.with_("drive.A", A) if A else design
+    flat, L = design.parts_model.flat, design.mechanism.center_distance_mm
+    (bridge,), frame = flat.bridge, flat.frame.part
+    (crank,) = [one for one in flat.shafts if one.part.name == "crank's shaft"]
+    bore, *screws = bridge.part.holes
+    assert bridge.at == crank.at == (L, 0.0)
+    assert bore.radius == crank.part.outline.radius
+    assert crank.part.high == bridge.part.high == bridge.part.low + frame.high - frame.low
+    below = [plate for member in flat.members for _, plate in in_place([member])]
+    turning = [one for one in below if one.layer in ("WHEEL", "CRANK", "ARM", "ROLLER", "LINK")]
+    assert bridge.part.low == max(one.high for one in turning)
+    posts = [one for one in flat.spacers if one.part.name == "spacer of the bearing bridge"]
+    assert [(one.part.low, one.part.high) for one in posts] == 2 * [(frame.high, bridge.part.low)]
+    at = np.linspace(-180.0, 180.0, 73)
+    links = {link.name: link for link in links_at(design.mechanism, at)}
+    plates_of = {one.part.name: one.part for one in flat.links.cut if one.part.name in links}
+    assert plates_of.keys() == {"coulisse", "input crank"}
+    rim = max(math.hypot(*piece.start) for piece in flat.outlines.wheel.segments)
+    arm = max(math.hypot(*pin.centre) for pin in flat.arm.pins) + flat.arm.eye
+    for post, screw in zip(posts, screws, strict=True):
+        assert post.at == (L, screw.centre[1])
+        ring = Point(*post.at).buffer(post.part.outline.radius)
+        assert math.hypot(*post.at) - post.part.outline.radius > rim
+        assert abs(post.at[1]) - post.part.outline.radius > max(arm, flat.outlines.sizes.lock)
+        for name, plate in plates_of.items():
+            gaps = (outline_at(links[name], plate, i).distance(ring) for i in range(len(at)))
+            assert min(gaps) > 0.5
+    lever = stressed(*machine_sizes(design.mechanism)).crank_shaft.overhang
+    middle = 0.5 * (bridge.part.low + bridge.part.high) - 0.5 * flat.outlines.sizes.wheel_thickness
+    assert lever == pytest.approx(middle, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "keys", "said"),
+    [
+        ("side-crank-z6", (), ""),
+        ("turret", (), ""),
+        ("four-bar-z4", (), "the wheel's shaft has no bearing: it ends at 0 mm, above the frame"),
+        ("four-bar-z4", (), "because wheel_hub_mm = 0 ends it in the wheel"),
+        ("turret", ("wheel_shaft_low_mm=-5",), "because wheel_shaft_low_mm = -5"),
+        ("side-crank-z6", ("crank_shaft_high_mm=40",), "because the input crank passes below it"),
+    ],
+)
+def test_a_shaft_that_nothing_bears_is_said(name, keys, said):
+    """As a warning, and on the sheet at the shaft."""
+    design = load(str(repo.DESIGNS / f"{name}.toml"), [f"size.{key}" for key in keys])
+    texts = [str(text) for text in design.warnings if text.name == "no-bearing"]
+    assert len(texts) == bool(said)
+    assert all(said in text for text in texts)
+    noted = [label.text for label in design.sheet(0.05).texts]
+    assert noted.count("no bearing: hold it from above") == bool(said)
 
 
 def test_the_shafts_of_a_sphere_stand_in_no_plate():

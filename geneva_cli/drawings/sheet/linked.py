@@ -29,6 +29,7 @@ def titled(rows: Sequence[Mapping[str, object]], scale: float, parts: PartsOfMac
     Its fits are those of the process, for the thickness of the first part.
     """
     process, to_fix = parts.mechanism.spec.size.process, parts.to_fix
+    unborne = {one.name for one in parts.unborne}
 
     def begin(*names: str, thick: bool = True) -> View:
         titles: list[str] = []
@@ -42,6 +43,8 @@ def titled(rows: Sequence[Mapping[str, object]], scale: float, parts: PartsOfMac
         view = View("; ".join(titles) or names[0], scale, fits)
         for name in names:
             view.to_fix(name, to_fix)
+            if name in unborne:
+                view.remark("no bearing: hold it from above")
         return view
 
     return begin

@@ -91,6 +91,10 @@ def _standing(parts: FlatParts, begin: Begin) -> Iterator[View]:
         view = begin(*(plate.name for plate in grooved), "groove")
         draw_groove(view, parts.groove, parts.outlines.sizes.half_width, grooved[0])
         yield view
+    for plate in flat_plates(parts.bridge):
+        view = begin(plate.name)
+        draw_frame(view, plate, axis_name="the crank's axis")
+        yield view
     (frame,) = flat_plates([parts.frame])
     view = begin(frame.name)
     draw_frame(view, frame, screws=sized.threads(parts.frame_threads))

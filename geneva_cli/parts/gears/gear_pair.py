@@ -25,7 +25,7 @@ from geneva_cli.parts.links.link_positions import gear_plane, same
 from geneva_cli.parts.links.link_sizes import link_sizes
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.shafts.bores import RoundBore
+from geneva_cli.parts.shafts.bores import RoundBore, round_bore
 from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, shaft_ends
 from geneva_cli.parts.shafts.shaft_bores import ShaftBore, bore_at
 

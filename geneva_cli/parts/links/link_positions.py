@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 
 import numpy as np
@@ -73,6 +74,29 @@ def _deepest(mechanism: Mechanism, own: Iterable[Link]) -> int:
 def gear_plane(mechanism: Mechanism) -> int:
     """Return the number of the plane of noncircular gears: below the arm and the drive's links."""
     return 1 + _deepest(mechanism, _own_links(mechanism, np.zeros(1)))
+
+
+def is_bridged(mechanism: Mechanism) -> bool:
+    """Return True if a bridge bears the crank's shaft, because a link turns over its axis below.
+
+    There is none for several wheels or cranks, behind another drive, and where the spec sets the
+    shaft's ends. Such a link is deeper than all on the shaft, as a side-crank's input crank is.
+    """
+    spec, size, L = mechanism.spec, mechanism.spec.size, mechanism.center_distance_mm
+    single = len(mechanism.wheel_places) == len(mechanism.crank_places) == 1
+    own_ends = size.crank_shaft_low_mm is None and size.crank_shaft_high_mm is None
+    if spec.drive_before or spec.wheel.SIGN < 0.0 or not (single and own_ends):
+        return False
+    bars = [link for link in links_at(mechanism, np.array([-180.0, 0.0])) if not link.radius_mm]
+    joints = {link.name: [x + 1j * y - L for x, y in link.joints] for link in bars}
+    near = SAME_LENGTH * L
+    on_shaft = [link.plane for link in bars if np.abs(joints[link.name][0]).max() < near]
+    below = (link for link in bars if link.plane > max(on_shaft, default=math.inf))
+    # the axis lies between the ends of the link, with which it is in line
+    return any(
+        bool(np.any((np.abs(np.imag(p * np.conj(q))) < near * L) & (np.real(p * np.conj(q)) < 0.0)))
+        for p, q, *_ in (joints[link.name] for link in below)
+    )
 
 
 def same(p: Point, q: Point, L: float) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.numerics.preferred import rounded_below
-from geneva_cli.spec.default_sizes import Thicknesses
+from geneva_cli.spec.default_sizes import Thicknesses, value_or
 
 if TYPE_CHECKING:
     from geneva_cli.spec.tables import Size
@@ -95,6 +95,13 @@ def plane_span(
     if plane > 1:
         high -= first + washer + (plane - 2) * (link + washer)
     return high - (first if plane == 1 else link), high
+
+
+def bridge_low(size: Size, sizes: Sizes) -> float:
+    """Return the lower face of a bridge over the crank, above wheel, locking disc and hub, mm."""
+    gap = size.allowances.pin_gap_mm
+    on_arm = max(sizes.lock_thickness, value_or(size.crank_hub_length_mm, 0.0)) - gap
+    return max(sizes.wheel_thickness, on_arm) + gap + size.washer_mm
 
 
 def half_or(diameter: float | None, default: float) -> float:

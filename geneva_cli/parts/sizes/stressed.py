@@ -1,7 +1,8 @@
 """The dimensions of the parts that their strength depends on: pin, shafts, arm and keys.
 
-A shaft's bearing is in the middle of the frame, below all that turns. Its overhang is the distance
-of that bearing from the middle of the wheel's thickness, unless the spec has one.
+A shaft's bearing is in the middle of the frame, below all that turns, or of a bridge above the
+crank. Its overhang is the distance of that bearing from the middle of the wheel's thickness, unless
+the spec has one.
 """
 
 from __future__ import annotations
@@ -19,12 +20,12 @@ from geneva_cli.loads.tolerance.locking import Lock, loosest
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.links.link_positions import gear_plane, links_at
+from geneva_cli.parts.links.link_positions import gear_plane, is_bridged, links_at
 from geneva_cli.parts.outlines.reliefs import Mouths, Relief, is_whole, reliefs, sectors, widened
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.shafts.keyways import key
 from geneva_cli.parts.sizes.arm_sizes import arm_hub, arm_passing, hole_radius
-from geneva_cli.parts.sizes.plain_sizes import Sizes, half_or, plane_span
+from geneva_cli.parts.sizes.plain_sizes import Sizes, bridge_low, half_or, plane_span
 from geneva_cli.parts.slots.roller_paths import mouth_corners, roller_reaches
 from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.least_wall import eye_about
@@ -60,11 +61,16 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
         usual = size.allowances.pin_gap_mm + sizes.arm_thickness
         length = value_or(size.wheel_hub_length_mm, usual)
     end = ShaftEnd(_to_frame(assembly, sizes, length), sizes.arm_thickness, assembly.L)
+    crank_shaft = shaft_of(spec, "crank", crank, end)
+    if sizes.crank_bore and is_bridged(assembly.full):
+        middle = bridge_low(size, sizes) + 0.5 * (sizes.arm_thickness - sizes.wheel_thickness)
+        own = spec.shaft.crank_diameter_mm, spec.shaft.crank_overhang_mm
+        crank_shaft = ShaftSize(value_or(own[0], 2.0 * crank), value_or(own[1], middle))
     return Stressed(
         contact,
         2.0 * sizes.pin,
         shaft_of(spec, "wheel", sizes.wheel_bore, end),
-        shaft_of(spec, "crank", crank, end),
+        crank_shaft,
         _arm(assembly, sizes, contact),
         key_of(size.wheel_keyway, sizes.wheel_bore, sizes.wheel_thickness + length),
         key_of(size.crank_keyway, sizes.arm_bore, sizes.arm_thickness),
