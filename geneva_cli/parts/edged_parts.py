@@ -12,7 +12,7 @@ from geneva_cli.geometry.shapes import Circle
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.mounted_plate import mounts_of
-from geneva_cli.parts.parts_of_machine import PartsOfMachine
+from geneva_cli.parts.parts_of_machine import PartsOfMachine, Unborne
 from geneva_cli.parts.shafts.bolt_holes import Screws, tapped
 
 if TYPE_CHECKING:
@@ -24,13 +24,6 @@ class Screwed(NamedTuple):
 
     hole: Circle
     part: str
-
-
-class Unborne(NamedTuple):
-    """A shaft that turns and does not reach the frame, and the reason."""
-
-    name: str
-    reason: str
 
 
 class FrameAndShafts(NamedTuple):

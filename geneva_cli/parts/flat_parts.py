@@ -324,22 +324,23 @@ class FlatParts(EdgedParts):
 
     @property
     def to_fix(self) -> tuple[str, ...]:
-        """Names of the parts that turn with a shaft in a round bore, which holds nothing.
-
-        Bolts fix the locking disc to the arm.
-        """
+        """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
         if not self.mechanism.spec.wheel.FLAT:
             return tuple(links_to_fix(self.links, self.mechanism))
-        links = {plate.name for plate in self.links.plates}  # one may be called crank
-        names = [name for name in self._framed.to_fix if name != "crank" or name in links]
-        if "crank" in self._framed.to_fix and self.drawn:
-            names += ["arm"] if self.arm else []
-            bored = self.outlines.sizes.crank_bore and is_whole(
-                self.outlines.assembly, self.outlines.sizes
-            )
-            if self.locking and bored and not (self.arm and self.arm.bolts):
-                names.append("locking disc")
-        return tuple(names)
+        links = {plate.name: [plate.name] for plate in self.links.plates}
+        named = {**links, "crank": [*links.get("crank", []), *self._on_crank_shaft()]}
+        return tuple(one for name in self._framed.to_fix for one in named.get(name, [name]))
+
+    def _on_crank_shaft(self) -> Iterator[str]:
+        """Yield the names of the crank's parts about its shaft; bolts fix the disc to the arm."""
+        if self.drawn is None:
+            return
+        if self.arm:
+            yield "arm"
+        sizes = self.outlines.sizes
+        bored = sizes.crank_bore > 0.0 and is_whole(self.outlines.assembly, sizes)
+        if self.locking and bored and not (self.arm and self.arm.bolts):
+            yield "locking disc"
 
     @property
     def linked(self) -> tuple[Member, ...]:

@@ -22,7 +22,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.bearing_bridge import bearing_bridge
-from geneva_cli.parts.edged_parts import FrameAndShafts, Screwed, Unborne
+from geneva_cli.parts.edged_parts import FrameAndShafts, Screwed
 from geneva_cli.parts.links.link_positions import same
 from geneva_cli.parts.links.link_shafts import outside_links
 from geneva_cli.parts.links.links import Links, placed_holes
@@ -35,6 +35,7 @@ from geneva_cli.parts.mounted_plate import (
 )
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_hub import wheel_hub
+from geneva_cli.parts.parts_of_machine import Unborne
 from geneva_cli.parts.shafts.all_shafts import all_shafts, passing, passing_arm
 from geneva_cli.parts.shafts.bearings import shoulder_length
 from geneva_cli.parts.shafts.bolt_holes import tapped
@@ -73,14 +74,13 @@ def framed(
     thick = drawn_thicknesses(size, L, outlines.sizes if outlines else None).arm
     own = list(all_shafts(mechanism, outlines, bars, top - thick, first))
     hanging = [one for one in own if one.turns and one.low >= top]
+    crank = next((one for one in hanging if same(one.at, mechanism.crank_shaft.at, L)), None)
     bridge = None
-    for one in hanging:
-        if one.part == "crank" and outlines:
-            bridge = bearing_bridge(mechanism, outlines, bars, one, thick)
-        if bridge:
-            own[own.index(one)] = one._replace(high=bridge.high)
-            hanging.remove(one)
-            break
+    if outlines and crank:
+        bridge = bearing_bridge(mechanism, outlines, bars, crank, thick)
+    if bridge and crank:
+        own[own.index(crank)] = crank._replace(high=bridge.high)
+        hanging.remove(crank)
     if size.shafts == "turned" and outlines:
         adjacent += passing_arm(outlines, own)
     axles, bottom = built_shafts(size, own, adjacent, (top - thick, top, free))

@@ -4,17 +4,23 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 from geneva_cli.kept import cached_property
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.plates import Member
     from geneva_cli.motion.mechanism import Mechanism
-    from geneva_cli.parts.edged_parts import Unborne
     from geneva_cli.parts.gears.gear_blanks import Gear
     from geneva_cli.parts.missing import NamedParts
     from geneva_cli.parts.shafts.bolt_holes import Screws
+
+
+class Unborne(NamedTuple):
+    """A shaft that turns and does not reach the frame, and the reason."""
+
+    name: str
+    reason: str
 
 
 class PartsOfMachine(ABC):

@@ -363,6 +363,6 @@ def test_shafts_of_a_sphere_fit_too(shape):
 
 @pytest.mark.parametrize("crank", [{"crank_bore": "hex"}, {"crank_keyway": "DIN 6885-1"}])
 def test_a_first_wheel_on_a_shaft_that_is_not_round_is_refused(crank):
-    design = Design(External(6), GenevaPair(first_z=4), size=Size(**crank))
+    design = Design(External(4), GenevaPair(first_z=4), size=Size(**crank))
     with pytest.raises(GenevaError, match="the first wheel on the crank's shaft has a round bore"):
         design.drawing("assembly")
