@@ -503,7 +503,7 @@ def test_the_end_of_an_arm_passes_a_shoulder():
     shaft = Shaft("wheel's shaft", "wheel", RoundBore(8.0), (), -20.0, 10.0, (0.0, 0.0))
     for eye, near in ((40.1, [("arm", -10.0, 0.0)]), (39.9, [])):
         parts = of(arm_eye_mm=2.0 * eye).parts
-        assert list(passing_arm(parts, [shaft])) == near
+        assert [seat[:3] for seat in passing_arm(parts, [shaft])] == near
 
 
 def test_levers_of_the_pin_and_of_the_shafts():

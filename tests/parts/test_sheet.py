@@ -243,7 +243,7 @@ def test_the_assembly_shows_where_the_section_is(sheets):
     """An arrow beyond each end of the line of centres, upwards, with the section's letter."""
     _, found = sheets("turret")
     marks_ = [m for m in found.measures if m.label.text == "A"]
-    assert "A-A (1:2)" in {label.text for label in found.labels}
+    assert "A-A (1:5)" in {label.text for label in found.labels}
     (left,), (right,) = ([m.arrows[0] for m in one] for one in (marks_[:1], marks_[1:]))
     assert left.tip[1] == right.tip[1]
     assert left.turn == right.turn == 0.5 * math.pi
