@@ -10,8 +10,8 @@ from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.geometry.measure import bounds
 from geneva_cli.motion.compatible import is_geared
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.spec import Spec
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.sizes.plain_sizes import Sizes
 from geneva_cli.parts.turn.full_turn import SAME
