@@ -184,9 +184,12 @@ def _mounted(base: Plate, L: float) -> Iterator[Fixed]:
 
 
 def _spacer(screw: Circle, part: Plate, top: float) -> Member:
-    """Return the ring about a screw, twice as wide, between the frame and the fixed part."""
-    outline, bore = Circle("FRAME", ORIGIN, 2.0 * screw.radius), screw._replace(centre=ORIGIN)
-    plate = Plate(f"spacer of the {part.name}", "FRAME", outline, (bore,), top, part.low)
+    """Return the ring about a screw, twice as wide, between the frame and the fixed part.
+
+    It is turned from a rod: often it is higher than wide.
+    """
+    outline, bore = Circle("SHAFT", ORIGIN, 2.0 * screw.radius), screw._replace(centre=ORIGIN)
+    plate = Plate(f"spacer of the {part.name}", "SHAFT", outline, (bore,), top, part.low)
     return Member(plate, screw.centre)
 
 

@@ -117,7 +117,7 @@ def _outline(view: View, plate: Plate, slides: bool) -> None:
 
 
 def round_parts(members: Sequence[Member], mechanism: Mechanism) -> list[Block]:
-    """Return a table of the pins, washers, spacers and rollers between links."""
+    """Return a table of the pins, washers, spacers and rollers between links, and on the frame."""
     rows = list(_rows(members, mechanism))
     if not rows:
         return []
@@ -130,11 +130,16 @@ def _rows(members: Sequence[Member], mechanism: Mechanism) -> Iterator[tuple[str
         assert isinstance(plate.outline, Circle)
         fits = Fits(mechanism.spec.size.process, plate.thickness)
         outer, bores = plate.outline.radius, [h for h in plate.holes if isinstance(h, Circle)]
-        rolls = plate.layer == "ROLLER"
+        rolls, on_screw = plate.layer == "ROLLER", plate.layer == "SHAFT"
         outside = sized.plain(2.0 * outer, "Ø ")
         if not bores:
             outside = sized.shaft(fits, outer)
         elif rolls:
             outside = sized.roller(fits, mechanism, outer)
-        inside = "".join(sized.roller_bore(fits, mechanism, bore.radius) for bore in bores)
+        inside = "".join(
+            sized.plain(2.0 * bore.radius, "Ø ")
+            if on_screw
+            else sized.roller_bore(fits, mechanism, bore.radius)
+            for bore in bores
+        )
         yield plate.name, outside, inside, length(plate.thickness)

@@ -46,7 +46,7 @@ def sheet(parts: FlatParts) -> Sheet:
     fixed = [
         *points.tables(parts.outlines, tolerance),
         *points.gear_tables(mechanism, tolerance),
-        *links.round_parts(parts.links.joined, mechanism),
+        *links.round_parts((*parts.links.joined, *parts.spacers), mechanism),
         *layout(mechanism),
     ]
     views = Views(partial(_views, shown, parts), partial(_together, shown, parts), (0.0, L))
