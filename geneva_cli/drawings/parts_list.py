@@ -219,10 +219,10 @@ def _screws(model: PartsModel) -> Iterator[Dimension]:
 
 
 def _to_fix(model: PartsModel) -> Iterator[Dimension]:
-    """Yield what to do with each part that turns with its shaft in a round bore."""
+    """Yield what to do with parts that turn with their shaft in a round bore, and each part."""
     for _, build in model.all_built:
         with suppress(GenevaError):  # the rows of what cannot be built have the reason
-            yield from (Dimension(f"bore of the {name}", FIX) for name in build().to_fix)
+            yield from (Dimension(FIX, name) for name in build().to_fix)
 
 
 def _straight(mechanism: Mechanism) -> Iterator[Dimension]:

@@ -385,8 +385,7 @@ FIX = "fix on the shaft: pin, key or adhesive"
 def test_what_a_round_bore_does_not_hold_is_said(design, keys, names):
     """In the list of parts, and on the sheet once a view."""
     made = load(str(DESIGNS / f"{design}.toml"), [f"size.{key}" for key in keys])
-    rows = made.part_table("parts").rows()
-    listed = {row[1] for row in rows if FIX in row}
-    assert listed == {f"bore of the {name}" for name in names}
+    rows = made.part_table("parts").to_rows()
+    assert {row["value"] for row in rows if row["name"] == FIX} == names
     texts = [label.text for label in made.sheet(0.05).texts]
     assert texts.count(FIX) == len(names)
