@@ -25,6 +25,7 @@ from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.links.links import Links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bolt_holes import bolt_radius
+from geneva_cli.parts.shafts.screws import SCREWS
 from geneva_cli.parts.shafts.shaft import Shaft
 from geneva_cli.parts.sizes.arm_sizes import HUB
 from geneva_cli.parts.sizes.plain_sizes import bridge_low
@@ -41,7 +42,8 @@ def bearing_bridge(
     wall = wall_min(size, L)
     bore = shaft.bore.around + 0.5 * size.allowances.shaft_fit_mm
     half = max(rounded_radius(HUB * bore), bore + wall)
-    screw = bolt_radius(None, L, half)
+    # also a machine that is too small for screws has those of the bridge
+    screw = bolt_radius(None, L, half) or 0.5 * SCREWS[0].through
     away = swept_mm(mechanism, parts, bars) + wall + max(half, 2.0 * screw)
     away = 0.5 * math.ceil(2.0 * away)  # mm: to half a millimetre, for the drill
     ends = (0.0, -away), (0.0, away)

@@ -61,7 +61,7 @@ def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:
             arm_thickness_mm=link.thickness,
             pin_mm=2.0 * link.roller_stands,
             arm_bore_mm=2.0 * shaft,
-            arm_hub_mm=2.0 * link.hub(round_bore(size, shaft)),
+            arm_hub_mm=2.0 * link.hub(round_bore(spec.size, shaft)),
             arm_eye_mm=2.0 * link.roller_eye,
         )
     return build(alone.replace(size=size, title=f"{titled(mechanism)}, first pair"))

@@ -101,6 +101,7 @@ def framed(
         # a frame contains every axis, drilled or not
         within = [*holes, *(Circle("BORE", at, 0.0) for at in (ORIGIN, *places))]
         plate = mounted_plate(holes, within, eye, (bottom, top))
+    screwed = tuple(Screwed(hole, part.name) for hole, part in fixed)
     whole = {name for axis in bars.axes for name in axis.one_piece}
     to_fix = (name for one in own for name in one.to_fix(size) if name not in whole)
     shafts = tuple(outside_links(axles, bars, L))
@@ -108,7 +109,7 @@ def framed(
         plate,
         shafts,
         tuple(spacers),
-        tuple(Screwed(hole, part.name) for hole, part in fixed),
+        screwed,
         tuple(dict.fromkeys(to_fix)),
         Member(bridge, (L, 0.0)) if bridge else None,
         tuple(Unborne(one.name, _why_above(one, size, bars, top)) for one in hanging),

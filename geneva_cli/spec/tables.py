@@ -321,7 +321,8 @@ class Size(SpecTable):
         if cut_mm := workshop(self.process).cut_mm:
             usual = self._cut(usual, cut_mm)
         # a tooth in its gap has the clearance of a roller in its slot, on both sides
-        usual = usual._replace(gear_backlash_mm=2.0 * usual.slot_clearance_mm)
+        backlash = usual.gear_backlash_mm or 2.0 * usual.slot_clearance_mm
+        usual = usual._replace(gear_backlash_mm=backlash)
         own = {key: vars(self).get(key) for key in usual._fields}
         return usual._replace(**{key: v for key, v in own.items() if v is not None})
 

@@ -22,6 +22,7 @@ from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.outlines.outline_sizes import sizes
+from geneva_cli.parts.shafts.fits import limits
 from geneva_cli.spec.processes import PROCESSES
 from geneva_cli.spec.workshops import deviation_mm, workshop
 from geneva_cli.verdict.checks.check import Check
@@ -339,10 +340,12 @@ def test_a_key_that_is_given_wins() -> None:
 
 
 def test_teeth_have_the_clearance_of_the_process_on_both_sides() -> None:
-    """Twice 0.25, 0.02, and 0.4 mm of a laser at 18 mm; a key that is given wins."""
+    """Twice 0.25 mm, and 0.4 of a laser at 18 mm; the middle of H7/g6; a given key wins."""
     keys = {"wheel_thickness_mm": 18.0, "roller_radius_mm": 12.0}
     backlashes = [Size(process=p, **keys).allowances.gear_backlash_mm for p in PROCESSES]
-    assert backlashes == [0.8, 0.04, 0.5]
+    assert backlashes == [0.8, 0.02, 0.5]
+    gaps = [hole - shaft for hole in limits(14.0, "H7") for shaft in limits(14.0, "g6")]
+    assert 0.0005 * (min(gaps) + max(gaps)) == pytest.approx(0.02, abs=0.001)  # given to 1 um
     assert Size(process="print", gear_backlash_mm=0.1).allowances.gear_backlash_mm == 0.1
     printed = PROCESSES["print"]._asdict() | {"lock_thickness_mm": 12, "wall_min_mm": 0.8}
     left_out = "source", "gear_backlash_mm"

@@ -31,7 +31,6 @@ from geneva_cli.motion.pivots import Link, Teeth
 from geneva_cli.parts.gears.gear_mesh import ToothedGear
 from geneva_cli.parts.links.link_sizes import LinkSizes
 from geneva_cli.parts.shafts.bolt_holes import bolt_circle
-from geneva_cli.parts.shafts.bores import round_bore
 from geneva_cli.parts.shafts.shaft_bores import ShaftBore
 
 
@@ -106,7 +105,7 @@ def link_gear(
     shaft = _bored_by(at, L)
     low, high = sizes.span(link.plane)
     if teeth.fixed:
-        on = ShaftBore(round_bore(size, on.bore.around))
+        on = ShaftBore(on.bore.running(False))
     bore = on.bore.reach
     holes: list[Shape] = []
     outline: Circle | Contour = Circle("PITCH", ORIGIN, radius)

@@ -170,7 +170,7 @@ def _driver_bore(mechanism: Mechanism, parts: Outlines | None) -> float:
 def gear_bores(
     mechanism: Mechanism, parts: Outlines | None, on_crank: float = 0.0
 ) -> list[tuple[Point, ShaftBore]]:
-    """Return position and bore, as cut, of driven gear and driver; of radius 0 for none.
+    """Return position and bore of driven gear and driver; of radius 0 for none.
 
     Raises GenevaError, naming the key, for a bore larger than its gear, and where a pitch curve is
     no gear.
@@ -180,8 +180,9 @@ def gear_bores(
     if teeth := pair_teeth(pair, mechanism.spec.size):
         driven, driver = driven - teeth.roots[0], driver - teeth.roots[1]
     (axis, wide), (other, _) = _shafts(mechanism, parts, on_crank)
-    around_driver = round_bore(mechanism.spec.size, _driver_bore(mechanism, parts))
-    bores = bore_at(mechanism, axis, wide), ShaftBore(around_driver)
+    radius = _driver_bore(mechanism, parts)
+    on_driver = ShaftBore(round_bore(mechanism.spec.size, radius)) if radius else ShaftBore()
+    bores = bore_at(mechanism, axis, wide), on_driver
     for name, one, least, key in zip(
         NAMES, bores, (driven, driver), ("arm_bore_mm", "link_bore_mm"), strict=True
     ):

@@ -103,7 +103,7 @@ def _gears(parts: Outlines, bars: Links, links: tuple[Link, ...], turn: Array) -
         for one in _on_wheel(parts, [link], bars.sizes, 0.0 * turn):
             gaps = away - gear.outer - one.radius
             if on_shaft:
-                wide = gear.bore.bore.around
+                wide = gear.bore.bore.cut.around
                 if one.radius <= wide:
                     continue
                 gaps = away + (wide - one.radius)

@@ -20,6 +20,7 @@ from geneva_cli.parts.links.links import Links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_hub import about_axis
 from geneva_cli.parts.shafts.bolt_holes import screw_through
+from geneva_cli.parts.shafts.shaft_bores import bore_at
 from geneva_cli.parts.sizes.plain_sizes import Sizes
 from geneva_cli.parts.slots.groove import groove_curve
 
@@ -69,6 +70,8 @@ def groove_base(parts: Outlines, bars: Links) -> Plate:
         if screw
     ]
     shaft = bars.shaft((L, 0.0), L)
+    if shaft:  # which turns in the base
+        shaft = bore_at(parts.assembly.full, (L, 0.0), shaft).bore.around
     bore = [Circle("BORE", (0.0, 0.0), shaft + bars.sizes.loose)] if shaft else []
     edge = Circle("FRAME", (0.0, 0.0), far + rim)
     high, _ = bars.sizes.span(BELOW)
