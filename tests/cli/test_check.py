@@ -48,7 +48,7 @@ def watched(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_headline_counts_warnings() -> None:
     """A machine whose wall is cut away for half the motion does not read as one that passes."""
     for spec, headline in (
-        (PLAIN, "✓ {}: all 16 checks pass"),
+        (PLAIN, "✓ {}: all 17 checks pass"),
         (TURRET, "! {}: all 21 checks pass, 1 warning"),
         (CURVED, "! {}: all 26 checks pass, 3 warnings"),
     ):
@@ -93,7 +93,7 @@ def test_what_fails_says_what_to_change(fails: str) -> None:
     """The change that is named passes."""
     found = run(fails)
     assert found.exit_code == 1
-    assert found.stdout.startswith(f"✗ {fails}: 1 of 17 checks fails\n")
+    assert found.stdout.startswith(f"✗ {fails}: 1 of 18 checks fails\n")
     failing = found.stdout.split("\n\n")[1]
     assert "peak acceleration  1.113, at most 1" in failing
     change = failing.split("passes with ")[1].split(" (")[0]
