@@ -6,8 +6,9 @@ import pytest
 import repo
 from scipy.optimize import brentq
 
-from geneva_cli import Design, External, Size
+from geneva_cli import Design, External, Load, Size
 from geneva_cli.design import load
+from geneva_cli.verdict.headline import headline
 
 L, R, ROLLER, CLEARANCE = 60.0, 30.0, 3.0, 0.25
 HALF_STEP = math.radians(30.0)
@@ -139,3 +140,27 @@ def test_friction_limits_the_pressure_angle(friction, clearance, state, no_advic
     assert check.limit == pytest.approx(90.0 - math.degrees(math.atan(friction or 0.3)))
     assert check.passes == (state != "fails")
     assert ("steep-hand-over" in {text.name for text in design.warnings}) == (state == "warns")
+
+
+# a design, keys, and the fraction that the issue and the warning name
+DRIVEN = [
+    ("press-curved", [], 0.525),
+    ("press-345", [], 0.520),
+    ("sine-group", [], 0.519),
+    ("press-curved", ["motion.alpha0_deg=30"], 0.378),
+]
+
+
+@pytest.mark.parametrize(("name", "keys", "driven"), DRIVEN)
+def test_half_of_the_motion_must_be_driven(name, keys, driven, no_advice):
+    design = load(str(repo.DESIGNS / f"{name}.toml"), keys)
+    check = check_of(design, "driven_fraction")
+    assert check.value == pytest.approx(driven, abs=0.0006)  # three digits
+    assert check.passes == (driven > 0.5)
+    _, text = headline(design.checks, design.warnings)
+    percent = f"not positively driven during {100.0 * (1.0 - check.value):.3g} % of the motion"
+    assert (percent in text) == check.passes
+
+
+def test_a_slot_without_a_load_is_not_asked():
+    assert not [c for c in Design(External(6), load=Load()).checks if c.name == "driven_fraction"]

@@ -28,6 +28,7 @@ MOTION: Checks = {
     "velocity_min": "verdict.checks.motion:least_velocity",
     "groove_pressure_deg": "verdict.checks.motion:groove_pressure",
     "pressure_angle_deg": "verdict.checks.motion:curved_slot_pressure",
+    "driven_fraction": "verdict.checks.motion:driven_fraction",
     "undercut_mm": "verdict.checks.motion:undercut_depth",
     "entry_shock_N": "verdict.checks.shocks:entry_shock",
     "reversal_shock_N": "verdict.checks.shocks:reversal_shock",
