@@ -8,6 +8,10 @@ from scipy.optimize import brentq
 
 from geneva_cli import Design, External, Load, Size
 from geneva_cli.design import load
+from geneva_cli.specfile.reader import read
+from geneva_cli.study.sweep.plan import plan
+from geneva_cli.study.sweep.run import sweep
+from geneva_cli.study.sweep.values import axis
 from geneva_cli.verdict.headline import headline
 
 L, R, ROLLER, CLEARANCE = 60.0, 30.0, 3.0, 0.25
@@ -164,3 +168,19 @@ def test_half_of_the_motion_must_be_driven(name, keys, driven, no_advice):
 
 def test_a_slot_without_a_load_is_not_asked():
     assert not [c for c in Design(External(6), load=Load()).checks if c.name == "driven_fraction"]
+
+
+def test_a_sweep_has_the_values_of_single_designs(tmp_path, no_advice):
+    """The same search on the same parts, so to the last bit."""
+    spec = tmp_path / "spec.toml"
+    spec.write_text(
+        f'[wheel]\nz = 6\nheld_by = "detent"\n[size]\ncenter_distance_mm = {L}\n'
+        f'roller_radius_mm = {ROLLER}\nslot_clearance_mm = {CLEARANCE}\nprocess = "print"\n'
+        "lock_radius_mm = 0\n"
+    )
+    text, picks = read(str(spec)), [f"checks.{NAME}", "checks.passes", "checks.failed"]
+    checked = sweep(text, plan([axis("size.wheel_radius_mm=33,45,51")], None, 0), picks=picks)
+    alone = [check_of(without_disc(rim)) for rim in (33.0, 45.0, 51.0)]
+    assert [row[1:4] for row in checked.rows(0, 3)] == [
+        [check.value, check.passes, None if check.passes else NAME] for check in alone
+    ]
