@@ -94,9 +94,13 @@ class Assembly(NamedTuple):
         """
         return self._path(*self.motions[number], input_deg)
 
-    def in_wheel(self, motion: int, input_deg: Array) -> Array:
-        """Return the centre of a motion's roller in the wheel's frame, mm, (n, 2)."""
-        return self.plane_motion.into(self.driving(motion, input_deg), self.wheel(input_deg))
+    def in_wheel(self, motion: int, input_deg: Array, lead: Array | float = 0.0) -> Array:
+        """Return the centre of a motion's roller in the wheel's frame, mm, (n, 2).
+
+        The wheel is turned on by ``lead`` radians.
+        """
+        turn = self.wheel(input_deg) + lead
+        return self.plane_motion.into(self.driving(motion, input_deg), turn)
 
     def geared(self, input_deg: Array) -> Mask:
         """Return a mask (n,) of the input angles at which gears drive the wheel, not a roller."""

@@ -75,6 +75,13 @@ def meaning(c: Check, parts: str = "") -> str:
             f"the roller meets the wheel{where} at a pressure angle of {value:.4g}°, above "
             f"{limit:g}°"
         )
+    if c.name == "driven_fraction":
+        return f"not positively driven during {100.0 * (1.0 - value):.3g} % of the motion"
+    if c.name == "hand_over_offset_mm":
+        return (
+            f"the rim does not reach the roller, which first touches the wheel{where}, "
+            f"{value:.4g} mm farther off the slot's middle than the clearance"
+        )
     if c.name in ("motion_play_deg", "motion_play_mm"):
         return (
             f"in its slot the {moves} by {value:.4g}{unit} either way{where}, more than "

@@ -23,6 +23,8 @@ def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str
     >>> headline([Check("jerk_max", 31.4, "at most", 30.0, False)], [])
     ('fails', '1 of 1 checks fails')
     """
+    from geneva_cli.verdict.failures import meaning
+
     many = len(checks)
     failed = sum(check.passes is False for check in checks)
     not_proved = sum(check.passes is None for check in checks)
@@ -35,6 +37,9 @@ def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str
         text = f"all {many} checks pass"
     if not_proved:
         text += f", {not_proved} not proved"
+    for check in checks:
+        if check.name == "driven_fraction" and check.passes and check.value and check.value < 1.0:
+            text += f", {meaning(check)}"
     if warnings:
         text += f", {len(warnings)} warning{'s' * (len(warnings) != 1)}"
     state = FAILS if failed else WARNS if not_proved or warnings else PASSES

@@ -14,13 +14,16 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.sizes.plain_sizes import Sizes
-from geneva_cli.parts.turn.full_turn import SAME
+from geneva_cli.parts.turn.full_turn import SAME, FullTurn
 from geneva_cli.spec.workshops import workshop
-from geneva_cli.verdict.checks.play import motion_play_max
+from geneva_cli.verdict.checks.play import motion_play_max, slips_deg
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.plates import Solid
     from geneva_cli.parts.missing import Missing, NamedParts
+    from geneva_cli.parts.turn.machine_parts import MachineParts
+
+STEEP_DEG = 60.0  # a pressure angle that friction of 0.58 would hold, more than a dry pair has
 
 
 def process_warnings(model: PartsModel) -> Iterator[Notice]:
@@ -141,16 +144,36 @@ def turn_warnings(model: PartsModel) -> Iterator[Notice]:
     if not model.mechanism.spec.is_turned:
         return
     try:
-        ahead, behind, limit = model.turn.ahead, model.turn.behind, motion_play_max(model.parts)
+        parts, turn = model.parts, model.turn
     except GenevaError:
         return
+    yield from _steep(parts, turn)
+    yield from _one_wall(parts, turn)
+
+
+def _steep(parts: MachineParts, turn: FullTurn) -> Iterator[Notice]:
+    """A warning for a wheel that the roller pushes into line at a steep angle."""
+    most = slips_deg(parts.assembly.full.spec.load.friction)
+    if parts.crank and turn.push.deg > STEEP_DEG and keeps(turn.push.deg, "at most", most):
+        yield Notice(
+            "steep-hand-over",
+            f"the roller meets a wheel that is off by its play at a pressure angle of "
+            f"{turn.push.deg:.4g}°, at {turn.push.at_deg:.4g}°: from {most:.4g}° on, friction of "
+            f"{1.0 / math.tan(math.radians(most)):.3g} would hold it there. Less "
+            "lock_clearance_mm or a larger wheel_radius_mm makes it less steep",
+        )
+
+
+def _one_wall(parts: MachineParts, turn: FullTurn) -> Iterator[Notice]:
+    """A warning for a wheel that one wall of its slot alone drives."""
+    ahead, behind, limit = turn.ahead, turn.behind, motion_play_max(parts)
     # Play to both sides has a limit of its own.
     free = max(ahead.deg, behind.deg)
-    if free <= limit or model.turn.motion.deg >= free * (1.0 - SAME):
+    if free <= limit or turn.motion.deg >= free * (1.0 - SAME):
         return
     first = ahead.deg >= behind.deg * (1.0 - SAME)
     side, at_deg = ("ahead", ahead.at_deg) if first else ("behind", behind.at_deg)
-    if len(model.parts.assembly.rollers) > len(model.parts.assembly.motions):
+    if len(parts.assembly.rollers) > len(parts.assembly.motions):
         yield Notice(
             "driven-by-one-wall",
             f"in its slots the wheel is free ahead by {ahead.deg:.4g}° at "

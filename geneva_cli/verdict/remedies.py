@@ -229,6 +229,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         _LARGER,
     ),
     "pressure_angle_deg": (set_to("motion", "ratio", "matched"), *_MOTION, _SLOTS),
+    "driven_fraction": (scaled("drive", "n_rpm", 30.0), *_MOTION),
     "undercut_mm": (_SMALLER, *_MOTION),
     "velocity_min": (Change("motion", "lambda", _sine),),
     "dwell_deg": (fewer("drive", "rollers", 1), *_MOTION),

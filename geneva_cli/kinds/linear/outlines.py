@@ -62,9 +62,12 @@ class RackOutlines(NamedTuple):
         """Return these parts with another assembly."""
         return self._replace(assembly=assembly)
 
-    def in_wheel(self, motion: int, at: Array) -> Array:
-        """Return the roller's centre in the rack's frame, mm, at input angles (n,): (n, 2)."""
-        return self.assembly.in_wheel(motion, at)
+    def in_wheel(self, motion: int, at: Array, lead: Array | float = 0.0) -> Array:
+        """Return the roller's centre in the rack's frame, mm, at input angles (n,): (n, 2).
+
+        The rack is pushed on by ``lead`` radians of its pinion.
+        """
+        return self.assembly.in_wheel(motion, at, lead)
 
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far the roller is in its slot, beyond the rack's edge, mm, (n,)."""

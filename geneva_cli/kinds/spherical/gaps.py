@@ -139,10 +139,13 @@ class BallGaps:
             np.minimum.at(least, owner[here], self.to_wheel(at[here])[0])
         return self.ball.radius_mm * least
 
-    def in_wheel(self, motion: int, input_deg: Array) -> Array:
-        """Return the centre of a motion's roller in the wheel's frame, directions (n, 3)."""
+    def in_wheel(self, motion: int, input_deg: Array, lead: Array | float = 0.0) -> Array:
+        """Return the centre of a motion's roller in the wheel's frame, directions (n, 3).
+
+        The wheel is turned on by ``lead`` radians.
+        """
         pose = self.pose(input_deg)
-        return about(pose.pins[:, motion], -pose.wheel)
+        return about(pose.pins[:, motion], -(pose.wheel + lead))
 
     def to_wheel(self, points: Array) -> tuple[Array, Array]:
         """Return distances from the wheel's edge, radians, and the nearest points of the edge.

@@ -96,12 +96,12 @@ class Shells(NamedTuple):
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
         return SpherePairs(self.gaps, self.crank, target)
 
-    def in_wheel(self, motion: int, at: Array) -> Array:
+    def in_wheel(self, motion: int, at: Array, lead: Array | float = 0.0) -> Array:
         """Return the centre of a motion's roller in the wheel's frame, mm, at input angles (n,).
 
-        It is an array (n, 3).
+        It is an array (n, 3). The wheel is turned on by ``lead`` radians.
         """
-        return self.ball.radius_mm * self.gaps.in_wheel(motion, at)
+        return self.ball.radius_mm * self.gaps.in_wheel(motion, at, lead)
 
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""

@@ -57,12 +57,12 @@ class Outlines(NamedTuple):
         """Return these parts with another assembly."""
         return self._replace(assembly=assembly)
 
-    def in_wheel(self, motion: int, at: Array) -> Array:
+    def in_wheel(self, motion: int, at: Array, lead: Array | float = 0.0) -> Array:
         """Return the centre of a motion's roller in the wheel's frame, mm, at input angles.
 
-        It is an array (n, 2).
+        It is an array (n, 2). The wheel is turned on by ``lead`` radians.
         """
-        return self.assembly.in_wheel(motion, at)
+        return self.assembly.in_wheel(motion, at, lead)
 
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""

@@ -132,7 +132,7 @@ def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
             f"the locking disc does not fit: it must be above {least:.4g} mm to reach the rim, but "
             f"roller and clearances limit it to {limit:.4g}; use "
             + (f"a roller below {r + limit - least:.4g} mm, or " if r + limit > least else "")
-            + "lock_radius_mm = 0",
+            + ("lock_radius_mm = 0" if size.wheel_radius_mm is None else "no wheel_radius_mm"),
             ("size", "lock_radius_mm"),
         )
     if size.lock_radius_mm is None:

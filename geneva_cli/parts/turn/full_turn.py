@@ -14,6 +14,7 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array, Mask
+from geneva_cli.parts.turn.first_contact import FirstContact, first_contact
 from geneva_cli.parts.turn.free_angles import EXACT, free_angles, search_deg
 from geneva_cli.parts.turn.machine_parts import MachineParts
 from geneva_cli.parts.turn.play import Play, play_of, push_deg, windows
@@ -29,7 +30,7 @@ class Most(NamedTuple):
     at_deg: float
 
 
-Place = TypeVar("Place", Gap, Most)
+Place = TypeVar("Place", Gap, Most, FirstContact)
 
 
 class FullTurn(NamedTuple):
@@ -40,7 +41,8 @@ class FullTurn(NamedTuple):
     largest play in both directions while a roller is in its slot; a slot that drives from one wall
     only does not count as play. ``ahead`` and ``behind`` are the largest play there in each
     direction alone. ``push`` is the largest pressure angle at which a roller pushes the wheel into
-    line. A play of ``free_deg``, half a step, means that nothing holds the wheel.
+    line. ``contact`` is the first contact of a roller with a wheel at rest. A play of ``free_deg``,
+    half a step, means that nothing holds the wheel.
     """
 
     driving: Gap
@@ -52,6 +54,7 @@ class FullTurn(NamedTuple):
     ahead: Most
     behind: Most
     push: Most
+    contact: FirstContact
     free_deg: float
     play: Play
 
@@ -96,6 +99,7 @@ def full_turn(parts: MachineParts) -> FullTurn:
         most_of(play.on, play.guided),
         most_of(play.back, play.guided),
         _shown(parts, _most(push_deg(parts, play), play.input_deg[:-1], earlier)),
+        _shown(parts, first_contact(parts)),
         search_deg(parts),
         play,
     )

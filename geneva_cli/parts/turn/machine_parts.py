@@ -132,10 +132,10 @@ class MachineParts(Protocol):
     def pairs(self, target: float) -> Pairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
 
-    def in_wheel(self, motion: int, at: Array) -> Array:
-        """Return the centre of a motion's roller in the wheel's frame at input angles (n,).
+    def in_wheel(self, motion: int, at: Array, lead: Array | float = 0.0) -> Array:
+        """Return the centre of a motion's roller in the wheel's frame at input angles (n,), mm.
 
-        It is an array (n, 2), mm, or on a sphere (n, 3), directions.
+        It is an array (n, 2), or on a sphere (n, 3). The wheel is turned on by ``lead`` radians.
         """
 
     def past_mouth(self, motion: int, at: Array) -> Array:

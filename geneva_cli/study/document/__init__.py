@@ -19,7 +19,7 @@ def document(design: Design) -> Document:
     >>> from geneva_cli.study.document import document
     >>> page = document(Design(External(6)))
     >>> page.title, page.state, page.verdict
-    ('Geneva wheel of 6 slots', 'passes', 'All 15 checks pass')
+    ('Geneva wheel of 6 slots', 'passes', 'All 16 checks pass')
     """
     table = design.report.table
     left = RemainingValues(dict(zip(table.names, next(table.rows()), strict=True)))

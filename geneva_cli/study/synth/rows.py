@@ -17,7 +17,7 @@ from geneva_cli.study.synth.families.family import Family, allows
 from geneva_cli.study.synth.parts import machine_and_parts
 from geneva_cli.study.synth.parts_data import compute_parts_data, parts_data
 from geneva_cli.study.target import Target
-from geneva_cli.verdict.checks.motion import GROOVE_MAX_DEG, groove_pressure
+from geneva_cli.verdict.checks.motion import GROOVE_MAX_DEG, driven_fraction, groove_pressure
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION, applicable
 
 NEAR_DEG = 3.0  # below its limit, within which the pressure angle is searched between samples
@@ -136,8 +136,15 @@ def _failing(machine: Mechanism, costs: Sequence[float]) -> str:
     return ", ".join([*motion, *over, *rest])
 
 
-def _groove_failure(machine: Mechanism) -> str:
-    """The name of the check of a cam's groove if it fails; evaluated only near its limit."""
+def _slot_failure(machine: Mechanism) -> str:
+    """The name of the check of a cam's groove, or of a curved slot's drive, if it fails.
+
+    That of a groove is evaluated only near its limit.
+    """
+    if machine.engagements[0].groove is None:
+        name = "driven_fraction"
+        check = driven_fraction(name, machine)
+        return name if check and check.passes is False else ""
     pressure_deg = parts_data(machine.spec).pressure_deg
     name = "groove_pressure_deg"
     # samples are never above the peak, and 1e-6 is beyond rounding
@@ -192,9 +199,9 @@ def _rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[Mach
         if values is None:
             out.append(None)
             continue
-        if not parts.why and (limited or machine.engagements[0].groove):
+        if not parts.why:
             sized = machine._replace(spec=parts.spec)
-            failed = _failing(sized, values) if limited else _groove_failure(machine)
+            failed = _failing(sized, values) if limited else _slot_failure(machine)
             parts = parts._replace(why=failed or parts.why)
         out.append(MachineRow(parts.spec, _candidate(machine, target, values, parts.entry)))
     return out

@@ -61,6 +61,18 @@ def _greatest_pressure(name: str, mechanism: Mechanism, limit: float) -> Check:
     return Check(name, value, "at most", limit, passes, at_deg=number_of(at_deg, 0))
 
 
+def driven_fraction(name: str, mechanism: Mechanism) -> Check | None:
+    """The fraction of the motion in which a wall of a curved slot carries the load."""
+    if not mechanism.spec.is_loaded:
+        return None
+    from geneva_cli.loads.positive_drive import positive_drives
+
+    drives = positive_drives(mechanism)
+    if drives is None:
+        return None
+    return compared(name, 1.0 - drives.fraction.item(), "above", 0.5)
+
+
 def undercut_depth(name: str, mechanism: Mechanism) -> Check | None:
     """The depth of the undercut, mm; 0 if there is none."""
     if not mechanism.engagements[0].slot.curved:
@@ -72,7 +84,7 @@ def undercut_depth(name: str, mechanism: Mechanism) -> Check | None:
     return compared(name, depth, "at most", SHOWN_UNDERCUT, at_deg)
 
 
-# A steeper groove wedges its roller; the limit is that of a roller that enters a slot.
+# A steeper groove wedges its roller on the crank, which friction of 0.58 would hold.
 GROOVE_MAX_DEG = 60.0
 
 

@@ -11,6 +11,8 @@ from geneva_cli.parts.turn.full_turn import FullTurn, Most
 from geneva_cli.parts.turn.machine_parts import MachineParts
 from geneva_cli.verdict.checks.check import Check, compared
 
+DRY_FRICTION = 0.3  # of a sliding pair that nobody greases: steel on steel or PLA on PLA
+
 
 def smallest_gap(name: str, parts: MachineParts, turn: FullTurn) -> Check:
     """The smallest gap between wheel and crank, mm, negative where they overlap."""
@@ -46,8 +48,28 @@ def hand_over(name: str, parts: MachineParts, turn: FullTurn) -> Check | None:
 
 def hand_over_pressure(name: str, parts: MachineParts, turn: FullTurn) -> Check | None:
     """The pressure angle at which the roller meets a wheel that has turned through that play."""
-    # Up to a pressure angle of 60 degrees a roller still pushes the wheel into line.
-    return _at_most(name, turn.push, 60.0) if parts.crank else None
+    limit = slips_deg(parts.assembly.full.spec.load.friction)
+    return _at_most(name, turn.push, limit) if parts.crank else None
+
+
+def slips_deg(friction: float) -> float:
+    """The pressure angle from which friction alone holds a roller on a corner, degrees.
+
+    Without a coefficient it is that of dry steel or plastic.
+
+    >>> round(slips_deg(0.0), 2), slips_deg(1.0)
+    (73.3, 45.0)
+    """
+    return 90.0 - math.degrees(math.atan(friction or DRY_FRICTION))
+
+
+def hand_over_offset(name: str, parts: MachineParts, turn: FullTurn) -> Check:
+    """The offset from the slot's middle, beyond its clearance, of a roller that first touches.
+
+    It is not 0 where the rim does not reach the roller at entry or exit.
+    """
+    offset, at_deg = turn.contact
+    return compared(name, offset, "at most", 0.0, at_deg if offset else None)
 
 
 def motion(name: str, parts: MachineParts, turn: FullTurn) -> Check | None:

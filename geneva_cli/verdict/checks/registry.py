@@ -28,6 +28,7 @@ MOTION: Checks = {
     "velocity_min": "verdict.checks.motion:least_velocity",
     "groove_pressure_deg": "verdict.checks.motion:groove_pressure",
     "pressure_angle_deg": "verdict.checks.motion:curved_slot_pressure",
+    "driven_fraction": "verdict.checks.motion:driven_fraction",
     "undercut_mm": "verdict.checks.motion:undercut_depth",
     "entry_shock_N": "verdict.checks.shocks:entry_shock",
     "reversal_shock_N": "verdict.checks.shocks:reversal_shock",
@@ -143,11 +144,17 @@ TURNING: Checks = {
     "hand_over_play_deg": "verdict.checks.play:hand_over",
     "hand_over_play_mm": "verdict.checks.play:hand_over",
     "hand_over_pressure_deg": "verdict.checks.play:hand_over_pressure",
+    "hand_over_offset_mm": "verdict.checks.play:hand_over_offset",
     "motion_play_deg": "verdict.checks.play:motion",
     "motion_play_mm": "verdict.checks.play:motion",
 }
 # Those that fail where a roller does not find its slot, or meets the rim next to it, and jams.
-JAMS = ("hand_over_play_deg", "hand_over_play_mm", "hand_over_pressure_deg")
+JAMS = (
+    "hand_over_play_deg",
+    "hand_over_play_mm",
+    "hand_over_pressure_deg",
+    "hand_over_offset_mm",
+)
 # Of flat parts at every angle of the turn, made for a design's own answer.
 PROOFS: Checks = {"gap_proved_mm": "verdict.checks.proved:least_gap"}
 

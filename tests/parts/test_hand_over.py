@@ -1,0 +1,186 @@
+"""Does the rim reach the roller: the first contact with a wheel at rest, in any kind of machine."""
+
+import math
+
+import pytest
+import repo
+from scipy.optimize import brentq
+
+from geneva_cli import Design, External, Load, Size
+from geneva_cli.design import load
+from geneva_cli.specfile.reader import read
+from geneva_cli.study.sweep.plan import plan
+from geneva_cli.study.sweep.run import sweep
+from geneva_cli.study.sweep.values import axis
+from geneva_cli.verdict.headline import headline
+
+L, R, ROLLER, CLEARANCE = 60.0, 30.0, 3.0, 0.25
+HALF_STEP = math.radians(30.0)
+NAME = "hand_over_offset_mm"
+
+
+def without_disc(rim: float | None) -> Design:
+    size = Size(
+        center_distance_mm=L,
+        roller_radius_mm=ROLLER,
+        slot_clearance_mm=CLEARANCE,
+        process="print",
+        lock_radius_mm=0.0,
+        wheel_radius_mm=rim,
+    )
+    return Design(External(6, held_by="detent"), size=size)
+
+
+def check_of(design: Design, name: str = NAME):
+    return next(check for check in design.checks if check.name == name)
+
+
+def at_the_corner(rim: float) -> tuple[float, float]:
+    """Input angle and offset beyond the clearance where the roller meets the mouth's corner.
+
+    The slot's axis touches the roller's circle at entry, so the offset from it is R (1 - cos).
+    """
+    half = ROLLER + CLEARANCE
+    level = math.sqrt(rim * rim - half * half)
+    # at rest the slot lies half a step below the line of centres, and its upper wall drives
+    c, s = math.cos(HALF_STEP), -math.sin(HALF_STEP)
+    corner = level * c - half * s, level * s + half * c
+
+    def gap(a: float) -> float:
+        return math.dist((L - R * math.cos(a), R * math.sin(a)), corner) - ROLLER
+
+    entry = -math.radians(60.0)
+    passes = entry + math.asin((L * math.cos(HALF_STEP) - level) / R)  # level with the corner
+    a = brentq(gap, entry, passes)
+    return math.degrees(a), R * (1.0 - math.cos(a - entry)) - CLEARANCE
+
+
+# rim, mm, and the input angle at which the roller meets it, of a prototype that turns outlines
+SHORT = [(33.0, -27.127), (36.0, -34.07), (40.0, -41.33), (45.0, -48.94)]
+
+
+@pytest.mark.parametrize(("rim", "at_deg"), SHORT)
+def test_a_rim_that_does_not_reach_the_roller_fails(rim, at_deg, no_advice):
+    check = check_of(without_disc(rim))
+    assert not check.passes
+    assert check.at_deg == pytest.approx(at_deg, abs=0.006)  # two or three decimals
+    if rim == 33.0:
+        assert check.at_deg == pytest.approx(-math.degrees(math.acos(3204.0 / 3600.0)), abs=1e-6)
+        # on the roller's circle, which the slot's axis touches at -60 degrees
+        off = R * (1.0 - math.cos(math.radians(60.0 + check.at_deg))) - CLEARANCE
+        assert check.value == pytest.approx(off, abs=1e-6)
+
+
+@pytest.mark.parametrize("rim", [36.0, 40.0, 45.0])
+def test_the_roller_meets_the_corner_of_the_mouth(rim, no_advice):
+    """Circle and corner by root search; 1e-6 is far more than the rounding of either."""
+    check = check_of(without_disc(rim))
+    assert (check.at_deg, check.value) == pytest.approx(at_the_corner(rim), abs=1e-6)
+
+
+def test_the_least_rim_is_where_the_clearance_is_used_up(no_advice):
+    """R (1 - cos x) = c after entry; there the roller is L cos b - R sin x along the slot."""
+    x = math.acos(1.0 - CLEARANCE / R)
+    along = L * math.cos(HALF_STEP) - R * math.sin(x)
+    least = math.hypot(along, ROLLER + CLEARANCE)
+    for rim in (None, least + 0.01):
+        assert check_of(without_disc(rim)).value == 0.0
+    # a tenth of a millimetre below, the offset grows with the square of what is missing
+    assert 0.0 < check_of(without_disc(least - 0.5)).value < 0.1
+    assert not check_of(without_disc(least - 0.5)).passes
+
+
+# a design, and a rim that is too short: of an internal wheel, whose rim is its opening, too wide
+KINDS = [
+    ("internal-z6", 80.0),
+    ("linear", 25.0),
+    ("cam-geneva", 360.0),
+    ("epicyclic-z4", 78.0),
+    ("slider-crank", 145.0),
+    ("four-bar-z4", 22.0),
+    ("elliptical-gears", 130.0),
+    ("gear-sector", 95.0),
+    ("press-curved", 360.0),
+    ("offset-slots", 100.0),
+    ("unequal-steps", 130.0),
+]
+
+
+@pytest.mark.parametrize(("name", "short"), KINDS)
+def test_every_kind_is_asked(name, short, no_advice):
+    bare = ["wheel.held_by=detent", "size.lock_radius_mm=0"]
+    path = str(repo.DESIGNS / f"{name}.toml")
+    assert check_of(load(path, bare)).value == 0.0
+    assert not check_of(load(path, [*bare, f"size.wheel_radius_mm={short}"])).passes
+
+
+@pytest.mark.parametrize("name", ["spherical-z6", "three-slots", "tuned-dial", "two-pins-z4"])
+def test_default_rims_reach_their_rollers(name, no_advice):
+    assert check_of(load(str(repo.DESIGNS / f"{name}.toml"))).value == 0.0
+
+
+def test_a_short_rim_below_a_disc_does_not_lead_to_no_disc():
+    size = without_disc(33.0).spec.size.replace(lock_radius_mm=None)
+    (check,) = [c for c in Design(External(6), size=size).checks if c.name == "parts"]
+    assert "no wheel_radius_mm" in check.why
+    assert "lock_radius_mm = 0" not in check.why
+
+
+@pytest.mark.parametrize(
+    ("friction", "clearance", "state"),
+    [
+        (0.0, 1.0, ""),
+        (0.0, 1.5, "warns"),
+        (0.0, 3.0, "fails"),
+        (0.1, 2.0, "warns"),
+        (0.6, 1.5, "fails"),
+    ],
+)
+def test_friction_limits_the_pressure_angle(friction, clearance, state, no_advice):
+    """53.7, 63.4, 71.8 and 87.1 degrees against 90 - atan(mu): 73.3 by default, 84.3 and 59.0."""
+    keys = [f"size.lock_clearance_mm={clearance}", f"load.friction={friction}"]
+    design = load(str(repo.DESIGNS / "press-straight.toml"), keys)
+    check = check_of(design, "hand_over_pressure_deg")
+    assert check.limit == pytest.approx(90.0 - math.degrees(math.atan(friction or 0.3)))
+    assert check.passes == (state != "fails")
+    assert ("steep-hand-over" in {text.name for text in design.warnings}) == (state == "warns")
+
+
+# a design, keys, and the fraction that the issue and the warning name
+DRIVEN = [
+    ("press-curved", [], 0.525),
+    ("press-345", [], 0.520),
+    ("sine-group", [], 0.519),
+    ("press-curved", ["motion.alpha0_deg=30"], 0.378),
+]
+
+
+@pytest.mark.parametrize(("name", "keys", "driven"), DRIVEN)
+def test_half_of_the_motion_must_be_driven(name, keys, driven, no_advice):
+    design = load(str(repo.DESIGNS / f"{name}.toml"), keys)
+    check = check_of(design, "driven_fraction")
+    assert check.value == pytest.approx(driven, abs=0.0006)  # three digits
+    assert check.passes == (driven > 0.5)
+    _, text = headline(design.checks, design.warnings)
+    percent = f"not positively driven during {100.0 * (1.0 - check.value):.3g} % of the motion"
+    assert (percent in text) == check.passes
+
+
+def test_a_slot_without_a_load_is_not_asked():
+    assert not [c for c in Design(External(6), load=Load()).checks if c.name == "driven_fraction"]
+
+
+def test_a_sweep_has_the_values_of_single_designs(tmp_path, no_advice):
+    """The same search on the same parts, so to the last bit."""
+    spec = tmp_path / "spec.toml"
+    spec.write_text(
+        f'[wheel]\nz = 6\nheld_by = "detent"\n[size]\ncenter_distance_mm = {L}\n'
+        f'roller_radius_mm = {ROLLER}\nslot_clearance_mm = {CLEARANCE}\nprocess = "print"\n'
+        "lock_radius_mm = 0\n"
+    )
+    text, picks = read(str(spec)), [f"checks.{NAME}", "checks.passes", "checks.failed"]
+    checked = sweep(text, plan([axis("size.wheel_radius_mm=33,45,51")], None, 0), picks=picks)
+    alone = [check_of(without_disc(rim)) for rim in (33.0, 45.0, 51.0)]
+    assert [row[1:4] for row in checked.rows(0, 3)] == [
+        [check.value, check.passes, None if check.passes else NAME] for check in alone
+    ]
