@@ -63,7 +63,6 @@ MORE = {
         mass=(Mass("point", mass_kg=0.7, radius_mm=120.0, angle_deg=40.0),)
     ),
     "rack": machine(8, gearing="linear"),
-    "counter": machine(4, gearing="counter", own={"driver_teeth": 20}),
 }
 SEVERAL = {"tolerance": Tolerance()}  # which has no keys for the places of cranks
 # What replaces a part of ``GIVEN`` that a machine refuses.
@@ -76,17 +75,6 @@ OTHERS = {
         "load": Load(mass_kg=3.0, force_N=15.0, friction=0.1, guide_friction=0.1),
         "support": Support(),
         "shaft": Shaft(crank_diameter_mm=18.0, crank_overhang_mm=25.0, crank_span_mm=45.0),
-    },
-    "counter": {
-        **SEVERAL,
-        "product": Product(),
-        "load": Load(inertia_kgm2=1e-5),
-        "size": Size(face_width_mm=10.0),
-        "support": Support(),
-        "motor": Motor(),
-        "shaft": Shaft(),
-        "material_wheel": WheelMaterial(),
-        "material_roller": RollerMaterial(),
     },
 }
 NAMES = (*MACHINES, *MORE)

@@ -57,8 +57,6 @@ def run(design: Path, command: str, format: str) -> None:
     spec = load(str(design)).spec
     column = spec.output.column  # a rack has another one
     words = [word.replace("wheel_deg", column) for word in COMMANDS[command]]
-    if command == "profile" and spec.wheel.toothed:  # it has no slot
-        words += ["--part", "wheel"]
     arguments = [command, str(design), "--format", format, *words]
     result = CliRunner().invoke(app, arguments)
     assert result.exit_code == 0, result.output

@@ -104,20 +104,6 @@ def test_the_wheel_and_the_rollers_are_where_the_core_has_them(name):
         assert np.abs(rollers[:, i] - there).max() < PLACE * data["size"]
 
 
-def test_an_odometers_pinions_turn_as_its_number_says():
-    """The k-th pinion makes a quarter turn for each carry: after n turns 1 + (n - 1) div 10^k."""
-    engine, data = script("odometer")
-    turns = [1, 2, 10, 11, 12, 101, 1001]
-    asked = f"{turns}.map(n => scene.bodies.map(b => afterTurns(b.angle, 0, n, b.every)))"
-    angles = np.array(json.loads(engine.eval(f"JSON.stringify({asked})")))
-    ids = [body["id"] for body in data["bodies"]]
-    for k in range(5):
-        column = angles[:, ids.index(f"pinion-{k + 1}")]
-        first = data["bodies"][ids.index(f"pinion-{k + 1}")]["angle"]["v"][0]
-        carries = [1 + (n - 1) // 10**k for n in turns]
-        assert column - first == pytest.approx(0.5 * math.pi * np.array(carries), abs=ANGLE)
-
-
 PLATES = [path.stem for path in repo.WHEELS if "spherical" not in path.stem]
 
 

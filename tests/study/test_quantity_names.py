@@ -23,7 +23,7 @@ from geneva_cli.verdict.quantities.names import WORDS, group_of, whole_name
 pytestmark = pytest.mark.usefixtures("made_once")
 LISTS = {  # of a report's names those of tables and lists, which are no quantities
     *("stations", "cycle.reversals_deg", "vibration.speeds_to_avoid_rpm", "strength.needs"),
-    *("tolerance.warnings", "wheels", "number_wheels", "cranks", "both_ways"),
+    *("tolerance.warnings", "wheels", "cranks", "both_ways"),
 }
 # Columns that tell what a machine is by keys of its spec, and of curves that no design has.
 KEYS = {

@@ -73,10 +73,6 @@ class Bore(ABC):
         """Diameter of a round end of the shaft beyond the bore; None where there is none."""
         return 2.0 * self.radius
 
-    def running(self, turned: bool) -> Bore:
-        """Return the bore of a part that turns on the shaft, which a lathe has turned or not."""
-        return RoundBore(self.radius if turned else self.around)
-
 
 @dataclass(frozen=True)
 class RoundBore(Bore):
