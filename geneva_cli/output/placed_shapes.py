@@ -1,7 +1,7 @@
 """The shapes of a scene at one input angle, each in its place, with its colours.
 
-A still picture and a moving one draw this list in its order. A hole is a shape of
-the page's colour, behind the shapes that it opens.
+A still picture draws this list in its order. A hole is a shape of the page's colour, behind the
+shapes that it opens.
 """
 
 from __future__ import annotations
