@@ -23,7 +23,6 @@ if TYPE_CHECKING:  # for a type checker: one line for each name
     from geneva_cli.errors import GenevaError as GenevaError
     from geneva_cli.extras.servo.s_curve import SCurve as SCurve
     from geneva_cli.kinds.carousel.motion import Carousel as Carousel
-    from geneva_cli.kinds.counter.motion import Counter as Counter
     from geneva_cli.kinds.gear_sector.motion import GearSector as GearSector
     from geneva_cli.kinds.linear.motion import Linear as Linear
     from geneva_cli.kinds.linkages.four_bar import FourBar as FourBar

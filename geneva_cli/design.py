@@ -783,8 +783,7 @@ class Design:
         from geneva_cli.verdict.advice import judged
 
         # a machine without parts is judged without NumPy
-        needs_model = self.spec.is_turned or self.spec.has_parts
-        return judged(self.mechanism, self.parts_model if needs_model else None)
+        return judged(self.mechanism, self.parts_model if self.spec.is_turned else None)
 
     @property
     def passes(self) -> bool:

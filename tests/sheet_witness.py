@@ -150,6 +150,5 @@ def assert_as_listed(sheet, rows, close=5.1e-4):
         if name in sizes
     )
     assert length in whole
-    if "roller radius" in sizes:  # a counter has teeth
-        rolls = f"Ø {number(2.0 * sizes['roller radius'])}"
-        assert rolls in whole, rolls
+    rolls = f"Ø {number(2.0 * sizes['roller radius'])}"
+    assert rolls in whole, rolls

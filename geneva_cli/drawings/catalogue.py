@@ -39,7 +39,6 @@ PARTS = {
     "wheel": Part(drawing="drawings.part_drawings:wheel", cut=True),
     "crank": Part(drawing="drawings.part_drawings:crank", cut=True),
     "arm": Part(drawing="drawings.part_drawings:arm", cut=True),
-    "number-wheel": Part(cut=True),
     "links": Part(drawing="drawings.part_drawings:links", cut=True),
     "first-wheel": Part(drawing="drawings.part_drawings:wheel", cut=True, in_front=True),
     "first-crank": Part(drawing="drawings.part_drawings:crank", cut=True, in_front=True),

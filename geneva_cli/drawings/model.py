@@ -7,7 +7,7 @@ built, drawn, turned and measured. A kind is imported with the model, and what i
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, ClassVar, NoReturn, TypeAlias
 
 from geneva_cli.errors import GenevaError
@@ -17,7 +17,6 @@ from geneva_cli.motion.pivots import Dimension
 from geneva_cli.parts.missing import Missing, or_missing
 
 if TYPE_CHECKING:
-    from geneva_cli.kinds.counter.parts import CounterParts
     from geneva_cli.kinds.linear.outlines import RackOutlines
     from geneva_cli.kinds.linear.parts import RackParts
     from geneva_cli.kinds.spherical.parts import SphereParts
@@ -285,40 +284,6 @@ class Rack(PartsKind):
         return rack_stressed(mechanism)
 
 
-class Counter(PartsKind):
-    """Gears on two parallel shafts: a driver, pinions and number wheels."""
-
-    DRAWN: ClassVar[Mapping[str, str]] = {
-        "wheel": "kinds.counter.drawings:wheel",
-        "crank": "kinds.counter.drawings:crank",
-        "number-wheel": "kinds.counter.drawings:number_wheel",
-        "frame": "drawings.part_drawings:frame",
-        "assembly": "kinds.counter.drawings:assembly",
-        "plate": "drawings.print_plate:plate",
-        "sheet": "kinds.counter.sheet:sheet",
-    }
-
-    def built(self, model: PartsModel) -> CounterParts:
-        """Return the parts."""
-        from geneva_cli.kinds.counter.parts import CounterParts
-
-        return CounterParts(model.mechanism)
-
-    def turned(self, model: PartsModel) -> NoReturn:
-        """Raise GenevaError: the free angles of teeth are checks of their own."""
-        raise GenevaError("a counter has no rollers to turn", ("wheel", "gearing"))
-
-    def dimensions(self, model: PartsModel) -> Iterator[Dimension | Missing]:
-        """Yield the dimensions of teeth and rim."""
-
-        def listed() -> Iterable[Dimension]:
-            parts = self.built(model)
-            yield from parts.mesh.layout
-            yield Dimension("rim radius", parts.sizes.rim, "mm")
-
-        return or_missing("dimensions of the teeth", listed)
-
-
 class Unbuilt(PartsKind):
     """No parts but the links and gears in front of the crank."""
 
@@ -343,5 +308,5 @@ def _before_links(model: PartsModel) -> NamedBuilds:
 def kind_of(mechanism: Mechanism) -> PartsKind:
     """Return the kind of a machine's parts."""
     kinds: dict[str, type[PartsKind]]
-    kinds = {"flat": Flat, "ball": Ball, "rack": Rack, "counter": Counter}
+    kinds = {"flat": Flat, "ball": Ball, "rack": Rack}
     return kinds.get(mechanism.spec.wheel.PARTS, Unbuilt)()

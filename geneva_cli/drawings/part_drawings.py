@@ -25,7 +25,6 @@ from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.projection import drawing_of, once, outlines_of, shapes, titled
 
 if TYPE_CHECKING:
-    from geneva_cli.kinds.counter.parts import CounterParts
     from geneva_cli.kinds.linear.parts import RackParts
 
 
@@ -96,7 +95,7 @@ def _side_by_side(plates: Iterable[Plate], between: float) -> Iterator[Member]:
         top += box.y1 - box.y0 + between
 
 
-def frame(parts: FlatParts | RackParts | CounterParts) -> Drawing:
+def frame(parts: FlatParts | RackParts) -> Drawing:
     """Return the frame as it is drilled."""
     return drawing_of(parts.mechanism, "frame", parts.frame.part)
 

@@ -172,21 +172,19 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
         Dimension("wheel", spec.wheel.NAME),
         Dimension("drive", spec.drive.NAME),
         *([Dimension("drive before it", spec.drive_before.NAME)] if spec.drive_before else []),
-        Dimension("wide teeth" if spec.wheel.toothed else "slots", spec.wheel.z),
+        Dimension("slots", spec.wheel.z),
         Dimension(spec.wheel.DISTANCE, L, "mm"),
+        Dimension("roller radius", r, "mm"),
+        Dimension("slot width", 2.0 * (r + clear), "mm"),
     ]
-    if not spec.wheel.toothed:
-        entries.append(Dimension("roller radius", r, "mm"))
-        entries.append(Dimension("slot width", 2.0 * (r + clear), "mm"))
     entries += _screws_and_edges(spec.size)
     entries += or_missing("screws", lambda: _screws(model))
     entries += _to_fix(model)
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     entries += model.kind.dimensions(model)
-    cranked = spec.drive.CRANKED and not spec.wheel.toothed
-    if mechanism.law is None and cranked:
+    if mechanism.law is None and spec.drive.CRANKED:
         entries += _straight(mechanism)
-    elif cranked:
+    elif spec.drive.CRANKED:
         entries.append(Dimension("crank radius", mechanism.ratio * L, "mm"))
         entries.append(Dimension("rollers, evenly", spec.drive.rollers))
     elif spec.drive.rollers > 1:

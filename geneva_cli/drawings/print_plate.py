@@ -14,13 +14,12 @@ from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.projection import outlines_of, titled
 
 if TYPE_CHECKING:
-    from geneva_cli.kinds.counter.parts import CounterParts
     from geneva_cli.kinds.linear.parts import RackParts
 
 APART = 5.0  # mm between parts, and round them
 
 
-def plate(parts: FlatParts | RackParts | CounterParts) -> Drawing:
+def plate(parts: FlatParts | RackParts) -> Drawing:
     """Return all parts, each as often as the machine has it, in front of and right of the origin.
 
     Raises GenevaError for a part that cannot be built.

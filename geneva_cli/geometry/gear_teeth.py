@@ -186,13 +186,13 @@ class RoundTeeth(NamedTuple):
         """Return a tooth, or a space of a ring, about the x axis, counterclockwise."""
         return self._space(write) if self.opening else self._tooth(write)
 
-    def between(self, gap: float = 0.0) -> Segment:
-        """Return the arc from a tooth about the x axis to the next, which is farther by a gap."""
+    def between(self) -> Segment:
+        """Return the arc from a tooth about the x axis to the next."""
         if self.opening:
             from_middle = self.half_angle(self.opening)
         else:
             from_middle = self.rack.corner[0] / self.radius
-        return about(ORIGIN, self.root, from_middle, self.step + gap - 2.0 * from_middle)
+        return about(ORIGIN, self.root, from_middle, self.step - 2.0 * from_middle)
 
     def sides(self, write: Writer) -> tuple[list[Segment], list[Segment]]:
         """Return both sides of a tooth about the x axis: before its tip, and after it."""

@@ -8,7 +8,6 @@ not act at rest.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import TypeAlias
@@ -155,7 +154,7 @@ class Cycle:
             most = result.most.reshape(2, -1).max(axis=0)
             places = [load.names.index(n) for n in ("omega_rad_s", "alpha_rad_s2", KINETIC)]
             v, a, p = (float(most[place]) / w**k for k, place in enumerate(places, 1))
-            out.append((v, math.inf, math.inf) if load.engagement.motion.jump else (v, a, p))
+            out.append((v, a, p))
         return out
 
     @cached_property

@@ -216,15 +216,10 @@ def _peak(
     stages: Sequence[Stage],
     window: tuple[float, float],
 ) -> tuple[Mark, ...]:
-    """The greatest size of a quantity of the motion, with its sign; none for the wheel's angle.
-
-    It has no bound where the speed jumps.
-    """
+    """The greatest size of a quantity of the motion, with its sign; none for the wheel's angle."""
     if name == machine.output.column:
         return ()
     peak = peaks.worst_of(machine, name)
-    if math.isinf(peak.max):
-        return (Mark("peak", _placed(machine, peak.at_deg, window), None),)
     first = first_entry_deg(machine)
     x = _placed(machine, peak.at_deg, (first, first))
     values = [

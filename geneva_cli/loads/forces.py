@@ -105,14 +105,10 @@ def load_case(mechanism: Mechanism) -> LoadCase:
         # p0² = N E* / (pi b R_e)
         modulus = contact_modulus_GPa(wheel_material(spec), roller_material(spec)) * 1e3
         hertz = modulus / (math.pi * size.face_width_mm * mechanism.roller_radius_mm)
-    if spec.wheel.JUMPS:  # forces without a bound are not searched for
-        inertia_Nm, resists_Nm = 0.0, 0.0
-    else:
-        inertia_Nm, resists_Nm = inertia_kgm2(spec) * w * w, resisting_torque_Nm(spec)
     return LoadCase(
         w,
-        inertia_Nm,
-        resists_Nm,
+        inertia_kgm2(spec) * w * w,
+        resisting_torque_Nm(spec),
         mechanism.center_distance_mm / 1000.0,
         mechanism.roller_radius_mm / mechanism.center_distance_mm,
         rubbing(mechanism),

@@ -228,9 +228,8 @@ def greatest_formula(
     for number, (engagement, peak) in enumerate(zip(mechanism.engagements, peaks, strict=True)):
         step, motion = mechanism.index_deg(number), engagement.motion_deg
         velocity, acceleration, power = peak
-        with np.errstate(invalid="ignore"):  # of a motion without a greatest acceleration
-            factors = cam_factors(velocity, acceleration, power, motion, step)
-            line = indexer_formula(factors, step, motion, spec.drive.n_rpm, load)
+        factors = cam_factors(velocity, acceleration, power, motion, step)
+        line = indexer_formula(factors, step, motion, spec.drive.n_rpm, load)
         every.append((line, factors))
     best, *others = every
     for other in others:

@@ -36,7 +36,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "print": "print it",
         "spherical-sheet": "cut a spherical wheel from sheet",
         "step-cad": "hand over a STEP to CAD",
-        "cad-code": "go on in build123d, FreeCAD or OpenSCAD",
+        "cad-code": "go on in build123d or FreeCAD",
         "hand-over": "hand over to a shop",
         "inches": "work in inches and pounds",
         "electronic-cam": "replay the motion by a servo",

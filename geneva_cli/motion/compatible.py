@@ -112,27 +112,6 @@ CONFLICTS = (
         'kind = "{drive}" drives an {gearings} wheel, not gearing = "{gearing}"',
     ),
     Conflict(
-        lambda s: s.wheel.DRIVES and (s.drive.NAME not in s.wheel.DRIVES or s.drive_before),
-        ("drive", "kind"),
-        'gearing = "{gearing}" needs kind = "{drives}" without [drive.before]',
-    ),
-    Conflict(
-        lambda s: s.wheel.toothed & (s.drive.rollers > 1),
-        ("drive", "rollers"),
-        'the driver of gearing = "{gearing}" has one pair of teeth: remove rollers',
-    ),
-    Conflict(
-        lambda s: s.wheel.toothed and s.drive.roller_angles_deg is not None,
-        ("drive", "roller_angles_deg"),
-        'the driver of gearing = "{gearing}" has one pair of teeth: remove roller_angles_deg',
-    ),
-    Conflict(
-        lambda s: s.wheel.toothed and _is_set(s.tolerance),
-        ("tolerance",),
-        '[tolerance] is for rollers in slots, and not available for gearing = "{gearing}": '
-        "remove it",
-    ),
-    Conflict(
         lambda s: s.drive.LAW is Needs.LAW and s.motion is None,
         ("drive", "kind"),
         'kind = "{drive}" needs a law in [motion]: the groove is cut for it',
@@ -365,7 +344,6 @@ def _error(conflict: Conflict, spec: Spec) -> GenevaError:
         first=spec.drive.FIRST,
         gearing=spec.wheel.NAME,
         gearings=" or ".join(spec.drive.GEARINGS),
-        drives=" or ".join(spec.wheel.DRIVES),
         rollers=spec.drive.rollers,
         cranks=_cranks(spec),
         z=spec.wheel.z,

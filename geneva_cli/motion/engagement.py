@@ -234,11 +234,6 @@ class WheelMotion(Batchable, ABC):
         return None
 
     @property
-    def jump(self) -> float:
-        """Jump of the wheel's velocity at entry, and back at exit, over the input's."""
-        return 0.0
-
-    @property
     def symmetric(self) -> bool:
         """True if the second half mirrors the first."""
         return self.mirrored and all_true(self.entry_deg == -self.exit_deg)

@@ -241,16 +241,14 @@ class Spec:
     def dwell_holder(self) -> str | None:
         """What holds the wheel in the dwell; None if nothing does.
 
-        >>> Spec(External(6)).dwell_holder, Spec(Counter(4)).dwell_holder
-        ('locking disc', 'locking rim')
+        >>> Spec(External(6)).dwell_holder, Spec(Linear(6)).dwell_holder
+        ('locking disc', 'locking ring')
         """
         return self.wheel.held_by or (self.wheel.LOCK if self.has_lock else None)
 
     @property
     def is_loaded(self) -> bool:
         """True if the spec has a load whose forces are computed: an inertia, a torque or friction.
-
-        It is never so for a wheel whose speed jumps.
 
         >>> Spec(External(6)).is_loaded, Spec(External(6), load=Load(torque_Nm=2.0)).is_loaded
         (False, True)
@@ -277,8 +275,6 @@ class Spec:
 
     @property
     def _unloaded(self) -> bool:
-        if self.wheel.JUMPS:
-            return True
         load = self.load
         nothing = (load.inertia_kgm2 == 0.0) & (load.torque_Nm == 0.0)
         nothing = nothing & (load.mass_kg == 0.0) & (load.force_N == 0.0)
@@ -327,8 +323,7 @@ class Spec:
         >>> Spec(Linear(6)).is_turned, Spec(External(400)).is_turned
         (True, False)
         """
-        # Teeth have checks of their own: their free angles.
-        if not self.wheel.PARTS or self.wheel.toothed:
+        if not self.wheel.PARTS:
             return False
         # A rack of any length is checked by the slots that the crank reaches in a turn.
         return not self.output.turns or self.wheel.z <= Z_DRAWN

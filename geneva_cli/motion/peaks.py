@@ -6,7 +6,6 @@ by ``peak_search``.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -61,11 +60,9 @@ def peak(motion: WheelMotion, quantity: str) -> Peak[float]:
 
 
 def ends(engagement: Engagement) -> EndSizes:
-    """Sizes at both ends, from inside the motion; infinite where the velocity jumps."""
+    """Sizes at both ends, from inside the motion."""
     first = engagement.motion(engagement.entry_deg).scalars()
     last = engagement.motion(engagement.exit_deg).scalars()
-    if engagement.motion.jump:
-        return EndSizes(*[math.inf] * 4)
     return EndSizes(abs(first[2]), abs(last[2]), abs(first[3]), abs(last[3]))
 
 

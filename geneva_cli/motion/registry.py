@@ -20,7 +20,6 @@ GEARINGS = {
     "internal": "motion.wheels.internal:Internal",
     "spherical": "motion.wheels.spherical:Spherical",
     "linear": "kinds.linear.motion:Linear",
-    "counter": "kinds.counter.motion:Counter",
 }
 DRIVES = {
     "crank": "drives.crank:Crank",

@@ -249,22 +249,15 @@ def show_figure(
 
 
 def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
-    """Write the scene as a page of HTML (``-`` prints it), a moving .gif, or a still .svg.
+    """Write the scene as a page of HTML (``-`` prints it), or as a still .svg.
 
-    Raises GenevaError for another extension, for a .gif without Pillow, and if the file cannot be
-    written.
+    Raises GenevaError for another extension, and if the file cannot be written.
     """
     if is_seen(output):
         raise GenevaError("a page is not for a terminal: give -o FILE.html, or --open to show it")
     extension = os.path.splitext(output)[1].lower()
-    if output != "-" and extension not in (".html", ".htm", ".gif", ".svg"):
-        raise GenevaError(f'-o "{cut(output)}": it must end in .html or .htm or .gif or .svg')
-    if extension == ".gif":
-        from geneva_cli.output.files import write_bytes
-        from geneva_cli.output.moving_gif import gif_bytes
-
-        write_bytes(output, [gif_bytes(scene)], inputs)
-        return
+    if output != "-" and extension not in (".html", ".htm", ".svg"):
+        raise GenevaError(f'-o "{cut(output)}": it must end in .html or .htm or .svg')
     from geneva_cli.output import page
     from geneva_cli.output.svg import still_svg
 

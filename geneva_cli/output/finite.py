@@ -36,10 +36,8 @@ def refuse_nonsense(names: Iterable[str], columns: Iterable[Any]) -> None:
     """
     for name, column in zip(names, columns, strict=True):
         # Infinity is a valid radius of a straight line, a valid value of a check without a bound,
-        # valid as motion over dwell without a dwell, and as a peak where the speed jumps.
-        own = name.rpartition(".")[2]
-        boundless = own in {"curvature_radius_mm", "value", "k"}
-        boundless |= own.partition("_")[0] in {"max", "entry", "exit"}
+        # and valid as motion over dwell without a dwell.
+        boundless = name.rpartition(".")[2] in {"curvature_radius_mm", "value", "k"}
         if not isinstance(column, (list, tuple)):
             wrong = (column != column).any() if boundless else _any_endless(column)
         else:

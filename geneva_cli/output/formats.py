@@ -20,7 +20,6 @@ MESHES = {  # of solids, in bytes
     "stl": "mesh.stl",
     "3mf": "mesh.threemf",
     "obj": "mesh.obj",
-    "scad": "mesh.scad",
 }
 DRAWN = {"dxf": "dxf", "svg": "svg.drawing_svg", "step": "step", **MESHES}
 SHEETS = ("dxf", "svg", "pdf")  # for drawing sheets

@@ -54,18 +54,13 @@ Box: TypeAlias = tuple[float, float, float, float]  # least x and y, greatest x 
 
 
 class Body(NamedTuple):
-    """Shapes in its own frame, which turns about a point. A rack's frame moves along y instead.
-
-    A counter's pinion moves in the scene's first turn and in each turn number ``every`` after it;
-    it rests in the others.
-    """
+    """Shapes in its own frame, which turns about a point. A rack's frame moves along y instead."""
 
     name: str
     shapes: tuple[Shape, ...]
     centre: tuple[float, float]
     angle: Track  # counterclockwise
     travel: Track | None = None  # along y, mm
-    every: int = 1
 
 
 class Rotation(NamedTuple):

@@ -1,4 +1,4 @@
-"""The base of parts of wheels, racks and counters: plates with the spec's edges, frame, shafts."""
+"""The base of parts of wheels and racks: plates with the spec's edges, frame, shafts."""
 
 from __future__ import annotations
 

@@ -132,7 +132,7 @@ def _usual(
         "drive": {"n_rpm": 60, "rollers": 1},
         "size": {"center_distance_mm": 160, "roller_radius_mm": 9, "face_width_mm": 16},
         "load": gearing.USUAL_LOAD,
-        "limits": gearing.USUAL_LIMITS,
+        "limits": {"acceleration_max": 1.5, "pin_force_max_N": 600},
     }
     usual = usual_tables.get(name, {})
     shown = [field for field in table if field.key in values or field.key in usual]

@@ -10,7 +10,7 @@ from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import peak
-from geneva_cli.numerics.angles import DEGREE, omega
+from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.latest import counted
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.shafts.fits import loosest_mm
@@ -27,7 +27,6 @@ def motion_warnings(mechanism: Mechanism) -> list[Notice]:
         *_loose_fits(mechanism),
         *_rounded_points(mechanism),
         *_overtaken(mechanism),
-        *_starts_at_speed(mechanism),
         *(_of_law(mechanism, mechanism.law) if mechanism.law else ()),
     ]
 
@@ -99,8 +98,6 @@ def _loose_fits(mechanism: Mechanism) -> Iterator[Notice]:
     """
     size, disc = mechanism.spec.size, mechanism.spec.size.lock_radius_mm
     pairs = [("slot_clearance_mm", "roller", "slot", mechanism.roller_radius_mm)]
-    if mechanism.spec.wheel.toothed:
-        pairs = []
     if mechanism.spec.has_lock:
         radius = mechanism.ratio * mechanism.center_distance_mm if disc is None else disc
         pairs.append(("lock_clearance_mm", "locking disc", "recess", radius))
@@ -130,31 +127,6 @@ def _overtaken(mechanism: Mechanism) -> Iterator[Notice]:
             "line of centres its slot would turn the wheel faster than the gears do. It presses "
             'into the wall that it drove: gear_ratio = "shockless" keeps it behind',
         )
-
-
-def _starts_at_speed(mechanism: Mechanism) -> Iterator[Notice]:
-    """A warning for a wheel whose speed jumps, with the impact at entry."""
-    spec = mechanism.spec
-    if not spec.wheel.JUMPS:
-        return
-    from geneva_cli.loads.impacts.impacts import start_impacts
-
-    impact = start_impacts(mechanism).only
-    assert impact is not None  # the wheel's speed jumps
-    w = impact.jump * omega(spec.drive.n_rpm)
-    if impact.moment_Nms is None:
-        hit = "set inertia_kgm2 in [load] for the impact"
-    else:
-        pinions = spec.wheel.pinions
-        hit = f"with all {pinions} pinions at once, " if pinions > 1 else ""
-        hit += f"an impact of {impact.moment_Nms:.4g} N m s and {0.5 * impact.moment_Nms * w:.4g} J"
-        force = impact.force_N
-        hit += "; set face_width_mm for its force" if force is None else f", up to {force:.4g} N"
-    yield Notice(
-        "speed-jumps",
-        f"at entry and exit the {spec.output.noun}'s speed jumps by {w:.4g} rad/s, "
-        f"{impact.jump:.4g} of the input's. Acceleration and forces have no bound there: {hit}",
-    )
 
 
 def _rounded_points(mechanism: Mechanism) -> Iterator[Notice]:

@@ -49,9 +49,6 @@ def test_the_names_are_the_same_for_every_machine(path):
     found = record(str(path), "--period-ratio", "3.7", "--damping", "0.01")
     assert list(found) == NAMES
     spec = load(str(path)).spec
-    if spec.wheel.JUMPS:
-        assert "speed jumps at entry" in found["warnings"][0]
-        return
     lacks = spec.output.lacks  # a rack has no angle
     if spec.wheel.stopped:
         lacks = [*lacks, "steady_share"]  # it moves at most z - 1 times in a row

@@ -144,12 +144,11 @@ TABLE = rows_table(("a",), [(1.0,)])
         (
             lambda: draw(MANY, "a.dwg"),
             '-o "a.dwg": the extension names no format (.txt, .csv, .json, .md, .dxf, .svg, .step, '
-            ".stl, .3mf, .obj, .scad, .stp); add one, or --format",
+            ".stl, .3mf, .obj, .stp); add one, or --format",
         ),
         (
             lambda: draw(MANY, format="dwg"),
-            "--format dwg: it must be one of dxf, svg, step, stl, 3mf, obj, scad, table, csv, "
-            "json, md",
+            "--format dwg: it must be one of dxf, svg, step, stl, 3mf, obj, table, csv, json, md",
         ),
         (lambda: draw(MANY, units="cm"), "--units cm: it must be one of mm, inch"),
     ],

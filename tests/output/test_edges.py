@@ -21,7 +21,6 @@ from geneva_cli.geometry.mass import mass_properties
 from geneva_cli.geometry.moments import with_material_left
 from geneva_cli.geometry.plates import Plate, plates
 from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, as_contour, closed
-from geneva_cli.output.mesh import scad
 from geneva_cli.output.mesh.solids import bodies
 from geneva_cli.output.step import chunks
 
@@ -143,12 +142,6 @@ def test_roundings_of_a_step_file():
     assert majors == pytest.approx(sorted(one for one in wanted for _ in "12"), rel=1e-9)
 
 
-def test_openscad_has_a_polyhedron():
-    (wheel,) = plates(design_of(External(6)).drawing("wheel").solid)
-    text = b"".join(scad.data(drawing(wheel, 0.05), "mm")).decode()
-    assert "polyhedron(" in text and "linear_extrude" not in text
-
-
 def test_chamfers_that_do_not_fit():
     """A rounding of 0.3 mm is narrower than 0.5, and a spline has no parallel spline."""
     half = [Arc((1.0, 0.3), (0.0, 0.0), 0.3), Line((0.0, 0.0), (1.0, -9.0))]
@@ -184,6 +177,5 @@ def test_a_chamfer_wider_than_half_a_wall_fails():
     wide = Design(External(6), size=Size(edge_chamfer_mm=1.5))
     (failed,) = [check for check in wide.checks if check.passes is False]
     assert failed.name == "parts" and "edge_chamfer_mm = 1.5: the arm has a wall" in failed.why
-    for chunked in (chunks, scad.data):
-        with pytest.raises(GenevaError, match="the arm has a wall of"):
-            list(chunked(wide.drawing("arm"), "mm"))
+    with pytest.raises(GenevaError, match="the arm has a wall of"):
+        list(chunks(wide.drawing("arm"), "mm"))

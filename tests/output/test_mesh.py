@@ -23,11 +23,11 @@ from geneva_cli.geometry.mass import face
 from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.moments import area
 from geneva_cli.geometry.plates import Plate, Shell, solids
-from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, closed
+from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, as_contour, closed
 from geneva_cli.output.formats import MESHES
 from geneva_cli.output.inks import INKS
-from geneva_cli.output.mesh import obj, scad, stl, threemf
-from geneva_cli.output.mesh.polygons import DECIMALS, arc_chords, polygon, triangles
+from geneva_cli.output.mesh import obj, stl, threemf
+from geneva_cli.output.mesh.polygons import DECIMALS, arc_chords, chord_points, triangles
 from geneva_cli.output.mesh.solids import bodies
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
@@ -46,6 +46,12 @@ HOLES = Circle("BORE", (20.0, 15.0), 4.0), Circle("BORE", (32.0, 15.0), 3.0)
 
 def mesh_of(surface):
     return trimesh.Trimesh(surface.corners, surface.triangles, process=False)
+
+
+def polygon(shape, tolerance):
+    """The ends of a closed shape's chords."""
+    every = [chord_points(piece, tolerance)[:-1] for piece in as_contour(shape).segments]
+    return [point for points in every for point in points]
 
 
 def require_closed(mesh):
@@ -75,11 +81,10 @@ def test_a_plate_is_as_large_as_its_closed_form(tolerance):
 @pytest.mark.parametrize("shape", [SHAPE, *HOLES])
 def test_chords_keep_the_tolerance(shape, tolerance):
     """Every curve, in thousands of places, is as near to the polygon, which crosses nowhere."""
-    ring = shapely.Polygon(polygon(shape, True, tolerance))
+    ring = shapely.Polygon(polygon(shape, tolerance))
     assert ring.is_valid
-    fine = shapely.points(polygon(shape, True, 1e-6 if tolerance < 1e-3 else 1e-5))
-    # a corner that is nearer than a tenth of the tolerance is left out
-    assert shapely.distance(fine, ring.exterior).max() < 1.1 * tolerance + 2.0 * NEAR
+    fine = shapely.points(polygon(shape, 1e-6 if tolerance < 1e-3 else 1e-5))
+    assert shapely.distance(fine, ring.exterior).max() < tolerance + 2.0 * NEAR
     assert ring.area == pytest.approx(abs(area(shape)), abs=ring.length * tolerance)
 
 
@@ -91,7 +96,7 @@ def test_chords_keep_the_tolerance(shape, tolerance):
 def test_random_outlines(corners, tolerance):
     outline = closed("WHEEL", [Arc(p, q, b or 0.1) for p, q, b in sides_about_the_origin(corners)])
     hole = Circle("BORE", (0.0, 0.0), 2.0)
-    loops = [polygon(outline, True, tolerance), polygon(hole, False, tolerance)]
+    loops = [polygon(outline, tolerance), polygon(hole, tolerance)]
     ring = shapely.Polygon(*[loops[0]], [loops[1]])
     if not ring.is_valid:
         return  # crosses itself
@@ -228,12 +233,12 @@ def solid_volume(solid):
     return solid.volume if isinstance(solid, Shell) else solid.thickness * face(solid).area
 
 
-@pytest.mark.parametrize("module", [stl, obj, threemf, scad])
+@pytest.mark.parametrize("module", [stl, obj, threemf])
 def test_the_same_bytes(small, module):
     assert b"".join(module.data(small, "mm")) == b"".join(module.data(small, "mm"))
 
 
-@pytest.mark.parametrize("module", [stl, obj, threemf, scad])
+@pytest.mark.parametrize("module", [stl, obj, threemf])
 def test_refused(module):
     drawing = Design(External(4)).drawing("slot", 0.1)
     with pytest.raises(GenevaError, match="no solid to write"):
@@ -259,7 +264,7 @@ def test_a_plate_has_every_part_once_for_each_in_the_machine():
     made = load(str(repo.DESIGNS / "side-crank-z6.toml"))
     drawing = made.drawing("plate", 0.1)
     laid = [
-        shapely.affinity.translate(shapely.Polygon(polygon(m.part.outline, True, 0.1)), *m.at)
+        shapely.affinity.translate(shapely.Polygon(polygon(m.part.outline, 0.1)), *m.at)
         for m in drawing.solid.members
     ]
     rows = made.part_table("parts").to_rows()

@@ -1,6 +1,5 @@
 """The page on which a machine turns: its script puts the wheel where the core has it."""
 
-import io
 import json
 import math
 import re
@@ -24,7 +23,7 @@ from geneva_cli.cli.app import app
 from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.motion.pivots import Joint
-from geneva_cli.output import animate, moving_gif, page
+from geneva_cli.output import animate, page
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.scene import body_pose, value_at
 from geneva_cli.output.svg import still_svg
@@ -102,20 +101,6 @@ def test_the_wheel_and_the_rollers_are_where_the_core_has_them(name):
     for i in range(rollers.shape[1]):
         there = turn.centre(i, turn.start + at)
         assert np.abs(rollers[:, i] - there).max() < PLACE * data["size"]
-
-
-def test_an_odometers_pinions_turn_as_its_number_says():
-    """The k-th pinion makes a quarter turn for each carry: after n turns 1 + (n - 1) div 10^k."""
-    engine, data = script("odometer")
-    turns = [1, 2, 10, 11, 12, 101, 1001]
-    asked = f"{turns}.map(n => scene.bodies.map(b => afterTurns(b.angle, 0, n, b.every)))"
-    angles = np.array(json.loads(engine.eval(f"JSON.stringify({asked})")))
-    ids = [body["id"] for body in data["bodies"]]
-    for k in range(5):
-        column = angles[:, ids.index(f"pinion-{k + 1}")]
-        first = data["bodies"][ids.index(f"pinion-{k + 1}")]["angle"]["v"][0]
-        carries = [1 + (n - 1) // 10**k for n in turns]
-        assert column - first == pytest.approx(0.5 * math.pi * np.array(carries), abs=ANGLE)
 
 
 PLATES = [path.stem for path in repo.WHEELS if "spherical" not in path.stem]
@@ -232,29 +217,6 @@ def test_a_place_without_a_bound_on_the_force_has_no_arrow():
     (push,) = scene(design).pushes
     assert len(push.at) == 72
     assert all(map(math.isfinite, (*push.force_x, *push.force_y)))
-
-
-def test_a_gif_moves_as_the_page_does(tmp_path, monkeypatch):
-    from PIL import Image
-
-    monkeypatch.setattr(moving_gif, "FRAMES", some(moving_gif.FRAMES, 12))
-
-    found = scene(design_of("internal-z6"))
-    engine, _ = script("internal-z6")
-    for t in (0.0, 33.3, 150.0, 359.9):
-        by_page = engine.eval(f"valueAt(scene.bodies[0].angle, {t})")
-        # the page's numbers have ten digits
-        assert value_at(found.bodies[0].angle, t) == pytest.approx(by_page, abs=1e-9)
-    file = tmp_path / "machine.gif"
-    animate(found, str(file))
-    with Image.open(file) as image:
-        assert image.n_frames == moving_gif.FRAMES and image.size[0] == moving_gif.WIDE
-        filled = []
-        for number in (0, 3, 11):  # the ring's share of the picture does not change
-            image.seek(number)
-            pixels = np.asarray(image.convert("RGB"), dtype=int)
-            filled.append(float((pixels[..., 2] - pixels[..., 0] > 15).mean()))
-    assert min(filled) > 0.2 and max(filled) - min(filled) < 0.02
 
 
 @pytest.mark.parametrize("name", ["spherical-z6", "gear-sector", "internal-z6"])
@@ -508,16 +470,3 @@ def test_zeros_of_the_still_picture_have_no_sign():
     places = re.findall(r"translate\((\S+) (\S+)\) rotate\((\S+)\)", text)
     assert any(place[1] == "0" for place in places)
     assert not any(number == "-0" for place in places for number in place)
-
-
-@pytest.mark.parametrize("name", ["cam-geneva", "four-bar-z4"])
-def test_a_gif_has_the_inks_of_small_parts(name, monkeypatch):
-    """Pixels of lines 0.7 px wide are mixed with what is beside them: 60 of 441 in RGB."""
-    from PIL import Image
-
-    monkeypatch.setattr(moving_gif, "FRAMES", 1)
-    picture = Image.open(io.BytesIO(moving_gif.gif_bytes(scene(design_of(name))))).convert("RGB")
-    shown = [rgb for _, rgb in picture.getcolors(picture.width * picture.height)]
-    for layer in ("ROLLER", "BORE", "WHEEL"):
-        ink = [int(INKS[layer].rgb[i : i + 2], 16) for i in (1, 3, 5)]
-        assert min(math.dist(ink, rgb) for rgb in shown) < 60.0

@@ -118,12 +118,13 @@ def test_a_fill_is_what_the_plates_are(assembly):
     assert apart(svg_shapes("".join(chunks(assembly, "mm"))), drawn_shapes(assembly)) < 1e-8
 
 
-def test_wheels_in_a_row_are_filled_once():
-    """One tint for all gears, one for all pairs of teeth and one for all rims; two for pinions."""
-    counter = load(str(repo.DESIGNS / "odometer.toml")).drawing("assembly", 0.01)
-    fills = [path.get("class") for path in groups(root(counter))["FILL"]]
-    counts = {layer: fills.count(layer) for layer in ("CRANK", "WHEEL", "FRAME")}
-    assert counts == {"CRANK": 3, "WHEEL": 2, "FRAME": 1}
+def test_steps_of_one_diameter_are_filled_once():
+    """A turned shaft has steps of one diameter one above the other, at several heights."""
+    turned = load(str(repo.DESIGNS / "turret.toml"), ['size.shafts="turned"'])
+    shafts = turned.parts_model.flat.shafts
+    steps = [(shaft.at, step.outline) for shaft in shafts for step in shaft.part.plates]
+    fills = [path.get("class") for path in groups(root(turned.drawing("assembly", 0.01)))["FILL"]]
+    assert fills.count("SHAFT") == len({*steps}) < len(steps)
 
 
 def test_the_floor_of_a_groove_is_filled():
@@ -192,7 +193,7 @@ def test_the_command(tmp_path):
         assert said in result.output
 
 
-@pytest.mark.parametrize(("spec", "beside"), [("linear", True), ("odometer", False)])
+@pytest.mark.parametrize(("spec", "beside"), [("linear", True), ("turret", False)])
 def test_no_line_of_a_distance_crosses_its_text(spec, beside):
     """A text wider than its distance stands to the right of the lines from both ends."""
     drawn = load(str(repo.DESIGNS / f"{spec}.toml")).drawing("assembly", 0.01)

@@ -9,10 +9,8 @@ import math
 import pytest
 from words import Spec, Wheel
 
-from geneva_cli import Counter, Design
+from geneva_cli import Design
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.kinds.counter.frame import bore as counter_bore
-from geneva_cli.kinds.counter.outlines import counter_sizes
 from geneva_cli.kinds.spherical.ball import inner_edge
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.outlines.outline_sizes import machine_sizes
@@ -181,17 +179,3 @@ def test_bolts_of_a_dial():
         assert {(round(math.hypot(*one.centre), 9), one.radius) for one in bolts} == {(far, 1.2)}
         first = math.degrees(math.atan2(*reversed(bolts[0].centre)))
         assert first % 60.0 == pytest.approx(30.0)
-
-
-def test_bores_of_a_counter():
-    """Up to L/6, or half the root circle's diameter; bearings have 15 and 12 mm, 9 and 8 mm."""
-
-    def pinion(teeth, distance):
-        size = Size(center_distance_mm=distance)
-        mechanism = Design(Counter(4, driver_teeth=teeth), size=size).mechanism
-        sizes = counter_sizes(mechanism)
-        return sizes.pinion.root, 2.0 * counter_bore(mechanism, sizes, "wheel").radius
-
-    assert [pinion(20, distance)[1] for distance in (90.0, 89.9)] == [15.0, 12.0]
-    root, _ = pinion(60, L)
-    assert [pinion(60, L * wide / root)[1] for wide in (9.001, 8.999)] == [9.0, 8.0]

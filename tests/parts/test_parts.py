@@ -34,8 +34,7 @@ from geneva_cli.verdict.checks import checks
 
 ROOT = repo.ROOT
 DESIGNS = {path.stem: path for path in sorted((ROOT / "designs").glob("*.toml"))}
-# spheres; and a counter, whose plates share edges: test_counter_parts.py
-ELSEWHERE = ("spherical-60deg", "spherical-z6", "odometer")
+ELSEWHERE = ("spherical-60deg", "spherical-z6")  # spheres
 FLAT = [name for name in DESIGNS if name not in ELSEWHERE]
 LINKAGES = ("four-bar-z4", "slider-crank")
 UNLOCKED = (*LINKAGES, "internal-curved-z8")  # lock_radius_mm = 0
@@ -744,7 +743,6 @@ def test_a_roller_too_large_for_curved_slots():
 
 
 NOT_FLAT = ("spherical",)
-PLATES = ("counter",)  # plates of several heights share edges: test_counter_parts.py
 
 
 @pytest.mark.parametrize("kind", NOT_FLAT)
@@ -757,7 +755,7 @@ def test_templates_without_flat_parts_say_so(kind):
 
 
 @pytest.mark.sampled(18)
-@pytest.mark.parametrize("kind", [kind for kind in KINDS if kind not in (*NOT_FLAT, *PLATES)])
+@pytest.mark.parametrize("kind", [kind for kind in KINDS if kind not in NOT_FLAT])
 def test_templates_draw_all_parts(kind):
     assert CliRunner().invoke(app, ["new", kind, "-o", "new.toml"]).exit_code == 0
     for part in PARTS:

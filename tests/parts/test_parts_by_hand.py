@@ -13,7 +13,7 @@ from drawing_witness import vertices
 from scipy.spatial import KDTree
 from words import Drive, Keys, Motion, Spec, Wheel
 
-from geneva_cli import Counter, Design, EllipticalGears, External, Internal, Linear, load
+from geneva_cli import Design, EllipticalGears, External, Internal, Linear, load
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.drawings.sheet.bores import bored
 from geneva_cli.drawings.sheet.crank import draw_arm, draw_disc, draw_roller
@@ -26,7 +26,6 @@ from geneva_cli.geometry.moments import moments
 from geneva_cli.geometry.plates import plates, solids
 from geneva_cli.geometry.shapes import Arc, Circle
 from geneva_cli.geometry.sheet import CENTRE, OUTLINE
-from geneva_cli.kinds.counter.parts import CounterParts
 from geneva_cli.kinds.linear.arm import crank_arm as rack_arm
 from geneva_cli.kinds.linear.frame import guide
 from geneva_cli.kinds.spherical.arm_drawing import arm_cone
@@ -236,19 +235,6 @@ def test_a_groove_plate_has_its_screws_amid_its_rim():
     assert [one.centre for one in screws] == [pytest.approx(corner) for corner in corners]
     assert {one.radius for one in screws} == {1.45}
     assert (base.low, base.high, ring.high) == (-30.0, -20.0, -10.0)
-
-
-def test_a_counters_heights():
-    """Gears of 10 mm and gaps of 0.5 mm: a pinion's wide teeth lie beside the driver's rim."""
-    size = Size(center_distance_mm=L, wheel_thickness_mm=10.0, pin_gap_mm=0.5)
-    parts = CounterParts(Design(Counter(4, driver_teeth=20), size=size).mechanism, 0.1)
-    pinion, wheel, driver = (
-        [(one.low, one.high) for one in plates(member.part)]
-        for member in (*parts.pinions, *parts.number_wheels, parts.driver)
-    )
-    assert pinion == [(0.0, 20.5), (20.5, 31.0)]
-    assert wheel == [(0.0, 10.0)]
-    assert driver == [(10.5, 21.0), (21.0, 31.0)]
 
 
 def test_screws_are_amid_the_guides_bars():

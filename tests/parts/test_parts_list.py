@@ -226,9 +226,6 @@ def angle(p, d, i, one, folder):
             math.sin(th) * math.sin(math.radians(x)),
             math.sin(S) * math.cos(th) - math.cos(S) * math.sin(th) * math.cos(math.radians(x)),
         )
-    if d["wheel"] == "counter":  # in mesh all the time
-        ratio = d["driver: reference diameter"] / d["pinion: reference diameter"]
-        return lambda x: ratio * math.radians(x)
     if "sector's angle" in d:
         return in_gear(d)
     place, e = roller(p, d, i), d.get("slots' axes offset from the wheel's", 0.0)

@@ -16,7 +16,6 @@ from geneva_cli.geometry.plates import Group, Plate, Stack, lowered, solids
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.motion import registry
-from geneva_cli.output.mesh import scad
 from geneva_cli.output.mesh.solids import bodies
 from geneva_cli.output.step import chunks
 from geneva_cli.parts.flat_parts import FlatParts
@@ -178,13 +177,6 @@ def test_solids_of_all_formats_are_one(keys):
 def _wide(plate):
     x0, _, x1, _ = polygon(plate.outline).bounds
     return max(-x0, x1)
-
-
-def test_openscad_has_a_prism_for_each_step():
-    stack = shaft(of(wheel_keyway="DIN 6885-1"), "wheel")
-    text = b"".join(scad.data(Drawing("", (), solid=stack, tolerance=0.01), "mm")).decode()
-    assert text.count("linear_extrude") == len(stack.plates) == 9
-    assert text.count("module ") == 1
 
 
 def test_a_coarse_mesh_is_refused():

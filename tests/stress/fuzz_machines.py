@@ -321,29 +321,7 @@ def machine_text(rng, kind=None):
         if rng.random() < 0.5:
             stiffness, damping = near(rng, 500.0, 3.0), rng.choice([0.0, 0.02, rng.random()])
             text += ["[shaft]", f"stiffness_Nm_rad = {stiffness!r}", f"damping_ratio = {damping!r}"]
-    if kind == "crank" and rng.random() < 0.05:
-        return counter_text(rng)
     return "\n".join(fitting(text)) + "\n"
-
-
-def counter_text(rng):
-    """A counter's pinion and driver, mostly as the default has them."""
-    text = ["[wheel]", f"z = {rng.choice([3, 4, 4, 5, 6, 10, rng.randint(3, 60)])}"]
-    text.append('gearing = "counter"')
-    if rng.random() < 0.8:
-        text.append(f"driver_teeth = {rng.choice([20, 20, 10, 12, 40, rng.randint(6, 200)])}")
-    if rng.random() < 0.5:
-        text.append(f"number_wheels = {rng.choice([2, 3, 4, 6, 24])}")
-    text += ["[drive]", f"n_rpm = {near(rng, 60.0, 1.0)!r}", "[size]"]
-    text.append(f"center_distance_mm = {near(rng, 30.0, 0.6)!r}")
-    sizes = {"face_width_mm": 4.0, "gear_backlash_mm": 0.05, "lock_clearance_mm": 0.05}
-    sizes |= {"wheel_bore_mm": 3.0, "crank_bore_mm": 4.0}
-    text += [f"{key} = {near(rng, v)!r}" for key, v in sizes.items() if rng.random() < 0.4]
-    if rng.random() < 0.4:
-        text.append(f'process = "{rng.choice(WORDED["process"])}"')
-    if rng.random() < 0.7:
-        text += ["[load]", f"inertia_kgm2 = {near(rng, 1e-5, 1.0)!r}"]
-    return "\n".join(text) + "\n"
 
 
 def fitting(text):

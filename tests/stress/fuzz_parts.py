@@ -28,14 +28,14 @@ TOLERANCE = 0.01  # mm at L = 100, of the drawings
 BOUNDLESS = {"curvature_radius_mm", "value"}
 
 
-def tried(make, *args, jumps=False):
+def tried(make, *args):
     """A checked table; None if it is refused with the spec's key or an option."""
     try:
         table = make(*args)
     except GenevaError as error:
         assert error.key or "--" in str(error), f"no place: {error}"
         return None
-    sound(table, table.names if jumps else BOUNDLESS)
+    sound(table, BOUNDLESS)
     return table
 
 
@@ -48,8 +48,7 @@ def one(text):
         consistent(machine)
         sound_motion(machine, (97,))
         # loads that would be rounding are refused
-        jumps = machine.spec.wheel.JUMPS
-        tried(lambda: flat(Design.of(machine.spec).report.table), jumps=jumps)
+        tried(lambda: flat(Design.of(machine.spec).report.table))
         tried(lambda: checks_table([Verdict("", checks=tuple(judged(machine)))]))
         tolerance = TOLERANCE * machine.center_distance_mm / 100.0
         for part in PARTS:

@@ -186,9 +186,9 @@ def sound(table, boundless=()):
 
 
 def sound_motion(mechanism, samples=()):
-    """Check the numbers of peaks and motion; they are finite unless the wheel's speed jumps."""
+    """Check the numbers of peaks and motion, which are finite."""
     for table in (flat(peaks_table(mechanism)), *(motion_table(mechanism, n) for n in samples)):
-        sound(table, table.names if mechanism.spec.wheel.JUMPS else ())
+        sound(table)
 
 
 def one(text):

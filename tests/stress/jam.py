@@ -1,12 +1,11 @@
-"""DXF files of flat designs, racks and counters in a physics engine, Chipmunk: `make jam`.
+"""DXF files of flat designs and racks in a physics engine, Chipmunk: `make jam`.
 
 The engine does not know the wheel's motion. The wheel's outline, read from the file, is a free body
 on a pivot, or a rack's in a groove, which contact alone moves. Crank and rollers, from the other
 file, move as the design's drive moves them, for two turns; each of several cranks from its own
-place. A counter has two planes: wide teeth meet the rim, and all teeth meet the driver's two. The
-wheel's angle must be that of the program, within the program's play, and no parts may be squeezed,
-which is a jam. A roller too large for its slot, or a rim too large for its pinion, must jam. `make
-jam` installs the engine (pymunk); ten minutes.
+place. The wheel's angle must be that of the program, within the program's play, and no parts may be
+squeezed, which is a jam. A roller too large for its slot must jam. `make jam` installs the engine
+(pymunk); ten minutes.
 """
 
 import argparse
@@ -14,7 +13,6 @@ import math
 import sys
 import tempfile
 from pathlib import Path
-from typing import NamedTuple
 
 import ezdxf
 import ezdxf.path
@@ -25,7 +23,6 @@ import shapely
 
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinds.counter.play import counter_play
 from geneva_cli.output import draw
 from geneva_cli.parts.turn.play import windows
 
@@ -129,11 +126,9 @@ class Simulation:
         self.carried.append((body, np.unwrap(angle), np.zeros((len(angle), 2)) + place))
         return body
 
-    def outline(self, body, region, plane=0):
-        """Add the outline of a part, which meets other outlines of its plane only."""
-        for shape in rods(body, region, ROD * self.L):
-            shape.filter = pymunk.ShapeFilter(categories=1 << plane, mask=1 << plane)
-            self.space.add(shape)
+    def outline(self, body, region):
+        """Add the outline of a part."""
+        self.space.add(*rods(body, region, ROD * self.L))
 
     def _set(self, step):
         """Place the carried bodies at a step of a turn, with their speeds to the next."""
@@ -221,39 +216,6 @@ def cranked(design, folder, larger=0.0):
     return out, proof.turn.play
 
 
-def counted(design, folder, larger=0.0):
-    """A simulation of the files of a counter's driver and pinion, with a larger rim.
-
-    Returns its play as well, as ``cranked`` does.
-    """
-    L, (engagement, *_) = design.mechanism.center_distance_mm, design.mechanism.engagements
-    planes = []
-    for part, layer in (("wheel", "WHEEL"), ("crank", "CRANK")):
-        draw(design.drawing(part), str(folder / f"{part}.dxf"))
-        both = contours(folder / f"{part}.dxf", layer, SAGITTA * L)
-        planes.append(sorted(both, key=lambda region: region.area))
-    (wide, teeth), (two, rim) = planes  # narrow teeth are no part of the wide ones' plane
-    at = np.linspace(-180.0, 180.0, STEPS + 1)
-    ends = np.clip(at, engagement.entry_deg, engagement.exit_deg)
-    out = Simulation(L, Turning(), at, engagement.motion(ends, 0).c[0])
-    driver = out.carry(math.pi - np.radians(at), (L, 0.0))
-    for plane, (pinion, of_driver) in enumerate(((teeth, two), (wide, rim.buffer(larger)))):
-        out.outline(out.wheel, pinion, plane)
-        out.outline(driver, of_driver, plane)
-    play = counter_play(design.mechanism)  # up to mid-motion, with the rest its mirror image
-    first, ahead, behind = play.input_deg, play.ahead_deg, play.behind_deg
-    mirrored = (-first[-2::-1], behind[-2::-1], ahead[-2::-1])
-    return out, Free(*map(np.concatenate, zip((first, ahead, behind), mirrored, strict=True)))
-
-
-class Free(NamedTuple):
-    """Play of a wheel on and back at input angles, degrees."""
-
-    input_deg: np.ndarray
-    on: np.ndarray
-    back: np.ndarray
-
-
 def beyond_play(machine, play, angles):
     """The wheel's greatest error beyond its play, and the input angle, degrees."""
     worst = (0.0, 0.0)
@@ -281,12 +243,8 @@ def widened(path):
 def turned(path, folder):
     """Return the faults of a design's files as a list of texts, and a line with the results."""
     design = widened(path)
-    if design.spec.wheel.PARTS == "counter":
-        simulated, spare = counted, design.spec.size.lock_clearance_mm
-    else:
-        simulated = cranked
-        spare = design.parts_model.parts.sizes.half_width - design.mechanism.roller_radius_mm
-    machine, play = simulated(design, folder)
+    spare = design.parts_model.parts.sizes.half_width - design.mechanism.roller_radius_mm
+    machine, play = cranked(design, folder)
     angles, deepest = machine.run()
     out, at = beyond_play(machine, play, angles)
     limit = SQUEEZED * machine.L
@@ -295,8 +253,8 @@ def turned(path, folder):
         faults.append(f"squeezed by {deepest:.3g} mm")
     if out > LOST:
         faults.append(f"left its play by {out:.3g} deg at {at:.2f}")
-    if simulated(design, folder, spare + 2.0 * limit)[0].run(1)[1] <= limit:
-        faults.append("a roller or rim that is too large did not jam")
+    if cranked(design, folder, spare + 2.0 * limit)[0].run(1)[1] <= limit:
+        faults.append("a roller that is too large did not jam")
     line = (
         f"{path.stem:24} {STEPS * TURNS} steps, {len(machine.space.shapes)} rods, "
         f"overlap {deepest / machine.L:.1e} L, play left by {out:.4f} deg at {at:.1f}"

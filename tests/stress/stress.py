@@ -47,8 +47,8 @@ def missing():
     """List the kinds in the registries that have no witness."""
     # a gear sector is a straight slot and a straight line: test_gear_sector.py has its witness;
     # a carousel is a plain crank seen from its carrier: test_carousel.py; a rack has closed forms:
-    # test_machines.py; a counter's pinion moves in a straight line: test_counter.py
-    known = {*FRONTS, *OTHERS, *SIGN, "gear-sector", "carousel", "linear", "counter"}
+    # test_machines.py
+    known = {*FRONTS, *OTHERS, *SIGN, "gear-sector", "carousel", "linear"}
     out = [f'drive kind "{kind}"' for kind in DRIVES if kind not in known]
     out += [f'gearing "{g}"' for g in GEARINGS if g not in known]
     return out + [f'law "{name}"' for name in LAWS if name not in LAW_WITNESSES]

@@ -23,7 +23,7 @@ from geneva_cli.verdict.quantities.names import WORDS, group_of, whole_name
 pytestmark = pytest.mark.usefixtures("made_once")
 LISTS = {  # of a report's names those of tables and lists, which are no quantities
     *("stations", "cycle.reversals_deg", "vibration.speeds_to_avoid_rpm", "strength.needs"),
-    *("tolerance.warnings", "wheels", "number_wheels", "cranks", "both_ways"),
+    *("tolerance.warnings", "wheels", "cranks", "both_ways"),
 }
 # Columns that tell what a machine is by keys of its spec, and of curves that no design has.
 KEYS = {
@@ -148,7 +148,8 @@ def test_compare_and_synth_read_the_same_names():
         ("pin_force", 'no quantity of a design (did you mean "pin_force_N.max"?)'),
         ("torque", '(did you mean "torque_Nm.max"?)'),
         ("force", '(did you mean "inputs.load.force_N"?)'),  # force_N may be several
-        ("force_N", "strength.lock.force_N or 1 more; say which"),
+        ("force_N", "guide.force_N or strength.lock.force_N or stop.force_N; say which"),
+        ("margin", "strength.crank_shaft.margin or 3 more; say which"),
         ("acceleration.mx", '(did you mean "acceleration.max"?)'),
     ],
 )

@@ -172,7 +172,6 @@ def test_one_of_a_batch_is_left(tmp_path, text, vary, refused):
     ("text", "vary", "refused"),
     [
         ("z = 8\n[drive]\nrollers = 2\ncrank_steps = [0, 3]", "tolerance.slot_width_mm", "cranks"),
-        ('z = 4\ngearing = "counter"', "tolerance.slot_width_mm", "rollers in slots"),
         ('z = 8\ngearing = "linear"', "tolerance.slot_width_mm", "for a wheel"),
         ('z = 8\ngearing = "linear"', "support.radius_mm", "for a wheel"),
     ],

@@ -394,9 +394,6 @@ def test_every_machine_of_the_family(path):
     if not mechanism.spec.output.turns:
         loaded = Load(mass_kg=1.0, force_N=5.0, friction=0.05)
     spec = mechanism.spec.replace(load=loaded)
-    if not spec.is_loaded:  # the speed of a counter jumps: its forces have no bound
-        assert Strength(build(spec)).life["friction_work_J"] is None
-        return
     of = Strength(build(spec.with_("size.face_width_mm", 10.0)))
     for name in ("slot_travel_m", "friction_work_J", "equivalent_force_N", "pin_stress_MPa"):
         assert of.life[name] > 0.0, name

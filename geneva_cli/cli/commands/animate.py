@@ -19,13 +19,13 @@ def run(
     open_: Annotated[bool, flag("--open", "Open the page in the desktop's browser.")] = False,
     output: Annotated[
         str,
-        output_option("FILE", "Write to this .html, .gif or .svg; - prints html.", default=True),
+        output_option("FILE", "Write to this .html or .svg; - prints html.", default=True),
     ] = "-",
 ) -> None:
     """Animate the machine on a page that needs no network.
 
-    It shows parts, gears, contact force and curves, and plays or follows a slider. A .gif needs
-    the extra plot; an .svg does not move. --open prints the page's path if there is no browser.
+    It shows parts, gears, contact force and curves, and plays or follows a slider. An .svg does
+    not move. --open prints the page's path if there is no browser.
     """
     import os
 

@@ -34,7 +34,7 @@ def draw_gear(view: View, gear: Gear, size: Size) -> None:
     view.cross(axis, gear.outer)
     text = f"pitch {sized.plain(2.0 * gear.radius, 'Ø ')}"
     if gear.cut:
-        draw_teeth(view, gear.cut)
+        _teeth(view, gear.cut)
     elif isinstance(outline, Contour):
         _sectors(view, gear, outline, text)
     else:
@@ -50,7 +50,7 @@ def draw_gear(view: View, gear: Gear, size: Size) -> None:
     view.remark(f"pitch circle; teeth not shown{only}")
 
 
-def draw_teeth(view: View, gear: ToothedGear) -> None:
+def _teeth(view: View, gear: ToothedGear) -> None:
     """Draw the circles of a gear's teeth, and write what cuts and measures them."""
     teeth, (over, span) = gear.teeth, gear.span
     reference = Circle("", (0.0, 0.0), teeth.radius)

@@ -154,10 +154,6 @@ def certificate(
     from geneva_cli.extras.certify.enclosures import greatest
 
     each = mechanism.engagements
-    if mechanism.spec.wheel.JUMPS and quantity != "velocity":
-        # where the velocity jumps, its derivatives have no bound
-        begin, end = (mechanism.shown_deg(x) for x in (each[0].entry_deg, each[0].exit_deg))
-        return Certificate(quantity, 0.0, None, (), False, 0, Open(begin, end, None))
     with precision():
         exact = exact_rates(mechanism) if decimals and quantity in QUANTITIES else None
         if exact is None:

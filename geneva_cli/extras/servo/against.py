@@ -78,7 +78,7 @@ def _words(design: Design) -> dict[str, str]:
     """What no number says of the design, by the rows of WORDS."""
     return {
         "holds_the_dwell_by": design.spec.dwell_holder or "nothing",
-        "impact_at_entry": "in every step" if design.spec.wheel.JUMPS else "if R/L is off",
+        "impact_at_entry": "if R/L is off",
         "without_power": "follows crank",
         "another_step_or_time": "a new wheel",
     }

@@ -65,17 +65,6 @@ def entry_impacts(
     return _with_force(mechanism, best, pin_mm)
 
 
-def start_impacts(mechanism: Mechanism) -> Impacts:
-    """Impacts at entry of m designs whose wheels' speed jumps.
-
-    The pinions of a counter that start at once are one mass behind the first driver's tooth.
-    """
-    engagement, *_ = mechanism.engagements
-    at_deg, jump = np.ravel(engagement.entry_deg), np.ravel(engagement.motion.jump)
-    impacts = _shown(mechanism, engagement, at_deg, jump)
-    return _with_force(mechanism, impacts, wheels=mechanism.spec.wheel.pinions)
-
-
 def _errors(
     mechanism: Mechanism, engagement: Engagement, fraction: float
 ) -> Iterator[tuple[float, float]]:
@@ -182,14 +171,12 @@ def _harder(one: Array, other: Array) -> Array:
     return np.where(more, other, one)
 
 
-def _with_force(
-    mechanism: Mechanism, impacts: Array, pin_mm: Number | None = None, wheels: float = 1
-) -> Impacts:
-    """Impacts with their forces and moments, from angles and jumps (2, m) of equal wheels."""
+def _with_force(mechanism: Mechanism, impacts: Array, pin_mm: Number | None = None) -> Impacts:
+    """Impacts with their forces and moments, from angles and jumps (2, m)."""
     at_deg, jump = impacts
-    moment = np.ravel(wheels * impulse_Nms(mechanism, jump[:, None]))
+    moment = np.ravel(impulse_Nms(mechanism, jump[:, None]))
     pin_mm = pin_diameter_mm(mechanism) if pin_mm is None else pin_mm
-    force = forces_N(mechanism, jump[:, None] * np.sqrt(wheels), pin_mm)
+    force = forces_N(mechanism, jump[:, None], pin_mm)
     force = np.full(len(moment), np.nan) if force is None else force
     moment = np.where(moment == 0.0, np.nan, moment)
     return Impacts(*np.broadcast_arrays(at_deg, jump, force, moment))

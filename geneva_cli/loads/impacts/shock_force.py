@@ -5,10 +5,10 @@ force Q the roller is pressed into the wall and its pin is bent, together by
 
     d = c Q^0.9 + Q / k,    c = 3.84e-5 mm / N^0.9 / b^0.8    (b: contact line, mm).
 
-The force is greatest where c Q^1.9 0.9 / 1.9 + Q² / (2 k) equals the energy I dw² / 2. For a spring
-only, as teeth are, it is dv sqrt(k m), for any lever. Palmgren measured c for steel on steel (Ball
-and Roller Bearing Engineering, 3rd ed., 1959). It is proportional to the 0.9th power of the
-materials' softness. The pin bends under a force in its roller's middle (``pin.stiffness_N_mm``).
+The force is greatest where c Q^1.9 0.9 / 1.9 + Q² / (2 k) equals the energy I dw² / 2. Palmgren
+measured c for steel on steel (Ball and Roller Bearing Engineering, 3rd ed., 1959). It is
+proportional to the 0.9th power of the materials' softness. The pin bends under a force in its
+roller's middle (``pin.stiffness_N_mm``).
 """
 
 from __future__ import annotations
@@ -56,8 +56,6 @@ def forces_N(mechanism: Mechanism, jump: Array, pin_mm: Number) -> Array | None:
     press = 3.84e-5 * soft**POWER / face**WIDTH
     modulus_GPa = roller_material(spec).youngs_modulus_GPa
     bend = 1.0 / stiffness_N_mm(spec.size, face, pin_mm, modulus_GPa)
-    if spec.wheel.toothed:
-        press, bend = 0.0 * soft, soft / (spec.wheel.TOOTH_N_mm2 * face)
     rows = np.broadcast_arrays(energy, press, bend, inertia)
     work, c, k, heavy = (row[:, 0] for row in rows)
 

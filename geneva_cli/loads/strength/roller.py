@@ -181,8 +181,7 @@ def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:
     rows, per_h = [], 60.0 * spec.drive.n_rpm * 360.0 / mechanism.under_load.period_deg  # periods
     for own in (each[i::m] for i in range(min(m, len(each)))):
         rolled = np.ravel(sum(one.rolled_m for one in own))
-        with np.errstate(invalid="ignore"):  # where gears drive throughout, no roller rolls
-            force = (sum(one.load for one in own) / rolled) ** (1.0 / LIFE_EXPONENT)
+        force = (sum(one.load for one in own) / rolled) ** (1.0 / LIFE_EXPONENT)
         turns = rolled / len(own) / (2.0 * math.pi * radius_m)
         often = np.ravel(per_h * (len(own) if len(each) >= m else 1.0 / m))
         rows.append(np.stack(np.broadcast_arrays(force, turns, often)))

@@ -57,8 +57,6 @@ def values(mechanism: Mechanism, load: Oscillator[float] | None) -> dict[str, An
 
 def _unknown(mechanism: Mechanism, load: Oscillator[float] | None) -> str:
     """Return the reason why no value is computed; empty where there is none."""
-    if any(one.motion.jump for one in mechanism.engagements):
-        return "the wheel's speed jumps at entry, and so does the load's"
     if load is None:
         return NO_INERTIA
     ratio = float(stiffness_ratio(mechanism, np.array([load.ratio])).max())

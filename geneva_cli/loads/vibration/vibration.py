@@ -292,13 +292,13 @@ def vibrations(
 def design_vibrations(
     mechanism: Mechanism, requested: Collection[str] = Vibrations._fields
 ) -> Vibrations | None:
-    """Return the results of m designs; None without ``stiffness_Nm_rad`` and for speeds that jump.
+    """Return the results of m designs; None without ``stiffness_Nm_rad``.
 
     They are NaN for a design whose period ratio is out of range, or whose shaft is so soft that
     bodies off the wheel's axis turn it about (``centrifugal``).
     """
     stiffness = mechanism.spec.shaft.stiffness_Nm_rad
-    if stiffness is None or mechanism.spec.wheel.JUMPS:
+    if stiffness is None:
         return None
     with np.errstate(all="ignore"):
         # an array, as a float's quotient by 0 is an error

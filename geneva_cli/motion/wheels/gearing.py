@@ -88,9 +88,8 @@ class Gearing(SpecTable):
     NAME: ClassVar[str]
     # example spec, without its gearing
     EXAMPLE: ClassVar[Example]
-    # usual keys of [load] and of [limits] in a new spec
+    # usual keys of [load] in a new spec
     USUAL_LOAD: ClassVar[dict[str, float]] = {"inertia_kgm2": 0.05, "torque_Nm": 2}
-    USUAL_LIMITS: ClassVar[dict[str, float]] = {"acceleration_max": 1.5, "pin_force_max_N": 600}
     # +1 if the crank's axis is outside the wheel, -1 if inside
     SIGN: ClassVar[float] = 1.0
     # True if wheel and crank are flat parts on parallel shafts
@@ -98,18 +97,12 @@ class Gearing(SpecTable):
     # True if they are shells of a sphere, on shafts that meet at its centre
     SHELLS: ClassVar[bool] = False
     # how all parts are built: "flat" about two axes, "ball" about a point, "rack" along a line,
-    # "counter" as gears, or "" if they are not built
+    # or "" if they are not built
     PARTS: ClassVar[str] = "flat"
     # meaning of center_distance_mm
     DISTANCE: ClassVar[str] = "centre distance"
     # what locks it in the dwell, on a crank
     LOCK: ClassVar[str] = "locking disc"
-    # True if its speed jumps at entry and exit, so that forces have no bound
-    JUMPS: ClassVar[bool] = False
-    # stiffness of a pair of steel teeth that drive it, over their width; 0 for a roller
-    TOOTH_N_mm2: ClassVar[float] = 0.0
-    # the only drives that it has; empty for any
-    DRIVES: ClassVar[tuple[str, ...]] = ()
     z: Annotated[int, Range(3, Z_MAX), "number of slots"]
     held_by: Annotated[
         str | None,
@@ -150,20 +143,6 @@ class Gearing(SpecTable):
         return self
 
     @property
-    def toothed(self) -> bool:
-        """True if teeth drive it, and no roller.
-
-        >>> External(6).toothed, Counter(4).toothed
-        (False, True)
-        """
-        return self.TOOTH_N_mm2 > 0.0
-
-    @property
-    def pinions(self) -> int:
-        """Number of a counter's pinions, which may start at once; 0 for a wheel."""
-        return 0
-
-    @property
     def layout(self) -> Layout:
         """Dimensions of this kind of wheel, in addition to its number of slots.
 
@@ -196,14 +175,6 @@ class Gearing(SpecTable):
         'external wheel of 6 straight radial slots'
         """
         return f"{self.NAME} wheel of {self.z} {slots} slots"
-
-    def driven_by(self, drive: str, behind: str, rollers: str) -> str:
-        """What drives the wheel in words: a drive, what is in front of it, and its rollers.
-
-        >>> External(6).driven_by("a crank", "", "one roller")
-        'a crank with one roller'
-        """
-        return f"{drive}{behind} with {rollers}"
 
     @property
     def own_sizes(self) -> dict[str, float]:

@@ -1,16 +1,15 @@
-"""Contours as polygons within a tolerance, and polygons with holes as triangles."""
+"""Curves as chords within a tolerance, and polygons with holes as triangles."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import STRAIGHT, at
-from geneva_cli.geometry.moments import with_material_left
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Point, Segment, two_arcs
+from geneva_cli.geometry.shapes import Arc, Cubic, Point, Segment
 from geneva_cli.output.ezdxf_alone import earcut
 
 Triangle: TypeAlias = tuple[int, int, int]
@@ -26,21 +25,6 @@ class Corner:
     x: float
     y: float
     number: int
-
-
-def polygon(shape: Contour | Circle, outside: bool, tolerance: float) -> list[Point]:
-    """Return a closed shape as a polygon with the material on its left.
-
-    Its chords keep the tolerance, mm. Corners have DECIMALS. Raises GenevaError for a polygon with
-    more than CORNERS_MAX corners.
-    """
-    contour = Contour(shape.layer, two_arcs(shape)) if isinstance(shape, Circle) else shape
-    corners: list[Point] = []
-    for segment in with_material_left(contour, outside).segments:
-        count = _chords(segment, tolerance)
-        require_few(len(corners) + count, shape.layer)
-        corners += [at(segment, k / count) for k in range(count)]
-    return _separate(corners, 0.1 * tolerance)
 
 
 def require_few(count: int, layer: str) -> None:
@@ -90,17 +74,6 @@ def _chords(segment: Segment, tolerance: float) -> int:
 
 def _bend(a: Point, b: Point, c: Point) -> float:
     return math.hypot(a[0] - 2.0 * b[0] + c[0], a[1] - 2.0 * b[1] + c[1])
-
-
-def _separate(corners: Iterable[Point], apart: float) -> list[Point]:
-    """Return rounded corners without those that are too near to the one before."""
-    kept: list[Point] = []
-    for corner in map(rounded_point, corners):
-        if not kept or math.dist(kept[-1], corner) > apart:
-            kept.append(corner)
-    while len(kept) > 3 and math.dist(kept[-1], kept[0]) <= apart:
-        kept.pop()
-    return kept
 
 
 def rounded_point(corner: Point) -> Point:

@@ -49,22 +49,14 @@ def bodies(drawing: Drawing, units: str, format: str) -> list[Body]:
     Raises GenevaError for a drawing without solids, for a unit other than mm, and for a solid that
     has no closed surface.
     """
-    return [
-        Body(solid.name, solid.layer, _surface(solid, drawing.tolerance), tuple(places))
-        for solid, places in solid_kinds(drawing, units, format).items()
-    ]
-
-
-def solid_kinds(drawing: Drawing, units: str, format: str) -> dict[Solid, list[Place]]:
-    """Return the kinds of solids of a drawing, each with its positions.
-
-    Raises GenevaError for a drawing without solids, and for a unit other than mm.
-    """
     kinds: dict[Solid, list[Place]] = {}
     here = Place(np.eye(3), np.zeros(3))
     for solid, place in _placed(solid_part(drawing, units, format), here):
         kinds.setdefault(solid, []).append(place)
-    return kinds
+    return [
+        Body(solid.name, solid.layer, _surface(solid, drawing.tolerance), tuple(places))
+        for solid, places in kinds.items()
+    ]
 
 
 def _placed(part: Part, at: Place) -> Iterator[tuple[Solid, Place]]:

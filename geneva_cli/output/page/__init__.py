@@ -86,7 +86,6 @@ def _data(scene: Scene) -> dict[str, Any]:
                 "centre": b.centre,
                 "angle": _track(b.angle),
                 "travel": b.travel and _track(b.travel),
-                **({"every": b.every} if b.every > 1 else {}),
             }
             for b in scene.bodies
         ],

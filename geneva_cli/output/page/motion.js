@@ -17,10 +17,9 @@ function valueAt(track, t) {
     + u * w * h * (w * s[low] - u * s[low + 1]);
 }
 
-// The same after some whole turns more, of something that moves in one of `every` turns.
-function afterTurns(track, t, turns, every = 1) {
-  const here = turns % every ? track.v[track.v.length - 1] : valueAt(track, t);
-  return here + Math.floor(turns / every) * (track.g || 0);
+// The same after some whole turns more.
+function afterTurns(track, t, turns) {
+  return valueAt(track, t) + turns * (track.g || 0);
 }
 
 // Where a machine that ran on for some degrees is, and its sense: it turns back at its stops.

@@ -13,7 +13,7 @@
   const by = (id) => document.getElementById(id);
   const size = scene.size, degrees = 180 / Math.PI;
 
-  const centre = scene.bodies.find((b) => !/^(wheel|pinion)/.test(b.id))?.centre ?? [0, 0];
+  const centre = scene.bodies.find((b) => !b.id.startsWith("wheel"))?.centre ?? [0, 0];
   set(by("centres"), { x1: 0, y1: 0, x2: centre[0], y2: -centre[1] });
   const bars = scene.bars.map((bar, number) => {
     const group = by("bars");
@@ -98,8 +98,8 @@
       const { centre: [x, y], angle } = scene.frame, turned = -afterTurns(angle, t, turns) * degrees;
       set(by("frame"), { transform: `rotate(${turned} ${x} ${-y})` });
     }
-    for (const { id, centre: [x, y], angle, travel, every } of scene.bodies) {
-      const turned = -afterTurns(angle, t, turns, every) * degrees;
+    for (const { id, centre: [x, y], angle, travel } of scene.bodies) {
+      const turned = -afterTurns(angle, t, turns) * degrees;
       const up = y + (travel ? afterTurns(travel, t, turns) : 0);
       set(by(id), { transform: `translate(${x} ${-up}) rotate(${turned})` });
     }
@@ -137,10 +137,10 @@
       value.textContent = Number(curveAt(panel, x).toPrecision(4));
     }
     const [, , moves, words] = stateAt(scene.states, t);
-    const { id, angle, travel } = scene.bodies[0];
+    const { angle, travel } = scene.bodies[0];
     const output = travel
       ? `rack ${afterTurns(travel, t, 0).toFixed(2)} mm`
-      : `${id.split("-")[0]} ${(afterTurns(angle, t, 0) * degrees).toFixed(2)} degrees`;
+      : `wheel ${(afterTurns(angle, t, 0) * degrees).toFixed(2)} degrees`;
     const shown = shownDeg(scene, t).toFixed(2);
     const more = moves && force ? `, with ${Number(force.toPrecision(3))} N` : "";
     const text = words[0].toUpperCase() + words.slice(1) + more + ".";

@@ -60,8 +60,8 @@ def opacity(layer: Layer) -> float:
 def rings(solid: Part, unit: float = 1.0) -> Plates:
     """The outline and holes of each plate, with its layer; the lowest plate first.
 
-    Of plates of one shape above each other, such as a counter's wheels, only the highest is there,
-    which covers the others. ``unit`` is the file's unit in mm.
+    Of plates of one shape above each other only the highest is there, which covers the others.
+    ``unit`` is the file's unit in mm.
     """
     placed = (plate for _, plate in in_place([Member(solid)]))
     every = sorted(placed, key=lambda plate: (plate.high, plate.low))

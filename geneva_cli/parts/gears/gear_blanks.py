@@ -105,7 +105,7 @@ def link_gear(
     shaft = _bored_by(at, L)
     low, high = sizes.span(link.plane)
     if teeth.fixed:
-        on = ShaftBore(on.bore.running(False))
+        on = ShaftBore(on.bore.running)
     bore = on.bore.reach
     holes: list[Shape] = []
     outline: Circle | Contour = Circle("PITCH", ORIGIN, radius)

@@ -88,9 +88,10 @@ class Bore(ABC):
         """Diameter of a round end of the shaft beyond the bore; None where there is none."""
         return 2.0 * self.radius
 
-    def running(self, turned: bool) -> Bore:
-        """Return the bore of a part that turns on the shaft, which a lathe has turned or not."""
-        return RoundBore(self.radius if turned else self.around, loose=self.loose)
+    @property
+    def running(self) -> Bore:
+        """The bore of a part in which the shaft turns."""
+        return RoundBore(self.around, loose=self.loose)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,6 @@ import numpy as np
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, polygon
-from geneva_cli.kinds.counter.scene import stations
 from geneva_cli.kinds.linear.scene import rack
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.scene import Body
@@ -23,9 +22,6 @@ from geneva_cli.study.animation.turn import MachineTurn
 
 def bodies(design: Design, turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Body]:
     """Wheel, crank with its arm, the cam's groove and gears, as far as the machine has them."""
-    if design.spec.wheel.pinions:
-        yield from stations(turn, *(_shapes(design, p) for p in ("wheel", "crank", "number-wheel")))
-        return
     L = turn.L
     # parts of a sphere are drawn laid flat: these outlines do not turn about the shaft
     shapes = () if design.spec.wheel.SHELLS else _hollow(_shapes(design, "wheel"))

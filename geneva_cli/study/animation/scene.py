@@ -114,12 +114,6 @@ def _remark(design: Design, bars: tuple[Bar, ...], teeth: DrawnTeeth) -> str:
     """A remark on simplifications in the picture."""
     if design.spec.wheel.SHELLS:
         return " Seen along the wheel's shaft."
-    if design.spec.wheel.pinions > 1:
-        return (
-            " Each pinion is shown with the two teeth that move it and the number wheel that it "
-            "moves. In the machine all lie above each other, on two shafts. In the first turn all "
-            "number wheels go to 0."
-        )
     out = " Gears are shown by their pitch circles." if any(bar.radius for bar in bars) else ""
     if teeth.why:
         out += f" Their teeth are not drawn: {teeth.why}."
@@ -141,20 +135,15 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
     if design.spec.drive.wheels_on_carrier > 1:
         yield from _wheels_in_turn(design, turn)
         return
-    pinions = design.spec.wheel.pinions
     last, cranks = turn.passages[-1], len(design.mechanism.crank_places)
     following = (*turn.passages[1:], None)
     for i, (one, after) in enumerate(zip(turn.passages, following, strict=True)):
         which = f"roller {i + 1}" if len(turn.passages) > 1 else "the roller"
         if cranks > 1:
             which = f"crank {turn.on_crank(i).number}"
-        if not turn.rollers():
-            which = "the driver"
-        noun = f"{'first ' if pinions > 1 else ''}{design.mechanism.output.noun}"
         a, b = one.entry - turn.start, one.exit - turn.start
         if not one.engagement.paired:
-            also = "; at a carry number wheels move the others" if pinions > 1 else ""
-            yield Phase(a, b, True, f"{which} moves the {noun}{also}")
+            yield Phase(a, b, True, f"{which} moves the {design.mechanism.output.noun}")
         else:
             c, d = (one.mid + x - turn.start for x in one.engagement.motion.breaks_deg[1:-1:2])
             yield Phase(a, c, True, "the first roller starts the wheel")

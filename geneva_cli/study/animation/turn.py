@@ -116,9 +116,8 @@ class MachineTurn:
         return turned_points(about_first, np.full(len(input_deg), place.turn))
 
     def rollers(self) -> tuple[Place, ...]:
-        """The centres of all rollers over the turn; none where teeth drive from entry to exit."""
-        first = self.passages[0].engagement
-        numbers = range(len(self.assembly.rollers)) if first.slot.touches(first.entry_deg) else ()
+        """The centres of all rollers over the turn."""
+        numbers = range(len(self.assembly.rollers))
         return tuple(self._place(partial(self.centre, number)) for number in numbers)
 
     def bars(self, outlines: Outlines | None) -> tuple[Bar, ...]:

@@ -62,8 +62,7 @@ def _cycle(design: Design, values: dict[str, Any]) -> SummaryLine:
 
 def _size(values: dict[str, Any]) -> SummaryLine:
     """Centre distance and wheel, or a sphere's radius, and the roller."""
-    radius = values["sizes.roller_radius_mm"]
-    roller = "" if radius is None else f", roller Ø {measured(2.0 * radius, 'mm')}"
+    roller = f", roller Ø {measured(2.0 * values['sizes.roller_radius_mm'], 'mm')}"
     if values["sizes.center_distance_mm"] is None:
         radius = measured(values["sizes.sphere_radius_mm"], "mm")
         return SummaryLine("size", f"sphere of radius {radius}{roller}")

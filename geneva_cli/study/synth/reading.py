@@ -134,12 +134,6 @@ def read_frame(path: str, settings: Sequence[str] = ()) -> Spec:
     text = read(path, settings)
     spec = text.spec()
     with text.located():
-        if spec.wheel.JUMPS:
-            raise GenevaError(
-                f'--from: gearing = "{spec.wheel.NAME}" has no motion to choose, as its speed '
-                'jumps to a constant: use "external", "internal", "spherical" or "linear"',
-                ("wheel", "gearing"),
-            )
         if spec.drive_before:
             raise GenevaError(
                 "--from: synth finds the numbers of each drive by the input's angle, which "

@@ -104,18 +104,18 @@ def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iter
     spec, none = mechanism.spec, list[Check]()
     if not spec.has_parts:
         none = [Check("parts", None, "proved", None, None, spec.no_parts)]
-    if not (spec.has_parts or spec.is_turned):
+    if not spec.is_turned:
         yield from none
         return
     model = model or _model(mechanism)
     try:
         rows = none or list(standing_checks(model.built))
-        parts = model.parts if spec.is_turned else None
+        parts = model.parts
     except GenevaError as error:
         yield refused("parts", error)
         return
     yield from rows
-    if not turned or parts is None:
+    if not turned:
         return
     from geneva_cli.parts.turn.machine_parts import WorkLimit
 

@@ -7,7 +7,6 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import plates
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses
@@ -15,7 +14,6 @@ from geneva_cli.spec.workshops import workshop
 from geneva_cli.verdict.checks.check import Check, compared, refused
 
 if TYPE_CHECKING:
-    from geneva_cli.kinds.counter.parts import CounterParts
     from geneva_cli.kinds.linear.parts import RackParts
     from geneva_cli.kinds.spherical.parts import SphereParts
 
@@ -41,14 +39,6 @@ def thickest_of_rack(name: str, parts: RackParts) -> Check | None:
     """
     thick = drawn_thicknesses(parts.mechanism.spec.size, parts.sizes.arm)
     return _thickness(name, parts.mechanism, max(thick.wheel, thick.lock, thick.arm))
-
-
-def thickest_of_counter(name: str, parts: CounterParts) -> Check | None:
-    """The thickest plate of a counter, where the process has a limit."""
-    from geneva_cli.drawings.single_parts import is_cut
-
-    every = [one for member in parts.coarse.members for one in plates(member.part)]
-    return _thickness(name, parts.mechanism, max(one.thickness for one in every if is_cut(one)))
 
 
 def slot_width(name: str, parts: FlatParts) -> Check | None:
@@ -80,7 +70,7 @@ def _width(name: str, mechanism: Mechanism, wide: float, thick: float) -> Check 
     return compared(name, wide, "at least", least * thick) if least else None
 
 
-def plates_built(name: str, parts: FlatParts | RackParts | CounterParts) -> Check | None:
+def plates_built(name: str, parts: FlatParts | RackParts) -> Check | None:
     """The check that fails if a plate of a machine cannot be built; else None."""
     return _refusal(name, parts.require)
 

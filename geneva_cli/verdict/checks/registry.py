@@ -35,9 +35,6 @@ MOTION: Checks = {
     "stopping_torque_Nm": "verdict.checks.shocks:stopping_torque",
     "rack_horn_mm": "kinds.linear.checks:rack_horn",
     "guide_locks": "kinds.linear.checks:guide_locks",
-    "counter_free_deg": "kinds.counter.checks:free",
-    "counter_play_deg": "kinds.counter.checks:greatest_play",
-    "counter_lock_deg": "kinds.counter.checks:lock",
 }
 # Checks of limits that the spec sets.
 LIMITS: Checks = {
@@ -124,16 +121,8 @@ RACK: Checks = {
     "cut_slot_mm": "verdict.checks.process:width_in_rack",
     "parts": "verdict.checks.process:plates_built",
 }
-# The checks of parts at rest, by ``Gearing.PARTS``; those of a counter's teeth are in MOTION.
-STANDING = {
-    "flat": STATIC,
-    "ball": SPHERE,
-    "rack": RACK,
-    "counter": {
-        "cut_plate_mm": "verdict.checks.process:thickest_of_counter",
-        "parts": "verdict.checks.process:plates_built",
-    },
-}
+# The checks of parts at rest, by ``Gearing.PARTS``.
+STANDING = {"flat": STATIC, "ball": SPHERE, "rack": RACK}
 # Checks of plates or shells in a whole turn.
 TURNING: Checks = {
     "dwell_hold": "verdict.checks.play:dwell_hold",

@@ -49,13 +49,12 @@ def _impact(of: Designs, impacts: Impacts, **more: Array) -> Columns:
 def tolerances(of: Designs) -> Columns:
     """The worst effects of tolerances on the motion, and on the velocity at entry.
 
-    None for racks and teeth, whose deviations are not studied. The jump at entry is computed as a
-    batch if all designs have tolerances, none of which is too wide.
+    None for racks, whose deviations are not studied. The jump at entry is computed as a batch if
+    all designs have tolerances, none of which is too wide.
     """
     from geneva_cli.loads.tolerance.worst_effects import entry_jumps_worst, motion_plays, used
 
-    is_studied = of.machine.output.turns and not of.spec.wheel.toothed
-    plays = motion_plays(of.machine) if is_studied else None
+    plays = motion_plays(of.machine) if of.machine.output.turns else None
     if plays is None:
         return dict.fromkeys(("motion_play.worst_deg", "motion_play.rss_deg", "entry_jump.worst"))
     out: dict[str, Number | None] = {f"motion_play.{n}": v for n, v in plays._asdict().items()}

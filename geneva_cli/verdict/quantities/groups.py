@@ -232,12 +232,6 @@ REPORT = (
     _group("", "", "report.stations:wheels"),
     _group("", "", "report.stations:cranks"),
     _group(
-        "counter",
-        "digits number_step_deg turns_to_zero impulse_Nms energy_J force_N",
-        batch="motion:counter",
-    ),
-    _group("", "", "report.stations:number_wheels"),
-    _group(
         "sizes",
         "axes_deg sphere_radius_mm crank_arm_mm slot_mouth_polar_deg slot_bottom_polar_deg "
         "center_distance_mm crank_radius_mm ratio roller_radius_mm slot_width_mm clearances_from "

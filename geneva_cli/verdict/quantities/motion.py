@@ -1,4 +1,4 @@
-"""Timing and peaks of designs; motion of wheels on a carrier, of counters and of the product."""
+"""Timing and peaks of designs; motion of wheels on a carrier and of the product."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from typing import cast
 import numpy as np
 
 from geneva_cli.loads.carried import carried_kg
-from geneva_cli.loads.impacts.impacts import start_impacts
 from geneva_cli.loads.product import ProductMotion, product_motion
 from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.mechanism import Mechanism
@@ -97,8 +96,7 @@ def _ends(machine: Mechanism, order: int) -> list[Array]:
 
 
 def _size(motion: WheelMotion, at_deg: Number, order: int) -> Array:
-    inside = np.ravel(abs(motion(at_deg, order).arrays()[order]))
-    return np.where(np.ravel(motion.jump) > 0.0, np.inf, inside)
+    return np.ravel(abs(motion(at_deg, order).arrays()[order]))
 
 
 def carousel(of: Designs) -> Columns:
@@ -121,25 +119,6 @@ def carousel(of: Designs) -> Columns:
         "behind_deg": 360.0 / wheels if wheels > 1 else np.inf,
         "centrifugal_N": np.ravel(force),
         "held_Nm": np.ravel(held),
-    }
-
-
-def counter(of: Designs) -> Columns:
-    """Digits of a number wheel and turns until all show 0; the hardest impact, at that moment."""
-    machine, wheel = of.machine, of.spec.wheel
-    if not wheel.JUMPS:
-        return {}
-    step_deg = np.ravel(machine.engagements[0].motion_deg)
-    digits = 360.0 / step_deg
-    impact = start_impacts(machine)
-    jump = np.ravel(impact.jump) * np.ravel(omega(of.spec.drive.n_rpm))
-    return {
-        "digits": digits,
-        "number_step_deg": step_deg,
-        "turns_to_zero": digits ** np.ravel(wheel.pinions),
-        "impulse_Nms": impact.moment_Nms,
-        "energy_J": 0.5 * impact.moment_Nms * jump,
-        "force_N": impact.force_N,
     }
 
 

@@ -28,13 +28,12 @@ def _flat_sizes(model: PartsModel) -> Values:
     mechanism = model.mechanism
     spec = mechanism.spec
     L, r = mechanism.center_distance_mm, mechanism.roller_radius_mm
-    toothed, clear = spec.wheel.toothed, spec.size.allowances.slot_clearance_mm
     return {
         "center_distance_mm": L,
         "crank_radius_mm": mechanism.ratio * L,
         "ratio": mechanism.ratio,
-        "roller_radius_mm": None if toothed else r,
-        "slot_width_mm": None if toothed else 2.0 * (r + clear),
+        "roller_radius_mm": r,
+        "slot_width_mm": 2.0 * (r + spec.size.allowances.slot_clearance_mm),
         "clearances_from": spec.size.allowances.source,
         **_cut_radii(model),
         "pressure_angle_max_deg": (
@@ -42,7 +41,7 @@ def _flat_sizes(model: PartsModel) -> Values:
             if mechanism.engagements[0].slot.curved
             else None
         ),
-        "rollers_max": None if toothed else mechanism.rollers_max,
+        "rollers_max": mechanism.rollers_max,
     }
 
 

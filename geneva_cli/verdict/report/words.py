@@ -20,7 +20,7 @@ def words(mechanism: Mechanism) -> str:
     named = wheel.words(slots)
     behind = f", behind {spec.drive_before.IN_FRONT}," if spec.drive_before else ""
     article = "An" if named[0] in "aeiou" else "A"
-    driven = f"{wheel.driven_by(drive.WORDS, behind, rollers)} at {drive.n_rpm:g} rpm"
+    driven = f"{drive.WORDS}{behind} with {rollers} at {drive.n_rpm:g} rpm"
     if len(drive.cranks) > 1:
         driven = f"{count} cranks with one roller each, in turn, at {drive.n_rpm:g} rpm"
     text = f"{article} {named}, driven by {driven}."

@@ -132,12 +132,6 @@ def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
             f"tolerances are computed for a wheel on a shaft, not for a {mechanism.output.noun}",
             ("wheel", "gearing"),
         )
-    if mechanism.spec.wheel.toothed:
-        raise GenevaError(
-            "tolerances are computed for rollers in slots, not for the teeth of gearing = "
-            f'"{mechanism.spec.wheel.NAME}"',
-            ("wheel", "gearing"),
-        )
     if not any(tolerances(mechanism.spec).values()):
         raise GenevaError(
             "the spec gives no tolerances: set one or more of "

@@ -45,9 +45,7 @@ def test_every_design_is_certified_and_its_peaks_confirmed(name):
     found = design(name)
     for quantity in QUANTITIES:
         proof, peak = found.certificate(quantity), getattr(found.peaks, quantity)
-        assert proof.proved == math.isfinite(peak.max)  # the speed of a counter jumps
-        if not proof.proved:
-            continue
+        assert proof.proved
         assert proof.high - proof.low <= WIDE * proof.high
         assert proof.confirms(*peak), f"{quantity}: {peak} against {proof.text}"
 

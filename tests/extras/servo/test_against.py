@@ -66,12 +66,11 @@ def test_s_curve(cruise, ramp):
     ("design", "holder", "impact"),
     [
         ("turret", "locking disc", "if R/L is off"),
-        ("odometer", "locking rim", "in every step"),
         ("four-bar-z4", "detent", "if R/L is off"),
     ],
 )
 def test_what_holds_the_dwell(design, holder, impact):
-    """A counter's rim slides on wide teeth, and its speed jumps; a four-bar needs a device."""
+    """A disc on the crank; a four-bar needs a device."""
     own = columns(f"designs/{design}.toml")["geneva"]
     assert (own["holds_the_dwell_by"], own["impact_at_entry"]) == (holder, impact)
 

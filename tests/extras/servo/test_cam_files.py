@@ -146,26 +146,6 @@ def test_codesys_points_keep_the_tolerance(name):
     assert 0.9 * error_deg <= off <= error_deg <= TOLERANCE
 
 
-def test_codesys_points_where_the_speed_jumps():
-    """A counter's pinion starts and stops at 2.5 of the driver's speed, over two turns too.
-
-    Half-way down a ramp of 0.01 degrees it is ahead by 0.0049, far less than a curve that bends
-    over the whole dwell: Hermite's, max of 0.01 * 2.5 u (1 - u)^3 (1 + 3 u).
-    """
-    design = load("designs/odometer.toml")
-    for turns in (1, 2):
-        text, _, error_deg = cam(design, "codesys", turns, TOLERANCE)
-        function, x = codesys(text)
-        places = np.sort(np.append(x, np.linspace(0.0, 360.0 * turns, 1_000_001)))
-        true = 90.0 * (places // 360.0) + np.minimum(2.5 * (places % 360.0), 90.0)
-        off = abs(function(places) - true).max()
-        u = np.linspace(0.0, 1.0, 10_001)
-        ahead = (0.025 * u * (1.0 - u) ** 3 * (1.0 + 3.0 * u)).max()
-        # the places stand 14 or 28 in a ramp
-        assert off == pytest.approx(ahead, rel=1e-2)
-        assert ahead <= error_deg <= 1.01 * ahead
-
-
 def test_a_title_ends_no_comment():
     """Stars and line ends of a title are left out of a declaration's comment."""
     design = load("designs/turret.toml", ["title=a **)) b\r\nc"])

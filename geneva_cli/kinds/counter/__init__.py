@@ -1,1 +1,0 @@
-"""The counter: a driver, a pinion and number wheels."""
