@@ -83,14 +83,15 @@ def reversals_deg(cycle: Cycle) -> list[float]:
 def loads_table(
     cycle: Cycle,
     life: Mapping[str, float | None],
+    reversal: Mapping[str, float | None],
     wheel_inertia_kgm2: float | None,
     warnings: Sequence[str],
     for_people: bool = False,
 ) -> Table:
-    """The summary of the loads, with sizing, life and warnings.
+    """The summary of the loads, with the impact of a reversal, sizing, life and warnings.
 
-    ``life`` and the wheel's own inertia are known from its parts. For people the quantities that
-    have a value are rows of a table.
+    ``life``, ``reversal`` and the wheel's own inertia are known from its parts. For people the
+    quantities that have a value are rows of a table.
     """
     from geneva_cli.loads.sizing import WHEEL_INERTIA, sizing
 
@@ -112,7 +113,7 @@ def loads_table(
     bought = {**computed, WHEEL_INERTIA: wheel_inertia_kgm2}
     if cycle.is_loaded and wheel_inertia_kgm2 is None:
         needed = *needed, f"{WHEEL_INERTIA}: {_unweighed(spec)}"
-    for group, answers in (("sizing", bought), ("life", life)):
+    for group, answers in (("shock.reversal", reversal), ("sizing", bought), ("life", life)):
         values |= {f"{group}.{key}": value for key, value in answers.items()}
     values["warnings"] = (*warnings, *needed)
     return record_table(values)

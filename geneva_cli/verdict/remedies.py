@@ -126,6 +126,7 @@ _MILDER = (
 _SLOWER = scaled("drive", "n_rpm", 1e-3)
 _LARGER = scaled("size", "center_distance_mm", 20.0)
 _LESS_LOAD = (_SLOWER, _LARGER)
+_TIGHTER = scaled("size", "slot_clearance_mm", 0.0)
 _WIDER_FACE = scaled("size", "face_width_mm", 10.0)
 _BLUNTER = (scaled("size", "lock_edge_mm", 10.0), _WIDER_FACE, _LARGER)
 _OTHER_LOCK = sized("size", "lock_radius_mm")
@@ -149,7 +150,8 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         scaled("tolerance", "center_distance_mm", 0.0),
         _SLOWER,
     ),
-    "reversal_shock_N": (scaled("size", "slot_clearance_mm", 0.0), _SLOWER),
+    "reversal_shock_N": (_TIGHTER, _SLOWER),
+    "reversal_stress_MPa": (_TIGHTER, _SLOWER, _WIDER_FACE, _LARGER),
     "pv_max_W_m2": (_SLOWER, _WIDER_FACE, _LARGER),
     "roller_life_min_h": (scaled("material.roller", "dynamic_capacity_N", 10.0), *_LESS_LOAD),
     "slot_wear_max_mm_per_million": (_WIDER_FACE, *_LESS_LOAD),
@@ -159,6 +161,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         set_to("size", "pin_held", "fixed"),
         scaled("size", "face_width_mm", 0.1),
         left_out("size", "pin_mm"),
+        _TIGHTER,
         *_LESS_LOAD,
     ),
     "horn_stress_MPa": (_WIDER_FACE, scaled("size", "lock_radius_mm", 0.5), *_LESS_LOAD),

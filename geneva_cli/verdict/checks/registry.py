@@ -31,6 +31,7 @@ MOTION: Checks = {
     "undercut_mm": "verdict.checks.motion:undercut_depth",
     "entry_shock_N": "verdict.checks.shocks:entry_shock",
     "reversal_shock_N": "verdict.checks.shocks:reversal_shock",
+    "reversal_stress_MPa": "verdict.checks.shocks:reversal_stress",
     "stopping_torque_Nm": "verdict.checks.shocks:stopping_torque",
     "rack_horn_mm": "kinds.linear.checks:rack_horn",
     "guide_locks": "kinds.linear.checks:guide_locks",
