@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -36,10 +37,12 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
     yield from cycle_lines(design)
     yield from _backwards(design)
     sizing = _sizing(design)
-    if sizing["flywheel_to_add_kgm2"] is not None:
-        add = measured(sizing["flywheel_to_add_kgm2"], "kg m²")
+    whole, add = sizing["flywheel_kgm2"], sizing["flywheel_to_add_kgm2"]
+    if whole is not None:
         variation = measured(100.0 * (design.spec.motor.speed_variation or 0.0), "%")
-        yield SummaryLine("flywheel", f"{add} on the input for a speed variation of {variation}")
+        text = f"{measured(whole, 'kg m²')} on the input for a speed variation of {variation}"
+        text += "" if add == whole else f", {bare(add, 'kg m²')} of it besides the motor"
+        yield SummaryLine("flywheel", text)
 
 
 def _backwards(design: Design) -> Iterator[SummaryLine]:
@@ -57,10 +60,9 @@ def _backwards(design: Design) -> Iterator[SummaryLine]:
 def cycle_lines(design: Design) -> Iterator[SummaryLine]:
     """The loads of input, pin and wheel over the cycle, and the impact at a change of sides."""
     loads = design.loads
-    torque, force, stress = (
-        loads[name] for name in ("input_torque_Nm", "pin_force_N", "contact_stress_MPa")
-    )
-    if torque.max is None or torque.min is None:
+    force, stress = loads["pin_force_N"], loads["contact_stress_MPa"]
+    torque = design.cycle.extremes["input_torque_Nm"]  # with its signs
+    if not math.isfinite(torque.max - torque.min):
         yield SummaryLine("input", f"torque {NO_BOUND}")
     else:
         text = f"{bare(torque.min, 'N m')} to {measured(torque.max, 'N m')}"
