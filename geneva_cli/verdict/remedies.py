@@ -26,13 +26,14 @@ from geneva_cli.verdict.changes import (
     towards,
 )
 from geneva_cli.verdict.checks.check import Check
-from geneva_cli.verdict.checks.registry import LIMITS, MOTION
+from geneva_cli.verdict.checks.registry import LIMITS, MOTION, TOLERANCES
 
 
 def remedies(check: Check, mechanism: Mechanism) -> Iterator[Change]:
     """Changes of the spec that may make a failing check pass, the likeliest first."""
     name = check.name
-    own = {} if name in MOTION or name in LIMITS else _own_sizes(mechanism)
+    is_known = name in MOTION or name in LIMITS or name in TOLERANCES
+    own = {} if is_known else _own_sizes(mechanism)
     # a size that the reason names, such as "wheel_bore_mm = 30: it must be below 20"
     yield from (change for key, changes in own.items() if key in check.why for change in changes)
     if name in REMEDIES:
@@ -229,6 +230,9 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         Change("size", "lock_radius_mm", lambda now: [None] if now == 0.0 else []),
         set_to("wheel", "held_by", "detent"),
     ),
+    "tolerance_slot_mm": (increased("size", "slot_clearance_mm", 1.0),),
+    "tolerance_lock_mm": (increased("size", "lock_clearance_mm", 1.0),),
+    "tolerance_turns": (),
     **dict.fromkeys(("stop_turns", "stop_overlap_mm"), (*_OTHER_LOCK, _SMALLER)),
     "stop_stress_max_MPa": _BLUNTER,
     "wall_between_slots_mm": (_SMALLER, scaled("size", "slot_clearance_mm", 0.0)),

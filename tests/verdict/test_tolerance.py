@@ -29,7 +29,8 @@ from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.loads.tolerance.motion_error import motion_errors
 from geneva_cli.motion.laws.standard import Cycloidal
 from geneva_cli.motion.motion import Motion
-from geneva_cli.verdict.tolerance.study import flat_locks, sphere_locks
+from geneva_cli.verdict.checks.registry import turn_checks
+from geneva_cli.verdict.tolerance.locks import flat_locks, sphere_locks
 from tests.repo import ROOT
 
 pytestmark = pytest.mark.usefixtures("made_once")
@@ -612,3 +613,32 @@ def test_no_histogram_of_what_is_not_known():
     )
     with pytest.raises(GenevaError, match="--histogram: dwell_position is not known"):
         design.tolerance_histogram(64)
+
+
+def test_clearances_too_small_for_the_tolerances_fail():
+    """R 0.05 and L 0.05 sin 30° add up in the slot; disc, recess and L in the lock."""
+    every = ("tolerance_slot_mm", "tolerance_lock_mm", "tolerance_turns")
+    allowed = Tolerance(
+        center_distance_mm=0.05, crank_radius_mm=0.05, lock_radius_mm=0.05, recess_radius_mm=0.05
+    )
+    size = Size(100.0, 6.0, slot_clearance_mm=0.01, lock_clearance_mm=0.01)
+
+    def rows(slot_mm, lock_mm, **more):
+        play = size.replace(slot_clearance_mm=slot_mm, lock_clearance_mm=lock_mm)
+        model = PartsModel(Design(External(6), size=play, **more).mechanism)
+        checks = {one.name: one for one in turn_checks(model.parts, model.turn)}
+        return {name: checks[name] for name in every if name in checks}
+
+    tight = rows(0.01, 0.01, tolerance=allowed)
+    assert {name: one.passes for name, one in tight.items()} == dict.fromkeys(every[:2], False)
+    assert [one.limit for one in tight.values()] == pytest.approx([0.075, 0.15], rel=1e-12)
+    wide = rows(0.075, 0.15, tolerance=allowed)
+    assert {name: one.passes for name, one in wide.items()} == dict.fromkeys(every, True)
+    assert rows(0.0749, 0.15, tolerance=allowed)["tolerance_slot_mm"].passes is False
+    assert rows(0.075, 0.1499, tolerance=allowed)["tolerance_lock_mm"].passes is False
+    assert not rows(0.01, 0.01)
+    # on a sphere: the arm's error crosses the slot's axis in full, 0.05 sin(60°)
+    ball = Design(Spherical(6), tolerance=Tolerance(crank_radius_mm=0.05))
+    [short] = [one for one in ball.checks if one.name == "tolerance_slot_mm"]
+    needed = pytest.approx(0.05 * math.sin(math.pi / 3.0), rel=1e-3)
+    assert (short.passes, short.limit) == (False, needed)

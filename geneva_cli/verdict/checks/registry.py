@@ -134,6 +134,12 @@ STANDING = {
         "parts": "verdict.checks.process:plates_built",
     },
 }
+# Checks of all the machines within the tolerances, for which parts are turned.
+TOLERANCES: Checks = {
+    "tolerance_slot_mm": "verdict.checks.tolerance:slot_clearance",
+    "tolerance_lock_mm": "verdict.checks.tolerance:lock_clearance",
+    "tolerance_turns": "verdict.checks.tolerance:extremes_turn",
+}
 # Checks of plates or shells in a whole turn.
 TURNING: Checks = {
     "dwell_hold": "verdict.checks.play:dwell_hold",
@@ -146,6 +152,7 @@ TURNING: Checks = {
     "hand_over_pressure_deg": "verdict.checks.play:hand_over_pressure",
     "motion_play_deg": "verdict.checks.play:motion",
     "motion_play_mm": "verdict.checks.play:motion",
+    **TOLERANCES,
 }
 # Those that fail where a roller does not find its slot, or meets the rim next to it, and jams.
 JAMS = ("hand_over_play_deg", "hand_over_play_mm", "hand_over_pressure_deg")
