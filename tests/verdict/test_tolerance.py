@@ -27,7 +27,9 @@ from geneva_cli.loads.tolerance.dimensions import Deviations, deviations, slope_
 from geneva_cli.loads.tolerance.entry_jump import entry_jumps
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.loads.tolerance.motion_error import motion_errors
+from geneva_cli.loads.tolerance.worst_effects import motion_plays
 from geneva_cli.motion.laws.standard import Cycloidal
+from geneva_cli.motion.many import many
 from geneva_cli.motion.motion import Motion
 from geneva_cli.verdict.checks.registry import turn_checks
 from geneva_cli.verdict.tolerance.locks import flat_locks, sphere_locks
@@ -613,6 +615,42 @@ def test_no_histogram_of_what_is_not_known():
     )
     with pytest.raises(GenevaError, match="--histogram: dwell_position is not known"):
         design.tolerance_histogram(64)
+
+
+@pytest.mark.parametrize("distribution", ["normal", "uniform"])
+def test_plays_in_motion_are_the_greatest_over_it(distribution):
+    """The play is widest at mid-motion, but the worst machine's error elsewhere.
+
+    There the roller is L - R = 100 mm from the wheel's axis: its clearance turns the wheel by c/100
+    and errors of L and R do not. They add less than a millionth beside it.
+    """
+    allowed = Tolerance(
+        center_distance_mm=0.015,
+        crank_radius_mm=0.012,
+        roller_diameter_mm=0.006,
+        slot_width_mm=0.01,
+        slot_angle_deg=0.008,
+        distribution=distribution,
+    )
+    size = Size(200.0, 10.0, slot_clearance_mm=0.045, lock_clearance_mm=0.04)
+    machine = Design(External(6), size=size, tolerance=allowed)
+    found = told(machine, 65536)
+    free = math.degrees(math.asin(0.045 / 100.0))
+    slope = math.degrees(1.0 / 100.0) / math.cos(math.radians(free))  # by the clearance, mm
+    parts = [0.008, slope * 0.003, slope * 0.005]
+    rss = free + math.hypot(*parts)
+    assert rss <= found["motion_play.rss_deg"] <= rss * (1.0 + 1e-6)
+    assert abs(found["motion_play.at_deg"]) > 10.0  # of the worst machine
+    rng = np.random.default_rng(1)
+    normal, even = rng.normal(size=(3, 10**6)) / 3.0, rng.uniform(-1.0, 1.0, (3, 10**6))
+    drawn = parts @ (normal if distribution == "normal" else even)
+    p997 = float(np.quantile(abs(free + drawn), 0.997))
+    # the quantiles of 65536 and of a million machines differ by some 1e-3 of their spread
+    assert found["motion_play.p997_deg"] == pytest.approx(p997, rel=1e-3)
+    batch = many(machine.spec, {"tolerance.slot_angle_deg": np.array([0.008, 0.02])})
+    plays = motion_plays(batch.machine)
+    assert plays.rss_deg[0] == found["motion_play.rss_deg"]
+    assert plays.rss_deg[1] == pytest.approx(free + math.hypot(0.02, *parts[1:]), rel=1e-6)
 
 
 def test_clearances_too_small_for_the_tolerances_fail():

@@ -17,6 +17,7 @@ from geneva_cli.loads.tolerance.motion_error import WorstErrors, motion_errors
 from geneva_cli.loads.tolerance.random_machines import (
     RandomMachines,
     Spread,
+    likely_place,
     random_machines,
     spread,
 )
@@ -61,13 +62,15 @@ def study(mechanism: Mechanism, model: PartsModel, samples: int, seed: int) -> S
     ends = corners(sizes)
     every_lock = _locks(mechanism, model, warnings)
     lock = max(every_lock, key=lambda one: _greatest(one(ends).angle.arrays()[0]), default=None)
-    errors = [(one, *_single_design(one.greatest(ends))) for one in motion_errors(mechanism)]
+    motions = motion_errors(mechanism)
+    errors = [(one, *_single_design(one.greatest(ends))) for one in motions]
     farthest = max(errors, key=lambda error: error[1], default=None)
+    roots = [(one, *_single_design(one.greatest_rss(sizes))) for one in motions]
     jumps = max(entry_jumps(mechanism), key=lambda one: _greatest(one(ends)[0]), default=None)
     normal = mechanism.spec.tolerance.distribution == "normal"
     machines = Draws(tuple(sizes), normal, seed)
-    at_worst = (farthest[0], farthest[2], farthest[3]) if farthest else None
-    drawn = random_machines(machines, samples, lock, at_worst, jumps)
+    likely = likely_place(machines, samples, motions) if motions else None
+    drawn = random_machines(machines, samples, lock, likely, jumps)
     dwell = motion = at_deg = None
     if lock:
         worst = _greatest(lock(ends).angle.arrays()[0]) + use["slot_angle_deg"]
@@ -80,9 +83,10 @@ def study(mechanism: Mechanism, model: PartsModel, samples: int, seed: int) -> S
             )
         )
     if farthest:
-        one, worst, at, side = farthest
-        motion = spread(lambda by: one(by, at, side) * side, sizes, worst, drawn.motion)
+        one, worst, at, _ = farthest
         at_deg = mechanism.shown_deg(one.engagement.mid_deg + at)
+        other, _, place, side = max(roots, key=lambda root: root[1])
+        motion = spread(lambda by: other(by, place, side) * side, sizes, worst, drawn.motion)
     else:
         warnings.append(
             Notice(
