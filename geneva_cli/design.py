@@ -448,7 +448,8 @@ class Design:
         needed = self.strength.missing(OF_LIFE) if self.cycle.is_loaded else []
         notes = (*self.warnings, *missing(self.cycle), *needed)
         own = self.wheel_plate and self.wheel_plate.inertia_kgm2
-        return loads_table(self.cycle, self.life, own, notes, for_people)
+        impact = self.strength.reversal
+        return loads_table(self.cycle, self.life, impact, own, notes, for_people)
 
     @answer
     def wheel_plate(self) -> MassProperties | None:

@@ -5,7 +5,7 @@ import numpy as np
 from geneva_cli.loads.impacts.change_of_sides import WallImpacts, changes, impacts_of
 from geneva_cli.loads.impacts.shock import FirstContacts, first_contacts
 from geneva_cli.loads.impacts.shock_force import forces_N
-from geneva_cli.loads.strength.pin import pin_diameter_mm
+from geneva_cli.loads.strength.pin import PinSize, pin_diameter_mm
 from geneva_cli.parts.outlines.outline_sizes import built
 
 
@@ -27,6 +27,9 @@ def impacts_in(engagement, play, drag=0.0):
 
 def force_of(mechanism, jump):
     """The force of one design's impact, N; None if it is not known."""
+    face_mm = mechanism.spec.size.face_width_mm
+    if face_mm is None:
+        return None
     drawn_mm = built(mechanism).pin_mm or pin_diameter_mm(mechanism)  # 0: the roller is its pin
-    force = forces_N(mechanism, np.array([[jump]]), drawn_mm)
-    return None if force is None or np.isnan(force).any() else force.item()
+    force = forces_N(mechanism, np.array([[jump]]), PinSize(drawn_mm, face_mm))
+    return None if np.isnan(force).any() else force.item()

@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array
     from geneva_cli.numerics.jet import V
 
-FORCE = "pin_force_N"
+FORCE = "pin_force_N"  # a size; samples have the sign of the wall that bears
+WALL_FORCE = "wall_force_N"  # with that sign
 STRESS = "contact_stress_MPa"
 TORQUE = "input_torque_Nm"
 PV = "pv_W_m2"  # greatest Hertz pressure times the speed of sliding
@@ -24,7 +25,7 @@ PRESSED = (STRESS, PV)  # known only with a face width
 # Searched by their squares: a root has no slope where it is 0, nor has the size of a vector.
 SQUARED = (*PRESSED, "crank_bearing_N", "guide_force_N")
 # Quantities that are never negative.
-NEVER_NEGATIVE = (*SQUARED, "wheel_bearing_N")
+NEVER_NEGATIVE = (*SQUARED, FORCE, "wheel_bearing_N")
 # Loads whose greatest size a report shows, and their names in the cycle.
 REPORTED_PEAKS = {
     "torque_Nm": "wheel_torque_Nm",
@@ -47,7 +48,8 @@ QUANTITIES: dict[str, Quantity] = {
     "omega_rad_s": lambda i: QuantityValue(i.omega_rad_s),
     "alpha_rad_s2": lambda i: QuantityValue(i.alpha_rad_s2),
     "wheel_torque_Nm": lambda i: QuantityValue(i.wheel_torque_Nm),
-    FORCE: lambda i: QuantityValue(i.pin_force_N, i.grip, i.drives),
+    FORCE: lambda i: QuantityValue(i.force_N, i.grip),
+    WALL_FORCE: lambda i: QuantityValue(i.pin_force_N, i.grip, i.drives),
     STRESS: lambda i: i.stress,
     "sliding_m_s": lambda i: QuantityValue(i.sliding_m_s),
     TORQUE: lambda i: QuantityValue(i.input_torque_Nm, i.friction_margin),
@@ -61,7 +63,9 @@ QUANTITIES: dict[str, Quantity] = {
 
 def known_quantities(mechanism: Mechanism) -> list[str]:
     """The names of the quantities that have a value for this machine and load."""
-    missing = {KINETIC} if load_case(mechanism).hertz is not None else {KINETIC, *PRESSED}
+    missing = {KINETIC, WALL_FORCE}
+    if load_case(mechanism).hertz is None:
+        missing |= set(PRESSED)
     if not any(engagement.reactions for engagement in mechanism.engagements):
         missing.add("guide_force_N")
     unloaded = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")
@@ -104,8 +108,9 @@ def sources(mechanism: Mechanism) -> dict[str, tuple[str, float]]:
 
 
 def plain_of(i: Instant[Array], name: str) -> Array:
-    """The values of a quantity at an instant, not their squares."""
-    return plain_values(QUANTITIES[name](i).value, name)
+    """The values of a quantity at an instant with their signs, not their squares."""
+    signed = WALL_FORCE if name == FORCE else name
+    return plain_values(QUANTITIES[signed](i).value, name)
 
 
 def plain_values(values: Array, name: str) -> Array:

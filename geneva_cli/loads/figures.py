@@ -17,9 +17,9 @@ from geneva_cli.errors import GenevaError, Notice, cut, few, nearest
 from geneva_cli.figure import Axis, Curve, Figure, Mark, Panel, Piece
 from geneva_cli.loads import summary
 from geneva_cli.loads.cycle import Cycle
-from geneva_cli.loads.cycle_quantities import sources
+from geneva_cli.loads.cycle_quantities import FORCE, WALL_FORCE, sources
 from geneva_cli.loads.stages import MOTION_QUANTITIES, Stage, load_stages, motion_stages, pieces
-from geneva_cli.loads.summaries import LoadSummary
+from geneva_cli.loads.summaries import LoadSummary, load_summaries
 from geneva_cli.motion import peaks
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import first_entry_deg
@@ -198,7 +198,7 @@ def _drawn(cycle: Cycle, names: Sequence[str], window: tuple[float, float]) -> M
         out.pieces.update(zip(moves, curves, strict=True))
         out.marks.update((n, _peak(machine, n, i, stages, window)) for i, n in enumerate(moves))
     if loads:
-        ends = {name: cycle.extremes[name] for name in loads}
+        ends = {name: _signed(cycle, name) for name in loads}
         out.bounds.update(_bounds(cycle, ends))
         stages = list(load_stages(cycle, loads, out.bounds))
         curves = pieces(stages, machine.period_deg, window, [0.0] * len(loads))
@@ -230,6 +230,14 @@ def _peak(
     nearest_to = min(values, key=lambda value: abs(abs(value) - peak.max))
     y = math.copysign(peak.max, nearest_to)
     return (Mark("peak", _placed(machine, peak.at_deg, window), y),)
+
+
+def _signed(cycle: Cycle, name: str) -> LoadSummary[float]:
+    """The extremes of a load as it is drawn, with signs."""
+    if name != FORCE or name not in cycle.extremes:
+        return cycle.extremes[name]
+    one = load_summaries(cycle.mechanism, [WALL_FORCE], ())[WALL_FORCE]
+    return LoadSummary(*(float(row[0]) for row in one[:4]))
 
 
 def _ends(

@@ -14,6 +14,7 @@ from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.cycle_quantities import (
     PRESSED,
     PV,
+    REPORTED_PEAKS,
     STRESS,
     known_quantities,
     multiples,
@@ -21,6 +22,7 @@ from geneva_cli.loads.cycle_quantities import (
     sources,
 )
 from geneva_cli.loads.instant import Instant
+from geneva_cli.loads.loads import greatest
 from geneva_cli.loads.summaries import LoadSummary
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.jet import Array
@@ -54,10 +56,16 @@ SHOWN_QUANTITIES = (
 def summaries(cycle: Cycle) -> Mapping[str, LoadSummary[float | None]]:
     """The summary of each quantity, by its name.
 
-    None for an unbounded value, or if its inputs are not known.
+    None for an unbounded value, or if its inputs are not known. ``max`` is the greatest size of
+    the quantities whose size is limited, as everywhere; ``cycle.extremes`` has their signs.
     """
     known, none = cycle.extremes, [None] * len(LoadSummary._fields)
-    return {name: LoadSummary(*map(_finite, known.get(name, none))) for name in SHOWN_QUANTITIES}
+    out = {name: LoadSummary(*map(_finite, known.get(name, none))) for name in SHOWN_QUANTITIES}
+    for name in REPORTED_PEAKS:
+        if name in known and name in out:
+            peak = greatest(cycle.mechanism, name)
+            out[name] = out[name]._replace(max=_finite(peak.max), max_at_deg=peak.at_deg)
+    return out
 
 
 def _finite(x: float | None) -> float | None:
@@ -83,14 +91,15 @@ def reversals_deg(cycle: Cycle) -> list[float]:
 def loads_table(
     cycle: Cycle,
     life: Mapping[str, float | None],
+    reversal: Mapping[str, float | None],
     wheel_inertia_kgm2: float | None,
     warnings: Sequence[str],
     for_people: bool = False,
 ) -> Table:
-    """The summary of the loads, with sizing, life and warnings.
+    """The summary of the loads, with the impact of a reversal, sizing, life and warnings.
 
-    ``life`` and the wheel's own inertia are known from its parts. For people the quantities that
-    have a value are rows of a table.
+    ``life``, ``reversal`` and the wheel's own inertia are known from its parts. For people the
+    quantities that have a value are rows of a table.
     """
     from geneva_cli.loads.sizing import WHEEL_INERTIA, sizing
 
@@ -112,7 +121,9 @@ def loads_table(
     bought = {**computed, WHEEL_INERTIA: wheel_inertia_kgm2}
     if cycle.is_loaded and wheel_inertia_kgm2 is None:
         needed = *needed, f"{WHEEL_INERTIA}: {_unweighed(spec)}"
-    for group, answers in (("sizing", bought), ("life", life)):
+    # a roller that changes no side has no impact to be shown
+    struck = {} if for_people and reversal["jump"] is None else reversal
+    for group, answers in (("shock.reversal", struck), ("sizing", bought), ("life", life)):
         values |= {f"{group}.{key}": value for key, value in answers.items()}
     values["warnings"] = (*warnings, *needed)
     return record_table(values)

@@ -67,6 +67,7 @@ class Workshop(NamedTuple):
 
     tolerances: str  # of dimensions without their own
     fits: bool = True  # whether it holds fits of ISO 286
+    deviation_mm: float = 0.0  # of any size, of a process without fits and cuts
     # deviation of a size that it cuts, by thickness and size in mm; None: by fits, or not known
     cut_mm: Callable[[float, float], float] | None = None
     roughness: str = ""
@@ -98,7 +99,11 @@ WORKSHOPS = {
     # (pro3dcomposites.com/materials/pla). Poisson's ratio: doi 10.1016/j.addr.2016.06.012.
     # It breaks before it yields, so that 0.36 of 22.8 MPa is allowed.
     "print": Workshop(
-        "±0.2 mm", fits=False, stock=Stock("PLA", 2.4, 0.36, 1240.0, 8.2), wall_mm=0.8
+        "±0.2 mm",
+        fits=False,
+        deviation_mm=0.2,
+        stock=Stock("PLA", 2.4, 0.36, 1240.0, 8.2),
+        wall_mm=0.8,
     ),
 }
 

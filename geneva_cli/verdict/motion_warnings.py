@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from functools import lru_cache
 
@@ -13,8 +14,9 @@ from geneva_cli.motion.peaks import peak
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.latest import counted
 from geneva_cli.numerics.tolerances import keeps
-from geneva_cli.parts.shafts.fits import loosest_mm
-from geneva_cli.spec.tables import Z_USUAL
+from geneva_cli.parts.shafts.fits import closest_mm, loosest_mm
+from geneva_cli.spec.tables import Z_USUAL, Size
+from geneva_cli.spec.workshops import workshop
 
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
 
@@ -24,7 +26,7 @@ def motion_warnings(mechanism: Mechanism) -> list[Notice]:
     return [
         *_of_wheel(mechanism),
         *_of_distance(mechanism),
-        *_loose_fits(mechanism),
+        *_fits(mechanism),
         *_rounded_points(mechanism),
         *_overtaken(mechanism),
         *(_of_law(mechanism, mechanism.law) if mechanism.law else ()),
@@ -91,8 +93,8 @@ def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
     yield from _undercut(mechanism)
 
 
-def _loose_fits(mechanism: Mechanism) -> Iterator[Notice]:
-    """Clearances larger than the loosest running fit, or the process, needs.
+def _fits(mechanism: Mechanism) -> Iterator[Notice]:
+    """Clearances larger than the loosest running fit, or the process, needs; and too small ones.
 
     A default locking disc is smaller than the crank, whose fit is looser.
     """
@@ -101,20 +103,43 @@ def _loose_fits(mechanism: Mechanism) -> Iterator[Notice]:
     if mechanism.spec.has_lock:
         radius = mechanism.ratio * mechanism.center_distance_mm if disc is None else disc
         pairs.append(("lock_clearance_mm", "locking disc", "recess", radius))
+    is_cut = mechanism.spec.is_flat and workshop(size.process).cut_mm
     for key, part, mate, radius in pairs:
         clearance, fit = getattr(size, key), loosest_mm(2.0 * radius)
-        if clearance is None or fit is None:
+        if clearance is None:
             continue
         own = getattr(size.replace(**{key: None}).allowances, key)
-        most = max(0.5 * fit, own)
+        least, most = _least_clearance_mm(size, own, radius), max(0.5 * (fit or math.inf), own)
         if not keeps(clearance, "at most", most):
             helps = "" if size.process else ", or name the process that needs it"
             yield Notice(
                 "loose-fit",
                 f"{key} = {clearance:g}: the {part} is loose in its {mate}. At Ø "
                 f"{2.0 * radius:.4g} mm the loosest running fit of ISO 286, H11/c11, leaves at "
-                f"most {0.5 * fit:.4g} mm a side: reduce {key} to {most:.4g}{helps}",
+                f"most {0.5 * (fit or 0.0):.4g} mm a side: reduce {key} to {most:.4g}{helps}",
             )
+        # what plates need that a laser cuts is known with their thickness: ``process_warnings``
+        elif not (is_cut or keeps(clearance, "at least", least)):
+            yield Notice(
+                "narrow-for-process",
+                f'{key} = {clearance:g}: with process = "{size.process}" {part} and {mate} '
+                f"(Ø {2.0 * radius:.4g} mm) are off by up to {least:.4g} mm a side together, and "
+                f"may not go together: increase {key} to {least:.4g}",
+            )
+
+
+def _least_clearance_mm(size: Size, own: float, radius: float) -> float:
+    """The clearance per side that takes the deviations of the process; 0 without a process.
+
+    ``own`` is the clearance that the process sets.
+    """
+    shop = workshop(size.process)
+    if size.process is None:
+        return 0.0
+    if shop.cut_mm:  # a cut's clearance is its deviation
+        return own
+    closest = closest_mm(2.0 * radius) if shop.fits else 2.0 * shop.deviation_mm
+    return min(own, 0.5 * (closest or 0.0))
 
 
 def _overtaken(mechanism: Mechanism) -> Iterator[Notice]:

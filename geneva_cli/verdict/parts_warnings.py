@@ -45,7 +45,7 @@ def process_warnings(model: PartsModel) -> Iterator[Notice]:
             'process = "mill" or "print"',
         )
     yield from _small_holes(named, shop.hole)
-    if spec.is_flat:
+    if spec.is_flat and shop.cut_mm:
         yield from _narrow(model.mechanism, model.outlines.sizes)
 
 
@@ -116,7 +116,7 @@ def _holes(solid: Solid) -> Iterator[tuple[float, float]]:
 
 
 def _narrow(mechanism: Mechanism, sizes: Sizes) -> Iterator[Notice]:
-    """Warnings about clearances that are narrower than the process needs for the plates."""
+    """Warnings about clearances that are narrower than a cut needs for the plates."""
     size = mechanism.spec.size
     built = size.replace(
         center_distance_mm=mechanism.center_distance_mm,

@@ -26,7 +26,7 @@ from geneva_cli.verdict.changes import (
     towards,
 )
 from geneva_cli.verdict.checks.check import Check
-from geneva_cli.verdict.checks.registry import LIMITS, MOTION
+from geneva_cli.verdict.checks.registry import LIMITS, MOTION, TOLERANCES
 
 
 def remedies(check: Check, mechanism: Mechanism) -> Iterator[Change]:
@@ -44,7 +44,8 @@ def remedies(check: Check, mechanism: Mechanism) -> Iterator[Change]:
 
 def _candidates(check: Check, mechanism: Mechanism) -> Iterator[Change]:
     name = check.name
-    own = {} if name in MOTION or name in LIMITS else _own_sizes(mechanism)
+    is_known = name in MOTION or name in LIMITS or name in TOLERANCES
+    own = {} if is_known else _own_sizes(mechanism)
     # a size that the reason names, such as "wheel_bore_mm = 30: it must be below 20"
     yield from (change for key, changes in own.items() if key in check.why for change in changes)
     if name in REMEDIES:
@@ -139,6 +140,7 @@ _MILDER = (
 _SLOWER = scaled("drive", "n_rpm", 1e-3)
 _LARGER = scaled("size", "center_distance_mm", 20.0)
 _LESS_LOAD = (_SLOWER, _LARGER)
+_TIGHTER = scaled("size", "slot_clearance_mm", 0.0)
 _WIDER_FACE = scaled("size", "face_width_mm", 10.0)
 _BLUNTER = (scaled("size", "lock_edge_mm", 10.0), _WIDER_FACE, _LARGER)
 _OTHER_LOCK = sized("size", "lock_radius_mm")
@@ -162,7 +164,8 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         scaled("tolerance", "center_distance_mm", 0.0),
         _SLOWER,
     ),
-    "reversal_shock_N": (scaled("size", "slot_clearance_mm", 0.0), _SLOWER),
+    "reversal_shock_N": (_TIGHTER, _SLOWER),
+    "reversal_stress_MPa": (_TIGHTER, _SLOWER, _WIDER_FACE, _LARGER),
     "pv_max_W_m2": (_SLOWER, _WIDER_FACE, _LARGER),
     "roller_life_min_h": (scaled("material.roller", "dynamic_capacity_N", 10.0), *_LESS_LOAD),
     "slot_wear_max_mm_per_million": (_WIDER_FACE, *_LESS_LOAD),
@@ -171,6 +174,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         scaled("size", "roller_radius_mm", 3.0),
         set_to("size", "pin_held", "fixed"),
         left_out("size", "pin_mm"),
+        _TIGHTER,
         _LARGER,
     ),
     "horn_stress_MPa": (_WIDER_FACE, scaled("size", "lock_radius_mm", 0.5), _LARGER),
@@ -239,6 +243,9 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         Change("size", "lock_radius_mm", lambda now: [None] if now == 0.0 else []),
         set_to("wheel", "held_by", "detent"),
     ),
+    "tolerance_slot_mm": (increased("size", "slot_clearance_mm", 1.0),),
+    "tolerance_lock_mm": (increased("size", "lock_clearance_mm", 1.0),),
+    "tolerance_turns": (),
     **dict.fromkeys(("stop_turns", "stop_overlap_mm"), (*_OTHER_LOCK, _SMALLER)),
     "stop_stress_max_MPa": _BLUNTER,
     "wall_between_slots_mm": (_SMALLER, scaled("size", "slot_clearance_mm", 0.0)),

@@ -52,6 +52,12 @@ class Strength:
         names = (name for name in REPORT_GROUPS if name.startswith("life."))
         return {name.removeprefix("life."): self[name] for name in names}
 
+    @cached_property
+    def reversal(self) -> dict[str, float | None]:
+        """The impact at a change of sides: the values of ``shock.reversal``, by name."""
+        table = "shock.reversal"
+        return {name: self[f"{table}.{name}"] for name in REPORT_GROUPS[table].own}
+
     @property
     def contact_mm(self) -> float | None:
         """Length of the contact line; None if it is not known."""

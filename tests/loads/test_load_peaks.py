@@ -299,7 +299,6 @@ def test_forces_of_a_wheel_that_hurries_go_with_the_square_of_its_speed(left):
         motion = Motion("3-4-5", alpha0_deg=19.136)
         spec = Spec(Wheel(12, "internal"), drive, keys, motion=motion, load=Load(0.0149))
         found = Design.of(spec).loads["pin_force_N"]
-        assert found.max == pytest.approx(-found.min, rel=1e-12)
         return found.max * (1.0 - (1.0 - left)) ** 2
 
     assert greatest(left) == pytest.approx(greatest(1e-5), rel=2e-5)

@@ -7,6 +7,7 @@ import repo
 from design_arrays import MACHINES, alone, drawn
 from load_states import state
 from loaded_arrays import CARRIED, LOAD, MISSED, NAMES, beyond, dense_means, loaded, missed
+from scipy.integrate import quad
 
 from geneva_cli import design
 from geneva_cli.loads import loads
@@ -272,4 +273,46 @@ def test_the_inertia_alone_against_the_theory():
         [2.3911331461217286, 0.42187714544353779], rel=1e-14
     )
     assert force.max_at_deg == pytest.approx([-19.9649425, -39.16219639], abs=1e-7)
-    assert np.abs(force.mean) == pytest.approx([0.0, 0.0], abs=1e-14)
+    for z, mean in zip((6, 12), force.mean * L / w**2, strict=True):
+        ratio, end = np.sin(np.pi / z), np.pi / 2.0 - np.pi / z
+
+        def size(x, ratio=ratio):  # |psi''| over the distance of roller and wheel's axis
+            square = 1.0 - 2.0 * ratio * np.cos(x) + ratio**2
+            return ratio * (1.0 - ratio**2) * np.sin(x) / square**2.5
+
+        assert mean == pytest.approx(quad(size, 0.0, end)[0] / np.pi, rel=1e-12)
+
+
+def test_one_name_has_one_meaning_in_all_answers():
+    """The pin force is a size, of which samples have the sign: 0 at the change of sides."""
+    path = str(repo.DESIGNS / "tolerances.toml")
+    of = design.load(path)
+    values, report = of.loads_table.to_dict(), of.report.table.to_dict()
+    rows = of.load_cycle(20001).to_dict()
+    force = np.asarray(rows["pin_force_N"])
+    assert force.min() < -50.0
+    for load in ("pin_force_N", "input_torque_Nm", "contact_stress_MPa"):
+        assert values[f"{load}.max"] == report[f"loads.{load}.max"]
+        assert values[f"{load}.max_at_deg"] == report[f"loads.{load}.at_deg"]
+    # samples 0.018 degrees apart: extremes within 1e-6, sums to the square of the spacing
+    assert values["pin_force_N.max"] == pytest.approx(abs(force).max(), rel=1e-6)
+    assert values["pin_force_N.min"] == 0.0
+    assert values["pin_force_N.min_at_deg"] == pytest.approx(values["reversals_deg"][0], abs=1e-9)
+    assert values["pin_force_N.mean"] == pytest.approx(abs(force[:-1]).mean(), rel=1e-4)
+    assert values["pin_force_N.rms"] == pytest.approx(np.sqrt((force[:-1] ** 2).mean()), rel=1e-4)
+    names = [f"loads.pin_force_N.{end}" for end in ("min", "mean", "rms")]
+    batch = many(of.spec, {"load.torque_Nm": np.array([15.0, 16.0])}).machine
+    one = load_summaries(batch, ["pin_force_N"])["pin_force_N"]
+    assert [one.min[0], one.mean[0], one.rms[0]] == pytest.approx(
+        [values[name.removeprefix("loads.")] for name in names], rel=1e-12
+    )
+
+
+def test_an_input_torque_that_holds_back_most_is_greatest_by_size():
+    """Slots offset to one side brake harder than they start: the least torque is the peak."""
+    keys = ["wheel.offset_mm=12", "load.torque_Nm=0", "load.inertia_kgm2=0.01"]
+    of = design.load(str(repo.DESIGNS / "offset-slots.toml"), keys)
+    ends, shown = of.cycle.extremes["input_torque_Nm"], of.loads["input_torque_Nm"]
+    assert -ends.min > 1.01 * ends.max
+    assert (shown.max, shown.max_at_deg) == (-ends.min, ends.min_at_deg)
+    assert shown.min == ends.min

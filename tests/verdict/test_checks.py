@@ -181,6 +181,31 @@ def test_a_fit_looser_than_any_is_said(radius: float, most: float) -> None:
     assert said(lock_radius_mm=60.0, lock_clearance_mm=0.32)
 
 
+@pytest.mark.parametrize(
+    ("process", "slot_mm", "lock_mm"),
+    [
+        ("print", 0.2, 0.2),  # roller and slot are each within 0.2 mm of their diameter
+        ("mill", 0.006, 0.01425),  # ISO 286, um: (IT6 + IT7)/4 of Ø 10 and of Ø 100
+        ("laser", 0.3, 0.3),  # ISO 9013, class 1: Ø 10 in a plate of 10 mm
+        (None, 0.0, 0.0),
+    ],
+)
+def test_a_clearance_that_the_process_cannot_hold_is_said(
+    process: str | None, slot_mm: float, lock_mm: float
+) -> None:
+    def said(slot: float, lock: float) -> list[str]:
+        size = Size(process=process, slot_clearance_mm=slot, lock_clearance_mm=lock)
+        warnings = Design(External(6), size=size).warnings
+        return [str(text) for text in warnings if text.name == "narrow-for-process"]
+
+    assert said(slot_mm, lock_mm) == []
+    if process:
+        (text,) = said(0.99 * slot_mm, lock_mm)
+        assert text.endswith(f"increase slot_clearance_mm to {slot_mm:.4g}")
+        (text,) = said(slot_mm, 0.0)
+        assert text.endswith(f"increase lock_clearance_mm to {lock_mm:.4g}")
+
+
 def test_an_export_says_what_a_check_would(tmp_path: Path) -> None:
     path, out = tmp_path / "bore.toml", tmp_path / "wheel.svg"
     export = ["profile", str(path), "--part", "wheel", "-o", str(out)]

@@ -1,22 +1,38 @@
 """The checks of shocks: what they hold, what they say, and that what they say is so."""
 
+import functools
 import math
 import re
 
 import numpy as np
 import pytest
 from impact_witness import contact_of, force_of, impacts_in
+from scipy.integrate import quad
+from scipy.optimize import brentq
 
-from geneva_cli import Design, External, Limits, Load, Size, Spherical, Tolerance
+from geneva_cli import (
+    Cam,
+    Design,
+    External,
+    Limits,
+    Load,
+    ModifiedSine,
+    Motion,
+    Size,
+    Spherical,
+    Tolerance,
+)
 from geneva_cli.loads.impacts import change_of_sides
 from geneva_cli.loads.impacts.impacts import entry_impacts, reversal_impacts
 from geneva_cli.loads.impacts.mouth import mouth_contacts
 from geneva_cli.loads.strength.pin import pin_diameter_mm
 from geneva_cli.motion.many import many
 from geneva_cli.parts.outlines.outline_sizes import built
+from geneva_cli.study.summary.loads import load_lines
 from geneva_cli.verdict.checks import single_check
 from geneva_cli.verdict.quantities.designs import Designs
 from geneva_cli.verdict.quantities.disturbances import entry, reversal
+from geneva_cli.verdict.quantities.strength import pin
 
 LOOSE = Size(face_width_mm=18.0, slot_clearance_mm=0.02)
 WIDE = Tolerance(crank_radius_mm=0.02, center_distance_mm=0.03, slot_width_mm=0.02)
@@ -34,7 +50,9 @@ def row(of, name):
 def test_no_tolerance_no_row():
     bare = design(tolerance=Tolerance(distribution="normal"))
     assert row(bare, "entry_shock_N") is None
-    assert row(bare, "reversal_shock_N") is None
+    assert row(bare, "reversal_shock_N") is None  # nothing limits it, but the pin's stress has it
+    tight = design(100.0, size=LOOSE.replace(slot_clearance_mm=0.0), tolerance=Tolerance())
+    assert row(tight, "reversal_shock_N") is None
     # a crank as long as it should be; and nothing that turns on
     assert row(design(tolerance=Tolerance(slot_width_mm=0.01)), "entry_shock_N") is None
     assert row(design(load=Load(torque_Nm=2.0)), "reversal_shock_N") is None
@@ -110,3 +128,131 @@ def test_the_force_bends_the_pin_that_is_drawn():
         assert force == row(same, name).value
         batch = many(of.spec, {"load.torque_Nm": np.array([2.0, 1.0])}).machine
         assert table(Designs(batch))["force_N"][0] == pytest.approx(force, rel=1e-12)  # rounding
+
+
+# A dial of eight stations, driven by a cam; its process leaves 0.02 mm a side.
+DIAL = Design(
+    External(8),
+    Cam(n_rpm=40.0),
+    motion=Motion(ModifiedSine(), alpha0_deg=63.0),
+    size=Size(
+        center_distance_mm=160.0,
+        roller_radius_mm=11.0,
+        pin_mm=10.0,
+        face_width_mm=12.0,
+        process="mill",
+    ),
+    load=Load(inertia_kgm2=0.8, torque_Nm=12.0, friction=0.05),
+)
+
+
+def coasted():
+    """The dial's change of sides, by its law and the triangle of slot, arm and centre line.
+
+    In the modified sine's middle s = (2 + pi u - 9/4 sin(v))/(4 + pi), v = (pi + 4 pi u)/3. Returns
+    the input angle of the impact in degrees, and the jump.
+    """
+    motion, step = math.radians(72.0), math.radians(45.0)
+    drag = 12.0 / (0.8 * (40.0 * math.tau / 60.0) ** 2)
+
+    def phase(x):
+        return math.pi / 3.0 * (1.0 + 4.0 * (x / motion + 0.5))
+
+    def torque(x):  # over I w²
+        return 4.0 * math.pi**2 / (math.pi + 4.0) * math.sin(phase(x)) * step / motion**2 + drag
+
+    start = brentq(torque, 0.0, math.radians(20.0), xtol=1e-15)
+    u = start / motion + 0.5
+    psi = (2.0 + math.pi * u - 2.25 * math.sin(phase(start))) / (4.0 + math.pi) * step - 0.5 * step
+    lever = 160.0 * math.sin(start) / math.sin(start + psi)
+    play = 2.0 * math.asin(0.02 / lever)
+
+    def behind(x):
+        return quad(lambda t: (x - t) * torque(t), start, x, epsabs=1e-15)[0] + play
+
+    end = brentq(behind, start + 1e-3, math.radians(25.0), xtol=1e-14)
+    return math.degrees(end), -quad(torque, start, end, epsabs=1e-15)[0]
+
+
+def struck_N(jump, pin_mm, face_mm=12.0):
+    """The force at which line contact and a cantilever of 12.4/2 mm store the impact's energy."""
+    energy = 0.5 * 0.8 * (jump * 40.0 * math.tau / 60.0) ** 2 * 1000.0
+    press = 3.84e-5 / face_mm**0.8
+    k = 3.0 * 210e3 * math.pi / 64.0 * pin_mm**4 / (0.5 * face_mm + 0.2) ** 3
+    return brentq(lambda F: 0.9 / 1.9 * press * F**1.9 + F * F / (2.0 * k) - energy, 1.0, 1e5)
+
+
+def pin_MPa(force, pin_mm):
+    """Bending of the cantilever under a force and its friction of 0.05."""
+    return 32.0 * force * math.hypot(1.0, 0.05) * 6.2 / (math.pi * pin_mm**3)
+
+
+def test_the_play_of_the_clearances_alone_counts():
+    """Quadratures and the hand's formulas: 1434 N on a dial whose cycle needs 539.5 N."""
+    at_deg, jump = coasted()
+    force = struck_N(jump, 10.0)
+    assert force == pytest.approx(1434.13, abs=5e-3)
+    values = DIAL.loads_table.to_dict()
+    told = {n.removeprefix("shock.reversal."): v for n, v in values.items() if ".reversal." in n}
+    # two quadratures of some 1e-12, at a jump of 0.02
+    near = functools.partial(pytest.approx, rel=1e-9)
+    assert (told["at_deg"], told["jump"], told["force_N"]) == (
+        near(at_deg),
+        near(jump),
+        near(force),
+    )
+    # Hertz on a flat wall: p0² = F E*/(pi b r)
+    modulus = 0.5 * 210e3 / (1.0 - 0.3**2)
+    pressed = math.sqrt(force * modulus / (math.pi * 12.0 * 11.0))
+    assert told["contact_stress_MPa"] == near(pressed)
+    assert values["life.pin_stress_MPa"] == near(pin_MPa(force, 10.0))
+    for key, name, value in (
+        ("pin_force_max_N", "reversal_shock_N", force),
+        ("contact_stress_max_MPa", "reversal_stress_MPa", pressed),
+    ):
+        assert row(DIAL.with_(f"limits.{key}", 0.999 * value), name).passes is False
+        assert row(DIAL.with_(f"limits.{key}", 1.001 * value), name).passes
+    text = "\n".join(line.text for line in load_lines(DIAL))
+    assert "1434 N at 9.532°, where the roller changes sides; contact stress 631.7 MPa" in text
+
+
+def test_the_pin_that_an_impact_needs():
+    """A stiffer pin is struck harder: its least diameter is a root, and the default is no less."""
+    _, jump = coasted()
+    least = brentq(lambda d: pin_MPa(struck_N(jump, d), d) - 165.0, 2.0, 20.0, xtol=1e-13)
+    for pin_mm in (5.0, 10.0):
+        of = DIAL.with_("size.pin_mm", pin_mm)
+        assert of.strength["strength.pin.least_diameter_mm"] == pytest.approx(least, rel=1e-9)
+        assert row(of, "pin_stress_MPa").passes is (pin_mm > least)
+    heavy = DIAL.with_("size.pin_mm", None).with_("load.inertia_kgm2", 8.0)
+    still = heavy.with_("size.slot_clearance_mm", 0.0)
+    assert built(heavy.mechanism).pin_mm > built(still.mechanism).pin_mm
+    assert row(heavy, "pin_stress_MPa").passes
+
+
+def test_a_batch_has_the_impacts_of_its_designs():
+    keys = {"load.inertia_kgm2": np.array([0.4, 0.8]), "size.pin_mm": np.array([10.0, 8.0])}
+    batch = Designs(many(DIAL.spec, keys).machine)
+    impacts, section = reversal(batch), pin(batch)
+    for i, (inertia, pin_mm) in enumerate(zip(*keys.values(), strict=True)):
+        one = DIAL.with_("load.inertia_kgm2", inertia).with_("size.pin_mm", pin_mm).strength
+        for name in ("force_N", "contact_stress_MPa", "jump"):
+            assert impacts[name][i] == pytest.approx(one.reversal[name], rel=1e-12)  # rounding
+        for name in ("stress_MPa", "least_diameter_mm"):
+            expected = one[f"strength.pin.{name}"]
+            assert np.ravel(section[name])[i] == pytest.approx(expected, rel=1e-12)
+
+
+def test_the_wall_of_a_curved_slot_is_struck_as_it_presses():
+    """Stress² over force is that of the cycle at the same place, where the same wall bears."""
+    of = Design(
+        External(5),
+        motion=Motion(ModifiedSine(), ratio="matched"),
+        size=Size(slot_clearance_mm=0.02, face_width_mm=10.0),
+        load=Load(inertia_kgm2=0.05, torque_Nm=1.0),
+    )
+    told = of.strength.reversal
+    here = of.cycle.states(np.array([told["at_deg"]]))
+    ratio = float(here.stress_squared[0] / abs(here.pin_force_N[0]))
+    assert told["contact_stress_MPa"] ** 2 / told["force_N"] == pytest.approx(ratio, rel=1e-9)
+    assert ratio != pytest.approx(float(of.cycle.case.hertz), rel=1e-3)  # the wall is curved

@@ -27,9 +27,12 @@ from geneva_cli.loads.tolerance.dimensions import Deviations, deviations, slope_
 from geneva_cli.loads.tolerance.entry_jump import entry_jumps
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.loads.tolerance.motion_error import motion_errors
+from geneva_cli.loads.tolerance.worst_effects import motion_plays
 from geneva_cli.motion.laws.standard import Cycloidal
+from geneva_cli.motion.many import many
 from geneva_cli.motion.motion import Motion
-from geneva_cli.verdict.tolerance.study import flat_locks, sphere_locks
+from geneva_cli.verdict.checks.registry import turn_checks
+from geneva_cli.verdict.tolerance.locks import flat_locks, sphere_locks
 from tests.repo import ROOT
 
 pytestmark = pytest.mark.usefixtures("made_once")
@@ -612,3 +615,68 @@ def test_no_histogram_of_what_is_not_known():
     )
     with pytest.raises(GenevaError, match="--histogram: dwell_position is not known"):
         design.tolerance_histogram(64)
+
+
+@pytest.mark.parametrize("distribution", ["normal", "uniform"])
+def test_plays_in_motion_are_the_greatest_over_it(distribution):
+    """The play is widest at mid-motion, but the worst machine's error elsewhere.
+
+    There the roller is L - R = 100 mm from the wheel's axis: its clearance turns the wheel by c/100
+    and errors of L and R do not. They add less than a millionth beside it.
+    """
+    allowed = Tolerance(
+        center_distance_mm=0.015,
+        crank_radius_mm=0.012,
+        roller_diameter_mm=0.006,
+        slot_width_mm=0.01,
+        slot_angle_deg=0.008,
+        distribution=distribution,
+    )
+    size = Size(200.0, 10.0, slot_clearance_mm=0.045, lock_clearance_mm=0.04)
+    machine = Design(External(6), size=size, tolerance=allowed)
+    found = told(machine, 65536)
+    free = math.degrees(math.asin(0.045 / 100.0))
+    slope = math.degrees(1.0 / 100.0) / math.cos(math.radians(free))  # by the clearance, mm
+    parts = [0.008, slope * 0.003, slope * 0.005]
+    rss = free + math.hypot(*parts)
+    assert rss <= found["motion_play.rss_deg"] <= rss * (1.0 + 1e-6)
+    assert abs(found["motion_play.at_deg"]) > 10.0  # of the worst machine
+    rng = np.random.default_rng(1)
+    normal, even = rng.normal(size=(3, 10**6)) / 3.0, rng.uniform(-1.0, 1.0, (3, 10**6))
+    drawn = parts @ (normal if distribution == "normal" else even)
+    p997 = float(np.quantile(abs(free + drawn), 0.997))
+    # the quantiles of 65536 and of a million machines differ by some 1e-3 of their spread
+    assert found["motion_play.p997_deg"] == pytest.approx(p997, rel=1e-3)
+    batch = many(machine.spec, {"tolerance.slot_angle_deg": np.array([0.008, 0.02])})
+    plays = motion_plays(batch.machine)
+    assert plays.rss_deg[0] == found["motion_play.rss_deg"]
+    assert plays.rss_deg[1] == pytest.approx(free + math.hypot(0.02, *parts[1:]), rel=1e-6)
+
+
+def test_clearances_too_small_for_the_tolerances_fail():
+    """R 0.05 and L 0.05 sin 30° add up in the slot; disc, recess and L in the lock."""
+    every = ("tolerance_slot_mm", "tolerance_lock_mm", "tolerance_turns")
+    allowed = Tolerance(
+        center_distance_mm=0.05, crank_radius_mm=0.05, lock_radius_mm=0.05, recess_radius_mm=0.05
+    )
+    size = Size(100.0, 6.0, slot_clearance_mm=0.01, lock_clearance_mm=0.01)
+
+    def rows(slot_mm, lock_mm, **more):
+        play = size.replace(slot_clearance_mm=slot_mm, lock_clearance_mm=lock_mm)
+        model = PartsModel(Design(External(6), size=play, **more).mechanism)
+        checks = {one.name: one for one in turn_checks(model.parts, model.turn)}
+        return {name: checks[name] for name in every if name in checks}
+
+    tight = rows(0.01, 0.01, tolerance=allowed)
+    assert {name: one.passes for name, one in tight.items()} == dict.fromkeys(every[:2], False)
+    assert [one.limit for one in tight.values()] == pytest.approx([0.075, 0.15], rel=1e-12)
+    wide = rows(0.075, 0.15, tolerance=allowed)
+    assert {name: one.passes for name, one in wide.items()} == dict.fromkeys(every, True)
+    assert rows(0.0749, 0.15, tolerance=allowed)["tolerance_slot_mm"].passes is False
+    assert rows(0.075, 0.1499, tolerance=allowed)["tolerance_lock_mm"].passes is False
+    assert not rows(0.01, 0.01)
+    # on a sphere: the arm's error crosses the slot's axis in full, 0.05 sin(60°)
+    ball = Design(Spherical(6), tolerance=Tolerance(crank_radius_mm=0.05))
+    [short] = [one for one in ball.checks if one.name == "tolerance_slot_mm"]
+    needed = pytest.approx(0.05 * math.sin(math.pi / 3.0), rel=1e-3)
+    assert (short.passes, short.limit) == (False, needed)

@@ -98,7 +98,7 @@ def _pin(mechanism: Mechanism, ball: Ball, loads: PartLoads) -> float:
     eye = min(ball.passing_mm(hub), 0.99 * L * (0.5 * math.pi - ball.arm))
     thinnest = inside * math.sin(ball.roller)
     space = PinSpace(outside - inside, thinnest, eye - wall_min(spec.size, L))
-    return pin_that_holds(spec, ball.pin_mm, space, loads.pin_N)
+    return pin_that_holds(mechanism, ball.pin_mm, space, loads)
 
 
 def _bored(mechanism: Mechanism, ball: Ball, loads: PartLoads, keyed: bool = True) -> Ball:

@@ -8,28 +8,31 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.contact import contact as touching
+from geneva_cli.loads.forces import load_case
 from geneva_cli.loads.impacts.change_of_sides import changes, drag_over, impacts_of
 from geneva_cli.loads.impacts.mouth import mouth_contacts
 from geneva_cli.loads.impacts.shock import FirstContacts, RestingAxis, first_contacts
 from geneva_cli.loads.impacts.shock_force import forces_N, impulse_Nms
-from geneva_cli.loads.strength.pin import pin_diameter_mm
+from geneva_cli.loads.strength.pin import PinSize
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.many import taken
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Number, all_true, choose, library, only_of, parameter
+from geneva_cli.numerics.arrays import all_true, choose, library, only_of, parameter
 from geneva_cli.numerics.jet import Array
 
 
 class Impact(NamedTuple):
     """A jump of the wheel's velocity over the input's, with its force and moment.
 
-    Both are None without an inertia; ``force_N`` is None without a ``face_width_mm`` too.
+    Both are None without an inertia; ``force_N`` is None without a drawn pin too, and
+    ``contact_stress_MPa`` if the roller meets a corner, or without a ``face_width_mm``.
     """
 
     at_deg: float
     jump: float
     force_N: float | None
     moment_Nms: float | None
+    contact_stress_MPa: float | None = None
 
 
 class Impacts(NamedTuple):
@@ -39,6 +42,7 @@ class Impacts(NamedTuple):
     jump: Array
     force_N: Array
     moment_Nms: Array
+    contact_stress_MPa: Array
 
     @property
     def only(self) -> Impact | None:
@@ -48,13 +52,13 @@ class Impacts(NamedTuple):
 
 
 def entry_impacts(
-    mechanism: Mechanism, fraction: float = 1.0, pin_mm: Number | None = None
+    mechanism: Mechanism, fraction: float = 1.0, pin: PinSize | None = None
 ) -> Impacts:
     """Impacts at entry of m designs with a ``fraction`` of the cranks' greatest errors.
 
-    ``pin_mm`` is the pin's diameter as drawn; without it, the pin is that without a load.
-    The roller meets the slot's axis. If the slot is too narrow for it to enter off the axis, it
-    meets a corner of the mouth. The jump is negative if the wheel is struck backwards.
+    Without the ``pin`` as it is drawn, forces are not known. The roller meets the slot's axis. If
+    the slot is too narrow for it to enter off the axis, it meets a corner of the mouth. The jump is
+    negative if the wheel is struck backwards.
     """
     best = np.full((2, 1), np.nan)
     for engagement in mechanism.engagements:
@@ -62,7 +66,7 @@ def entry_impacts(
         for contacts in (*every, *_on_mouth(mechanism, engagement, fraction)):
             if contacts is not None:
                 best = _harder(best, _shown(mechanism, engagement, *contacts))
-    return _with_force(mechanism, best, pin_mm)
+    return _with_force(mechanism, best, pin)
 
 
 def _errors(
@@ -123,28 +127,38 @@ def clearance_mm(mechanism: Mechanism) -> float:
     return mechanism.spec.size.allowances.slot_clearance_mm + 0.5 * both
 
 
-def reversal_impacts(mechanism: Mechanism, pin_mm: Number | None = None) -> Impacts:
+def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impacts:
     """Hardest impacts of m designs at a change of sides with the greatest play.
 
-    ``pin_mm`` is the pin's diameter as drawn; without it, the pin is that without a load.
-    The play is the clearance over the lever where the wheel begins to coast. Without an inertia no
-    wheel coasts. With a drag above ``lasting_drag_Nm`` the roller never changes sides.
+    Without the ``pin`` as it is drawn, forces are not known. The play is the clearance over the
+    lever where the wheel begins to coast. Without an inertia no wheel coasts. With a drag above
+    ``lasting_drag_Nm`` the roller never changes sides.
     """
-    best = np.full((2, 1), np.nan)
+    best = np.full((3, 1), np.nan)
     none = (drag_over(mechanism) == np.inf) | (clearance_mm(mechanism) == 0.0)
     # a body off a carried wheel's axis drives the wheel where it would coast
     none = none | mechanism.unbalanced
     for engagement in () if all_true(none) else mechanism.engagements:
         best = _harder(best, _reversal(mechanism, engagement))
-    return _with_force(mechanism, best, pin_mm)
+    *impacts, edge = best
+    hit = _with_force(mechanism, np.array(impacts), pin)
+    hertz = load_case(mechanism).hertz
+    if hertz is None:
+        return hit
+    with np.errstate(divide="ignore"):  # a wall as sharp as the roller
+        square = hit.force_N * np.ravel(hertz) / np.maximum(edge, 0.0)
+    return hit._replace(contact_stress_MPa=np.sqrt(square))
 
 
 def _reversal(mechanism: Mechanism, engagement: Engagement) -> Array:
-    """Displayed input angles and jumps of one engagement's hardest impacts, (2, m)."""
+    """Displayed input angles, jumps and edges of one engagement's hardest impacts, (3, m).
+
+    The edge is 1 - k r, for a wall of curvature k under the roller (see ``instant``).
+    """
     numbers = mechanism.center_distance_mm, drag_over(mechanism), clearance_mm(mechanism)
     L, drag, clearance = (np.broadcast_to(x, (mechanism.designs, 1)) for x in numbers)
     at = changes(engagement, drag)
-    out = np.full((2, mechanism.designs), np.nan)
+    out = np.full((3, mechanism.designs), np.nan)
     if not len(at.x):
         return out
     lever = abs(touching(taken(engagement, at.which), at.x[:, None]).lever.arrays()[0][:, 0])
@@ -155,14 +169,20 @@ def _reversal(mechanism: Mechanism, engagement: Engagement) -> Array:
     # hardest of each design; of equal ones the first
     order = np.lexsort((np.nan_to_num(-struck.speed, nan=np.inf), at.which))
     which, first = np.unique(at.which[order], return_index=True)
-    out[:, which] = struck.at_deg[order][first], struck.speed[order][first]
+    x = struck.at_deg[order][first]
+    out[:2, which] = x, struck.speed[order][first]
+    wall = touching(taken(engagement, which), x[:, None])
+    # the torque that the wheel then needs is that of the wall which strikes it
+    bears = np.copysign(1.0, wall.acceleration.arrays()[0] + drag[which])
+    radius = np.broadcast_to(load_case(mechanism).radius, drag.shape)[which]
+    out[2, which] = (1.0 - wall.curvature.arrays()[0] * bears * radius)[:, 0]
     return _shown(mechanism, engagement, *out)
 
 
-def _shown(mechanism: Mechanism, engagement: Engagement, at_deg: Array, jump: Array) -> Array:
-    """Displayed input angles, and jumps: (2, m)."""
+def _shown(mechanism: Mechanism, engagement: Engagement, at_deg: Array, *others: Array) -> Array:
+    """Displayed input angles, jumps, and what else there is of impacts: (2 or more, m)."""
     shown = mechanism.shown_deg(parameter(engagement.mid_deg + at_deg[:, None]))
-    return np.stack(np.broadcast_arrays(np.ravel(shown), jump))
+    return np.stack(np.broadcast_arrays(np.ravel(shown), *others))
 
 
 def _harder(one: Array, other: Array) -> Array:
@@ -171,12 +191,11 @@ def _harder(one: Array, other: Array) -> Array:
     return np.where(more, other, one)
 
 
-def _with_force(mechanism: Mechanism, impacts: Array, pin_mm: Number | None = None) -> Impacts:
+def _with_force(mechanism: Mechanism, impacts: Array, pin: PinSize | None) -> Impacts:
     """Impacts with their forces and moments, from angles and jumps (2, m)."""
     at_deg, jump = impacts
     moment = np.ravel(impulse_Nms(mechanism, jump[:, None]))
-    pin_mm = pin_diameter_mm(mechanism) if pin_mm is None else pin_mm
-    force = forces_N(mechanism, jump[:, None], pin_mm)
-    force = np.full(len(moment), np.nan) if force is None else force
+    hit = jump[:, None]
+    force = np.full(len(moment), np.nan) if pin is None else forces_N(mechanism, hit, pin)
     moment = np.where(moment == 0.0, np.nan, moment)
-    return Impacts(*np.broadcast_arrays(at_deg, jump, force, moment))
+    return Impacts(*np.broadcast_arrays(at_deg, jump, force, moment, np.nan))

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.cycle_quantities import FORCE
+from geneva_cli.loads.impacts.impacts import reversal_impacts
 from geneva_cli.loads.load_functions import LoadQuantity
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.shafts import OnShaft, Torque, crank_forces, on_carrier, wheel_forces
@@ -22,6 +23,7 @@ class PartLoads(NamedTuple):
     """The greatest sizes of loads, (m,) each, or numbers of one design; infinite if unbounded."""
 
     pin_N: float  # of a roller, along the wall's normal
+    pin_jump: float  # at its change of sides: of the wheel's speed, over the input's
     wheel_N: float  # on the wheel in motion, which is that on the roller and its arm
     wheel_shaft_N: float  # on the wheel's shaft in motion: on a carrier that of its bodies, too
     wheel_Nm: float  # torque in the wheel's shaft, also in the dwell
@@ -67,4 +69,6 @@ def part_loads(mechanism: Mechanism) -> PartLoads:
     most = [np.sqrt(peaks[name].max) if name in turned else peaks[name].max for name in names]
     torque = names.index("wheel_Nm")
     most[torque] = np.maximum(most[torque], dwell_torque_Nm(mechanism))
-    return PartLoads(*map(parameter, most))
+    force, *others = most
+    jump = np.nan_to_num(reversal_impacts(mechanism).jump) + np.zeros(np.shape(force))
+    return PartLoads(*map(parameter, (force, jump, *others)))

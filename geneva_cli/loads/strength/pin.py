@@ -13,6 +13,13 @@ if TYPE_CHECKING:
     from geneva_cli.spec.tables import Size
 
 
+class PinSize(NamedTuple):
+    """Diameter of a roller's pin, and length of the roller's contact line, mm."""
+
+    diameter_mm: Number
+    contact_mm: Number
+
+
 class Pin(NamedTuple):
     """A round pin's stresses per newton, MPa, and its diameter."""
 

@@ -11,13 +11,13 @@ The slopes are those of a plain crank. e is the distance of the slot's axis from
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.loads.impacts.impacts import arm_mm
-from geneva_cli.loads.tolerance.dimensions import Deviations
+from geneva_cli.loads.tolerance.dimensions import Deviations, deviations, slope_of
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
@@ -55,6 +55,11 @@ class MotionError(NamedTuple):
         """Clearance per side, mm; negative if the roller does not fit into the slot."""
         return (by.slot_width_mm - by.roller_diameter_mm) * 0.5 + self.clearance
 
+    @property
+    def ends_deg(self) -> tuple[float, float]:
+        """Entry and exit, input angles from mid-motion."""
+        return self.engagement.entry_deg, self.engagement.exit_deg
+
     def margin_mm(self, spec: Spec, use: Mapping[str, float]) -> float:
         """Greatest sum of errors of L and R that every random machine allows, mm.
 
@@ -65,7 +70,7 @@ class MotionError(NamedTuple):
         times = 3.0 if spec.tolerance.distribution == "normal" else 1.0
         play = 0.5 * (use["roller_diameter_mm"] + use["slot_width_mm"])
         e = self.engagement
-        entry, exit_ = (np.ravel(x) for x in (e.entry_deg, e.exit_deg))
+        entry, exit_ = map(np.ravel, self.ends_deg)
         x, y = e.path(np.linspace(entry, exit_, MOTION_SAMPLES, axis=-1), 0)
         near = np.atleast_2d(np.hypot(x.c[0], y.c[0])).min(axis=-1, keepdims=True)
         nearest = self.L * (near - size(e.slot.offset))
@@ -78,14 +83,36 @@ class MotionError(NamedTuple):
         The machines are a first axis of the deviations, (k,) or for n designs (k, n, 1).
         """
         each = Deviations(*[Jet([_machines_first(z) for z in jet.c]) for jet in by])
-        entry, exit_ = (np.ravel(x) for x in (self.engagement.entry_deg, self.engagement.exit_deg))
+
+        def off(at: Array, side: float) -> Array:
+            return np.asarray((array(self(each, at, side).c[0]) * side).max(axis=0))
+
+        return self._greatest(off)
+
+    def greatest_rss(self, sizes: Sequence[float]) -> WorstErrors:
+        """Greatest root of the squared effects of the dimensions, over the motion: as ``greatest``.
+
+        ``sizes`` are the plus or minus of each dimension. The error without deviations adds to it.
+        """
+        none, which = deviations([0.0] * len(sizes)), [i for i, x in enumerate(sizes) if np.any(x)]
+
+        def root(at: Array, side: float) -> Array:
+            slopes = [array(self(slope_of(i), at, side).c[1]) * sizes[i] for i in which]
+            squares = sum((slope * slope for slope in slopes), 0.0 * at)
+            return np.asarray(abs(array(self(none, at, side).c[0])) + np.sqrt(squares))
+
+        return self._greatest(root)
+
+    def _greatest(self, of: Callable[[Array, float], Array]) -> WorstErrors:
+        """Greatest of a function of input angles (n, k) and a side, in each design."""
+        entry, exit_ = map(np.ravel, self.ends_deg)
         best: WorstErrors | None = None
         for side in (1.0, -1.0):
             low, high = entry, exit_
             # eleven more samplings, each about the greatest of the last and a tenth as wide
             for count in (MOTION_SAMPLES, *[41] * 11):
                 at = np.linspace(low, high, count, axis=-1)
-                off = (array(self(each, at, side).c[0]) * side).max(axis=0)
+                off = of(at, side)
                 at, every = np.broadcast_to(at, off.shape), np.arange(len(off))
                 i = np.argmax(off, axis=1)
                 here = WorstErrors(off[every, i], at[every, i], np.full(len(off), side))

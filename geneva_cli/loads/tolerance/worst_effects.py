@@ -23,26 +23,15 @@ import numpy as np
 
 from geneva_cli.loads.impacts.impacts import arm_mm
 from geneva_cli.loads.impacts.shock import first_contacts
-from geneva_cli.loads.tolerance.dimensions import (
-    corners,
-    deviations,
-    slope_of,
-    tolerances,
-    without_effect,
-)
-from geneva_cli.loads.tolerance.motion_error import (
-    MOTION_SAMPLES,
-    MotionError,
-    WorstErrors,
-    motion_errors,
-)
+from geneva_cli.loads.tolerance.dimensions import corners, tolerances, without_effect
+from geneva_cli.loads.tolerance.motion_error import MOTION_SAMPLES, WorstErrors, motion_errors
 from geneva_cli.motion.many import taken
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Array, array, blocks, joined, parameter
+from geneva_cli.numerics.arrays import Array, blocks, joined, parameter
 
 
 class MotionPlays(NamedTuple):
-    """Greatest errors of wheels during a motion: (m,) each.
+    """Greatest errors of wheels during a motion, each at its own place: (m,) each.
 
     NaN if tolerances are all 0, or too wide for a machine.
     """
@@ -78,26 +67,13 @@ def _of(mechanism: Mechanism, n: int) -> MotionPlays:
         worst = WorstErrors(*(np.resize(row, n) for row in error.greatest(corners(sizes))))
         more = worst.error > best.error
         best = worst.beyond(best)
-        rss = np.where(more, _rss(error, sizes, worst), rss)
+        rss = np.maximum(rss, error.greatest_rss(sizes).error)
         at_deg = mechanism.shown_deg(parameter(engagement.mid_deg + worst.at_deg[:, None]))
         shown = np.where(more, np.ravel(at_deg), shown)
         both = use["center_distance_mm"] + use["crank_radius_mm"]
         known = known & (both < error.margin_mm(mechanism.spec, use))
     rows = (np.degrees(best.error), np.degrees(rss), shown)
     return MotionPlays(*(np.where(known[:, 0], row, np.nan) for row in rows))
-
-
-def _rss(error: MotionError, sizes: list[float], at: WorstErrors) -> Array:
-    """Root of the squared effects of each dimension, at these places."""
-    x, side = at.at_deg[:, None], at.side[:, None]
-    rest = error(deviations([0.0] * len(sizes)), x, side).c[0]
-    parts = [
-        array(error(slope_of(i), x, side).c[1]) * size
-        for i, size in enumerate(sizes)
-        if np.any(size)
-    ]
-    squares = sum((part * part for part in parts), np.zeros((len(x), 1)))
-    return np.ravel(abs(array(rest)) + np.sqrt(squares))
 
 
 def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> Array | None:

@@ -1,8 +1,8 @@
 """Limits of the fits (ISO 286) that the drawings use.
 
 H7 is for holes, g6 and h6 for shafts in them. A pin is h6 all along: parts pressed on it are P7,
-parts that turn on it are F7 (shaft-basis fits, ISO 286-1). The loosest preferred running fit is
-here too.
+parts that turn on it are F7 (shaft-basis fits, ISO 286-1). The loosest and the closest clearance of
+parts that slide are here too.
 """
 
 from __future__ import annotations
@@ -89,6 +89,19 @@ def loosest_mm(nominal_mm: float) -> float | None:
     if row is None or row.it11 is None or row.c is None:
         return None
     return (2 * row.it11 + row.c) / 1000.0
+
+
+def closest_mm(nominal_mm: float) -> float | None:
+    """Return the least clearance of H7/h6, on average, with which all parts go together, mm.
+
+    It is of the diameter: half of both grades, for the widest shaft in the narrowest hole. None
+    beyond the standard's 3150 mm.
+
+    >>> closest_mm(24.0)
+    0.017
+    """
+    row = _range_of(nominal_mm)
+    return None if row is None else (row.it6 + row.it7) / 2000.0
 
 
 def _range_of(nominal_mm: float) -> SizeRange | None:

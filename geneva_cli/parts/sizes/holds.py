@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.strength.arm import arm_stress_MPa
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress, shear_allowed_MPa
-from geneva_cli.loads.strength.pin import pin
+from geneva_cli.loads.strength.pin import PinSize, pin
 from geneva_cli.loads.strength.shafts import shear_MPa
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.preferred import rounded_from
@@ -21,6 +22,7 @@ from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
     from geneva_cli.loads.strength.part_loads import PartLoads
+    from geneva_cli.motion.mechanism import Mechanism
     from geneva_cli.parts.sizes.stressed import ShaftSize, Stressed
 
 
@@ -32,15 +34,14 @@ class PinSpace(NamedTuple):
     eye: float  # the largest radius of the arm about the pin
 
 
-def pin_that_holds(spec: Spec, usual: float, space: PinSpace, force_N: float) -> float:
+def pin_that_holds(mechanism: Mechanism, usual: float, space: PinSpace, loads: PartLoads) -> float:
     """Return the radius of the first pin from the usual one on that holds, or the largest.
 
-    ``force_N`` is the greatest force on the pin, along the wall's normal.
-
-    The largest leaves a wall of the roller about its hole, and one of the arm. With friction on the
-    pin it stays the usual one, on which the loads depend.
+    It holds the greatest force of the cycle, and the impact at a change of sides. The largest
+    leaves a wall of the roller about its hole, and one of the arm. With friction on the pin it
+    stays the usual one, on which the loads depend.
     """
-    size = spec.size
+    spec, size = mechanism.spec, mechanism.spec.size
     rubs = spec.load.friction and not spec.load.rubs_in_slot
     if size.pin_mm is not None or rubs or not usual:
         return usual
@@ -48,8 +49,10 @@ def pin_that_holds(spec: Spec, usual: float, space: PinSpace, force_N: float) ->
     # the roller keeps three tenths of its radius as a wall about the hole for its pin
     most = min(0.7 * space.roller - 0.5 * size.allowances.shaft_fit_mm, space.eye)
     allowed = roller_material(spec).allowed_MPa
-    whole_N = force_N * math.hypot(1.0, spec.load.friction)  # with friction along the wall
+    rubbed, jump = math.hypot(1.0, spec.load.friction), np.array([[loads.pin_jump]])
     for d in rounded_from(2.0 * usual, 2.0 * most):
+        struck_N = forces_N(mechanism, jump, PinSize(d, contact)).item() if jump else 0.0
+        whole_N = max(loads.pin_N, struck_N) * rubbed  # with friction along the wall
         stress = float(pin(spec.size, contact, d).under(whole_N).equivalent)
         if keeps(stress, "at most", allowed):
             break

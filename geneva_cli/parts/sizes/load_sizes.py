@@ -1,7 +1,8 @@
 """Default sizes under a load: thicknesses, pin, bores and hubs as large as the load needs.
 
-The loads follow from the motion, the roller and what the wheel turns, never from these sizes. Only
-with friction on the pin do they depend on its diameter: then it stays the usual one. The sizes are
+The loads follow from the motion, the roller and what the wheel turns, never from these sizes, but
+that a stiffer pin is struck harder where the roller changes sides. With friction on the pin all
+loads depend on its diameter: then it stays the usual one. The sizes are
 computed one after the other. The wheel's thickness follows from its horns, then the pin from that.
 For one thickness of the arm after the other there are shafts, until the arm holds.
 
@@ -121,7 +122,7 @@ def _pin(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> float:
         hub = max(sizes.wheel_hub, largest_hub(sizes.slot_end))
         eye = assembly.L - max(roller_reaches(assembly)) - hub - sizes.wall_min
     space = PinSpace(sizes.wheel_thickness, sizes.roller, eye)
-    return pin_that_holds(assembly.full.spec, sizes.pin, space, loads.pin_N)
+    return pin_that_holds(assembly.full, sizes.pin, space, loads)
 
 
 def _bored(

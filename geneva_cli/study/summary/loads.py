@@ -1,8 +1,9 @@
-"""Summary of ``geneva loads``: the motor first, then input, pin, wheel and flywheel."""
+"""Summary of ``geneva loads``: the motor first, then input, pin, impact, wheel and flywheel."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from geneva_cli.answer import WARNS, Answer, Summary, SummaryLine
@@ -29,7 +30,7 @@ def of_loads(design: Design) -> Answer:
 
 
 def load_lines(design: Design) -> Iterator[SummaryLine]:
-    """Motor, input, pin, wheel and flywheel of a machine; without a load, the needed keys."""
+    """Motor, input, pin, impact, wheel, flywheel of a machine; without a load, the needed keys."""
     if not design.cycle.is_loaded:
         yield SummaryLine("loads", f"not known: {no_load(design.cycle)}")
         return
@@ -37,10 +38,12 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
     yield from cycle_lines(design)
     yield from _backwards(design)
     sizing = _sizing(design)
-    if sizing["flywheel_to_add_kgm2"] is not None:
-        add = measured(sizing["flywheel_to_add_kgm2"], "kg m²")
+    whole, add = sizing["flywheel_kgm2"], sizing["flywheel_to_add_kgm2"]
+    if whole is not None:
         variation = measured(100.0 * (design.spec.motor.speed_variation or 0.0), "%")
-        yield SummaryLine("flywheel", f"{add} on the input for a speed variation of {variation}")
+        text = f"{measured(whole, 'kg m²')} on the input for a speed variation of {variation}"
+        text += "" if add == whole else f", {bare(add, 'kg m²')} of it besides the motor"
+        yield SummaryLine("flywheel", text)
 
 
 def _backwards(design: Design) -> Iterator[SummaryLine]:
@@ -49,19 +52,18 @@ def _backwards(design: Design) -> Iterator[SummaryLine]:
         return
     for machine in every_way(design.mechanism)[1:]:
         other = Design.of(machine.spec)
-        own = (motor_line(design), *cycle_lines(design))
-        for here, there in zip(own, (motor_line(other), *cycle_lines(other)), strict=True):
-            if here.text != there.text:
+        own = {line.text for line in (motor_line(design), *cycle_lines(design))}
+        for there in (motor_line(other), *cycle_lines(other)):
+            if there.text not in own:
                 yield there._replace(label=f"{there.label}, backwards")
 
 
 def cycle_lines(design: Design) -> Iterator[SummaryLine]:
-    """The loads of input, pin and wheel over the cycle."""
+    """The loads of input, pin and wheel over the cycle, and the impact at a change of sides."""
     loads = design.loads
-    torque, force, stress = (
-        loads[name] for name in ("input_torque_Nm", "pin_force_N", "contact_stress_MPa")
-    )
-    if torque.max is None or torque.min is None:
+    force, stress = loads["pin_force_N"], loads["contact_stress_MPa"]
+    torque = design.cycle.extremes["input_torque_Nm"]  # with its signs
+    if not math.isfinite(torque.max - torque.min):
         yield SummaryLine("input", f"torque {NO_BOUND}")
     else:
         text = f"{bare(torque.min, 'N m')} to {measured(torque.max, 'N m')}"
@@ -75,6 +77,7 @@ def cycle_lines(design: Design) -> Iterator[SummaryLine]:
     else:
         pin += f"; contact stress {_greatest(stress, 'MPa')}"
     yield SummaryLine("pin", pin)
+    yield from _impact(design.strength.reversal)
     if design.spec.output.turns:
         turned = _greatest(loads["alpha_rad_s2"], "rad/s²")
         twisted = _greatest(loads["wheel_torque_Nm"], "N m")
@@ -83,6 +86,19 @@ def cycle_lines(design: Design) -> Iterator[SummaryLine]:
         moved = _greatest(loads["rack_acceleration_m_s2"], "m/s²")
         pushed = _greatest(loads["rack_force_N"], "N")
         yield SummaryLine("rack", f"{moved}; force {pushed}")
+
+
+def _impact(reversal: Mapping[str, float | None]) -> Iterator[SummaryLine]:
+    """The impact of the roller on the other wall of its slot, if there is one."""
+    jump, at_deg = reversal["jump"], reversal["at_deg"]
+    force, stress = reversal["force_N"], reversal["contact_stress_MPa"]
+    if jump is None or at_deg is None:
+        return
+    size = f"speed jumps by {measured(jump)} of the input's"
+    size = size if force is None else measured(force, "N")
+    text = f"{size} at {measured(at_deg, 'deg')}, where the roller changes sides"
+    text += "" if stress is None else f"; contact stress {measured(stress, 'MPa')}"
+    yield SummaryLine("impact", text, "geneva explain reversal_shock_N")
 
 
 def _greatest(ends: LoadSummary[float | None], unit: str) -> str:

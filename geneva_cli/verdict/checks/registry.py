@@ -32,6 +32,7 @@ MOTION: Checks = {
     "undercut_mm": "verdict.checks.motion:undercut_depth",
     "entry_shock_N": "verdict.checks.shocks:entry_shock",
     "reversal_shock_N": "verdict.checks.shocks:reversal_shock",
+    "reversal_stress_MPa": "verdict.checks.shocks:reversal_stress",
     "stopping_torque_Nm": "verdict.checks.shocks:stopping_torque",
     "rack_horn_mm": "kinds.linear.checks:rack_horn",
     "guide_locks": "kinds.linear.checks:guide_locks",
@@ -123,6 +124,12 @@ RACK: Checks = {
 }
 # The checks of parts at rest, by ``Gearing.PARTS``.
 STANDING = {"flat": STATIC, "ball": SPHERE, "rack": RACK}
+# Checks of all the machines within the tolerances, for which parts are turned.
+TOLERANCES: Checks = {
+    "tolerance_slot_mm": "verdict.checks.tolerance:slot_clearance",
+    "tolerance_lock_mm": "verdict.checks.tolerance:lock_clearance",
+    "tolerance_turns": "verdict.checks.tolerance:extremes_turn",
+}
 # Checks of plates or shells in a whole turn.
 TURNING: Checks = {
     "dwell_hold": "verdict.checks.play:dwell_hold",
@@ -136,6 +143,7 @@ TURNING: Checks = {
     "hand_over_offset_mm": "verdict.checks.play:hand_over_offset",
     "motion_play_deg": "verdict.checks.play:motion",
     "motion_play_mm": "verdict.checks.play:motion",
+    **TOLERANCES,
 }
 # Those that fail where a roller does not find its slot, or meets the rim next to it, and jams.
 JAMS = (

@@ -6,7 +6,6 @@ import math
 from typing import TYPE_CHECKING
 
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Number
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.numerics.roots import Falsi
 from geneva_cli.spec.tables import Tolerance
@@ -14,6 +13,7 @@ from geneva_cli.verdict.checks.check import Check, compared
 
 if TYPE_CHECKING:
     from geneva_cli.loads.impacts.impacts import Impact
+    from geneva_cli.loads.strength.pin import PinSize
 
 
 def entry_shock(name: str, mechanism: Mechanism) -> Check | None:
@@ -23,7 +23,7 @@ def entry_shock(name: str, mechanism: Mechanism) -> Check | None:
         return None
     from geneva_cli.loads.impacts.impacts import entry_impacts
 
-    impact = entry_impacts(mechanism, pin_mm=_pin_mm(mechanism)).only
+    impact = entry_impacts(mechanism, pin=_pin(mechanism)).only
     if impact is None:
         return None
     check = _force_check(name, mechanism, impact)
@@ -33,22 +33,45 @@ def entry_shock(name: str, mechanism: Mechanism) -> Check | None:
 
 
 def reversal_shock(name: str, mechanism: Mechanism) -> Check | None:
-    """The impact where the roller changes from one wall of its slot to the other."""
-    if mechanism.spec.tolerance == Tolerance(distribution=mechanism.spec.tolerance.distribution):
-        return None
-    from geneva_cli.loads.impacts.impacts import reversal_impacts
+    """The impact where the roller changes from one wall of its slot to the other.
 
+    None if neither a limit nor tolerances ask for it: the pin's stress has it in any case.
+    """
+    spec = mechanism.spec
+    limit, tolerance = spec.limits.pin_force_max_N, spec.tolerance
+    if limit is None and tolerance == Tolerance(distribution=tolerance.distribution):
+        return None
     if mechanism.unbalanced:
         why = "not computed where a body off its axis moves a wheel on a carrier"
-        return Check(name, None, "at most", mechanism.spec.limits.pin_force_max_N, None, why)
-    impact = reversal_impacts(mechanism, _pin_mm(mechanism)).only
+        return Check(name, None, "at most", limit, None, why)
+    impact = _reversal(mechanism)
     if impact is None:
         return None
     check = _force_check(name, mechanism, impact)
-    more = drag_words(mechanism)
     if check.passes is None:
-        return check._replace(why=f"{check.why}; {more}")
-    return check._replace(why=more) if check.passes is False else check
+        return check._replace(why=f"{check.why}; {drag_words(mechanism)}")
+    return _without_change(check, mechanism)
+
+
+def reversal_stress(name: str, mechanism: Mechanism) -> Check | None:
+    """The contact stress of the impact at a change of sides, where ``[limits]`` bounds it."""
+    limit = mechanism.spec.limits.contact_stress_max_MPa
+    impact = None if limit is None else _reversal(mechanism)
+    if limit is None or impact is None or impact.contact_stress_MPa is None:
+        return None
+    stress = impact.contact_stress_MPa
+    return _without_change(compared(name, stress, "at most", limit, impact.at_deg), mechanism)
+
+
+def _reversal(mechanism: Mechanism) -> Impact | None:
+    from geneva_cli.loads.impacts.impacts import reversal_impacts
+
+    return reversal_impacts(mechanism, _pin(mechanism)).only
+
+
+def _without_change(check: Check, mechanism: Mechanism) -> Check:
+    """The check, and what prevents the change of sides if it fails."""
+    return check if check.passes else check._replace(why=drag_words(mechanism))
 
 
 def drag_words(mechanism: Mechanism) -> str:
@@ -66,11 +89,11 @@ def drag_words(mechanism: Mechanism) -> str:
     return f"a drag of {drag:g} N m on the wheel prevents the change of sides"
 
 
-def _pin_mm(mechanism: Mechanism) -> Number | None:
+def _pin(mechanism: Mechanism) -> PinSize | None:
     from geneva_cli.verdict.quantities.designs import single
-    from geneva_cli.verdict.quantities.under_load import impact_pin_mm
+    from geneva_cli.verdict.quantities.under_load import drawn_pin
 
-    return impact_pin_mm(single(mechanism))
+    return drawn_pin(single(mechanism))
 
 
 def _force_check(name: str, mechanism: Mechanism, impact: Impact) -> Check:
@@ -81,7 +104,7 @@ def _force_check(name: str, mechanism: Mechanism, impact: Impact) -> Check:
     spec, lacks = mechanism.spec, []
     if not spec.is_loaded:
         lacks.append("inertia_kgm2 in [load]")
-    if spec.size.face_width_mm is None:
+    if impact.force_N is None and spec.size.face_width_mm is None:
         lacks.append("face_width_mm in [size]")
     if limit is None:
         lacks.append("pin_force_max_N in [limits]")
@@ -95,10 +118,10 @@ def _tolerable(mechanism: Mechanism, check: Check) -> str:
     """The fraction to which the tolerances on R and L must shrink, whose root the force follows."""
     from geneva_cli.loads.impacts.impacts import entry_impacts
 
-    limit, pin_mm = check.limit or 0.0, _pin_mm(mechanism)
+    limit, pin = check.limit or 0.0, _pin(mechanism)
 
     def spare(fraction: float) -> float:
-        impact = entry_impacts(mechanism, fraction, pin_mm).only
+        impact = entry_impacts(mechanism, fraction, pin).only
         return limit - (impact.force_N or 0.0 if impact else 0.0)
 
     force = Falsi(0.0, limit, 1.0, limit - (check.value or 0.0))

@@ -9,7 +9,7 @@ from geneva_cli.loads.impacts.change_of_sides import lasting_drag_Nm
 from geneva_cli.loads.impacts.impacts import Impacts, entry_impacts, reversal_impacts
 from geneva_cli.numerics.arrays import Array, Number
 from geneva_cli.verdict.quantities.designs import Columns, Designs
-from geneva_cli.verdict.quantities.under_load import impact_pin_mm
+from geneva_cli.verdict.quantities.under_load import drawn_pin
 
 
 def vibration(of: Designs) -> Columns:
@@ -28,14 +28,14 @@ def vibration(of: Designs) -> Columns:
 
 def entry(of: Designs) -> Columns:
     """The impact at entry if R/L is wrong."""
-    return _impact(of, entry_impacts(of.machine, pin_mm=impact_pin_mm(of)))
+    return _impact(of, entry_impacts(of.machine, pin=drawn_pin(of)))
 
 
 def reversal(of: Designs) -> Columns:
     """The impact at a change of sides, and the drag that would prevent it."""
     coasts = np.ravel(inertia_kgm2(of.spec)) > 0.0
     drag = np.where(coasts, np.ravel(lasting_drag_Nm(of.machine)), np.inf)
-    impacts = reversal_impacts(of.machine, impact_pin_mm(of))
+    impacts = reversal_impacts(of.machine, drawn_pin(of))
     return _impact(of, impacts, drag_Nm=drag)
 
 

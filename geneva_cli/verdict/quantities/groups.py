@@ -202,7 +202,9 @@ REPORT = (
     ),
     _group("shock.entry", "at_deg jump force_N moment_Nms", batch="disturbances:entry"),
     _group(
-        "shock.reversal", "at_deg jump force_N moment_Nms drag_Nm", batch="disturbances:reversal"
+        "shock.reversal",
+        "at_deg jump force_N moment_Nms contact_stress_MPa drag_Nm",
+        batch="disturbances:reversal",
     ),
     _group("slot", "positively_driven", "report.loads:slot"),
     _group("slot", "not_driven_share branch_gap_mm branch_gap_at_deg", batch="loads:slot"),

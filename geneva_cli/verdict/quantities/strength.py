@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.loads.impacts.shock_force import least_pin_mm
 from geneva_cli.loads.strength import arm as arms
 from geneva_cli.loads.strength import pin as pins
 from geneva_cli.loads.strength import shafts
@@ -40,14 +41,13 @@ def margin(stress: Number, allowed: Number | None) -> Array | None:
 
 
 def pin(of: Designs) -> Columns:
-    """The roller's pin under the greatest force; it needs a width of the contact."""
+    """The roller's pin under the greatest force or impact; it needs a width of the contact."""
     load, allowed = under_load(of), _allowed(of, of.spec.material_roller, roller_material)
     width, out = load.contact_mm, {"allowed_MPa": allowed}
     if width is None:
         return out
-    force = load.roller_N
     section = pins.pin(of.spec.size, width, load.pin_mm)
-    under = section.under(force)
+    under = section.under(load.pin_N(pins.PinSize(load.pin_mm, width)))
     stress = np.ravel(under.equivalent)
     out |= {
         "diameter_mm": section.diameter_mm,
@@ -57,7 +57,11 @@ def pin(of: Designs) -> Columns:
         "margin": margin(stress, allowed),
     }
     if allowed is not None:
-        least = pins.least_diameter_mm(section, force, allowed)
+        least = np.ravel(pins.least_diameter_mm(section, load.roller_N, allowed))
+        jump = load.reversals.jump[:, None]
+        rubbed = section.under(load.rubbed)
+        struck = least_pin_mm(of.machine, jump, width, rubbed, allowed)
+        least = np.maximum(least, np.nan_to_num(struck))
         out["least_diameter_mm"] = np.where(np.isfinite(allowed), least, np.inf)
     return out
 

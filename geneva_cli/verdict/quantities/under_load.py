@@ -10,8 +10,11 @@ import numpy as np
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.cycle_quantities import FORCE, PV
+from geneva_cli.loads.impacts.impacts import Impacts, reversal_impacts
+from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.strength import lock, shafts
 from geneva_cli.loads.strength import pin as pins
+from geneva_cli.loads.strength.pin import PinSize
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.numerics.arrays import Array, Number, library, parameter
 from geneva_cli.parts.outlines.outline_sizes import Layout, sized
@@ -51,8 +54,13 @@ class UnderLoad:
     @cached_property
     def roller_N(self) -> Array:
         """The greatest force on a roller, with its friction along the wall; (m, 1)."""
+        return self.force_N[:, None] * self.rubbed
+
+    @property
+    def rubbed(self) -> float:
+        """The force on a roller over that along the wall's normal, (m, 1)."""
         friction = self.designs.load_case.friction
-        return self.force_N[:, None] * library(friction).hypot(1.0, friction)
+        return parameter(library(friction).hypot(1.0, friction))
 
     @cached_property
     def pv_W_m2(self) -> Array:
@@ -152,13 +160,30 @@ class UnderLoad:
         return parameter(np.reshape(self.parts.contact, (-1, 1)))
 
     @cached_property
+    def reversals(self) -> Impacts:
+        """The impacts at a change of sides, without their forces."""
+        return reversal_impacts(self.machine)
+
+    def pin_N(self, pin: PinSize) -> Array:
+        """The greatest force on a roller, with its friction, in the cycle or by an impact; (m, 1).
+
+        A pin of another size is struck by another force.
+        """
+        jump = self.reversals.jump[:, None]
+        if np.isnan(jump).all():
+            return self.roller_N
+        struck = forces_N(self.machine, jump, pin)[:, None]
+        return np.maximum(self.roller_N, np.nan_to_num(struck * self.rubbed))
+
+    @cached_property
     def pin_mm(self) -> Number:
         """The diameter of the roller's pin, (m, 1): of the spec, or as its machine is drawn."""
         size, width = self.machine.spec.size, self.contact_mm
         usual = pins.pin_diameter_mm(self.machine)
         if size.pin_mm is not None or width is None:
             return usual
-        stress = pins.pin(size, width, usual).under(self.roller_N).equivalent
+        force = self.pin_N(PinSize(usual, width))
+        stress = pins.pin(size, width, usual).under(force).equivalent
         # where the usual pin holds, it is drawn
         holds = ~(stress > roller_material(self.machine.spec).allowed_MPa)
         parts = None if np.all(holds) else self.parts
@@ -189,6 +214,7 @@ def under_load(of: Designs) -> UnderLoad:
     return of.once(UnderLoad)
 
 
-def impact_pin_mm(of: Designs) -> Number | None:
-    """The diameter of the pin that an impact bends; None where its force is not known."""
-    return None if of.spec.size.face_width_mm is None else under_load(of).pin_mm
+def drawn_pin(of: Designs) -> PinSize | None:
+    """The pin that an impact bends, and its contact; None where nothing has a width."""
+    width = under_load(of).contact_mm
+    return None if width is None else PinSize(under_load(of).pin_mm, width)

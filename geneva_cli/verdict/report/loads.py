@@ -10,7 +10,7 @@ from geneva_cli.loads import loads
 from geneva_cli.loads.carried import inertia_kgm2
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS, sources
-from geneva_cli.loads.summary import reversals_deg, summaries
+from geneva_cli.loads.summary import reversals_deg
 from geneva_cli.motion.peaks import worst
 from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.quantities.designs import Values
@@ -38,11 +38,14 @@ def greatest_loads(model: PartsModel) -> Values:
 def cycle(model: PartsModel) -> Values:
     """Greatest and least over the motions, mean and rms over the period; None without a load."""
     of = cycle_of(model.mechanism)
-    rows = summaries(of)
     values: Values = {}
     for name in ("input_torque_Nm", "power_W", "crank_bearing_N"):
-        numbers = rows[name]._asdict()
-        values |= {f"{name}.{key}": numbers[key] for key in ("max", "min", "mean", "rms")}
+        one = of.extremes.get(name)
+        numbers = one._asdict() if one else {}
+        for key in ("max", "min", "mean", "rms"):
+            value = numbers.get(key)
+            bounded = value is not None and math.isfinite(value)
+            values[f"{name}.{key}"] = value if bounded else None
     values["reversals_deg"] = tuple(reversals_deg(of)) if of.is_loaded else None
     return values
 

@@ -14,15 +14,21 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple, TypeAlias
 
+import numpy as np
+
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.loads.impacts.impacts import arm_mm
+from geneva_cli.loads.tolerance.dimensions import corners
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.turn.machine_parts import MachineParts
+from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.checks.registry import turn_checks
+from geneva_cli.verdict.tolerance.locks import ball_of, locks_of
 
 # The lock's need, None for none, and the spec of the tightest machine (-1) or the loosest (+1)
 Corners: TypeAlias = tuple[float | None, Callable[[float], Spec]]
@@ -41,44 +47,73 @@ class RequiredClearances(NamedTuple):
     why: str
 
 
+class LeastClearances(NamedTuple):
+    """The clearances that tolerances need, mm per side, and the machines at their ends."""
+
+    slot_mm: float
+    lock_mm: float | None
+    corner: Callable[[float], Spec]
+
+    def short(self, spec: Spec) -> str:
+        """The clearances of a spec that are too small, in words; empty if there are none."""
+        size, short = spec.size.allowances, []
+        if size.slot_clearance_mm < self.slot_mm * (1.0 - 1e-12):
+            short.append(f"slot_clearance_mm must be at least {self.slot_mm:.6g}")
+        if self.lock_mm is not None and size.lock_clearance_mm < self.lock_mm * (1.0 - 1e-12):
+            short.append(f"lock_clearance_mm must be at least {self.lock_mm:.6g}")
+        return " and ".join(short)
+
+    def turns(self) -> tuple[bool | None, str]:
+        """Whether the tightest and the loosest machine turn, None if unknown; and why not."""
+        for sign, words in (
+            (-1.0, "largest roller and locking disc, narrowest slot and recess"),
+            (1.0, "smallest roller and locking disc, widest slot and recess"),
+        ):
+            failed = _failing_check(self.corner(sign))
+            if failed:
+                return failed[0], f"with the {words}: {failed[1]}"
+        return True, ""
+
+
 def required_clearances(
-    mechanism: Mechanism, model: PartsModel, sizes: dict[str, float], least_play: float
+    mechanism: Mechanism, model: PartsModel, sizes: dict[str, float]
 ) -> RequiredClearances:
     """The clearances that the tolerances need, and a whole turn of the tightest and the loosest.
 
-    ``sizes`` are the tolerances that apply, in millimetres and radians; ``least_play`` is that of
-    the lock, radians.
+    ``sizes`` are the tolerances that apply, in millimetres and radians.
     """
-    spec = mechanism.spec
+    spec, why = mechanism.spec, "there are no drawn parts to turn"
+    try:
+        least = least_clearances(mechanism, model.parts, sizes) if spec.is_turned else None
+    except GenevaError as error:
+        least, why = None, str(error)
+    if least is None:
+        return RequiredClearances(_slot_mm(mechanism, sizes, 0.0), None, None, why)
+    short = least.short(spec)
+    turns, why = (False, short) if short else least.turns()
+    return RequiredClearances(least.slot_mm, least.lock_mm, turns, why)
+
+
+def least_clearances(
+    mechanism: Mechanism, parts: MachineParts, sizes: dict[str, float]
+) -> LeastClearances:
+    """The clearances with which machines within the tolerances enter their slots and locks."""
+    ends = corners(list(sizes.values()))
+    plays = [float(np.min(lock(ends).angle.c[0])) for lock in locks_of(parts)]
+    slot = _slot_mm(mechanism, sizes, min(plays, default=0.0))
+    ball = ball_of(parts)
+    if ball is not None:
+        return LeastClearances(slot, *_on_sphere(mechanism.spec, ball, sizes, slot))
+    assert isinstance(parts, Outlines)  # nothing else has tolerances
+    return LeastClearances(slot, *_flat(mechanism.spec, parts, sizes, slot))
+
+
+def _slot_mm(mechanism: Mechanism, sizes: dict[str, float], least_play: float) -> float:
+    """The clearance that the slot needs; ``least_play`` is that of the lock, radians."""
     fit = 0.5 * (sizes["roller_diameter_mm"] + sizes["slot_width_mm"])
-    slot = fit + max(
+    return fit + max(
         _slot_offset_mm(mechanism, e, sizes, least_play) for e in mechanism.engagements
     )
-    if not spec.is_turned:
-        return RequiredClearances(slot, None, None, "there are no drawn parts to turn")
-    try:
-        lock, corner = (
-            _flat(spec, model.outlines, sizes, slot)
-            if spec.wheel.FLAT
-            else _on_sphere(spec, model.shells.ball, sizes, slot)
-        )
-    except GenevaError as error:
-        return RequiredClearances(slot, None, None, str(error))
-    short = []
-    if spec.size.allowances.slot_clearance_mm < slot * (1.0 - 1e-12):
-        short.append(f"slot_clearance_mm must be at least {slot:.6g}")
-    if lock is not None and spec.size.allowances.lock_clearance_mm < lock * (1.0 - 1e-12):
-        short.append(f"lock_clearance_mm must be at least {lock:.6g}")
-    if short:
-        return RequiredClearances(slot, lock, False, " and ".join(short))
-    for sign, words in (
-        (-1.0, "largest roller and locking disc, narrowest slot and recess"),
-        (1.0, "smallest roller and locking disc, widest slot and recess"),
-    ):
-        failed = _failing_check(corner(sign))
-        if failed:
-            return RequiredClearances(slot, lock, failed[0], f"with the {words}: {failed[1]}")
-    return RequiredClearances(slot, lock, True, "")
 
 
 def _slot_offset_mm(
@@ -177,7 +212,7 @@ def _arc_increase_mm(angle: float, by: float, L: float) -> float:
 def _failing_check(spec: Spec) -> tuple[bool | None, str] | None:
     """The check of a whole turn that fails; None if all pass."""
     try:
-        model = PartsModel(build(spec))
+        model = PartsModel(build(spec.replace(tolerance=Tolerance())))
         rows = list(turn_checks(model.parts, model.turn))
     except GenevaError as error:
         return None, str(error)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -10,28 +9,23 @@ import numpy as np
 
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, Notice, cut
-from geneva_cli.kinds.spherical.locking import SphereLock
-from geneva_cli.kinds.spherical.shells import Shells
 from geneva_cli.loads.impacts.impacts import mouth_jumps_worst
 from geneva_cli.loads.tolerance.dimensions import Deviations, corners, tolerances, without_effect
 from geneva_cli.loads.tolerance.draws import Draws
 from geneva_cli.loads.tolerance.entry_jump import entry_jumps
-from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.loads.tolerance.motion_error import WorstErrors, motion_errors
 from geneva_cli.loads.tolerance.random_machines import (
     RandomMachines,
     Spread,
+    likely_place,
     random_machines,
     spread,
 )
 from geneva_cli.loads.tolerance.worst_effects import entry_jumps_worst
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
-from geneva_cli.parts.outlines.cut_lock import cut_arcs
-from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.verdict.tolerance.locks import CutLock, locks_of
 from geneva_cli.verdict.tolerance.needed import RequiredClearances, required_clearances
-
-SAME = 1e-6  # fraction of the centre distance, or radians: nearer radii and angles are equal
 
 
 class EntryJumps(NamedTuple):
@@ -68,14 +62,15 @@ def study(mechanism: Mechanism, model: PartsModel, samples: int, seed: int) -> S
     ends = corners(sizes)
     every_lock = _locks(mechanism, model, warnings)
     lock = max(every_lock, key=lambda one: _greatest(one(ends).angle.arrays()[0]), default=None)
-    least_play = min((float(np.min(one(ends).angle.c[0])) for one in every_lock), default=0.0)
-    errors = [(one, *_single_design(one.greatest(ends))) for one in motion_errors(mechanism)]
+    motions = motion_errors(mechanism)
+    errors = [(one, *_single_design(one.greatest(ends))) for one in motions]
     farthest = max(errors, key=lambda error: error[1], default=None)
+    roots = [(one, *_single_design(one.greatest_rss(sizes))) for one in motions]
     jumps = max(entry_jumps(mechanism), key=lambda one: _greatest(one(ends)[0]), default=None)
     normal = mechanism.spec.tolerance.distribution == "normal"
     machines = Draws(tuple(sizes), normal, seed)
-    at_worst = (farthest[0], farthest[2], farthest[3]) if farthest else None
-    drawn = random_machines(machines, samples, lock, at_worst, jumps)
+    likely = likely_place(machines, samples, motions) if motions else None
+    drawn = random_machines(machines, samples, lock, likely, jumps)
     dwell = motion = at_deg = None
     if lock:
         worst = _greatest(lock(ends).angle.arrays()[0]) + use["slot_angle_deg"]
@@ -88,9 +83,10 @@ def study(mechanism: Mechanism, model: PartsModel, samples: int, seed: int) -> S
             )
         )
     if farthest:
-        one, worst, at, side = farthest
-        motion = spread(lambda by: one(by, at, side) * side, sizes, worst, drawn.motion)
+        one, worst, at, _ = farthest
         at_deg = mechanism.shown_deg(one.engagement.mid_deg + at)
+        other, _, place, side = max(roots, key=lambda root: root[1])
+        motion = spread(lambda by: other(by, place, side) * side, sizes, worst, drawn.motion)
     else:
         warnings.append(
             Notice(
@@ -106,7 +102,7 @@ def study(mechanism: Mechanism, model: PartsModel, samples: int, seed: int) -> S
                 "entry_jump is not known: the law, not the path, sets how the roller enters",
             )
         )
-    clearances = required_clearances(mechanism, model, use, least_play)
+    clearances = required_clearances(mechanism, model, use)
     if clearances.turns is not True:
         what = "not every machine turns" if clearances.turns is False else "no turn was computed"
         warnings.append(Notice("not-every-machine-turns", f"{what}: {clearances.why}"))
@@ -168,15 +164,11 @@ def _applicable(mechanism: Mechanism) -> tuple[dict[str, float], list[Notice]]:
     return use, warnings
 
 
-def _locks(
-    mechanism: Mechanism, model: PartsModel, warnings: list[Notice]
-) -> Sequence[Lock | SphereLock]:
+def _locks(mechanism: Mechanism, model: PartsModel, warnings: list[Notice]) -> Sequence[CutLock]:
     if not mechanism.spec.is_turned:
         return []
     try:
-        return (
-            flat_locks(model.outlines) if mechanism.spec.wheel.FLAT else sphere_locks(model.shells)
-        )
+        return locks_of(model.parts)
     except GenevaError as error:
         warnings.append(Notice("not-known", f"no parts: {error}"))
         return []
@@ -189,40 +181,3 @@ def _single_design(errors: WorstErrors) -> tuple[float, float, float]:
 
 def _greatest(values: Array) -> float:
     return float(np.max(values))
-
-
-def flat_locks(outlines: Outlines) -> list[Lock]:
-    """Each corner of a recess with each locking arc of the crank; none without a locking disc."""
-    size, assembly = outlines.sizes, outlines.assembly
-    if not outlines.crank:
-        return []
-    near = SAME * assembly.L
-    radii = {
-        round(math.hypot(*end) / near): math.hypot(*end)
-        for arc in cut_arcs([outlines.wheel], size.recess, assembly.L, near)
-        for end in (arc.start, arc.end)
-    }
-    halves = {
-        round(arc.sweep / SAME): 0.5 * abs(arc.sweep)
-        for arc in cut_arcs(outlines.crank, size.lock, 0.0, near)
-    }
-    return [
-        Lock(assembly.L, assembly.sign, size.lock, size.recess, radius, half)
-        for radius in radii.values()
-        for half in halves.values()
-        if half > SAME
-    ]
-
-
-def sphere_locks(shells: Shells) -> list[SphereLock]:
-    """A recess with each locking sector of a spherical crank; empty without one."""
-    ball = shells.ball
-    halves = {
-        round(edge.sweep / SAME): 0.5 * edge.sweep
-        for region in shells.crank
-        for edge in region.boundary[:1]  # it begins with the locking edge
-    }
-    return [
-        SphereLock(ball.radius_mm, ball.axes, ball.lock, ball.recess, ball.rim, half)
-        for half in halves.values()
-    ]
