@@ -11,10 +11,12 @@ sphere inwards from the wheel's outer face.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.drawings.model import PartsModel
+from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.mass import MM, solid_properties
 from geneva_cli.geometry.measure import bounds_of
 from geneva_cli.geometry.plates import Part, Shell, Solid
@@ -176,7 +178,8 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
         entries.append(Dimension("roller radius", r, "mm"))
         entries.append(Dimension("slot width", 2.0 * (r + clear), "mm"))
     entries += _screws_and_edges(spec.size)
-    entries += or_missing("screws", lambda: _screws(model))
+    with suppress(GenevaError):  # the rows of what cannot be built have the reason
+        entries += _screws(model)
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     entries += model.kind.dimensions(model)
     cranked = spec.drive.CRANKED and not spec.wheel.toothed
@@ -210,8 +213,8 @@ def _screws_and_edges(size: Size) -> Iterator[Dimension]:
 
 def _screws(model: PartsModel) -> Iterator[Dimension]:
     """Yield the screws between the parts, with their threads and the parts that are tapped."""
-    if model.mechanism.spec.has_parts:
-        yield from (Dimension(one.name, one.text) for one in model.built.screws)
+    screws = model.built.screws if model.mechanism.spec.has_parts else ()
+    yield from (Dimension(one.name, one.text) for one in screws)
 
 
 def _straight(mechanism: Mechanism) -> Iterator[Dimension]:
