@@ -178,7 +178,8 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
         Dimension("slot width", 2.0 * (r + clear), "mm"),
     ]
     entries += _screws_and_edges(spec.size)
-    entries += or_missing("screws", lambda: _screws(model))
+    with suppress(GenevaError):  # the rows of what cannot be built have the reason
+        entries += _screws(model)
     entries += _to_fix(model)
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     entries += model.kind.dimensions(model)
@@ -212,8 +213,8 @@ def _screws_and_edges(size: Size) -> Iterator[Dimension]:
 
 def _screws(model: PartsModel) -> Iterator[Dimension]:
     """Yield the screws between the parts, with their threads and the parts that are tapped."""
-    if model.mechanism.spec.has_parts:
-        yield from (Dimension(one.name, one.text) for one in model.built.screws)
+    screws = model.built.screws if model.mechanism.spec.has_parts else ()
+    yield from (Dimension(one.name, one.text) for one in screws)
 
 
 def _to_fix(model: PartsModel) -> Iterator[Dimension]:

@@ -162,12 +162,14 @@ def test_it_is_below_all_that_moves_and_has_walls(name):
 
 
 def test_a_guide_is_screwed_on_where_its_own_holes_are():
+    """M8 passes 9 mm in the guide, and its thread of 1.25 mm pitch is in the frame."""
     design, _, drawing = made("slider-crank")
     holes = [s for s in drawing.shapes if isinstance(s, Circle)][2:4]
     bars = design.drawing("assembly").shapes
     for hole in holes:
+        assert hole.radius == 0.5 * (8.0 - 1.25)
         assert any(
-            s.centre == pytest.approx(hole.centre) and s.radius == pytest.approx(hole.radius)
+            s.centre == pytest.approx(hole.centre) and s.radius == pytest.approx(4.5)
             for s in bars
             if isinstance(s, Circle) and s.layer == "LINK"
         )

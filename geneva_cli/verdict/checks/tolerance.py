@@ -46,7 +46,7 @@ def _least(parts: MachineParts) -> LeastClearances | None:
     machine = parts.assembly.full
     tolerance = machine.spec.tolerance
     none = tolerance == Tolerance(distribution=tolerance.distribution)
-    if none or machine.spec.wheel.toothed or not machine.output.turns:
+    if none or not machine.output.turns:
         return None
     # a spec without tolerances is checked without their modules
     from geneva_cli.loads.tolerance.worst_effects import used
