@@ -91,7 +91,7 @@ def _remedies(
     adviser = Adviser(mechanism, list(failing), parts)
     change, why = adviser.advice(list(failing))
     if change or len(failing) == 1:
-        return change and line(*change), why, [""] * len(failing)
+        return line(*change) if change else "", why, [""] * len(failing)
     each = [adviser.advice([c])[0] for c in failing]
     own = [line(*one) if one else "" for one in each]
     by_key = {one[0][:2]: one for one in each if one}
