@@ -31,6 +31,7 @@ from geneva_cli.drawings.sheet.paper import scale_name, table
 from geneva_cli.drawings.sheet.standing import draw_frame, draw_groove
 from geneva_cli.drawings.sheet.view import Block, View
 from geneva_cli.drawings.sheet.wheel import draw_wheel
+from geneva_cli.geometry.shapes import Circle
 from geneva_cli.geometry.sheet import Sheet
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot
@@ -93,7 +94,9 @@ def _standing(parts: FlatParts, begin: Begin) -> Iterator[View]:
         yield view
     for plate in flat_plates(parts.bridge):
         view = begin(plate.name)
-        draw_frame(view, plate, axis_name="the crank's axis")
+        _, *through = (hole for hole in plate.holes if isinstance(hole, Circle))
+        screws = {hole: sized.screw_hole(hole.radius) for hole in through}
+        draw_frame(view, plate, axis_name="the crank's axis", screws=screws)
         yield view
     (frame,) = flat_plates([parts.frame])
     view = begin(frame.name)
