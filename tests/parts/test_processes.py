@@ -156,7 +156,7 @@ def test_a_clearance_for_another_thickness_is_named() -> None:
     assert "slot_clearance_mm = 0.25" in texts[0]
     assert texts[0].endswith("set slot_clearance_mm to 0.3")
     told = load(
-        str(DESIGNS / "four-bar-z4.toml"), ("size.process=laser", "size.slot_clearance_mm=0.2")
+        str(DESIGNS / "four-bar-z4.toml"), ("size.process=laser", "size.slot_clearance_mm=0.3")
     )
     assert "narrow-for-process" not in {text.name for text in told.warnings}
 
