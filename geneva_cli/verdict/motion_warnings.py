@@ -103,7 +103,8 @@ def _fits(mechanism: Mechanism) -> Iterator[Notice]:
     if mechanism.spec.has_lock:
         radius = mechanism.ratio * mechanism.center_distance_mm if disc is None else disc
         pairs.append(("lock_clearance_mm", "locking disc", "recess", radius))
-    is_cut = mechanism.spec.is_flat and workshop(size.process).cut_mm
+    shop = workshop(size.process)
+    is_cut = mechanism.spec.is_flat and shop.cut_mm
     for key, part, mate, radius in pairs:
         clearance, fit = getattr(size, key), loosest_mm(2.0 * radius)
         if clearance is None:
@@ -118,13 +119,16 @@ def _fits(mechanism: Mechanism) -> Iterator[Notice]:
                 f"{2.0 * radius:.4g} mm the loosest running fit of ISO 286, H11/c11, leaves at "
                 f"most {0.5 * (fit or 0.0):.4g} mm a side: reduce {key} to {most:.4g}{helps}",
             )
-        # what plates need that a laser cuts is known with their thickness: ``process_warnings``
-        elif not (is_cut or keeps(clearance, "at least", least)):
+        # what plates need that a laser cuts is known with their thickness (``process_warnings``);
+        # at nominal sizes the fits of the sheet make the clearance
+        elif not (
+            is_cut or (shop.fits and clearance == 0.0) or keeps(clearance, "at least", least)
+        ):
             yield Notice(
                 "narrow-for-process",
                 f'{key} = {clearance:g}: with process = "{size.process}" {part} and {mate} '
                 f"(Ø {2.0 * radius:.4g} mm) are off by up to {least:.4g} mm a side together, and "
-                f"may not go together: increase {key} to {least:.4g}",
+                f"may not go together: set {key} to {least:.4g}",
             )
 
 
@@ -138,8 +142,7 @@ def _least_clearance_mm(size: Size, own: float, radius: float) -> float:
         return 0.0
     if shop.cut_mm:  # a cut's clearance is its deviation
         return own
-    closest = closest_mm(2.0 * radius) if shop.fits else 2.0 * shop.deviation_mm
-    return min(own, 0.5 * (closest or 0.0))
+    return 0.5 * (closest_mm(2.0 * radius) or 0.0) if shop.fits else min(own, shop.deviation_mm)
 
 
 def _overtaken(mechanism: Mechanism) -> Iterator[Notice]:

@@ -201,9 +201,9 @@ def test_a_clearance_that_the_process_cannot_hold_is_said(
     assert said(slot_mm, lock_mm) == []
     if process:
         (text,) = said(0.99 * slot_mm, lock_mm)
-        assert text.endswith(f"increase slot_clearance_mm to {slot_mm:.4g}")
-        (text,) = said(slot_mm, 0.0)
-        assert text.endswith(f"increase lock_clearance_mm to {lock_mm:.4g}")
+        assert text.endswith(f"set slot_clearance_mm to {slot_mm:.4g}")
+        (text,) = said(slot_mm, 0.5 * lock_mm)
+        assert text.endswith(f"set lock_clearance_mm to {lock_mm:.4g}")
 
 
 def test_an_export_says_what_a_check_would(tmp_path: Path) -> None:
