@@ -89,7 +89,8 @@ def test_every_command(design, under, tmp_path):
             continue
         result = run(words, settings)
         fails = name in FAILING and failed(one)
-        assert result.exit_code in ((0, 1) if fails else (0,)), (name, result.output)
+        # parts of a failing design may have no form to be written: status 2, with the part's name
+        assert result.exit_code in ((0, 1, 2) if fails else (0,)), (name, result.output)
         assert "nan" not in result.stdout.lower().replace("nance", ""), name
         if "json" in words:
             assert all(map(math.isfinite, numbers(json.loads(result.stdout)))), name
