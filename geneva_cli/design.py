@@ -393,7 +393,8 @@ class Design:
         """Curves of motion and loads over a cycle, one panel for each quantity.
 
         ``pick`` are names of quantities, as ``jerk`` or ``pin_force_N``; without, the usual ones
-        that are known. ``geneva_cli.output.show_figure`` writes it. Raises GenevaError for another name.
+        that are known. ``geneva_cli.output.show_figure`` writes it. Raises GenevaError for another
+        name.
 
         >>> panels = Design(External(6)).figure(["velocity", "jerk"]).panels
         >>> [mark.y for mark in panels[1].curves[0].marks]

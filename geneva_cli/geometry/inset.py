@@ -51,6 +51,8 @@ def corner(before: Line | Arc, after: Line | Arc, depth: float) -> Point:
     for _ in range(8):  # Newton's digits double each time, and the first guess errs by depth²/R
         (d, (ux, uy)), (e, (vx, vy)) = away(before, (x, y)), away(after, (x, y))
         det = ux * vy - uy * vx
+        if not det:  # so deep that both pieces are in one direction, to rounding
+            raise _too_wide()
         d, e = depth - d, depth - e
         x, y = x + (d * vy - e * uy) / det, y + (e * ux - d * vx) / det
     return x, y

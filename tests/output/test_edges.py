@@ -7,12 +7,13 @@ import math
 
 import numpy as np
 import pytest
+import repo
 import trimesh
 from drawing_witness import polygon
 from sampling import some
 from step_witness import File
 
-from geneva_cli import Design, External, Internal, Size
+from geneva_cli import Design, External, Internal, Size, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.edges import Edge
@@ -179,3 +180,11 @@ def test_a_chamfer_wider_than_half_a_wall_fails():
     assert failed.name == "parts" and "edge_chamfer_mm = 1.5: the arm has a wall" in failed.why
     with pytest.raises(GenevaError, match="the arm has a wall of"):
         list(chunks(wide.drawing("arm"), "mm"))
+
+
+@pytest.mark.parametrize("key", ["edge_chamfer_mm", "edge_fillet_mm"])
+def test_an_edge_wider_than_everything_is_refused(key, no_advice):
+    """At 10 km both pieces of a corner have one direction: the sine of their angle is 0."""
+    design = load(str(repo.DESIGNS / "turret.toml"), [f"size.{key}=1e7", "size.face_width_mm=10"])
+    (parts,) = [check for check in design.checks if check.name == "parts"]
+    assert not parts.passes and "it is wider than a rounding" in parts.why
