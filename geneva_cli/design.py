@@ -348,7 +348,7 @@ class Design:
         >>> [row["proved"] for row in design.certified_peaks().to_dict()["certificate"]]
         [True, True, True, True]
         >>> design.certified_peaks(for_people=True).to_dict()["certificate"][2]
-        'jerk.max in [5.99999999999999, 6.00000000000000], unique, proved'
+        'jerk.max in [5.99999999999999, 6.00000000000001], unique, proved'
         """
         from geneva_cli.extras.certify.certificate import with_certificates
 
@@ -684,7 +684,7 @@ class Design:
 
         >>> small = Design(External(4), size=Size(center_distance_mm=30)).sheet(0.01)
         >>> small.scale, small.width, small.height
-        (2.0, 594.0, 420.0)
+        (2.0, 420.0, 297.0)
         """
         from geneva_cli.drawings.catalogue import part_sheet
         from geneva_cli.parts.written import writing_in

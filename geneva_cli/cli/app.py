@@ -60,6 +60,10 @@ GROUPS = {
 COMMANDS = {name: line for group in GROUPS.values() for name, line in group.items()}
 
 
+FAULT = 70  # exit status; EX_SOFTWARE of sysexits.h, and no status of a design or a user's error
+REPORT = (
+    "please report it in the issues of geneva-cli, with the spec; GENEVA_DEBUG=1 shows where it is"
+)
 HELP = {"help_option_names": ["-h", "--help"]}
 USAGE: Any = typer.BadParameter.__base__  # Typer's error for arguments that no command takes
 
@@ -342,4 +346,19 @@ def main() -> None:
         status = 0
     except SystemExit as stop:
         status = stop.code if isinstance(stop.code, int) else int(stop.code is not None)
+    except Exception as error:
+        status = _fault(error)
     leave(status)
+
+
+def _fault(error: Exception) -> int:
+    """Report a fault of the program in one line; return its exit status."""
+    close()
+    if os.environ.get("GENEVA_DEBUG"):
+        import traceback
+
+        traceback.print_exc()
+    command = cut(" ".join(["geneva", *sys.argv[1:]]), 200)
+    what = cut(f"{type(error).__name__}: {error}", 200)
+    print(clean(f"{command}: a fault of geneva {__version__}, {what}; {REPORT}"), file=sys.stderr)
+    return FAULT

@@ -366,7 +366,7 @@ def _number(place: tuple[str, ...], field: Field, value: float, whole: bool) -> 
         )
     if value not in field.rule:
         # no reader of the rule would think of such numbers
-        least = f"; and 0, or at least {TINY:g} in size" if 0.0 < abs(value) < TINY else ""
+        least = f"; sizes below {TINY:g} are not computed" if 0.0 < abs(value) < TINY else ""
         raise GenevaError(
             f"{field.key} = {shown(value)} must be {field.rule}{least} ({field.meaning})", place
         )

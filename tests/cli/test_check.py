@@ -87,7 +87,7 @@ def test_a_spec_that_cannot_be_read_does_not_pass() -> None:
         assert list(row) == list(error) and row["error"].startswith(error["error"])
         assert {one["spec"] for one in tree["rows"]} == {"bad.toml", *others}
     few = run("bad.toml", PLAIN, "--format", "json", "--columns", "spec,error")
-    assert [*json.loads(few.stdout)] == ["rows"] and "zz" in few.stdout
+    assert [*json.loads(few.stdout)][:1] == ["rows"] and "zz" in few.stdout
     assert "✗ 1 of 2 specs passes, 1 cannot be read" in run("bad.toml", PLAIN).stdout
     both = run("bad.toml", PLAIN, "fast.toml").stdout
     assert "✗ 1 of 3 specs fails, 1 cannot be read" in both

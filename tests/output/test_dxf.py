@@ -320,7 +320,8 @@ import hashlib, sys
 sys.path.insert(0, {tests!r})
 import geneva_cli.output.dxf  # before the tests import ezdxf
 from test_dxf import MANY, TINY
-from geneva_cli.output import dxf, svg
+from geneva_cli.output import dxf
+from geneva_cli.output.svg import drawing_svg as svg
 for drawing in (MANY, TINY):
     for module in (dxf, svg):
         text = "".join(module.chunks(drawing, "mm"))

@@ -28,7 +28,7 @@ def in_range(rng, rule, whole):
     if whole:
         low, high = int(low), int(high)
         return rng.choice([low, high, min(high, low + rng.randrange(30)), rng.randint(low, high)])
-    inside_low = math.nextafter(low, math.inf) if rule.ends[0] == "(" else low
+    inside_low = (math.nextafter(low, math.inf) if low else 1e-300) if rule.ends[0] == "(" else low
     inside_high = math.nextafter(high, -math.inf) if rule.ends[1] == ")" else high
     nearly = low + (high - low) * 10.0 ** -rng.uniform(0, 15)
     usual = max(inside_low, min(inside_high, 10.0 ** rng.uniform(-3, 3)))

@@ -27,7 +27,7 @@ from geneva_cli.study.synth.built import Built
 from geneva_cli.study.synth.families import closed
 from geneva_cli.study.synth.parts_data import parts_data
 from geneva_cli.study.synth.reading import read_target
-from geneva_cli.study.synth.rows import NEAR_DEG, MachineRow, _groove_failure
+from geneva_cli.study.synth.rows import NEAR_DEG, MachineRow, _slot_failure
 from geneva_cli.study.synth.search import search
 from geneva_cli.study.synth.shown import for_people, for_terminal
 from geneva_cli.study.synth.table import NAMES, synthesis_table, turned
@@ -724,7 +724,7 @@ def test_a_groove_is_as_steep_as_its_check_says():
     assert {*passes} == {True, False}
     seen = [parts_data(machine.spec).pressure_deg for machine in machines]
     assert any(abs(x - GROOVE_MAX_DEG) < NEAR_DEG for x in seen)
-    assert [not _groove_failure(machine) for machine in machines] == passes
+    assert [not _slot_failure(machine) for machine in machines] == passes
 
 
 def test_where_a_cycle_is_asked_for_rows_are_ranked_by_time():

@@ -65,7 +65,7 @@ PARTS = {
     "rim": "[wheel]\nz = 6\n[size]\nwheel_radius_mm = 120\n",
     "rim-inside": "[wheel]\nz = 6\ngearing = 'internal'\n[size]\nwheel_radius_mm = 85\n",
     "bore": "[wheel]\nz = 8\n[size]\ncenter_distance_mm = 250\nroller_radius_mm = 12\n"
-    "crank_bore_mm = 30\n",
+    "crank_bore_mm = 30\nrelief = 'arc'\n",
     "hub": "[wheel]\nz = 8\n[size]\ncrank_hub_mm = 20\n",
     "wheel-hub": "[wheel]\nz = 6\n[size]\nwheel_hub_mm = 90\n",
     "horn": "[wheel]\nz = 6\n[size]\nlock_radius_mm = 44.8\n",

@@ -206,6 +206,15 @@ def test_a_clearance_that_the_process_cannot_hold_is_said(
         assert text.endswith(f"set lock_clearance_mm to {lock_mm:.4g}")
 
 
+def test_a_rim_without_a_centre_distance_names_the_default() -> None:
+    said = Design(External(6), size=Size(wheel_radius_mm=70.0)).warnings
+    texts = [str(w) for w in said if w.name == "no-centre-distance"]
+    assert len(texts) == 1 and "L = 100 mm is taken" in texts[0]
+    both = Size(80.0, wheel_radius_mm=70.0)
+    names = {w.name for w in Design(External(6), size=both).warnings}
+    assert "no-centre-distance" not in names
+
+
 def test_an_export_says_what_a_check_would(tmp_path: Path) -> None:
     path, out = tmp_path / "bore.toml", tmp_path / "wheel.svg"
     export = ["profile", str(path), "--part", "wheel", "-o", str(out)]

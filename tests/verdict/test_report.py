@@ -81,7 +81,7 @@ def test_a_sound_design_passes_both(tmp_path: Path) -> None:
     page = run("report", spec, "--format", "md").stdout.splitlines()
     assert page[0].startswith("# ")
     assert "wheel" not in page[0]
-    assert page[2] == "**All 22 checks pass, 1 warning**"
+    assert page[2] == "**All 23 checks pass, 1 warning**"
     assert page[4].startswith("An external wheel of 6 straight radial slots")
     assert not any("<b>" in line for line in page)
 
@@ -143,7 +143,7 @@ def test_every_spec_is_checked_also_beside_one_that_is_missing(tmp_path: Path) -
     good, bad = str(DESIGNS / "projector.toml"), str(tmp_path / "missing.toml")
     found = run("check", bad, good, written(tmp_path, "[wheel]\nz = 2\n"), good)
     assert found.exit_code == 2
-    headline = "projector.toml: all 20 checks pass, 2 warnings"
+    headline = "projector.toml: all 21 checks pass, 2 warnings"
     assert " ".join(found.stdout.split()).count(headline) == 2
     first, second = found.stderr.splitlines()
     assert first.startswith(f"{bad}: cannot read")

@@ -35,11 +35,9 @@ def run(
     or with --samples, the cycle is printed in rows, evenly spaced in the input angle from entry.
     json is always the summary.
 
-    The pin force is a size. In the rows of the cycle it is positive on the wall that drives the
-    wheel, and negative on the wall that holds it back. The input's torque and power are negative
-    where the wheel drives the input; the greatest torque is a size, as its limit is. In a dwell the
-    lock holds the wheel, and all values are 0. Where clearances make play, the impact of a roller
-    that changes sides has a line of its own.
+    The pin force is a size; in rows it is negative on the wall that holds the wheel back. Torque
+    and power of the input are negative where the wheel drives it; the greatest torque is a size. In
+    a dwell all values are 0. Where clearances make play, a change of sides is an impact.
 
     Links are rigid and have no mass, and the motor exerts a torque alone. The force guide_force_N
     acts on what guides the roller besides its shaft: a rocker, slider, groove or fixed gear, or

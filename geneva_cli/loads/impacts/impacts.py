@@ -121,10 +121,14 @@ def mouth_jumps_worst(mechanism: Mechanism) -> Array:
 
 
 def clearance_mm(mechanism: Mechanism) -> float:
-    """Clearance between roller and slot per side, for the smallest roller in the widest slot."""
-    tolerance = mechanism.spec.tolerance
+    """Clearance between roller and slot per side, for the smallest roller in the widest slot.
+
+    Where both have nominal sizes, the fits of the process make it.
+    """
+    tolerance, usual = mechanism.spec.tolerance, mechanism.spec.size.allowances
     both = tolerance.roller_diameter_mm + tolerance.slot_width_mm
-    return mechanism.spec.size.allowances.slot_clearance_mm + 0.5 * both
+    given = usual.slot_clearance_mm
+    return choose(given == 0.0, usual.slot_play_mm, given) + 0.5 * both
 
 
 def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impacts:

@@ -70,7 +70,7 @@ def test_a_range_of_steps_takes_the_shortest():
 
 
 def test_a_rack_of_a_spec_keeps_its_sizes_and_loads():
-    size, load = Size(center_distance_mm=50.0, slot_clearance_mm=0.1), Load(mass_kg=4.0)
+    size, load = Size(center_distance_mm=50.0, slot_clearance_mm=0.1), Load(mass_kg=0.4)
     frame = Spec(Linear(8), size=size, load=load)
     for row in rows_of(frame=frame, tau="0.45"):
         assert row.spec.wheel == Linear(8)

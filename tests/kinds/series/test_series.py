@@ -34,6 +34,7 @@ from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import bounds
 from geneva_cli.kinds.series.retimed import retimed
+from geneva_cli.loads.summaries import LoadSummary, load_summaries
 from geneva_cli.motion.both_ways import backwards
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many
@@ -431,7 +432,9 @@ def test_loads_on_both_sides_of_a_jump_at_mid_motion(eccentricity, friction):
     before = EllipticalGears(eccentricity=eccentricity) if eccentricity else None
     loaded = Load(inertia_kgm2=1.0, torque_Nm=2.0, friction=friction)
     design = Design.of(Spec(External(6), motion=law, load=loaded, drive_before=before))
-    torque, force = (design.loads[name] for name in ("input_torque_Nm", "pin_force_N"))
+    names = ["input_torque_Nm", "wall_force_N"]  # both with signs
+    both = load_summaries(design.mechanism, names, ())
+    torque, force = (LoadSummary(*(float(row[0]) for row in both[n][:4])) for n in names)
     if not (eccentricity or friction):
         # 1e-9: the digits of a matched R/L
         assert torque.max == pytest.approx(2.0 + 12.0 * math.pi, rel=1e-9)
