@@ -154,8 +154,12 @@ def ours(text, types=False):
 
 
 def climbs(module, text):
-    """What a module imports that is not below it, and not in its own room."""
-    above = {m for m in ours(text) if room(m) != room(module) and floor(m) >= floor(module)}
+    """What a module imports that is not below it, and not in its own room.
+
+    The lists of kinds and extras hold names only: everybody may import them.
+    """
+    others = ours(text) - {"kinds", "extras"}
+    above = {m for m in others if room(m) != room(module) and floor(m) >= floor(module)}
     return sorted(above)
 
 

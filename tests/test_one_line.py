@@ -125,7 +125,6 @@ class Leaning(Gearing):
 
     NAME: ClassVar[str] = "leaning"
     FLAT: ClassVar[bool] = False
-    PARTS: ClassVar[str] = ""  # not built
     EXAMPLE: ClassVar[Example] = Example(
         "a crank at an angle and offset", {"wheel": {"z": 6, "lean_deg": 20.0, "height_mm": 3.0}}
     )

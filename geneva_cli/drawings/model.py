@@ -14,12 +14,11 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension
-from geneva_cli.parts.missing import Missing, or_missing
+from geneva_cli.motion.registry import of_wheel
+from geneva_cli.parts.missing import Missing
+from geneva_cli.spec.load_named import load_named
 
 if TYPE_CHECKING:
-    from geneva_cli.kinds.linear.outlines import RackOutlines
-    from geneva_cli.kinds.linear.parts import RackParts
-    from geneva_cli.kinds.spherical.parts import SphereParts
     from geneva_cli.kinds.spherical.shells import Shells
     from geneva_cli.parts.flat_parts import FlatParts
     from geneva_cli.parts.outlines.outlines import Outlines
@@ -193,97 +192,6 @@ class Flat(PartsKind):
         return model.outlines
 
 
-class Ball(PartsKind):
-    """Shells of a sphere, on shafts that meet at its centre; links and gears before it are flat."""
-
-    HAS_FLAT_PARTS: ClassVar[bool] = True
-    TURNED: ClassVar[str] = "shells"
-    LAID_FLAT: ClassVar[tuple[str, ...]] = ("wheel", "crank", "arm")
-    TABLES: ClassVar[Mapping[str, str]] = {"wheel": "kinds.spherical.meridians:meridians_table"}
-    DRAWN: ClassVar[Mapping[str, str]] = {
-        "wheel": "kinds.spherical.drawings:wheel",
-        "crank": "kinds.spherical.drawings:crank",
-        "arm": "kinds.spherical.arm_drawing:arm",
-        "assembly": "kinds.spherical.drawings:assembly",
-        "sheet": "kinds.spherical.sheet:sheet",
-    }
-
-    def built(self, model: PartsModel) -> SphereParts:
-        """Return the parts."""
-        from geneva_cli.kinds.spherical.parts import SphereParts
-
-        return SphereParts(model.shells)
-
-    def turned(self, model: PartsModel) -> Shells:
-        """Return the shells."""
-        return model.shells
-
-    def all_built(self, model: PartsModel) -> NamedBuilds:
-        """Return names and functions of the shells, and of links and gears."""
-        return _before_links(model)
-
-    def dimensions(self, model: PartsModel) -> Iterator[Dimension | Missing]:
-        """Yield the dimensions of the shells."""
-        from geneva_cli.kinds.spherical.dimensions import dimensions
-
-        return or_missing("dimensions of the shells", lambda: dimensions(self.built(model)))
-
-    def stressed(self, mechanism: Mechanism) -> Stressed | None:
-        """Return the sizes of stressed parts; None if the sizes leave no shells."""
-        from geneva_cli.kinds.spherical.sizes import sized_ball
-        from geneva_cli.kinds.spherical.stressed import sphere_stressed
-
-        ball = sized_ball(mechanism)
-        return sphere_stressed(mechanism.spec, ball) if ball else None
-
-
-class Rack(PartsKind):
-    """Plates along a line: a rack in its guide, and its crank."""
-
-    DRAWN: ClassVar[Mapping[str, str]] = {
-        "slot": "kinds.linear.drawings:slot",
-        "wheel": "drawings.part_drawings:wheel",
-        "crank": "drawings.part_drawings:crank",
-        "arm": "kinds.linear.drawings:arm",
-        "frame": "drawings.part_drawings:frame",
-        "guide": "kinds.linear.drawings:guide",
-        "assembly": "kinds.linear.drawings:assembly",
-        "plate": "drawings.print_plate:plate",
-        "sheet": "kinds.linear.sheet:sheet",
-    }
-
-    def built(self, model: PartsModel) -> RackParts:
-        """Return the parts."""
-        from geneva_cli.kinds.linear.parts import RackParts
-
-        return RackParts(model.mechanism)
-
-    def all_built(self, model: PartsModel) -> NamedBuilds:
-        """Return names and functions of all parts; its frame holds its gears, but not links."""
-        framed = model.mechanism.spec.has_parts
-        return super().all_built(model) if framed else _before_links(model)
-
-    def turned(self, model: PartsModel) -> RackOutlines:
-        """Return the outlines of the rack and its crank."""
-        from geneva_cli.kinds.linear.outlines import rack_outlines
-
-        return rack_outlines(model.mechanism)
-
-    def dimensions(self, model: PartsModel) -> Iterator[Dimension | Missing]:
-        """Yield the dimensions of the rack."""
-        from geneva_cli.kinds.linear.frame import rack_dimensions
-        from geneva_cli.kinds.linear.rack import rack_sizes
-
-        named = "dimensions of the rack"
-        return or_missing(named, lambda: rack_dimensions(rack_sizes(model.mechanism)))
-
-    def stressed(self, mechanism: Mechanism) -> Stressed:
-        """Return the sizes of stressed parts."""
-        from geneva_cli.kinds.linear.stressed import rack_stressed
-
-        return rack_stressed(mechanism)
-
-
 class Unbuilt(PartsKind):
     """No parts but the links and gears in front of the crank."""
 
@@ -300,13 +208,13 @@ class Unbuilt(PartsKind):
         return [("all parts", lambda: model.flat)]
 
 
-def _before_links(model: PartsModel) -> NamedBuilds:
+def before_links(model: PartsModel) -> NamedBuilds:
     """Return names and functions of all parts where those of links and gears are flat."""
     return [("wheel and crank", lambda: model.built), ("all parts", lambda: model.flat)]
 
 
 def kind_of(mechanism: Mechanism) -> PartsKind:
     """Return the kind of a machine's parts."""
-    kinds: dict[str, type[PartsKind]]
-    kinds = {"flat": Flat, "ball": Ball, "rack": Rack}
-    return kinds.get(mechanism.spec.wheel.PARTS, Unbuilt)()
+    of_parts = [kind.parts for kind in of_wheel(mechanism.spec.wheel.NAME) if kind.parts]
+    kind: PartsKind = load_named(of_parts[-1])() if of_parts else Unbuilt()
+    return kind

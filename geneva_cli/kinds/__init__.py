@@ -1,1 +1,14 @@
-"""Kinds of machines that only some users need, a folder each."""
+"""Kinds of machines that only some users need, a folder each.
+
+The list holds folders. Each has ``KINDS``, the records of its kinds, and imports nothing else.
+"""
+
+FOLDERS = (
+    "linear",
+    "series",
+    "linkages",
+    "gear_sector",
+    "carousel",
+    "spherical",
+    "stop",
+)

@@ -10,6 +10,7 @@ from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.drive import Drive, Gears
 from geneva_cli.motion.motion import Motion
+from geneva_cli.motion.registry import of_wheel
 from geneva_cli.motion.wheels.gearing import Gearing, Output
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.spec.schema import SpecTable, copied, hash_once, refuse_kind, without_hash
@@ -308,6 +309,11 @@ class Spec:
         return not self.no_parts
 
     @property
+    def _built(self) -> bool:
+        """True if the wheel's kind has parts, or one that adds to it."""
+        return any(kind.parts for kind in of_wheel(self.wheel.NAME))
+
+    @property
     def guided(self) -> bool:
         """True if a rack slides in a guide, which stands on the frame of its crank.
 
@@ -323,7 +329,7 @@ class Spec:
         >>> Spec(Linear(6)).is_turned, Spec(External(400)).is_turned
         (True, False)
         """
-        if not self.wheel.PARTS:
+        if not self._built:
             return False
         # A rack of any length is checked by the slots that the crank reaches in a turn.
         return not self.output.turns or self.wheel.z <= Z_DRAWN
@@ -335,7 +341,7 @@ class Spec:
         >>> Spec(External(400)).no_parts
         'wheels of more than 360 slots are not drawn'
         """
-        if not self.wheel.PARTS:
+        if not self._built:
             return f'shafts and frame of gearing = "{self.wheel.NAME}" are not built'
         before = self.drive_before
         if before is not None and len(self.drive.cranks) > 1:

@@ -1,6 +1,7 @@
 """Names of the kinds of wheels, drives and laws; each kind is imported when it is first used.
 
-A new kind is one file and one line here.
+A new wheel, drive or law of the core is one file and one line here. A kind that only some users
+need is a folder of ``kinds`` and a line there.
 """
 
 from __future__ import annotations
@@ -8,32 +9,33 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
+from geneva_cli.kinds import FOLDERS
 from geneva_cli.motion.drive import Drive
+from geneva_cli.motion.kind import Kind
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec.load_named import load_named
 
 if TYPE_CHECKING:
     from geneva_cli.motion.laws.law import Law
 
-GEARINGS = {
-    "external": "motion.wheels.external:External",
-    "internal": "motion.wheels.internal:Internal",
-    "spherical": "motion.wheels.spherical:Spherical",
-    "linear": "kinds.linear.motion:Linear",
-}
-DRIVES = {
-    "crank": "drives.crank:Crank",
-    "side-crank": "drives.side_crank:SideCrank",
-    "elliptical-gears": "drives.elliptical_gears:EllipticalGears",
-    "noncircular-gears": "drives.noncircular_gears:NoncircularGears",
-    "geneva-pair": "kinds.series.geneva_pair:GenevaPair",
-    "four-bar": "kinds.linkages.four_bar:FourBar",
-    "slider-crank": "kinds.linkages.slider_crank:SliderCrank",
-    "epicyclic": "drives.epicyclic:Epicyclic",
-    "gear-sector": "kinds.gear_sector.motion:GearSector",
-    "cam": "drives.cam:Cam",
-    "carousel": "kinds.carousel.motion:Carousel",
-}
+# The kinds of the core; those in ``kinds`` follow.
+_CORE = (
+    Kind("external", wheel="motion.wheels.external:External", parts="drawings.model:Flat"),
+    Kind("internal", wheel="motion.wheels.internal:Internal", parts="drawings.model:Flat"),
+    Kind("spherical", wheel="motion.wheels.spherical:Spherical"),
+    Kind("crank", drive="drives.crank:Crank"),
+    Kind("side-crank", drive="drives.side_crank:SideCrank"),
+    Kind("elliptical-gears", drive="drives.elliptical_gears:EllipticalGears"),
+    Kind("noncircular-gears", drive="drives.noncircular_gears:NoncircularGears"),
+    Kind("epicyclic", drive="drives.epicyclic:Epicyclic"),
+    Kind("cam", drive="drives.cam:Cam"),
+)
+KINDS: tuple[Kind, ...] = (
+    *_CORE,
+    *(kind for folder in FOLDERS for kind in load_named(f"kinds.{folder}:KINDS")),
+)
+GEARINGS = {kind.name: kind.wheel for kind in KINDS if kind.wheel}
+DRIVES = {kind.name: kind.drive for kind in KINDS if kind.drive}
 LAWS = {
     "harmonic": "motion.laws.standard:Harmonic",
     "cycloidal": "motion.laws.standard:Cycloidal",
@@ -62,6 +64,15 @@ _SYNONYMS = {
     "rack": "linear",
     "bevel": "spherical",
 }
+
+
+def of_wheel(name: str) -> list[Kind]:
+    """The records of a kind of wheel: its own, then those that add to it.
+
+    >>> [kind.name for kind in of_wheel("external")]
+    ['external', 'stop']
+    """
+    return [kind for kind in KINDS if name in (kind.adds_to, kind.name if kind.wheel else "")]
 
 
 def gearing(name: str) -> type[Gearing]:

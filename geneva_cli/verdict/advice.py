@@ -22,7 +22,7 @@ from geneva_cli.numerics.latest import counted
 from geneva_cli.numerics.roots import Falsi
 from geneva_cli.verdict.checks import checks, checks_at_rest, single_check
 from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
-from geneva_cli.verdict.checks.registry import SPHERE, STATIC, checks_of_turn, turn_checks
+from geneva_cli.verdict.checks.registry import STANDING, checks_of_turn, turn_checks
 
 if TYPE_CHECKING:
     from geneva_cli.drawings.model import PartsModel
@@ -325,7 +325,7 @@ class _Search:
 def _needs_parts(check: Check) -> bool:
     """True if a quick trial of a check needs the outlines of the parts."""
     near = check.at_deg is not None and check.name in NEAR
-    return near or check.name in STATIC or check.name in SPHERE
+    return near or check.name in STANDING
 
 
 def _left(model: PartsModel, check: Check) -> float:

@@ -41,7 +41,7 @@ from geneva_cli.study.sweep.run import ERROR
 from geneva_cli.study.synth.table import NAMES as SYNTH
 from geneva_cli.study.verdicts import checks_table
 from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.checks.registry import LIMITS, MOTION, STATIC, TURNING
+from geneva_cli.verdict.checks.registry import LIMITS, MOTION, STANDING, TURNING
 from geneva_cli.verdict.checks.registry import PROOFS as PROVED
 from geneva_cli.verdict.quantities import groups
 from geneva_cli.verdict.quantities.names import group_of
@@ -76,7 +76,7 @@ def named_in_calls(function: str) -> set[str]:
 def test_every_check_has_an_entry_and_no_entry_names_none():
     made = named_in_calls("Check") | named_in_calls("refused")
     assert made >= {"parts", "full_turn"}
-    assert explained("check") == {*MOTION, *LIMITS, *STATIC, *TURNING, *PROVED, *made}
+    assert explained("check") == {*MOTION, *LIMITS, *STANDING, *TURNING, *PROVED, *made}
 
 
 def test_every_warning_has_an_entry_and_no_entry_names_none():

@@ -142,18 +142,18 @@ OWN = {
 # given machine. Where a number is exceeded, see which branch imported too much.
 STRAIGHT, CURVED = "[wheel]\nz = 6\n", '[wheel]\nz = 6\n[motion]\nlaw = "modified-sine"\n'
 MOST = {
-    "peaks -": (70, 94),
-    "motion -": (72, 95),
-    "loads - --set load.inertia_kgm2=0.05": (210, 229),
-    "vibration - --period-ratio 5": (105, 110),
-    "check -": (194, 277),
-    "report -": (269, 325),
-    "compare - --vary drive.n_rpm=60,90": (197, 203),
-    "profile -": (83, 106),
-    "profile - --part wheel --format svg": (185, 268),
-    "profile - --part wheel --format dxf": (179, 262),
-    "profile - --part sheet --format svg": (202, 284),
-    "plot - --format svg": (125, 132),
+    "peaks -": (79, 103),
+    "motion -": (81, 104),
+    "loads - --set load.inertia_kgm2=0.05": (219, 238),
+    "vibration - --period-ratio 5": (114, 119),
+    "check -": (203, 286),
+    "report -": (278, 334),
+    "compare - --vary drive.n_rpm=60,90": (206, 212),
+    "profile -": (92, 115),
+    "profile - --part wheel --format svg": (194, 277),
+    "profile - --part wheel --format dxf": (188, 271),
+    "profile - --part sheet --format svg": (211, 293),
+    "plot - --format svg": (134, 141),
 }
 
 

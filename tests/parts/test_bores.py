@@ -20,7 +20,7 @@ from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.output.step import chunks
 from geneva_cli.parts.shafts.bores import bore_of, radius_of
 from geneva_cli.spec.tables import Shaft
-from geneva_cli.verdict.checks.registry import SPHERE, check_named
+from geneva_cli.verdict.checks.registry import check_named, standing
 
 
 def of(**size):
@@ -183,7 +183,7 @@ TILTED = Spherical(5, axes_deg=75.0)
 def standing_check(name, **size):
     """A check of a spherical machine's parts at rest."""
     design = Design(TILTED, size=Size(100.0, 5.0, **size))
-    return check_named(SPHERE, name, PartsModel(design.mechanism).built)
+    return check_named(standing(design.mechanism), name, PartsModel(design.mechanism).built)
 
 
 @pytest.mark.parametrize(

@@ -269,7 +269,7 @@ def main():
     bad = 0
     for path in options.designs or sorted(repo.DESIGNS.glob("*.toml")):
         try:
-            if load(str(path)).spec.wheel.PARTS == "ball":  # which no engine of the plane has
+            if load(str(path)).spec.wheel.NAME == "spherical":  # which no engine of the plane has
                 raise GenevaError("its parts turn on a sphere")
             with tempfile.TemporaryDirectory() as folder:
                 faults, line = turned(path, Path(folder))

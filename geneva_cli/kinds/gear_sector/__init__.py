@@ -1,1 +1,5 @@
 """Gear sectors: steps at a constant ratio."""
+
+from geneva_cli.motion.kind import Kind
+
+KINDS = (Kind("gear-sector", drive="kinds.gear_sector.motion:GearSector"),)

@@ -1,1 +1,22 @@
 """The linear Geneva: a rack of slots."""
+
+from geneva_cli.motion.kind import Kind
+
+KINDS = (
+    Kind(
+        "linear",
+        wheel="kinds.linear.motion:Linear",
+        parts="kinds.linear.drawn:Rack",
+        motion_checks={
+            "rack_horn_mm": "kinds.linear.checks:rack_horn",
+            "guide_locks": "kinds.linear.checks:guide_locks",
+        },
+        parts_checks={
+            "beside_shafts_mm": "verdict.checks.shafts:passing_rack",
+            "gear_gap_mm": "verdict.checks.shafts:passing_rack_gears",
+            "cut_plate_mm": "verdict.checks.process:thickest_of_rack",
+            "cut_slot_mm": "verdict.checks.process:width_in_rack",
+            "parts": "verdict.checks.process:plates_built",
+        },
+    ),
+)

@@ -42,7 +42,6 @@ class Linear(Gearing):
     )
     USUAL_LOAD: ClassVar[dict[str, float]] = {"mass_kg": 4, "force_N": 30}
     FLAT: ClassVar[bool] = False
-    PARTS: ClassVar[str] = "rack"
     DISTANCE: ClassVar[str] = "crank radius"
     LOCK: ClassVar[str] = "locking ring"
 

@@ -1,1 +1,8 @@
 """Linkages that carry the roller: four-bars and slider-cranks."""
+
+from geneva_cli.motion.kind import Kind
+
+KINDS = (
+    Kind("four-bar", drive="kinds.linkages.four_bar:FourBar"),
+    Kind("slider-crank", drive="kinds.linkages.slider_crank:SliderCrank"),
+)

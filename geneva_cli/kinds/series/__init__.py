@@ -1,1 +1,5 @@
 """Drives in series: one machine turns the input shaft of another."""
+
+from geneva_cli.motion.kind import Kind
+
+KINDS = (Kind("geneva-pair", drive="kinds.series.geneva_pair:GenevaPair"),)

@@ -1,1 +1,26 @@
 """Spherical machines: the parts of wheels whose shafts meet at an angle."""
+
+from geneva_cli.motion.kind import Kind
+
+KINDS = (
+    Kind(
+        "shells",
+        adds_to="spherical",
+        parts="kinds.spherical.drawn:Ball",
+        parts_checks={
+            "wall_between_slots_mm": "kinds.spherical.checks:between_slots",
+            "horn_mm": "kinds.spherical.checks:horn",
+            "wheel_bore_wall_mm": "kinds.spherical.checks:wheel_bore",
+            "crank_shaft_mm": "kinds.spherical.checks:crank_shaft",
+            "wheel_clamp_Nm": "verdict.checks.shafts:held_torque",
+            "crank_clamp_Nm": "verdict.checks.shafts:held_torque",
+            "dial_wall_mm": "kinds.spherical.checks:dial",
+            "crank_bore_wall_mm": "kinds.spherical.checks:crank_bore",
+            "beside_shafts_mm": "kinds.spherical.checks:passing_parts",
+            "arm_wall_mm": "kinds.spherical.checks:arm_wall",
+            "cut_plate_mm": "verdict.checks.process:thickest_shell",
+            "cut_slot_mm": "verdict.checks.process:width_in_shell",
+            "parts": "verdict.checks.process:solids_built",
+        },
+    ),
+)

@@ -96,9 +96,6 @@ class Gearing(SpecTable):
     FLAT: ClassVar[bool] = True
     # True if they are shells of a sphere, on shafts that meet at its centre
     SHELLS: ClassVar[bool] = False
-    # how all parts are built: "flat" about two axes, "ball" about a point, "rack" along a line,
-    # or "" if they are not built
-    PARTS: ClassVar[str] = "flat"
     # meaning of center_distance_mm
     DISTANCE: ClassVar[str] = "centre distance"
     # what locks it in the dwell, on a crank

@@ -35,7 +35,6 @@ class Spherical(Gearing):
     )
     FLAT: ClassVar[bool] = False
     SHELLS: ClassVar[bool] = True
-    PARTS: ClassVar[str] = "ball"
     DISTANCE: ClassVar[str] = "sphere's radius"
     axes_deg: Annotated[
         float, Range(0.0, 180.0, "()"), "spherical: angle between the two shafts"

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, TypeAlias
 
+from geneva_cli.motion.registry import KINDS, of_wheel
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.verdict.checks.check import Check
 
@@ -34,8 +35,7 @@ MOTION: Checks = {
     "reversal_shock_N": "verdict.checks.shocks:reversal_shock",
     "reversal_stress_MPa": "verdict.checks.shocks:reversal_stress",
     "stopping_torque_Nm": "verdict.checks.shocks:stopping_torque",
-    "rack_horn_mm": "kinds.linear.checks:rack_horn",
-    "guide_locks": "kinds.linear.checks:guide_locks",
+    **{name: path for kind in KINDS for name, path in kind.motion_checks.items()},
 }
 # Checks of limits that the spec sets.
 LIMITS: Checks = {
@@ -91,39 +91,19 @@ STATIC: Checks = {
     "branches_crossed_mm": "verdict.checks.walls:branches_crossed",
     "wheels_apart_mm": "verdict.checks.cranks:wheels_apart",
     "cranks_apart_mm": "verdict.checks.cranks:cranks_apart",
-    "stop_turns": "kinds.stop.checks:turns",
-    "stop_overlap_mm": "kinds.stop.checks:overlap",
-    "stop_stress_max_MPa": "kinds.stop.checks:stress",
+}
+# Checks of flat parts at rest, shown behind those that a kind adds.
+PROCESS: Checks = {
     "cut_plate_mm": "verdict.checks.process:thickest_plate",
     "cut_slot_mm": "verdict.checks.process:slot_width",
     "parts": "verdict.checks.process:plates_built",
 }
-# Checks of the shells of a sphere at rest.
-SPHERE: Checks = {
-    "wall_between_slots_mm": "kinds.spherical.checks:between_slots",
-    "horn_mm": "kinds.spherical.checks:horn",
-    "wheel_bore_wall_mm": "kinds.spherical.checks:wheel_bore",
-    "crank_shaft_mm": "kinds.spherical.checks:crank_shaft",
-    "wheel_clamp_Nm": "verdict.checks.shafts:held_torque",
-    "crank_clamp_Nm": "verdict.checks.shafts:held_torque",
-    "dial_wall_mm": "kinds.spherical.checks:dial",
-    "crank_bore_wall_mm": "kinds.spherical.checks:crank_bore",
-    "beside_shafts_mm": "kinds.spherical.checks:passing_parts",
-    "arm_wall_mm": "kinds.spherical.checks:arm_wall",
-    "cut_plate_mm": "verdict.checks.process:thickest_shell",
-    "cut_slot_mm": "verdict.checks.process:width_in_shell",
-    "parts": "verdict.checks.process:solids_built",
+# All checks of parts at rest, of whatever kind.
+STANDING: Checks = {
+    **STATIC,
+    **{name: path for kind in KINDS for name, path in kind.parts_checks.items()},
+    **PROCESS,
 }
-# Checks of a rack's machine at rest.
-RACK: Checks = {
-    "beside_shafts_mm": "verdict.checks.shafts:passing_rack",
-    "gear_gap_mm": "verdict.checks.shafts:passing_rack_gears",
-    "cut_plate_mm": "verdict.checks.process:thickest_of_rack",
-    "cut_slot_mm": "verdict.checks.process:width_in_rack",
-    "parts": "verdict.checks.process:plates_built",
-}
-# The checks of parts at rest, by ``Gearing.PARTS``.
-STANDING = {"flat": STATIC, "ball": SPHERE, "rack": RACK}
 # Checks of all the machines within the tolerances, for which parts are turned.
 TOLERANCES: Checks = {
     "tolerance_slot_mm": "verdict.checks.tolerance:slot_clearance",
@@ -158,7 +138,7 @@ PROOFS: Checks = {"gap_proved_mm": "verdict.checks.proved:least_gap"}
 
 def checks_before_turn() -> tuple[str, ...]:
     """The names of all checks but those of the whole turn; ``parts``: they can be built."""
-    lists = (MOTION, LIMITS, ("parts",), *STANDING.values())
+    lists = (MOTION, LIMITS, ("parts",), STANDING)
     return tuple(dict.fromkeys(name for names in lists for name in names))
 
 
@@ -169,7 +149,12 @@ def checks_of_turn() -> tuple[str, ...]:
 
 def standing(mechanism: Mechanism) -> Checks:
     """The checks of the parts of a machine at rest."""
-    return STANDING.get(mechanism.spec.wheel.PARTS, {})
+    kinds = of_wheel(mechanism.spec.wheel.NAME)
+    own = next((kind.parts_checks for kind in reversed(kinds) if kind.parts), {})
+    some = {
+        name: path for kind in kinds if not kind.parts for name, path in kind.parts_checks.items()
+    }
+    return {**own, **some} if own else {**STATIC, **some, **PROCESS}
 
 
 def standing_checks(parts: PartsOfMachine) -> Iterator[Check]:
