@@ -62,7 +62,7 @@ def pin(of: Designs) -> Columns:
         rubbed = section.under(load.rubbed)
         struck = least_pin_mm(of.machine, jump, width, rubbed, allowed)
         least = np.maximum(least, np.nan_to_num(struck))
-        out["least_diameter_mm"] = np.where(np.isfinite(allowed), least, np.inf)
+        out["least_diameter_mm"] = np.where(np.isfinite(np.ravel(allowed)), least, np.inf)
     return out
 
 
