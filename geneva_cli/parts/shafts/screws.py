@@ -82,7 +82,7 @@ def change_for_hub(size: Size, part: str) -> str:
     values = vars(size)
     hub, bore, length = (f"{part}_{name}_mm" for name in ("hub", "bore", "hub_length"))
     missing = [hub] if values[hub] is None and values[length] is None else []
-    missing += [bore] if values[bore] is None else []
+    missing += [] if values[bore] else [bore]
     if missing:
         return f"set {' and '.join(missing)}"
     if values[hub] is not None and values[hub] <= values[bore]:
