@@ -135,7 +135,8 @@ def motor_line(design: Design) -> SummaryLine:
     return SummaryLine(
         "motor",
         f"{power}, {_geared(motor, keys)}",
-        f"{needed}; {torque} on the input by the cam-indexer formula; {source} (geneva explain motor)",
+        f"{needed}; {torque} on the input by the cam-indexer formula; {source} "
+        "(geneva explain motor)",
     )
 
 
