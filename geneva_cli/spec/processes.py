@@ -23,7 +23,6 @@ class Allowances(NamedTuple):
     pin_gap_mm: float = 0.0  # along the axis, between wheel and crank arm
     source: str | None = None
     gear_backlash_mm: float = 0.0  # of teeth; twice the clearance a side of roller and slot
-    slot_play_mm: float = 0.0  # per side, that fits leave of a roller in a slot of nominal width
 
     @property
     def around_shaft_mm(self) -> float:
@@ -42,7 +41,6 @@ PROCESSES = {
         pin_gap_mm=0.2,
         source="the fits of ISO 286 on the drawing sheet",
         gear_backlash_mm=0.02,
-        slot_play_mm=0.02,  # the greatest of H7/g6 at 18 to 30 mm is 41 um, over both sides
     ),
     # A hole is printed slightly too narrow, and holds its pin without a press fit. A printed shaft
     # and its bore may both be off by 0.2 mm.

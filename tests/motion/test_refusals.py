@@ -83,8 +83,20 @@ OFFSET = [
 
 # Numbers whose digits would be lost; an offset or inertia of 0 is one, and so is 1e-300.
 TINY = [
-    case("tiny-inertia", WHEEL + "[load]\ninertia_kgm2 = @", "5e-324", 4, "0, or at least 1e-300"),
-    case("tiny-offset", WHEEL + "offset_mm = @", "-9.9e-301", 3, "0, or at least 1e-300"),
+    case(
+        "tiny-inertia",
+        WHEEL + "[load]\ninertia_kgm2 = @",
+        "5e-324",
+        4,
+        "sizes below 1e-300 are not computed",
+    ),
+    case(
+        "tiny-offset",
+        WHEEL + "offset_mm = @",
+        "-9.9e-301",
+        3,
+        "sizes below 1e-300 are not computed",
+    ),
 ]
 
 STEP = [

@@ -19,6 +19,7 @@ from geneva_cli.motion.many import taken
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import all_true, choose, library, only_of, parameter
 from geneva_cli.numerics.jet import Array
+from geneva_cli.spec.workshops import workshop
 
 
 class Impact(NamedTuple):
@@ -125,10 +126,10 @@ def clearance_mm(mechanism: Mechanism) -> float:
 
     Where both have nominal sizes, the fits of the process make it.
     """
-    tolerance, usual = mechanism.spec.tolerance, mechanism.spec.size.allowances
+    tolerance, size = mechanism.spec.tolerance, mechanism.spec.size
     both = tolerance.roller_diameter_mm + tolerance.slot_width_mm
-    given = usual.slot_clearance_mm
-    return choose(given == 0.0, usual.slot_play_mm, given) + 0.5 * both
+    given = size.allowances.slot_clearance_mm
+    return choose(given == 0.0, workshop(size.process).slot_play_mm, given) + 0.5 * both
 
 
 def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impacts:
