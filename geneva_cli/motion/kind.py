@@ -24,6 +24,9 @@ class Kind(NamedTuple):
     wheel: str = ""  # class, whose fields are keys of [wheel]
     drive: str = ""  # class, whose fields are keys of [drive]
     adds_to: str = ""  # name of the kind to which it adds, where it is neither wheel nor drive
+    refuses: str = ""  # rules of what makes no machine with it
+    # keys of other tables, as in "load.mass_kg", that it alone has: its rules apply if one is set
+    keys: tuple[str, ...] = ()
     parts: str = ""  # class of the parts of wheel and crank
     motion_checks: Mapping[str, str] = _NONE  # by their names
     parts_checks: Mapping[str, str] = _NONE  # of parts at rest, all or those that it adds

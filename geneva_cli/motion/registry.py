@@ -23,12 +23,28 @@ _CORE = (
     Kind("external", wheel="motion.wheels.external:External", parts="drawings.model:Flat"),
     Kind("internal", wheel="motion.wheels.internal:Internal", parts="drawings.model:Flat"),
     Kind("spherical", wheel="motion.wheels.spherical:Spherical"),
-    Kind("crank", drive="drives.crank:Crank"),
-    Kind("side-crank", drive="drives.side_crank:SideCrank"),
-    Kind("elliptical-gears", drive="drives.elliptical_gears:EllipticalGears"),
-    Kind("noncircular-gears", drive="drives.noncircular_gears:NoncircularGears"),
-    Kind("epicyclic", drive="drives.epicyclic:Epicyclic"),
-    Kind("cam", drive="drives.cam:Cam"),
+    Kind("crank", drive="drives.crank:Crank", refuses="drives.refuses:of_crank"),
+    Kind(
+        "side-crank",
+        drive="drives.side_crank:SideCrank",
+        refuses="drives.refuses:of_transmission",
+    ),
+    Kind(
+        "elliptical-gears",
+        drive="drives.elliptical_gears:EllipticalGears",
+        refuses="drives.refuses:of_transmission",
+    ),
+    Kind(
+        "noncircular-gears",
+        drive="drives.noncircular_gears:NoncircularGears",
+        refuses="drives.refuses:of_transmission",
+    ),
+    Kind(
+        "epicyclic",
+        drive="drives.epicyclic:Epicyclic",
+        refuses="drives.refuses:of_pin_path",
+    ),
+    Kind("cam", drive="drives.cam:Cam", refuses="drives.refuses:of_cam"),
 )
 KINDS: tuple[Kind, ...] = (
     *_CORE,

@@ -2,4 +2,10 @@
 
 from geneva_cli.motion.kind import Kind
 
-KINDS = (Kind("carousel", drive="kinds.carousel.motion:Carousel"),)
+KINDS = (
+    Kind(
+        "carousel",
+        drive="kinds.carousel.motion:Carousel",
+        refuses="kinds.carousel.refuses:refuses",
+    ),
+)

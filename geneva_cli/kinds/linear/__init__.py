@@ -6,6 +6,8 @@ KINDS = (
     Kind(
         "linear",
         wheel="kinds.linear.motion:Linear",
+        refuses="kinds.linear.refuses:refuses",
+        keys=("load.mass_kg", "load.force_N", "load.guide_friction"),
         parts="kinds.linear.drawn:Rack",
         motion_checks={
             "rack_horn_mm": "kinds.linear.checks:rack_horn",

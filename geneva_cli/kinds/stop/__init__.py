@@ -6,6 +6,8 @@ KINDS = (
     Kind(
         "stop",
         adds_to="external",
+        refuses="kinds.stop.refuses:refuses",
+        keys=("wheel.stop", "load.winding_torque_Nm", "limits.stop_stress_max_MPa"),
         parts_checks={
             "stop_turns": "kinds.stop.checks:turns",
             "stop_overlap_mm": "kinds.stop.checks:overlap",
