@@ -86,7 +86,6 @@ class Reduced(Transmission, kw_only=True):
     EXAMPLE: ClassVar[Example] = Example(
         "a crank behind a reduction", {"wheel": {"z": 6}, "drive": {"teeth": 3}}
     )
-    ALIKE: ClassVar[bool] = True
     teeth: Annotated[int, Range(1, 9), "input turns in a turn of the crank"]
 
     @property

@@ -109,7 +109,7 @@ def gears(parts: FlatParts | RackParts) -> Drawing:
     from geneva_cli.parts.gears.gear_pair import FINE
 
     mechanism, name = parts.mechanism, "gears"
-    round_only = mechanism.spec.drive.TOOTHED and not mechanism.spec.gears
+    round_only = mechanism.spec.drive.round_gears and not mechanism.spec.gears
     if not round_only:
         pair = required_gears(mechanism)
         if mechanism.spec.size.gear_module_mm is None:

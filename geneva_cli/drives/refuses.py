@@ -112,7 +112,7 @@ def of_rollers(spec: Spec) -> Iterator[Conflict]:
         "roller_angles_deg is for straight slots: remove law or roller_angles_deg",
     )
     yield Conflict(
-        drive.rollers > 1 and not drive.ALIKE,
+        drive.motions > 1,
         ("drive", "rollers"),
         "{spec.drive.rollers} rollers on a {spec.drive.NAME} move the wheel differently, so one "
         "curved slot cannot serve them all; use rollers = 1, or straight slots (no law)",

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.motion.drive import Drive, Needs, Plan
+from geneva_cli.motion.drive import Drive, Plan
 from geneva_cli.motion.engagement import (
     Anchor,
     Carrier,
@@ -66,12 +66,16 @@ class PinTravel(NamedTuple):
 class Transmission(Drive, kw_only=True):
     """A drive in front of the crank; a kind defines ``about``, and more only if it needs more."""
 
-    LAW: ClassVar[Needs] = Needs.MAY
     CRANKED: ClassVar[bool] = True
 
     @abstractmethod
     def about(self, crank_deg: float) -> LocalTransmission:
         """The transmission about a crank angle in degrees, which is 0 at mid-motion."""
+
+    @property
+    def motions(self) -> int:
+        """One for each roller."""
+        return self.rollers
 
     @property
     def reach_deg(self) -> float:
@@ -211,7 +215,10 @@ class Transmission(Drive, kw_only=True):
 class Direct(Transmission, kw_only=True):
     """A drive without a transmission: crank angle and input angle are equal."""
 
-    ALIKE: ClassVar[bool] = True
+    @property
+    def motions(self) -> int:
+        """1: all rollers move the wheel alike."""
+        return 1
 
     @property
     def direct(self) -> bool:

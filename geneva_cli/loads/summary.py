@@ -151,8 +151,9 @@ def missing(cycle: Cycle) -> list[Notice]:
     wide = cycle.case.hertz is not None
     out = [] if wide else [f"{name}: needs face_width_mm in [size]" for name in PRESSED]
     spec, guide = cycle.mechanism.spec, "guide_force_N"
-    if spec.drive.LENGTH and spec.wheel.FLAT and guide not in known_quantities(cycle.mechanism):
-        needs = f"needs {spec.drive.LENGTH} in [drive]"
+    missing = spec.drive.missing_length
+    if missing and spec.wheel.FLAT and guide not in known_quantities(cycle.mechanism):
+        needs = f"needs {missing} in [drive]"
         out.append(f"{guide}, and the share of it in the crank's bearings: {needs}")
     unknown: dict[str, list[str]] = {}
     for name, (_, factor, needs) in multiples(cycle.mechanism).items():

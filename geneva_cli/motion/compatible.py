@@ -84,7 +84,7 @@ def is_set(table: SpecTable, kind: type[SpecTable] | None = None) -> object:
 def is_geared(spec: Spec) -> bool:
     """True if the spec's drive, or the one before it, has gears."""
     drives = (spec.drive, spec.drive_before) if spec.drive_before else (spec.drive,)
-    return any(drive.TOOTHED or drive.GEARED for drive in drives)
+    return any(drive.gears or drive.round_gears for drive in drives)
 
 
 def _of_drive_before(spec: Spec) -> Iterator[Conflict]:

@@ -320,7 +320,7 @@ class Spec:
         >>> Spec(Linear(6)).guided, Spec(External(6)).guided
         (True, False)
         """
-        return not self.output.turns and (self.drive.direct or self.drive.GEARED)
+        return not self.output.turns and (self.drive.direct or self.drive.gears is not None)
 
     @property
     def is_turned(self) -> bool:
@@ -346,12 +346,12 @@ class Spec:
         before = self.drive_before
         if before is not None and len(self.drive.cranks) > 1:
             return f'the gears between several cranks and kind = "{before.NAME}" are not built'
-        if before is not None and before.GEARED and self.drive.GEARED:
+        if before is not None and before.gears and self.drive.gears:
             return (
                 f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '
                 "built: one pair of noncircular-gears with the ratio of both does the same"
             )
-        if before is not None and not (before.GEARED or self.drive.turned_at_crank):
+        if before is not None and not (before.gears or self.drive.turned_at_crank):
             return (
                 f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '
                 "built: the shaft between them has no bearing, since the input crank turns below it"

@@ -6,28 +6,23 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.motion import compatible
-from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.drive import FirstWheel, Plan
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.pivots import AxisPlace, Layout, Pivot, crank_places, wheel_places
+from geneva_cli.motion.pivots import (
+    AxisPlace,
+    Layout,
+    Pivot,
+    ShaftPlace,
+    crank_places,
+    wheel_places,
+)
 from geneva_cli.motion.size_rules import refuse_sizes, refuse_tolerances
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.numerics.arrays import N, Whole, choose, designs_of, larger, library
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
-
-
-class ShaftPlace(NamedTuple):
-    """A shaft on the line of centres."""
-
-    x_mm: float  # from the wheel's axis
-    sense: float  # 1 if it turns counterclockwise, else -1
-
-    @property
-    def at(self) -> tuple[float, float]:
-        """Its axis."""
-        return self.x_mm, 0.0
 
 
 class Mechanism(NamedTuple):
@@ -70,16 +65,19 @@ class Mechanism(NamedTuple):
     @property
     def own_shaft(self) -> ShaftPlace:
         """The input shaft of the drive itself, which a drive before it turns."""
-        drive, at = self.spec.drive, self.crank_shaft
-        return ShaftPlace(
-            drive.input_axis_mm(self.plan, self.spec.wheel.SIGN), at.sense * drive.INPUT_SENSE
-        )
+        spec = self.spec
+        return spec.drive.input_shaft(self.plan, spec.wheel.SIGN, self.crank_shaft.sense)
 
     @property
     def gear_shaft(self) -> ShaftPlace:
         """The shaft of the driven one of noncircular gears."""
         before = self.spec.drive_before
-        return self.own_shaft if before and before.GEARED else self.crank_shaft
+        return self.own_shaft if before and before.gears else self.crank_shaft
+
+    @property
+    def first_wheel(self) -> FirstWheel | None:
+        """The wheel that turns the crank; None for a crank without one."""
+        return self.spec.drive.first_wheel(self.center_distance_mm)
 
     @property
     def layout(self) -> Layout:

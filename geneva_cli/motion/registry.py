@@ -103,6 +103,15 @@ def drive(name: str) -> type[Drive]:
     return kind
 
 
+def drives_with(thing: str) -> list[str]:
+    """Names of the drives that have a thing of their own, such as ``gears``.
+
+    >>> drives_with("gears")
+    ['elliptical-gears', 'noncircular-gears']
+    """
+    return [name for name in DRIVES if vars(drive(name)).get(thing)]
+
+
 def law(name: str) -> type[Law]:
     """Class of a motion law. Raises GenevaError, naming the key, for an unknown name."""
     kind: type[Law] = _load_kind(LAWS, name, ("motion", "law"))

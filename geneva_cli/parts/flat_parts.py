@@ -208,7 +208,7 @@ class FlatParts(EdgedParts):
     @cached_property
     def front(self) -> FlatParts | None:
         """The first wheel and its crank, of two wheels in series, as a machine of their own."""
-        if not self.drawn or not self.mechanism.spec.drive.IN_SERIES:
+        if not (self.drawn and self.mechanism.first_wheel):
             return None
         from geneva_cli.parts.first_pair import first_pair
 

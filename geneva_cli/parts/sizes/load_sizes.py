@@ -91,7 +91,7 @@ def _thick(
     )
     thick = drawn_thicknesses(size, assembly.L)
     # a first wheel's own thickness stays
-    link = sizes.link_thickness if assembly.full.spec.drive.IN_SERIES else thick.link
+    link = sizes.link_thickness if assembly.full.first_wheel else thick.link
     return sizes._replace(
         wheel_thickness=thick.wheel,
         lock_thickness=thick.lock,

@@ -102,7 +102,7 @@ def _gears(turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Body]:
     assert gears
     driven, driver = teeth.pair or _pitch_curves(turn, -sense)
     before = machine.spec.drive_before
-    first = before is not None and before.GEARED  # the gears turn the shaft of the drive
+    first = before is not None and before.gears is not None  # the gears turn the shaft of the drive
     yield Body(
         "driver gear",
         driver,

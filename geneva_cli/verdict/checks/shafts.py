@@ -61,7 +61,7 @@ def passing_parts(name: str, parts: FlatParts) -> Check | None:
         "crank_shaft_high_mm",
     )
     own = sizes["shafts"] == "turned" or any(sizes[key] is not None for key in keys)
-    if not (spec.drive.IN_SERIES or own):
+    if not (parts.mechanism.first_wheel or own):
         return None
     from geneva_cli.verdict.shaft_gap import shaft_gap  # which few machines need
 
