@@ -27,3 +27,5 @@ class Kind(NamedTuple):
     parts: str = ""  # class of the parts of wheel and crank
     motion_checks: Mapping[str, str] = _NONE  # by their names
     parts_checks: Mapping[str, str] = _NONE  # of parts at rest, all or those that it adds
+    load_case: str = ""  # function that completes the load case of a mechanism
+    scene: str = ""  # class of what a page shows of the wheels

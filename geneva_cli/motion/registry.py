@@ -75,6 +75,17 @@ def of_wheel(name: str) -> list[Kind]:
     return [kind for kind in KINDS if name in (kind.adds_to, kind.name if kind.wheel else "")]
 
 
+def thing(wheel: str, field: str) -> Any:
+    """Function or class of a kind of wheel in a field of its record; None without one.
+
+    That of a kind that adds to the wheel replaces the wheel's own.
+
+    >>> thing("external", "load_case")
+    """
+    paths = [path for kind in of_wheel(wheel) if (path := kind._asdict()[field])]
+    return load_named(paths[-1]) if paths else None
+
+
 def gearing(name: str) -> type[Gearing]:
     """Class of a wheel. Raises GenevaError, naming the key, for an unknown name."""
     kind: type[Gearing] = _load_kind(GEARINGS, name, ("wheel", "gearing"))

@@ -7,6 +7,8 @@ KINDS = (
         "linear",
         wheel="kinds.linear.motion:Linear",
         parts="kinds.linear.drawn:Rack",
+        load_case="kinds.linear.guide_place:with_guide",
+        scene="kinds.linear.scene:RackScene",
         motion_checks={
             "rack_horn_mm": "kinds.linear.checks:rack_horn",
             "guide_locks": "kinds.linear.checks:guide_locks",

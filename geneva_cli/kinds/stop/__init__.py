@@ -6,6 +6,7 @@ KINDS = (
     Kind(
         "stop",
         adds_to="external",
+        scene="kinds.stop.scene:StopScene",
         parts_checks={
             "stop_turns": "kinds.stop.checks:turns",
             "stop_overlap_mm": "kinds.stop.checks:overlap",
