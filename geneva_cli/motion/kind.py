@@ -28,4 +28,5 @@ class Kind(NamedTuple):
     motion_checks: Mapping[str, str] = _NONE  # by their names
     parts_checks: Mapping[str, str] = _NONE  # of parts at rest, all or those that it adds
     load_case: str = ""  # function that completes the load case of a mechanism
+    horns: str = ""  # function that returns the horns of designs, with their stress
     scene: str = ""  # class of what a page shows of the wheels

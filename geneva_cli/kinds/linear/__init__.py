@@ -7,6 +7,7 @@ KINDS = (
         "linear",
         wheel="kinds.linear.motion:Linear",
         parts="kinds.linear.drawn:Rack",
+        horns="kinds.linear.horns:rack_horns",
         load_case="kinds.linear.guide_place:with_guide",
         scene="kinds.linear.scene:RackScene",
         motion_checks={
