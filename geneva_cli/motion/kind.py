@@ -41,4 +41,5 @@ class Kind(NamedTuple):
     load_case: str = ""  # function that completes the load case of a mechanism
     quantities: tuple[Quantities, ...] = ()  # of the report
     horns: str = ""  # function that returns the horns of designs, with their stress
+    cut_parts: str = ""  # class of the parts as they are cut within the tolerances
     scene: str = ""  # class of what a page shows of the wheels

@@ -18,7 +18,7 @@ KINDS = (
                 "carousel",
                 "envelope_mm",
                 after="parts",
-                alone="kinds.carousel.quantities:envelope",
+                alone="kinds.carousel.envelope:envelope",
                 makes_parts=True,
             ),
         ),

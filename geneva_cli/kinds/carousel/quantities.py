@@ -1,17 +1,19 @@
-"""Quantities of wheels on a carrier: their motion from the ground, and the space that they take."""
+"""Quantities of wheels on a carrier: their motion from the ground."""
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from geneva_cli.drawings.model import PartsModel
-from geneva_cli.errors import GenevaError
 from geneva_cli.loads.carried import carried_kg
 from geneva_cli.loads.unbalance import centrifugal_N, held_unbalance_Nm
 from geneva_cli.motion.peak_search import worst_peaks
 from geneva_cli.table import rows_table
-from geneva_cli.verdict.checks.cranks import reach_mm
 from geneva_cli.verdict.quantities.designs import Columns, Designs, Values
+
+if TYPE_CHECKING:
+    from geneva_cli.drawings.model import PartsModel
 
 
 def motion(of: Designs) -> Columns:
@@ -52,15 +54,3 @@ def wheels(model: PartsModel) -> Values:
         after_s = behind / (6.0 * mechanism.spec.drive.n_rpm)  # n rpm is 6 n degrees a second
         rows.append((place.number, behind, behind + one.entry_deg, behind + one.exit_deg, after_s))
     return {"wheels": rows_table(names, rows)}
-
-
-def envelope(model: PartsModel) -> Values:
-    """Return the radius about the fixed axis that the wheels sweep, on a carrier."""
-    spec = model.mechanism.spec
-    if not (spec.drive.wheels_on_carrier and spec.is_flat):
-        return {}
-    try:
-        outlines = model.outlines
-    except GenevaError:  # ``parts.none`` gives the reason
-        return {}
-    return {"envelope_mm": model.mechanism.center_distance_mm + reach_mm(outlines)}

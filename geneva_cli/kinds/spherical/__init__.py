@@ -7,6 +7,7 @@ KINDS = (
         "shells",
         adds_to="spherical",
         parts="kinds.spherical.drawn:Ball",
+        cut_parts="kinds.spherical.cut_shells:CutShells",
         horns="kinds.spherical.horns:ball_horns",
         parts_checks={
             "wall_between_slots_mm": "kinds.spherical.checks:between_slots",
