@@ -219,7 +219,7 @@ ANY = {
     "numerics.pieces": {"at", "column", "rows", "evaluate", "_turn"},
     "loads.summary": {"_rows", "_cells"},
     "loads.vibration.answers": {"values"},
-    "motion.registry": {"_load_kind", "thing"},
+    "motion.registry": {"_load_kind", "thing", "families_of_kinds"},
     "motion.machine_spec": {"replace", "table"},
     "drawings.catalogue": {"_loaded"},
     "drawings.sheet.composed": {"on_paper", "_composed", "_items"},

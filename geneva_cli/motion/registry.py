@@ -86,6 +86,11 @@ def thing(wheel: str, field: str) -> Any:
     return load_named(paths[-1]) if paths else None
 
 
+def families_of_kinds(where: str) -> list[Any]:
+    """Functions that return families of synth, of the kinds that are searched there."""
+    return [load_named(kind.families[where]) for kind in KINDS if where in kind.families]
+
+
 def gearing(name: str) -> type[Gearing]:
     """Class of a wheel. Raises GenevaError, naming the key, for an unknown name."""
     kind: type[Gearing] = _load_kind(GEARINGS, name, ("wheel", "gearing"))

@@ -6,6 +6,7 @@ KINDS = (
     Kind(
         "carousel",
         drive="kinds.carousel.motion:Carousel",
+        families={"carrier": "kinds.carousel.family:carousels"},
         quantities=(
             Quantities(
                 "carousel",

@@ -16,6 +16,7 @@ KINDS = (
             ),
         ),
         horns="kinds.linear.horns:rack_horns",
+        roller="kinds.linear.roller:rack_roller",
         load_case="kinds.linear.guide_place:with_guide",
         scene="kinds.linear.scene:RackScene",
         motion_checks={
