@@ -61,10 +61,11 @@ SHARED = {
 }
 STREAMS = {"streams", "__main__", "specfile", "output", "manual", "cli"}
 TYPER = {"streams", "__main__", "cli"}
-# What commands know besides designs and studies: laws alone, templates, units and the names of
+# What commands know besides designs and studies: laws alone, extras, templates, units and names of
 # parts; there is no machine yet.
 ALONE = {
     "motion.law_values",
+    "spec.load_named",
     "specfile.template",
     "specfile.designs",
     "specfile.keys",
