@@ -36,6 +36,8 @@ KINDS: tuple[Kind, ...] = (
 )
 GEARINGS = {kind.name: kind.wheel for kind in KINDS if kind.wheel}
 DRIVES = {kind.name: kind.drive for kind in KINDS if kind.drive}
+# function that puts a drive in front of another, which few machines need
+IN_FRONT = "drives.retimed:retimed"
 LAWS = {
     "harmonic": "motion.laws.standard:Harmonic",
     "cycloidal": "motion.laws.standard:Cycloidal",
