@@ -25,6 +25,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.gearing import Gearing
+from geneva_cli.spec.load_named import load_extra
 from geneva_cli.spec.rules import plain
 from geneva_cli.spec.schema import SHOWN_MAX, refuse_keywords, shortly
 from geneva_cli.spec.tables import (
@@ -333,10 +334,10 @@ class Design:
         >>> Design(External(6)).certificate("acceleration").text
         'acceleration.max in [1.34963727590190, 1.34963727590191], at two mirrored places, proved'
         """
-        from geneva_cli.extras.certify.certificate import LIMIT, certificate
-
-        limit = LIMIT if intervals is None else intervals
-        return certificate(self.mechanism, quantity, limit)
+        limit = {} if intervals is None else {"limit": intervals}
+        proof: Certificate
+        proof = load_extra("certify", "certificate")(self.mechanism, quantity, **limit)
+        return proof
 
     @question
     def certified_peaks(self, for_people: bool = False) -> Table:
@@ -350,9 +351,9 @@ class Design:
         >>> design.certified_peaks(for_people=True).to_dict()["certificate"][2]
         'jerk.max in [5.99999999999999, 6.00000000000001], unique, proved'
         """
-        from geneva_cli.extras.certify.certificate import with_certificates
-
-        return with_certificates(self.peaks_table, self.mechanism, for_people)
+        table: Table
+        table = load_extra("certify", "peaks")(self.peaks_table, self.mechanism, for_people)
+        return table
 
     @question
     def certified_loads(self, for_people: bool = False) -> Table:
@@ -364,11 +365,10 @@ class Design:
         >>> [row["proved"] for row in table.to_dict()["certificate"]]
         [True, True, True]
         """
-        from geneva_cli.extras.certify.certificate import load_certificates
         from geneva_cli.table import record_table
 
         own = {"spec": self.spec.path, "title": self.spec.title or None}
-        certificates = load_certificates(self.mechanism, for_people)
+        certificates = load_extra("certify", "loads")(self.mechanism, for_people)
         return record_table(own | {"certificate": certificates})
 
     @question

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
-from geneva_cli.kinds.linear.guide_place import guide_place
 from geneva_cli.loads.carried import MM, inertia_kgm2, resisting_torque_Nm, unbalance_kgm
 from geneva_cli.loads.forces import LoadCase, contact_modulus_GPa
 from geneva_cli.loads.strength.pin import pin_diameter_mm
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.registry import thing
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import all_true, choose, library
-from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.materials import roller_material, wheel_material
 
 
@@ -25,7 +25,7 @@ def load_case(mechanism: Mechanism) -> LoadCase:
         # p0² = N E* / (pi b R_e)
         modulus = contact_modulus_GPa(wheel_material(spec), roller_material(spec)) * 1e3
         hertz = modulus / (math.pi * size.face_width_mm * mechanism.roller_radius_mm)
-    return LoadCase(
+    case = LoadCase(
         w,
         inertia_kgm2(spec) * w * w,
         resisting_torque_Nm(spec),
@@ -36,23 +36,11 @@ def load_case(mechanism: Mechanism) -> LoadCase:
         hertz,
         mechanism.frame,
         *unbalance_Nm(mechanism),
-        *_guide(mechanism),
-        mechanism.design,
+        design=mechanism.design,
     )
-
-
-def _guide(mechanism: Mechanism) -> tuple[float, float, float]:
-    """The friction of a rack's guide, its middle and half its length, over L.
-
-    A wheel has none, nor has a rack whose slots leave no space for one.
-    """
-    spec, L = mechanism.spec, mechanism.center_distance_mm
-    if not spec.guided:
-        return 0.0, 0.0, 1.0
-    place = guide_place(mechanism)
-    friction = value_or(spec.load.guide_friction, spec.load.friction)
-    there = place.half > 0.0
-    return choose(there, friction, 0.0), place.middle / L, choose(there, place.half / L, 1.0)
+    complete: Callable[[Mechanism, LoadCase], LoadCase] | None
+    complete = thing(spec.wheel.NAME, "load_case")
+    return complete(mechanism, case) if complete else case
 
 
 def unbalance_Nm(mechanism: Mechanism) -> tuple[float, float]:

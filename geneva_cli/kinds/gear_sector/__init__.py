@@ -2,4 +2,10 @@
 
 from geneva_cli.motion.kind import Kind
 
-KINDS = (Kind("gear-sector", drive="kinds.gear_sector.motion:GearSector"),)
+KINDS = (
+    Kind(
+        "gear-sector",
+        drive="kinds.gear_sector.motion:GearSector",
+        families={"straight": "kinds.gear_sector.family:sectors"},
+    ),
+)

@@ -3,6 +3,10 @@
 from geneva_cli.motion.kind import Kind
 
 KINDS = (
-    Kind("four-bar", drive="kinds.linkages.four_bar:FourBar"),
+    Kind(
+        "four-bar",
+        drive="kinds.linkages.four_bar:FourBar",
+        families={"alone": "kinds.linkages.four_bar_family:four_bars"},
+    ),
     Kind("slider-crank", drive="kinds.linkages.slider_crank:SliderCrank"),
 )
