@@ -18,9 +18,8 @@ from geneva_cli.kinds import FOLDERS
 from geneva_cli.spec.load_named import load_named
 
 EXTRAS = ("certify", "servo")
-ROOMS = (
-    "numerics geometry motion drives loads specfile output parts verdict study cli test_design.py"
-).split()
+ROOMS = ["numerics", "geometry", "motion", "drives", "loads", "specfile", "output", "parts"]
+ROOMS += ["verdict", "study", "cli", "test_design.py"]
 # A machine of each sort that the core has: what `check` says of it needs all rooms.
 CHECKED = ("press-straight", "press-curved", "internal-z6", "side-crank-z6", "cam-geneva")
 
@@ -56,7 +55,9 @@ def copy_without(room, name, to):
 def run(folder, *words):
     python = [sys.executable, *words]
     place = {**os.environ, "PYTHONPATH": str(folder)}
-    return subprocess.run(python, cwd=folder, env=place, capture_output=True, text=True, check=False)
+    return subprocess.run(
+        python, cwd=folder, env=place, capture_output=True, text=True, check=False
+    )
 
 
 EVERY = [("kinds", name) for name in FOLDERS] + [("extras", name) for name in EXTRAS]

@@ -327,7 +327,7 @@ REPORT = (
         batch="life:wear",
     ),
     _group("strength", "", "report.loads:needs"),
-    _group("", "", "report.both_ways:both_ways"),
+    _group("", "", "both_ways:differences"),
 )
 # Further quantities, for studies.
 STUDY = (
