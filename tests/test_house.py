@@ -61,10 +61,11 @@ SHARED = {
 }
 STREAMS = {"streams", "__main__", "specfile", "output", "manual", "cli"}
 TYPER = {"streams", "__main__", "cli"}
-# What commands know besides designs and studies: laws alone, templates, units and the names of
+# What commands know besides designs and studies: laws alone, extras, templates, units and names of
 # parts; there is no machine yet.
 ALONE = {
     "motion.law_values",
+    "spec.load_named",
     "specfile.template",
     "specfile.designs",
     "specfile.keys",
@@ -219,7 +220,7 @@ ANY = {
     "numerics.pieces": {"at", "column", "rows", "evaluate", "_turn"},
     "loads.summary": {"_rows", "_cells"},
     "loads.vibration.answers": {"values"},
-    "motion.registry": {"_load_kind"},
+    "motion.registry": {"_load_kind", "thing", "families_of_kinds"},
     "motion.machine_spec": {"replace", "table"},
     "drawings.catalogue": {"_loaded"},
     "drawings.sheet.composed": {"on_paper", "_composed", "_items"},

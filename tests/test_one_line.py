@@ -277,7 +277,7 @@ def test_a_group_of_the_report(
     add: Add, run: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     add({}, "", "", "verdict.quantities")
-    line = groups.QuantityGroup("slots", ("count",), batch="added:counted")
+    line = groups.QuantityGroup("slots", ("count",), batch="verdict.quantities.added:counted")
     monkeypatch.setattr("geneva_cli.verdict.report.REPORT", (line, *groups.REPORT))
     shown = run("report", "[wheel]\nz = 6\n")
     assert shown["slots"] == {"count": 6}

@@ -6,15 +6,17 @@ from collections.abc import Iterator
 
 from geneva_cli.motion.compatible import Conflict, is_set
 from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.registry import KINDS
 
 
-def of_wheels(spec: Spec, *gearings: str) -> Conflict:
+def other_wheels(spec: Spec) -> Conflict:
     """A wheel of another kind than those that the drive can drive."""
-    able = " or ".join(gearings)
+    able = next(kind.gearings for kind in KINDS if kind.drive and kind.name == spec.drive.NAME)
     return Conflict(
-        spec.wheel.NAME not in gearings,
+        spec.wheel.NAME not in able,
         ("wheel", "gearing"),
-        f'kind = "{{spec.drive.NAME}}" drives an {able} wheel, not gearing = "{{spec.wheel.NAME}}"',
+        f'kind = "{{spec.drive.NAME}}" drives an {" or ".join(able)} wheel, not gearing = '
+        '"{spec.wheel.NAME}"',
     )
 
 
@@ -33,7 +35,7 @@ def _placed(spec: Spec) -> int:
 def of_pin_path(spec: Spec) -> Iterator[Conflict]:
     """Rules of a drive whose roller has a path of its own."""
     yield _not_radial(spec)
-    yield of_wheels(spec, "external")
+    yield other_wheels(spec)
     yield Conflict(
         spec.motion is not None,
         ("motion", "law"),
@@ -46,7 +48,7 @@ def of_pin_path(spec: Spec) -> Iterator[Conflict]:
 def of_cam(spec: Spec) -> Iterator[Conflict]:
     """Rules of a roller in a groove that a law gives."""
     yield _not_radial(spec)
-    yield of_wheels(spec, "external", "internal")
+    yield other_wheels(spec)
     yield Conflict(
         spec.motion is None,
         ("drive", "kind"),

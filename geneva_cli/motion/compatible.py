@@ -35,8 +35,12 @@ class Conflict(NamedTuple):
 
 Rules: TypeAlias = Callable[[Spec], Iterator[Conflict]]
 
-# The rules of a drive come before those of its wheel.
-_KINDS = tuple(sorted((kind for kind in KINDS if kind.refuses), key=lambda kind: not kind.drive))
+# The rules of a drive come first, then those of its wheel, then those of what adds to it.
+_KINDS = tuple(
+    sorted(
+        (kind for kind in KINDS if kind.refuses), key=lambda kind: (not kind.drive, not kind.wheel)
+    )
+)
 
 
 def refuse_conflicts(spec: Spec) -> None:

@@ -13,6 +13,17 @@ from typing import NamedTuple
 _NONE: Mapping[str, str] = MappingProxyType({})
 
 
+class Quantities(NamedTuple):
+    """Quantities of a kind that are computed together, as a group of the verdict."""
+
+    table: str  # beginning of the whole names
+    names: str  # own names, as words of a text
+    after: str  # table of the report behind which they are shown
+    alone: str = ""  # function that computes them for a single design
+    batch: str = ""  # function that computes them for a batch of designs
+    makes_parts: bool = False
+
+
 class Kind(NamedTuple):
     """One kind: a wheel, a drive, or an addition to one of them.
 
@@ -24,9 +35,19 @@ class Kind(NamedTuple):
     wheel: str = ""  # class, whose fields are keys of [wheel]
     drive: str = ""  # class, whose fields are keys of [drive]
     adds_to: str = ""  # name of the kind to which it adds, where it is neither wheel nor drive
+    gearings: tuple[str, ...] = ()  # kinds of wheels that a drive can drive; empty for any
     refuses: str = ""  # rules of what makes no machine with it
     # keys of other tables, as in "load.mass_kg", that it alone has: its rules apply if one is set
     keys: tuple[str, ...] = ()
     parts: str = ""  # class of the parts of wheel and crank
     motion_checks: Mapping[str, str] = _NONE  # by their names
     parts_checks: Mapping[str, str] = _NONE  # of parts at rest, all or those that it adds
+    load_case: str = ""  # function that completes the load case of a mechanism
+    quantities: tuple[Quantities, ...] = ()  # of the report
+    horns: str = ""  # function that returns the horns of designs, with their stress
+    cut_parts: str = ""  # class of the parts as they are cut within the tolerances
+    # functions that return families of synth, by where they are searched: beside "straight" slots
+    # of a wheel, "alone", or where wheels on a "carrier" are required
+    families: Mapping[str, str] = _NONE
+    roller: str = ""  # function that returns the roller that suits a mechanism, for synth
+    scene: str = ""  # class of what a page shows of the wheels

@@ -6,11 +6,10 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, Self
 
-from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive, Gears
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.registry import of_wheel
 from geneva_cli.motion.wheels.gearing import Gearing, Output
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.spec.schema import SpecTable, copied, hash_once, refuse_kind, without_hash
@@ -98,7 +97,7 @@ class Spec:
     """
 
     wheel: Gearing
-    drive: Drive = field(default_factory=Crank)
+    drive: Drive = field(default_factory=lambda: registry.drive("crank")())
     motion: Motion | None = None
     size: Size = field(default_factory=Size)
     load: Load = field(default_factory=Load)
@@ -311,7 +310,7 @@ class Spec:
     @property
     def _built(self) -> bool:
         """True if the wheel's kind has parts, or one that adds to it."""
-        return any(kind.parts for kind in of_wheel(self.wheel.NAME))
+        return any(kind.parts for kind in registry.of_wheel(self.wheel.NAME))
 
     @property
     def guided(self) -> bool:

@@ -18,11 +18,13 @@ from geneva_cli.motion.pivots import (
     crank_places,
     wheel_places,
 )
+from geneva_cli.motion.registry import IN_FRONT
 from geneva_cli.motion.size_rules import refuse_sizes, refuse_tolerances
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.numerics.arrays import N, Whole, choose, designs_of, larger, library
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
+from geneva_cli.spec.load_named import load_named
 
 
 class Mechanism(NamedTuple):
@@ -251,9 +253,7 @@ def build(spec: Spec) -> Mechanism:
     compatible.refuse_conflicts(spec)
     plan = spec.drive.plan(spec.wheel, spec.motion, spec.given_distance_mm)
     if spec.drive_before:
-        from geneva_cli.kinds.series.retimed import retimed  # few machines have drives in series
-
-        plan = retimed(plan, spec, spec.drive_before)
+        plan = load_named(IN_FRONT)(plan, spec, spec.drive_before)
     refuse_sizes(spec, plan.center_distance_mm, plan.ratio)
     refuse_tolerances(spec, plan.center_distance_mm, plan.ratio)
     return Mechanism(spec, *plan)

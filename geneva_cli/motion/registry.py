@@ -42,9 +42,15 @@ _CORE = (
     Kind(
         "epicyclic",
         drive="drives.epicyclic:Epicyclic",
+        gearings=("external",),
         refuses="drives.refuses:of_pin_path",
     ),
-    Kind("cam", drive="drives.cam:Cam", refuses="drives.refuses:of_cam"),
+    Kind(
+        "cam",
+        drive="drives.cam:Cam",
+        gearings=("external", "internal"),
+        refuses="drives.refuses:of_cam",
+    ),
 )
 KINDS: tuple[Kind, ...] = (
     *_CORE,
@@ -52,6 +58,8 @@ KINDS: tuple[Kind, ...] = (
 )
 GEARINGS = {kind.name: kind.wheel for kind in KINDS if kind.wheel}
 DRIVES = {kind.name: kind.drive for kind in KINDS if kind.drive}
+# function that puts a drive in front of another, which few machines need
+IN_FRONT = "drives.retimed:retimed"
 LAWS = {
     "harmonic": "motion.laws.standard:Harmonic",
     "cycloidal": "motion.laws.standard:Cycloidal",
@@ -89,6 +97,22 @@ def of_wheel(name: str) -> list[Kind]:
     ['external', 'stop']
     """
     return [kind for kind in KINDS if name in (kind.adds_to, kind.name if kind.wheel else "")]
+
+
+def thing(wheel: str, field: str) -> Any:
+    """Function or class of a kind of wheel in a field of its record; None without one.
+
+    That of a kind that adds to the wheel replaces the wheel's own.
+
+    >>> thing("external", "load_case")
+    """
+    paths = [path for kind in of_wheel(wheel) if (path := kind._asdict()[field])]
+    return load_named(paths[-1]) if paths else None
+
+
+def families_of_kinds(where: str) -> list[Any]:
+    """Functions that return families of synth, of the kinds that are searched there."""
+    return [load_named(kind.families[where]) for kind in KINDS if where in kind.families]
 
 
 def gearing(name: str) -> type[Gearing]:

@@ -22,6 +22,7 @@ from geneva_cli import (
 from geneva_cli.design import load
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinds.spherical.cut_shells import sphere_locks
 from geneva_cli.loads.tolerance import random_machines
 from geneva_cli.loads.tolerance.dimensions import Deviations, deviations, slope_of
 from geneva_cli.loads.tolerance.entry_jump import entry_jumps
@@ -32,7 +33,7 @@ from geneva_cli.motion.laws.standard import Cycloidal
 from geneva_cli.motion.many import many
 from geneva_cli.motion.motion import Motion
 from geneva_cli.verdict.checks.registry import turn_checks
-from geneva_cli.verdict.tolerance.locks import flat_locks, sphere_locks
+from geneva_cli.verdict.tolerance.locks import flat_locks
 from tests.repo import ROOT
 
 pytestmark = pytest.mark.usefixtures("made_once")

@@ -112,3 +112,13 @@ def cam(
         points = cam_pairs(mechanism, count, tolerance_deg)
         text = beckhoff(points, design.spec.title)
     return "".join(text), len(points.master_deg), points.error_deg
+
+
+def words(
+    controller: str, rows: int, error_deg: float, tolerance_deg: float | None
+) -> tuple[str, bool]:
+    """A cam's rows and error in words, and True if it meets a tolerance that was given."""
+    text = f"{rows} rows, greatest error {rounded_up(error_deg)} degrees of the wheel"
+    if tolerance_deg is None or error_deg <= tolerance_deg:
+        return text, True
+    return f"{text}, more than --tolerance {tolerance_deg:g}: {LIMITED[controller]}", False

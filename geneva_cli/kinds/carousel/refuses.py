@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from geneva_cli.drives.refuses import of_transmission, of_wheels
-from geneva_cli.kinds.carousel.motion import Carousel
+from geneva_cli.drives.refuses import of_transmission, other_wheels
 from geneva_cli.motion.compatible import Conflict
 from geneva_cli.motion.machine_spec import Spec
 
 
 def refuses(spec: Spec) -> Iterator[Conflict]:
     """Rules of wheels on a carrier."""
-    yield of_wheels(spec, *Carousel.GEARINGS)
+    yield other_wheels(spec)
     yield from of_transmission(spec)
     drive = spec.drive
     yield Conflict(

@@ -6,6 +6,8 @@ KINDS = (
     Kind(
         "gear-sector",
         drive="kinds.gear_sector.motion:GearSector",
+        gearings=("external",),
         refuses="drives.refuses:of_pin_path",
+        families={"straight": "kinds.gear_sector.family:sectors"},
     ),
 )

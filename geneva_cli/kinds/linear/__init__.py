@@ -1,6 +1,6 @@
 """The linear Geneva: a rack of slots."""
 
-from geneva_cli.motion.kind import Kind
+from geneva_cli.motion.kind import Kind, Quantities
 
 KINDS = (
     Kind(
@@ -9,6 +9,18 @@ KINDS = (
         refuses="kinds.linear.refuses:refuses",
         keys=("load.mass_kg", "load.force_N", "load.guide_friction"),
         parts="kinds.linear.drawn:Rack",
+        quantities=(
+            Quantities(
+                "guide",
+                "length_mm locks_at_friction force_N at_deg",
+                after="parts",
+                batch="kinds.linear.quantities:guide",
+            ),
+        ),
+        horns="kinds.linear.horns:rack_horns",
+        roller="kinds.linear.roller:rack_roller",
+        load_case="kinds.linear.guide_place:with_guide",
+        scene="kinds.linear.scene:RackScene",
         motion_checks={
             "rack_horn_mm": "kinds.linear.checks:rack_horn",
             "guide_locks": "kinds.linear.checks:guide_locks",

@@ -7,5 +7,6 @@ KINDS = (
         "geneva-pair",
         drive="kinds.series.geneva_pair:GenevaPair",
         refuses="kinds.series.refuses:refuses",
+        families={"straight": "kinds.series.family:pairs"},
     ),
 )

@@ -7,6 +7,9 @@ KINDS = (
         "shells",
         adds_to="spherical",
         parts="kinds.spherical.drawn:Ball",
+        cut_parts="kinds.spherical.cut_shells:CutShells",
+        horns="kinds.spherical.horns:ball_horns",
+        roller="kinds.spherical.roller:ball_roller",
         parts_checks={
             "wall_between_slots_mm": "kinds.spherical.checks:between_slots",
             "horn_mm": "kinds.spherical.checks:horn",

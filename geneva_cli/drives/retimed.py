@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING, ClassVar, NamedTuple, cast
 
-from geneva_cli.kinds.series.driven_shaft import DrivenShaft, ShaftPath
+from geneva_cli.drives.driven_shaft import DrivenShaft, ShaftPath
 from geneva_cli.motion.drive import Drive, Plan
 from geneva_cli.motion.engagement import (
     Anchor,
