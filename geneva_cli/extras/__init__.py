@@ -1,6 +1,6 @@
 """Answers that not every user needs.
 
-The list holds folders. Each has ``ANSWERS``, the names of its functions, and imports nothing else.
+The list holds folders. Each has ``EXTRA``, its record, and imports nothing else.
 """
 
 FOLDERS = ("certify", "servo")

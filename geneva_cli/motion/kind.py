@@ -1,4 +1,4 @@
-"""The record of a kind of machine: what the program knows of it, by name.
+"""The records of kinds of machines and of extras: what the program knows of them, by name.
 
 Functions and classes are written ``module:name``, and imported at their first use. The core asks a
 kind for a thing, such as its parts; it never asks which kind it has.
@@ -51,3 +51,10 @@ class Kind(NamedTuple):
     families: Mapping[str, str] = _NONE
     roller: str = ""  # function that returns the roller that suits a mechanism, for synth
     scene: str = ""  # class of what a page shows of the wheels
+
+
+class Extra(NamedTuple):
+    """What a folder of ``extras`` adds."""
+
+    answers: Mapping[str, str]  # functions by the names of their answers
+    laws: Mapping[str, str] = _NONE  # classes of motion laws by their names

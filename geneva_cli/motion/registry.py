@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
+from geneva_cli.extras import FOLDERS as EXTRAS
 from geneva_cli.kinds import FOLDERS
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.kind import Kind
@@ -60,7 +61,8 @@ GEARINGS = {kind.name: kind.wheel for kind in KINDS if kind.wheel}
 DRIVES = {kind.name: kind.drive for kind in KINDS if kind.drive}
 # function that puts a drive in front of another, which few machines need
 IN_FRONT = "drives.retimed:retimed"
-LAWS = {
+# laws that need no key or file of the user
+_STANDARD = {
     "harmonic": "motion.laws.standard:Harmonic",
     "cycloidal": "motion.laws.standard:Cycloidal",
     "modified-trapezoid": "motion.laws.standard:ModifiedTrapezoid",
@@ -69,15 +71,16 @@ LAWS = {
     "4-5-6-7": "motion.laws.standard:Polynomial4567",
     "mcv50": "motion.laws.standard:ModifiedConstantVelocity",
     "sine-group": "motion.laws.standard:SineGroup",
-    "s-curve": "extras.servo.s_curve:SCurve",
+}
+STANDARD_LAWS = tuple(_STANDARD)
+LAWS = _STANDARD.copy()
+for _folder in EXTRAS:
+    LAWS.update(load_named(f"extras.{_folder}:EXTRA").laws)
+LAWS |= {
     "scca": "motion.laws.scca:SineConstantCosine",
     "tuned": "loads.vibration.tuned:Tuned",
     "table": "motion.laws.table:TableLaw",
 }
-# laws that need no key or file of the user
-STANDARD_LAWS = tuple(
-    name for name, path in LAWS.items() if path.startswith("motion.laws.standard:")
-)
 
 # other words for a kind, where the nearest by its letters would be another one
 _SYNONYMS = {

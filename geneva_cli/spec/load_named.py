@@ -30,4 +30,4 @@ def load_extra(folder: str, answer: str) -> Any:
     """
     if folder not in FOLDERS:
         raise GenevaError(f"not computed: needs extras/{folder}, which is not installed")
-    return load_named(load_named(f"extras.{folder}:ANSWERS")[answer])
+    return load_named(load_named(f"extras.{folder}:EXTRA").answers[answer])
