@@ -14,6 +14,8 @@ import repo
 
 import geneva_cli
 from geneva_cli.motion import registry
+from geneva_cli.motion.drive import Drive
+from geneva_cli.motion.wheels.gearing import Gearing
 
 ROOT = os.path.dirname(geneva_cli.__file__)
 
@@ -385,6 +387,28 @@ def test_few_rooms_know_typer():
         return [n for n in read(source(module)).imports if n.startswith(("typer", "click"))]
 
     assert broken(typer, [m for m in MODULES if room(m) not in TYPER]) == {}
+
+
+# What a class of drives or wheels says in words: names, an example, and what a message is made of.
+WORDS = {
+    "TABLE",  # of the file
+    "NAME",  # in the file
+    "WORDS",  # the drive in a sentence
+    "EXAMPLE",  # a spec
+    "IN_FRONT",  # the drive in front of another, in a sentence
+    "FIRST",  # the reason why no drive may stand before it
+    "USUAL_LOAD",  # keys of a new spec
+    "DISTANCE",  # what the centre distance is called
+    "LOCK",  # what locks the wheel
+}
+FLAGS_MOST = 5
+
+
+def test_drives_and_wheels_have_few_flags():
+    """A flag is a question about a machine's nature: readers should ask for a thing."""
+    names = {name for kind in (Drive, Gearing) for name in kind.__annotations__ if name.isupper()}
+    assert names >= WORDS
+    assert len(names - WORDS) <= FLAGS_MOST, sorted(names - WORDS)
 
 
 def test_nobody_asks_which_machine_it_is():

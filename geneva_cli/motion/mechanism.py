@@ -77,6 +77,11 @@ class Mechanism(NamedTuple):
         return self.own_shaft if before and before.gears else self.crank_shaft
 
     @property
+    def axes(self) -> tuple[Pivot, ...]:
+        """Axes of wheel and crank in the plane of the parts; none if they meet."""
+        return self.spec.wheel.axes(self.center_distance_mm)
+
+    @property
     def first_wheel(self) -> FirstWheel | None:
         """The wheel that turns the crank; None for a crank without one."""
         return self.spec.drive.first_wheel(self.center_distance_mm)
@@ -88,8 +93,8 @@ class Mechanism(NamedTuple):
         Of several cranks it has the axes behind the first. Pivots have places only in a plane that
         also has the axes of wheel and crank.
         """
-        spec, layout = self.spec, self._whole_layout
-        if spec.wheel.axes(self.center_distance_mm):
+        layout = self._whole_layout
+        if self.axes:
             return layout
         return tuple(one for one in layout if not isinstance(one, Pivot))
 

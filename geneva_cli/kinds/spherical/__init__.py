@@ -7,6 +7,7 @@ KINDS = (
         "shells",
         adds_to="spherical",
         parts="kinds.spherical.drawn:Ball",
+        wheel_body="kinds.spherical.parts:shell_body",
         cut_parts="kinds.spherical.cut_shells:CutShells",
         horns="kinds.spherical.horns:ball_horns",
         roller="kinds.spherical.roller:ball_roller",

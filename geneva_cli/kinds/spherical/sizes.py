@@ -57,7 +57,7 @@ def ball(mechanism: Mechanism) -> Ball:
 def sized_ball(mechanism: Mechanism) -> Ball | None:
     """Return the cached sizes of a spherical machine; None where it has no parts."""
     spec = mechanism.spec
-    if not (spec.wheel.SHELLS and spec.has_parts):
+    if not spec.has_parts:
         return None
     try:
         return ball(mechanism)

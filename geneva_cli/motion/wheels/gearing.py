@@ -94,8 +94,6 @@ class Gearing(SpecTable):
     SIGN: ClassVar[float] = 1.0
     # True if wheel and crank are flat parts on parallel shafts
     FLAT: ClassVar[bool] = True
-    # True if they are shells of a sphere, on shafts that meet at its centre
-    SHELLS: ClassVar[bool] = False
     # meaning of center_distance_mm
     DISTANCE: ClassVar[str] = "centre distance"
     # what locks it in the dwell, on a crank

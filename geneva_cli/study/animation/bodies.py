@@ -21,7 +21,7 @@ def bodies(design: Design, turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Bod
     """Wheel, crank with its arm, the cam's groove and gears, as far as the machine has them."""
     L = turn.L
     # parts of a sphere are drawn laid flat: these outlines do not turn about the shaft
-    shapes = () if design.spec.wheel.SHELLS else _hollow(_shapes(design, "wheel"))
+    shapes = _hollow(_shapes(design, "wheel")) if turn.mechanism.axes else ()
     flat = bool(shapes)
     yield from wheels_of(design.spec).bodies(shapes, turn)
     if flat:

@@ -100,7 +100,7 @@ def _bars(turn: MachineTurn, outlines: Outlines | None, teeth: DrawnTeeth) -> tu
 
 def _remark(design: Design, bars: tuple[Bar, ...], teeth: DrawnTeeth) -> str:
     """A remark on simplifications in the picture."""
-    if design.spec.wheel.SHELLS:
+    if not design.mechanism.axes:
         return " Seen along the wheel's shaft."
     out = " Gears are shown by their pitch circles." if any(bar.radius for bar in bars) else ""
     if teeth.why:

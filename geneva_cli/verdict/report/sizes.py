@@ -19,7 +19,7 @@ def sizes(model: PartsModel) -> Values:
 
     The rim is None if the spec's sizes leave no wheel; the slots too if no wheel is drawn.
     """
-    if model.mechanism.spec.wheel.SHELLS:
+    if not model.mechanism.axes:
         return _sphere_sizes(model.mechanism)
     return _flat_sizes(model)
 

@@ -117,7 +117,7 @@ def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
             span = AllowedSpan(*(parameter(natural, x) for x in motion)).within(limits)
             if not span.empty:
                 yield Family(partial(make, target, wheel), *span, known=plain_too, plain=0.0)
-    if wheel.SHELLS:
+    if "axes_deg" in wheel.as_dict():
         yield from _inclined(target, wheel)
 
 
