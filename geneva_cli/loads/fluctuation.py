@@ -19,9 +19,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.forces import LoadCase, QuantityValue, load_case
+from geneva_cli.loads.forces import LoadCase, QuantityValue
 from geneva_cli.loads.groups import parts
 from geneva_cli.loads.instant import Instant
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import (
     LoadFunctions,
     LoadQuantity,

@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 import numpy as np
 
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.contact import Contact, column, contact, rows
+from geneva_cli.loads.contact import column, contact, rows
 from geneva_cli.loads.cycle_quantities import PV, QUANTITIES
 from geneva_cli.loads.forces import (
     NEGLIGIBLE,
+    Contact,
     LoadCase,
     QuantityValue,
     feeding,

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from geneva_cli.errors import Notice
-from geneva_cli.loads.forces import unbalance_Nm
+from geneva_cli.loads.load_case import unbalance_Nm
 from geneva_cli.loads.vibration.centrifugal import STIFFEST, stiffness_ratio
 from geneva_cli.loads.vibration.oscillator import NO_INERTIA, Oscillator
 from geneva_cli.loads.vibration.vibration import (

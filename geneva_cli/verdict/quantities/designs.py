@@ -75,7 +75,7 @@ class Designs:
     @cached_property
     def load_case(self) -> LoadCase:
         """The loads' parameters besides the motion."""
-        from geneva_cli.loads.forces import load_case  # quantities without loads need none
+        from geneva_cli.loads.load_case import load_case  # quantities without loads need none
 
         return load_case(self.machine)
 

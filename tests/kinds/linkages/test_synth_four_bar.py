@@ -22,8 +22,7 @@ from geneva_cli.spec.tables import Size
 from geneva_cli.study.synth.parts import parts
 from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.search import search
-from geneva_cli.study.synth.table import turned
-from geneva_cli.study.synth.written import chosen
+from geneva_cli.study.synth.table import chosen, turned
 from geneva_cli.verdict.checks import checks
 
 KEYS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg")

@@ -1,72 +1,48 @@
-"""Means of the loads of a batch: sums of them and of their squares over a period."""
+"""Searches of one engagement's loads for extremes, and their integrals over its stretches."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from typing import cast
 
 import numpy as np
 
 from geneva_cli.loads.contact import NEAR_CUSP
-from geneva_cli.loads.cycle_quantities import SQUARED, multiples, plain_values
+from geneva_cli.loads.cycle_quantities import SQUARED, plain_values
 from geneva_cli.loads.load_functions import ContactState, LoadFunctions, signed_instant
+from geneva_cli.loads.stretches import on_breaks, spans_of
+from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Mask, Whole, array, matrix_product
+from geneva_cli.numerics.arrays import Mask, Number, Whole, array, matrix_product
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.pieces import gathered, spread
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
-from geneva_cli.numerics.search import Stretches
+from geneva_cli.numerics.search import SearchResult, Stretches, search
 
 
-def sources_of(
-    mechanism: Mechanism, names: Sequence[str]
-) -> tuple[dict[str, tuple[str, Array]], list[str]]:
-    """Each quantity's source and its ratio to it, (m,) or (1,); and the names of all sources."""
-    known = multiples(mechanism)
-    every = {n: known.get(n, (n, 1.0, ""))[:2] for n in names}
-    multiple_of = {
-        n: (source, np.ravel(factor)) for n, (source, factor) in every.items() if factor is not None
-    }
-    return multiple_of, list(dict.fromkeys(source for source, _ in every.values()))
+def search_loads(load: LoadFunctions, n: int, sized: bool = False) -> SearchResult:
+    """The extremes of n designs' loads over a motion, and its stretches."""
+    spans = spans_of(load.engagement, n)
+    if sized and load.repeats:
+        spans = spans[: len(spans) // 2]
+    return search(load, spans, n, sized, load.at_mid_motion(n), load.spread)
 
 
-def means_from(
-    mechanism: Mechanism, names: Sequence[str], each: Sequence[Array], plain: bool
-) -> dict[str, tuple[Array | None, Array]]:
-    """Mean and root mean square of quantities over a period.
-
-    ``each`` are the integrals over each engagement, as ``sums`` returns them. The results are (m,)
-    each, dwells included, and infinite if unbounded. Without ``plain`` the mean is None.
-    """
-    every, out = _in_period(mechanism, names, each), {}
-    every /= np.ravel(mechanism.under_load.period_deg) * DEGREE
-    for i, name in enumerate(names):
-        square, mean = every[i], None
-        if plain:
-            mean = every[len(names) + i]
-            # a mean whose square is so small a fraction of the mean square is rounding
-            nought = np.isfinite(square) & (mean * mean <= 1e-30 * square)
-            mean = np.where(nought, 0.0, mean)
-        out[name] = mean, np.sqrt(square)
-    return out
+def sums_of(load: LoadFunctions, result: SearchResult, n: int, plain: bool) -> Array:
+    """The integrals of n designs' quantities over the stretches of a search: (rows, n)."""
+    bounded = np.asarray(np.isfinite(result.most).reshape(2, -1, n).all(axis=0))
+    return sums(load, result.stretches, bounded, n, plain)
 
 
-def _in_period(mechanism: Mechanism, names: Sequence[str], each: Sequence[Array]) -> Array:
-    """The integrals over a period; of bearings the greatest crank's, of wheels one wheel's.
+def shown_deg(mechanism: Mechanism, engagement: Engagement, x: Array) -> Array:
+    """Input angles of an engagement, (rows, m), as they are shown."""
+    places = np.reshape(engagement.mid_deg, (-1, 1)) + on_breaks(x, engagement).T
+    rows = [_shown(mechanism, places[:, i : i + 1]) for i in range(len(x))]
+    return np.hstack([np.broadcast_to(row, (x.shape[1], 1)) for row in rows]).T
 
-    The cranks work in turn. So do the wheels on a carrier, which are all alike.
-    """
-    drive = mechanism.spec.drive
-    of_wheel = ("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "wheel_bearing_N")
-    cranks, wheels = len(drive.cranks), max(1, drive.wheels_on_carrier)
-    total: Array = np.sum(each, axis=0)
-    for i in range(len(total)):
-        if names[i % len(names)] in of_wheel:
-            total[i] /= wheels
-        if names[i % len(names)] == "crank_bearing_N" and cranks > 1:
-            own = [sum(one[i] for one in each[k::cranks]) for k in range(min(cranks, len(each)))]
-            total[i] = np.max(own, axis=0) * min(1.0, len(each) / cranks)
-    return total
+
+def _shown(mechanism: Mechanism, places: Array) -> Number:
+    return mechanism.shown_deg(cast("float", places))
 
 
 def sums(load: LoadFunctions, pieces: Stretches, bounded: Mask, n: int, plain: bool) -> Array:
