@@ -14,7 +14,6 @@ KINDS = (
                 after="product",
                 batch="kinds.carousel.quantities:motion",
             ),
-            Quantities("", "", after="product", alone="kinds.carousel.quantities:wheels"),
             Quantities(
                 "carousel",
                 "envelope_mm",

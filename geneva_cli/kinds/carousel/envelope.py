@@ -10,8 +10,7 @@ from geneva_cli.verdict.quantities.designs import Values
 
 def envelope(model: PartsModel) -> Values:
     """Return the radius about the fixed axis that the wheels sweep, on a carrier."""
-    spec = model.mechanism.spec
-    if not (spec.drive.wheels_on_carrier and spec.is_flat):
+    if not model.mechanism.spec.is_flat:
         return {}
     try:
         outlines = model.outlines
