@@ -24,11 +24,11 @@ KINDS = (
             "guide_locks": "kinds.linear.checks:guide_locks",
         },
         parts_checks={
-            "beside_shafts_mm": "verdict.checks.shafts:passing_rack",
-            "gear_gap_mm": "verdict.checks.shafts:passing_rack_gears",
-            "cut_plate_mm": "verdict.checks.process:thickest_of_rack",
-            "cut_slot_mm": "verdict.checks.process:width_in_rack",
-            "parts": "verdict.checks.process:plates_built",
+            "beside_shafts_mm": "kinds.linear.parts_checks:passing_shafts",
+            "gear_gap_mm": "kinds.linear.parts_checks:passing_gears",
+            "cut_plate_mm": "kinds.linear.parts_checks:thickest_plate",
+            "cut_slot_mm": "kinds.linear.parts_checks:slot_width",
+            "parts": "kinds.linear.parts_checks:plates_built",
         },
     ),
 )
