@@ -43,7 +43,7 @@ def stress(name: str, parts: FlatParts) -> Check | None:
     stop, limit = _stop(parts), parts.mechanism.spec.limits.stop_stress_max_MPa
     if stop is None or limit is None:
         return None
-    from geneva_cli.loads.strength.lock import stop_contact
+    from geneva_cli.kinds.stop.contact import stop_contact
 
     value = stop_contact(parts.mechanism, stop.lever_mm, parts.outlines.sizes.rim)
     if value.contact_stress_MPa is None:
