@@ -867,10 +867,11 @@ class Design:
         >>> [text.name for text in Design(External(30)).warnings]
         ['many-slots']
         """
-        from geneva_cli.verdict.warnings import one_way_warnings, warnings
+        from geneva_cli.verdict.both_ways import all_warnings
+        from geneva_cli.verdict.warnings import warnings
 
         # the other direction's would be called backwards, which this one is
-        return (one_way_warnings if self.is_backwards else warnings)(self.parts_model)
+        return (warnings if self.is_backwards else all_warnings)(self.parts_model)
 
     @answer
     def report(self) -> Report:

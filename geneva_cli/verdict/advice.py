@@ -15,12 +15,12 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.numerics.latest import counted
 from geneva_cli.numerics.roots import Falsi
-from geneva_cli.verdict.checks import checks, checks_at_rest, single_check
+from geneva_cli.verdict.both_ways import models, worst_checks
+from geneva_cli.verdict.checks import checks_at_rest, single_check
 from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
 from geneva_cli.verdict.checks.registry import STANDING, checks_of_turn, turn_checks
 
@@ -69,7 +69,7 @@ def judged(
 
     Without such a change they say why, and name a change with which they pass themselves.
     """
-    rows = checks(mechanism, model, parts)
+    rows = worst_checks(mechanism, model, parts)
     failing = [c for c in rows if c.passes is False]
     if not failing:
         return rows
@@ -274,15 +274,12 @@ class _Search:
 
     def _margins(self, machine: Mechanism) -> Iterator[float]:
         """The margin of each wanted check; parts are built for the first that needs them."""
-        from geneva_cli.drawings.model import PartsModel
-
-        models = [PartsModel(way, advice=False) for way in every_way(machine)]
-        built = False
+        each, built = models(machine), False
         for check in self.wanted:
             if _needs_parts(check) and not built:
-                self._spend(PARTS * len(models))
+                self._spend(PARTS * len(each))
                 built = True
-            yield min(_left(model, check) for model in models)
+            yield min(_left(model, check) for model in each)
 
     def _holds(self, change: Change, value: Value) -> bool:
         """Return True if the wanted checks pass with a value, and no other check begins to fail."""
@@ -296,24 +293,21 @@ class _Search:
 
         try:
             with self._trial():
-                return all(self._holds_one_way(way, turn) for way in every_way(build(spec)))
+                return all(self._holds_one_way(model, turn) for model in models(build(spec)))
         except WorkLimit:
             raise OutOfWork from None  # a trial of some seconds, which is not repeated
         except GenevaError:
             return False
 
-    def _holds_one_way(self, machine: Mechanism, turn: bool) -> bool:
-        from geneva_cli.drawings.model import PartsModel
-
+    def _holds_one_way(self, model: PartsModel, turn: bool) -> bool:
         # parts that cannot be built, and need not be, hide no check of the motion
-        built = self.parts and machine.spec.is_turned and "parts" not in self.may_fail
-        model = PartsModel(machine, advice=False) if built else None
-        self._spend(PARTS if model else 0)
-        if model and any(check.name == "parts" for check in self.wanted):
+        built = self.parts and model.mechanism.spec.is_turned and "parts" not in self.may_fail
+        self._spend(PARTS if built else 0)
+        if built and any(check.name == "parts" for check in self.wanted):
             _ = model.built  # most trials end here, before the checks of the motion
-        if not self._pass(checks_at_rest(machine, model)):
+        if not self._pass(checks_at_rest(model.mechanism, model if built else None)):
             return False
-        if model is None or not turn:
+        if not (built and turn):
             return True
         self._spend(TURN)
         return self._pass(turn_checks(model.parts, model.turn))

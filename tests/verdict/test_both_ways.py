@@ -35,8 +35,8 @@ from geneva_cli.motion.many import many
 from geneva_cli.parts.outlines.outline_sizes import built
 from geneva_cli.study.summary.loads import of_loads
 from geneva_cli.verdict.advice import judged
-from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.checks.check import Check, worst
+from geneva_cli.verdict.both_ways import worse_of, worst_checks
+from geneva_cli.verdict.checks.check import Check
 
 BOTH = Crank(both_ways=True)
 OFFSET = External(6, offset_mm=12.0)
@@ -182,12 +182,12 @@ def test_a_batch_has_the_sizes_of_its_designs():
 def test_each_check_is_the_worse_one():
     of = both("offset-slots.toml")
     one, other = every_way(of.mechanism)
-    rows = {c.name: c for c in checks(of.mechanism)}
+    rows = {c.name: c for c in worst_checks(of.mechanism)}
     pin = [Design.of(m.spec).strength["strength.pin.stress_MPa"] for m in (one, other)]
     assert rows["pin_stress_MPa"].value == max(pin) == pin[1]
     assert rows["pin_stress_MPa"].direction == "backwards"
     assert rows["dwell_deg"].direction == ""
-    assert not any(c.direction for c in checks(one_way("offset-slots.toml").mechanism))
+    assert not any(c.direction for c in worst_checks(one_way("offset-slots.toml").mechanism))
 
 
 def test_the_worse_of_two_rows():
@@ -202,10 +202,10 @@ def test_the_worse_of_two_rows():
         ([], [bad], (bad, "backwards")),
     ):
         row, direction = want
-        assert worst(one, other) == [row._replace(direction=direction)]
+        assert worse_of(one, other) == [row._replace(direction=direction)]
     # two checks of one name stay two
     two = [good, good._replace(limit=3.0, passes=False)]
-    assert worst(two, two) == two
+    assert worse_of(two, two) == two
 
 
 def test_advice_serves_both_directions():
@@ -277,8 +277,8 @@ def test_a_tuned_law_with_damping_is_tuned_forwards_only():
 def test_every_design_can_be_judged_both_ways(name):
     """Nothing is refused backwards, and what is its own mirror image is no worse."""
     of = both(name)
-    rows = checks(of.mechanism)
-    assert len(rows) >= len(checks(one_way(name).mechanism))
+    rows = worst_checks(of.mechanism)
+    assert len(rows) >= len(worst_checks(one_way(name).mechanism))
     if len(every_way(of.mechanism)) == 1:
         assert not any(c.direction for c in rows)
 

@@ -9,11 +9,10 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.verdict.checks.check import Check as Check
 from geneva_cli.verdict.checks.check import all_pass as all_pass
-from geneva_cli.verdict.checks.check import refused, worst
+from geneva_cli.verdict.checks.check import refused
 from geneva_cli.verdict.checks.registry import (
     LIMITS,
     MOTION,
@@ -34,19 +33,8 @@ def checks(
 ) -> list[Check]:
     """Every check of one design: its motion, its parts unless left out, its own ``[limits]``.
 
-    Without ``turned`` those of the whole turn are left out, which take the longest. A machine that
-    turns both ways has each check in its worse direction.
+    Without ``turned`` those of the whole turn are left out, which take the longest.
     """
-    _, *others = every_way(mechanism)
-    rows = _one_way(mechanism, model, parts, turned)
-    for other in others:
-        rows = worst(rows, _one_way(other, None, parts, turned))
-    return rows
-
-
-def _one_way(
-    mechanism: Mechanism, model: PartsModel | None, parts: bool, turned: bool
-) -> list[Check]:
     motion = list(applicable(MOTION, mechanism))
     shown = list(_parts(mechanism, model, turned)) if parts else []
     return [*motion, *shown, *applicable(LIMITS, mechanism)]

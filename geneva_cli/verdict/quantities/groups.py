@@ -338,7 +338,7 @@ _REPORT = (
         batch="verdict.quantities.life:wear",
     ),
     _group("strength", "", "verdict.report.loads:needs"),
-    _group("", "", "verdict.report.both_ways:both_ways"),
+    _group("", "", "verdict.both_ways:differences"),
 )
 
 
