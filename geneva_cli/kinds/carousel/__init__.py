@@ -18,7 +18,7 @@ KINDS = (
                 "carousel",
                 "envelope_mm",
                 after="parts",
-                alone="kinds.carousel.envelope:envelope",
+                alone="kinds.carousel.quantities:envelope",
                 makes_parts=True,
             ),
         ),

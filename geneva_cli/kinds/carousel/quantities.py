@@ -1,13 +1,16 @@
-"""Quantities of wheels on a carrier: their motion from the ground."""
+"""Quantities of wheels on a carrier: their motion from the ground, and their space."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from geneva_cli.drawings.model import PartsModel
+from geneva_cli.errors import GenevaError
 from geneva_cli.loads.carried import carried_kg
 from geneva_cli.loads.unbalance import centrifugal_N, held_unbalance_Nm
 from geneva_cli.motion.peak_search import worst_peaks
-from geneva_cli.verdict.quantities.designs import Columns, Designs
+from geneva_cli.verdict.checks.cranks import reach_mm
+from geneva_cli.verdict.quantities.designs import Columns, Designs, Values
 
 
 def motion(of: Designs) -> Columns:
@@ -27,3 +30,14 @@ def motion(of: Designs) -> Columns:
         "centrifugal_N": np.ravel(force),
         "held_Nm": np.ravel(held),
     }
+
+
+def envelope(model: PartsModel) -> Values:
+    """Return the radius about the fixed axis that the wheels sweep, on a carrier."""
+    if not model.mechanism.spec.is_flat:
+        return {}
+    try:
+        outlines = model.outlines
+    except GenevaError:  # ``parts.none`` gives the reason
+        return {}
+    return {"envelope_mm": model.mechanism.center_distance_mm + reach_mm(outlines)}

@@ -15,7 +15,7 @@ KINDS = (
                 batch="kinds.linear.quantities:guide",
             ),
         ),
-        horns="kinds.linear.horns:rack_horns",
+        horns="kinds.linear.quantities:rack_horns",
         roller="kinds.linear.roller:rack_roller",
         load_case="kinds.linear.guide_place:with_guide",
         scene="kinds.linear.scene:RackScene",
