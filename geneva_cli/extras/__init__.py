@@ -3,4 +3,7 @@
 The list holds folders. Each has ``ANSWERS``, the names of its functions, and imports nothing else.
 """
 
-FOLDERS = ("certify", "servo")
+FOLDERS = (
+    "certify",
+    "servo",
+)

@@ -31,7 +31,7 @@ from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.gears.gear_mesh import gear_mesh
 from geneva_cli.parts.gears.gear_pair import driven_curve, driver_curve
 from geneva_cli.spec.tables import Size
-from geneva_cli.verdict.headline import both_ways_lines
+from geneva_cli.verdict.both_ways import both_ways_lines
 
 WRITE = {
     "arcs": lambda c, a, b: fit.arcs(c, a, b, 1e-5),
