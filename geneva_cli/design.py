@@ -381,7 +381,7 @@ class Design:
         >>> Design(External(6)).motion(4).to_dict()["input_deg"].tolist()
         [-60.0, 60.0, 180.0, 300.0]
         """
-        from geneva_cli.motion.electronic_cam import periods
+        from geneva_cli.motion.knots import periods
         from geneva_cli.motion.motion_table import motion_table, turns_table
 
         if turns is None:

@@ -45,6 +45,18 @@ FLOORS = [
 # goes when its import goes; none is added.
 with open(repo.TESTS / "imports_to_cut.txt", encoding="utf-8") as file:
     TO_CUT = {tuple(line.split(" > ")) for line in file.read().splitlines()}
+# Modules that annotate what users get of kinds and extras.
+PUBLIC = {"", "design"}
+# Modules that still import or name a kind, for types or in a list: none is added.
+TO_CUT_NAMES = {
+    "drawings.model",
+    "drawings.part_drawings",
+    "drawings.parts_list",
+    "drawings.print_plate",
+    "drawings.sheet.linked",
+    "motion.registry",
+    "parts.wheel_body",
+}
 # Levels of imports in a room: someone new can follow them.
 DEEPEST = 19
 # Members of one kind, a file each: none imports another. What two share is no member.
@@ -325,6 +337,22 @@ def test_every_room_has_a_floor():
 def test_imports_go_down():
     up = broken(lambda m: climbs(m, source(m)), filter(None, MODULES))
     assert {(module, other) for module, others in up.items() for other in others} == TO_CUT
+
+
+def names_kinds(module):
+    """What a module imports or names of a kind or an extra, for a type checker too."""
+    text = source(module)
+    known = ours(text, types=True)
+    asked = known - ours(text) if module in PUBLIC else set()
+    strings = {n.value for n in ast.walk(ast.parse(text)) if isinstance(n, ast.Constant)}
+    paths = {s for s in strings if isinstance(s, str) and re.match(r"(kinds|extras)\.\w+", s)}
+    return sorted({m for m in known - asked if m.startswith(("kinds.", "extras."))} | paths)
+
+
+def test_nothing_outside_names_a_kind():
+    """The core asks by records: of a folder that is not there, nobody has heard."""
+    core = [m for m in MODULES if m.partition(".")[0] not in ("kinds", "extras", "bench")]
+    assert broken(names_kinds, core).keys() == TO_CUT_NAMES
 
 
 def test_no_circle():

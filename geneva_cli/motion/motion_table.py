@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.motion.electronic_cam import knots_deg
 from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.knots import knots_deg
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
 from geneva_cli.table import Table, computed_table

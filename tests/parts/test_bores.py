@@ -16,7 +16,6 @@ from geneva_cli.geometry.moments import area
 from geneva_cli.geometry.placed import in_place
 from geneva_cli.geometry.plates import plates
 from geneva_cli.geometry.shapes import Contour
-from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.output.step import chunks
 from geneva_cli.parts.shafts.bores import bore_of, radius_of
 from geneva_cli.spec.tables import Shaft
@@ -165,6 +164,8 @@ def test_solids_have_the_bores_of_drawings(shape):
 
 def test_a_shaft_fits_a_spherical_hub():
     """Its bore is in the hub alone, whose round outside is in the shell."""
+    from geneva_cli.kinds.spherical.parts import SphereParts
+
     size = Size(80.0, 5.0, wheel_bore="hex", wheel_bore_mm=10.0, wheel_hub_mm=16.0, crank_bore="D")
     design = Design(Spherical(6), size=size)
     members = SphereParts(PartsModel(design.mechanism).shells).members
@@ -219,6 +220,8 @@ def test_without_a_spherical_hub_the_wall_is_that_to_the_slots():
 
 
 def test_a_spherical_crank_hub_that_its_keyway_cuts_is_refused():
+    from geneva_cli.kinds.spherical.parts import SphereParts
+
     size = {"crank_bore_mm": 8.0, "crank_hub_mm": 9.0, "crank_keyway": "DIN 6885-1"}
     design = Design(TILTED, size=Size(100.0, 5.0, **size))
     with pytest.raises(GenevaError, match="crank_hub_mm = 9: it must be above 10, the diam") as no:

@@ -8,13 +8,13 @@ import trimesh
 from drawing_witness import polygon
 from step_witness import File, Solid
 
-from geneva_cli import Design, External, GenevaPair, Internal, SideCrank, Size, Spherical, load
+import geneva_cli
+from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, load
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.plates import Group, Plate, Stack, lowered, solids
 from geneva_cli.geometry.shapes import Circle
-from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.motion import registry
 from geneva_cli.output.mesh.solids import bodies
 from geneva_cli.output.step import chunks
@@ -227,6 +227,8 @@ def test_refused(design, said):
 
 def test_steps_on_a_sphere():
     """Seen from its axis each shaft is one of a plane: the sphere's outside is the height 0."""
+    from geneva_cli.kinds.spherical.parts import SphereParts
+
     size = Size(80.0, 5.0, shafts="turned", wheel_bore_mm=16.0, wheel_hub_mm=24.0, arm_bore_mm=10.0)
     parts = SphereParts(PartsModel(Design(Spherical(6), size=size).mechanism).shells)
     wheel, crank = (m.part for m in parts.shafts)
@@ -343,6 +345,8 @@ def test_stress_in_the_bearing():
 
 @pytest.mark.parametrize("shape", ["round", "D", "hex"])
 def test_shafts_of_a_sphere_fit_too(shape):
+    from geneva_cli.kinds.spherical.parts import SphereParts
+
     size = Size(80.0, 5.0, wheel_bore=shape, wheel_bore_mm=10.0, wheel_hub_mm=16.0, process="print")
     parts = SphereParts(PartsModel(Design(Spherical(6), size=size).mechanism).shells)
     (bar,) = [m.part for m in parts.shafts if m.part.name == "wheel's shaft"]
@@ -355,6 +359,6 @@ def test_shafts_of_a_sphere_fit_too(shape):
 
 @pytest.mark.parametrize("crank", [{"crank_bore": "hex"}, {"crank_keyway": "DIN 6885-1"}])
 def test_a_first_wheel_on_a_shaft_that_is_not_round_is_refused(crank):
-    design = Design(External(4), GenevaPair(first_z=4), size=Size(**crank))
+    design = Design(External(4), geneva_cli.GenevaPair(first_z=4), size=Size(**crank))
     with pytest.raises(GenevaError, match="the first wheel on the crank's shaft has a round bore"):
         design.drawing("assembly")

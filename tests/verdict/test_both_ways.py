@@ -15,7 +15,6 @@ from geneva_cli import (
     Crank,
     Design,
     External,
-    GenevaPair,
     Internal,
     Limits,
     Load,
@@ -60,11 +59,12 @@ def both(name, *settings):
         Design(Spherical(6), BOTH),
         Design(External(6, steps_deg=(72, 48)), BOTH),
         Design(External(6), SideCrank(A=0.4, rollers=2, both_ways=True)),
-        Design(External(4), GenevaPair(first_z=4, both_ways=True)),
+        "geneva-pair.toml",
         Design(OFFSET),  # which turns one way
     ],
 )
 def test_one_machine_serves_both_ways(machine):
+    machine = both(machine) if isinstance(machine, str) else machine
     assert every_way(machine.mechanism) == (machine.mechanism,)
 
 
@@ -75,11 +75,12 @@ def test_one_machine_serves_both_ways(machine):
         Design(External(6), BOTH, TILTED),
         Design(External(3, steps_deg=(100, 122.5, 137.5)), BOTH),
         Design(External(8), Crank(both_ways=True, roller_angles_deg=(0.0, 140.0))),
-        both("four-bar-z4.toml"),
-        both("slider-crank.toml"),
+        "four-bar-z4.toml",
+        "slider-crank.toml",
     ],
 )
 def test_backwards_twice_is_the_machine_itself(machine):
+    machine = both(machine) if isinstance(machine, str) else machine
     first, second = every_way(machine.mechanism)
     again = backwards(second)
     assert second.spec != first.spec

@@ -16,12 +16,11 @@ KINDS = (
                 after="product",
                 batch="kinds.carousel.quantities:motion",
             ),
-            Quantities("", "", after="product", alone="kinds.carousel.quantities:wheels"),
             Quantities(
                 "carousel",
                 "envelope_mm",
                 after="parts",
-                alone="kinds.carousel.envelope:envelope",
+                alone="kinds.carousel.quantities:envelope",
                 makes_parts=True,
             ),
         ),

@@ -17,6 +17,7 @@ KINDS = (
                 makes_parts=True,
             ),
         ),
+        remedies="kinds.stop.remedies:REMEDIES",
         scene="kinds.stop.scene:StopScene",
         parts_checks={
             "stop_turns": "kinds.stop.checks:turns",

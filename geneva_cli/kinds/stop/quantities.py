@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinds.stop.parts import wheel_stop
-from geneva_cli.loads.strength.lock import stop_contact
+from geneva_cli.kinds.stop.parts import stop_contact, wheel_stop
 from geneva_cli.verdict.quantities.designs import Values
 
 

@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
-from geneva_cli.motion.registry import KINDS
+from geneva_cli.motion.registry import KINDS, of_wheel
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, WheelMaterial
@@ -17,6 +17,7 @@ from geneva_cli.verdict.checks.registry import PROOFS, checks_before_turn, check
 
 if TYPE_CHECKING:
     from geneva_cli.drawings.model import PartsModel
+    from geneva_cli.motion.machine_spec import Spec
     from geneva_cli.numerics.arrays import Number
     from geneva_cli.verdict.quantities.designs import Columns, Designs, Values
 
@@ -76,6 +77,7 @@ class QuantityGroup(NamedTuple):
     batch: str = ""
     one_by_one: tuple[str, ...] = ()  # names in ``own`` that ``batch`` does not compute
     makes_parts: bool = False  # it makes the machine's parts or turns them, which may take seconds
+    kind: str = ""  # name of the kind to whose machines they belong; empty for all
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -91,6 +93,8 @@ class QuantityGroup(NamedTuple):
     def values(self, model: PartsModel) -> Values:
         """The values of a single design; None for those that it lacks."""
         every: Values = {self._whole(name): None for name in self.own}
+        if not self._is_of(model.mechanism.spec):
+            return every
         computed: Values
         if self.alone:
             computed = load_named(self.alone)(model)
@@ -106,9 +110,16 @@ class QuantityGroup(NamedTuple):
 
         A name is left out if the batch cannot compute it, and each design must be built alone.
         """
+        if not self._is_of(of.spec):
+            return dict.fromkeys(self.own)
         compute: Callable[[Designs], Columns] = load_named(self.batch)
         columns = of.columns(compute)
         return columns if self.alone else {**dict.fromkeys(self.own), **columns}
+
+    def _is_of(self, spec: Spec) -> bool:
+        """Return True if the quantities belong to a machine of the spec's kinds."""
+        kinds = [kind.name for kind in of_wheel(spec.wheel.NAME)]
+        return self.kind in ("", spec.drive.NAME, *kinds)
 
     def _whole(self, name: str) -> str:
         return f"{self.table}.{name}" if self.table else name
@@ -235,6 +246,7 @@ _REPORT = (
         ),
         batch="verdict.quantities.motion:product",
     ),
+    _group("", "", "verdict.report.stations:wheels"),
     _group("", "", "verdict.report.stations:cranks"),
     _group(
         "sizes",
@@ -338,7 +350,7 @@ def _with_kinds(groups: tuple[QuantityGroup, ...]) -> Iterator[QuantityGroup]:
         for kind in KINDS:
             for own in kind.quantities:
                 if last[own.after] is group:
-                    yield _group(own.table, own.names, *own[3:])
+                    yield _group(own.table, own.names, *own[3:])._replace(kind=kind.name)
 
 
 REPORT = (*_with_kinds(_REPORT),)

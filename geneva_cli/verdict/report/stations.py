@@ -1,4 +1,4 @@
-"""Timing and peaks of each engagement; when each of several cranks moves."""
+"""Timing and peaks of each engagement; when each of several wheels or cranks moves."""
 
 from __future__ import annotations
 
@@ -70,6 +70,25 @@ def _peaks(mechanism: Mechanism, peaks: Peaks) -> Numbers:
         **peak_values("jerk", output, w, peaks.jerk, ends[2:]),
         **peak_values("power", output, w, peaks.power, ()),
     }
+
+
+def wheels(model: PartsModel) -> Values:
+    """A row for each of several wheels: where it stands, and when it moves.
+
+    Angles are those of the carrier from the middle of the first wheel's motion.
+    """
+    mechanism = model.mechanism
+    places = mechanism.wheel_places
+    if len(places) < 2:
+        return {"wheels": None}
+    (one,) = mechanism.engagements  # one finger, which all wheels meet alike
+    names = ("wheel", "behind_deg", "entry_deg", "exit_deg", "entry_s")
+    rows = []
+    for place in places:
+        behind = place.behind_deg
+        after_s = behind / (6.0 * mechanism.spec.drive.n_rpm)  # n rpm is 6 n degrees a second
+        rows.append((place.number, behind, behind + one.entry_deg, behind + one.exit_deg, after_s))
+    return {"wheels": rows_table(names, rows)}
 
 
 def cranks(model: PartsModel) -> Values:

@@ -8,16 +8,14 @@ a piece. One is the middle, where a smooth error of one sign is greatest or near
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from itertools import pairwise
+from collections.abc import Callable
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError, cut
-from geneva_cli.motion.engagement import Engagement
+from geneva_cli.errors import GenevaError
+from geneva_cli.motion.knots import Stretch, stretches
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.angles import distinct
 from geneva_cli.numerics.jet import Array
 from geneva_cli.table import Table
 
@@ -45,79 +43,6 @@ class CamPoints(NamedTuple):
     error_deg: float
 
 
-class _Stretch(NamedTuple):
-    """A part of the period between two places where a derivative may jump.
-
-    ``engagement`` is None in a dwell. Master and slave are degrees from the first entry.
-    """
-
-    engagement: Engagement | None
-    begin_deg: float
-    end_deg: float
-    mid_deg: float  # where the engagement's own angle is 0
-    base_deg: float  # the slave's angle there; in a dwell everywhere
-
-    def states(self, master_deg: Array, side: int) -> Array:
-        """Slave angle, velocity and acceleration (3, k) at ascending angles (k,).
-
-        The acceleration is that just after the angles for ``side`` 1, just before for -1.
-        """
-        if self.engagement is None:
-            rest = np.zeros((3, len(master_deg)))
-            rest[0] = self.base_deg
-            return rest
-        wheel, velocity = self._derivatives(master_deg, (0, 1))
-        nudge = 1e-9 * side * (self.end_deg - self.begin_deg)  # into the stretch
-        acceleration, jerk = self._derivatives(master_deg + nudge, (2, 3))
-        per_deg = np.radians(acceleration - np.radians(nudge) * jerk)
-        return np.stack([self.base_deg + np.degrees(wheel), velocity, per_deg])
-
-    def slave_deg(self, master_deg: Array) -> Array:
-        """Slave angle (k,) at ascending angles (k,)."""
-        if self.engagement is None:
-            return np.full(len(master_deg), self.base_deg)
-        return self.base_deg + np.degrees(self._derivatives(master_deg, (0,))[0])
-
-    def _derivatives(self, master_deg: Array, orders: Sequence[int]) -> list[Array]:
-        assert self.engagement is not None
-        first, last = self.engagement.entry_deg, self.engagement.exit_deg
-        local = np.clip(master_deg - self.mid_deg, first, last)
-        return self.engagement.motion.derivatives(local, orders)
-
-
-def periods(mechanism: Mechanism, turns: int | None) -> int:
-    """The number of periods in ``turns`` of the input; 1 for None.
-
-    Raises GenevaError if the turns are no whole periods.
-    """
-    if turns is None:
-        return 1
-    if not 1 <= turns <= 1000:  # more make no file that a program reads
-        raise GenevaError(f"--turns {cut(turns)}: must be at least 1, at most 1000")
-    count = 360.0 * turns / mechanism.period_deg
-    if abs(count - round(count)) > 1e-9:
-        whole = round(mechanism.period_deg / 360.0)
-        raise GenevaError(
-            f"--turns {turns}: this machine repeats after {whole} turns of its input; "
-            f"give a multiple of {whole}"
-        )
-    z = mechanism.spec.wheel.z
-    if mechanism.spec.wheel.stopped and turns > z - 2:
-        raise GenevaError(
-            f"--turns {turns}: the stop leaves {z - 2} whole motions, as the first and the last of "
-            f"{z} are blocked half-way; give at most {z - 2}"
-        )
-    return round(count)
-
-
-def knots_deg(mechanism: Mechanism, count: int) -> Array:
-    """Where a derivative may jump in ``count`` periods, and the end: degrees from first entry."""
-    ends = [stretch.begin_deg for stretch in _stretches(mechanism)]
-    repeats = mechanism.period_deg * np.arange(count)[:, None]
-    knots: Array = np.append((repeats + np.array(ends)).ravel(), count * mechanism.period_deg)
-    return knots
-
-
 def cam_pieces(mechanism: Mechanism, count: int, tolerance_deg: float) -> Table:
     """Polynomials of the fifth degree over ``count`` periods, a row each.
 
@@ -127,7 +52,7 @@ def cam_pieces(mechanism: Mechanism, count: int, tolerance_deg: float) -> Table:
     Source: Hermite interpolation; value, velocity and acceleration are the true ones at both ends.
     """
     begins, coefficients, errors = [], [], []
-    for stretch in _stretches(mechanism):
+    for stretch in stretches(mechanism):
         nodes, states, error = _halved(stretch, _quintic, tolerance_deg, LEAST_DEG)
         begins.append(nodes[:-1])
         coefficients.append(_quintic(np.diff(nodes), *states))
@@ -170,7 +95,7 @@ def _period_points(
     """
     points: list[Array] = []
     error_deg = 0.0
-    for stretch in _stretches(mechanism):
+    for stretch in stretches(mechanism):
         nodes, (begin, end), errors = _halved(stretch, _quintic, tolerance_deg, LEAST_DEG)
         error_deg = max(error_deg, float(errors.max()))
         if before is not None and np.abs(begin[1:, 0] - before[1:]).max() > 1e-9:
@@ -197,10 +122,10 @@ def cam_pairs(mechanism: Mechanism, count: int, tolerance_deg: float) -> CamPoin
     All are multiples of 1e-4 degrees. The tolerance grows until the pairs are few enough.
     """
     most, least_deg, grid = 360, 0.1, 1e-4  # of a table of Beckhoff's
-    stretches = list(_stretches(mechanism))
+    own = list(stretches(mechanism))
     for rung in range(240):
         tolerance = max(tolerance_deg, 0.5 * grid) * 2.0 ** (rung / 8.0)
-        nodes = [_halved(stretch, _linear, tolerance, 2.0 * least_deg)[0] for stretch in stretches]
+        nodes = [_halved(stretch, _linear, tolerance, 2.0 * least_deg)[0] for stretch in own]
         ends = np.append(np.concatenate([one[:-1] for one in nodes]), mechanism.period_deg)
         if count * (len(ends) - 1) + 1 <= most:
             break
@@ -211,11 +136,11 @@ def cam_pairs(mechanism: Mechanism, count: int, tolerance_deg: float) -> CamPoin
     near[-1], near[-2] = False, near[-2] or near[-1]  # the end stays, the place before it goes
     ends = ends[np.append(True, ~near)]
     slave = np.empty_like(ends)
-    for stretch in stretches:
+    for stretch in own:
         here = (ends >= stretch.begin_deg - grid) & (ends <= stretch.end_deg + grid)
         slave[here] = stretch.slave_deg(ends[here])
     slave = grid * np.rint(slave / grid)
-    error_deg = max(_linear_error(stretch, ends, slave) for stretch in stretches)
+    error_deg = max(_linear_error(stretch, ends, slave) for stretch in own)
     again = np.arange(count)[:, None]
     master = np.append((again * mechanism.period_deg + ends[:-1]).ravel(), 0.0)
     angle = np.append((again * step_deg(mechanism) + slave[:-1]).ravel(), 0.0)
@@ -230,28 +155,8 @@ def step_deg(mechanism: Mechanism) -> float:
     return math.degrees(sum(2.0 * one.half_step for one in mechanism.engagements))
 
 
-def _stretches(mechanism: Mechanism) -> list[_Stretch]:
-    """The stretches of a period, in order: those of each motion, then its dwell."""
-    out: list[_Stretch] = []
-    begin, slave = 0.0, 0.0
-    for i, engagement in enumerate(mechanism.engagements):
-        half = math.degrees(engagement.half_step)
-        mid = begin - engagement.entry_deg
-        # seams within the rounding of half a turn are one: no stretch is that short
-        for first, last in pairwise(distinct(engagement.motion.seams_deg, 1e-12)):
-            out.append(_Stretch(engagement, mid + first, mid + last, mid, slave + half))
-        slave += 2.0 * half
-        dwell = mechanism.dwell_deg(i)
-        begin = mid + engagement.exit_deg + dwell
-        if dwell > 0.0:
-            out.append(_Stretch(None, begin - dwell, begin, begin, slave))
-    # Sums of angles are rounded: each stretch ends where the next one begins, the last at the end.
-    ends = [*(stretch.begin_deg for stretch in out[1:]), mechanism.period_deg]
-    return [stretch._replace(end_deg=end) for stretch, end in zip(out, ends, strict=True)]
-
-
 def _halved(
-    stretch: _Stretch, interpolation: Interpolation, tolerance_deg: float, least_deg: float
+    stretch: Stretch, interpolation: Interpolation, tolerance_deg: float, least_deg: float
 ) -> tuple[Array, tuple[Array, Array], Array]:
     """Nodes of a stretch, the states (3, k) after and before each piece's ends, and its errors.
 
@@ -269,7 +174,7 @@ def _halved(
         nodes = np.sort(np.append(nodes, nodes[:-1][wide] + 0.5 * width[wide]))
 
 
-def _errors(stretch: _Stretch, nodes: Array, powers: Array) -> Array:
+def _errors(stretch: Stretch, nodes: Array, powers: Array) -> Array:
     """The greatest error of each piece, from the powers (6, k) of its polynomial."""
     t = np.diff(nodes)[:, None] * INSIDE
     places = (nodes[:-1, None] + t).ravel()
@@ -281,12 +186,12 @@ def _errors(stretch: _Stretch, nodes: Array, powers: Array) -> Array:
     return out
 
 
-def _error(stretch: _Stretch, nodes: Array, after: Array, before: Array) -> float:
+def _error(stretch: Stretch, nodes: Array, after: Array, before: Array) -> float:
     """The error of one polynomial of degree five between two nodes and their states (3, 1)."""
     return float(_errors(stretch, nodes, _quintic(np.diff(nodes), after, before))[0])
 
 
-def _linear_error(stretch: _Stretch, master: Array, slave: Array) -> float:
+def _linear_error(stretch: Stretch, master: Array, slave: Array) -> float:
     """The greatest error of linear interpolation in a stretch."""
     inner = master[(master > stretch.begin_deg) & (master < stretch.end_deg)]
     nodes = np.concatenate([[stretch.begin_deg], inner, [stretch.end_deg]])
