@@ -54,8 +54,6 @@ TO_CUT_NAMES = {
     "drawings.parts_list",
     "drawings.print_plate",
     "drawings.sheet.linked",
-    "motion.registry",
-    "parts.wheel_body",
 }
 # Levels of imports in a room: someone new can follow them.
 DEEPEST = 19
@@ -234,7 +232,8 @@ ANY = {
     "numerics.pieces": {"at", "column", "rows", "evaluate", "_turn"},
     "loads.summary": {"_rows", "_cells"},
     "loads.vibration.answers": {"values"},
-    "motion.registry": {"_load_kind", "thing", "families_of_kinds"},
+    "motion.records": {"families_of_kinds", "thing"},
+    "motion.registry": {"_load_kind"},
     "motion.machine_spec": {"replace", "table"},
     "drawings.catalogue": {"_loaded"},
     "drawings.sheet.composed": {"on_paper", "_composed", "_items"},
