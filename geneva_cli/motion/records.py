@@ -13,32 +13,25 @@ from geneva_cli.motion.kind import Kind
 from geneva_cli.spec.load_named import load_named
 
 CRANK = "drives.crank:Crank"  # the drive of a spec without one
+_CRANK, _PIN_PATH = "drives.refuses:of_transmission", "drives.refuses:of_pin_path"
 # The kinds of the core; those in ``kinds`` follow.
 _CORE = (
     Kind("external", wheel="motion.wheels.external:External", parts="drawings.model:Flat"),
     Kind("internal", wheel="motion.wheels.internal:Internal", parts="drawings.model:Flat"),
     Kind("spherical", wheel="motion.wheels.spherical:Spherical"),
     Kind("crank", drive=CRANK, refuses="drives.refuses:of_crank"),
-    Kind(
-        "side-crank",
-        drive="drives.side_crank:SideCrank",
-        refuses="drives.refuses:of_transmission",
-    ),
-    Kind(
-        "elliptical-gears",
-        drive="drives.elliptical_gears:EllipticalGears",
-        refuses="drives.refuses:of_transmission",
-    ),
+    Kind("side-crank", drive="drives.side_crank:SideCrank", refuses=_CRANK),
+    Kind("elliptical-gears", drive="drives.elliptical_gears:EllipticalGears", refuses=_CRANK),
     Kind(
         "noncircular-gears",
         drive="drives.noncircular_gears:NoncircularGears",
-        refuses="drives.refuses:of_transmission",
+        refuses=_CRANK,
     ),
     Kind(
         "epicyclic",
         drive="drives.epicyclic:Epicyclic",
         gearings=("external",),
-        refuses="drives.refuses:of_pin_path",
+        refuses=_PIN_PATH,
     ),
     Kind(
         "cam",
