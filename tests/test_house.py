@@ -37,7 +37,6 @@ FLOORS = [
     {"design"},
     {"study"},
     {"kinds", "extras"},
-    {"bench"},
     {"cli"},
     {"__main__"},
 ]
@@ -54,8 +53,6 @@ TO_CUT_NAMES = {
     "drawings.parts_list",
     "drawings.print_plate",
     "drawings.sheet.linked",
-    "motion.registry",
-    "parts.wheel_body",
 }
 # Levels of imports in a room: someone new can follow them.
 DEEPEST = 19
@@ -69,7 +66,6 @@ MEMBERS = {
 # share, and the list of them.
 SHARED = {
     "cli.commands": set(),
-    "bench.subjects": set(),
     "verdict.checks": {"check", "registry"},
     "verdict.report": set(),
 }
@@ -351,7 +347,7 @@ def names_kinds(module):
 
 def test_nothing_outside_names_a_kind():
     """The core asks by records: of a folder that is not there, nobody has heard."""
-    core = [m for m in MODULES if m.partition(".")[0] not in ("kinds", "extras", "bench")]
+    core = [m for m in MODULES if m.partition(".")[0] not in ("kinds", "extras")]
     assert broken(names_kinds, core).keys() == TO_CUT_NAMES
 
 
