@@ -54,8 +54,6 @@ TO_CUT_NAMES = {
     "drawings.parts_list",
     "drawings.print_plate",
     "drawings.sheet.linked",
-    "motion.registry",
-    "parts.wheel_body",
 }
 # Levels of imports in a room: someone new can follow them.
 DEEPEST = 19
