@@ -183,9 +183,9 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
     entries += _to_fix(model)
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     entries += model.kind.dimensions(model)
-    if mechanism.law is None and spec.drive.CRANKED:
+    if mechanism.law is None and spec.drive.crank:
         entries += _straight(mechanism)
-    elif spec.drive.CRANKED:
+    elif spec.drive.crank:
         entries.append(Dimension("crank radius", mechanism.ratio * L, "mm"))
         entries.append(Dimension("rollers, evenly", spec.drive.rollers))
     elif spec.drive.rollers > 1:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive, Plan
 from geneva_cli.motion.engagement import (
     Anchor,
@@ -66,11 +67,20 @@ class PinTravel(NamedTuple):
 class Transmission(Drive, kw_only=True):
     """A drive in front of the crank; a kind defines ``about``, and more only if it needs more."""
 
-    CRANKED: ClassVar[bool] = True
-
     @abstractmethod
     def about(self, crank_deg: float) -> LocalTransmission:
         """The transmission about a crank angle in degrees, which is 0 at mid-motion."""
+
+    @property
+    def crank(self) -> Drive:
+        """The crank behind the transmission, without it."""
+        plain, angles = registry.drive("crank"), self.roller_angles_deg
+        return plain(n_rpm=self.n_rpm, rollers=self.rollers, roller_angles_deg=angles)
+
+    @property
+    def turned_at_crank(self) -> bool:
+        """True if the input shaft carries the crank."""
+        return self.direct
 
     @property
     def motions(self) -> int:

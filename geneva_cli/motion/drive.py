@@ -57,8 +57,6 @@ class Drive(SpecTable, kw_only=True):
     ONE_ARM: ClassVar[bool] = True
     # True if its crank can carry a locking disc about the line of centres
     LOCKS: ClassVar[bool] = True
-    # True if a crank carries the roller, so that a plain crank drive could replace it
-    CRANKED: ClassVar[bool] = False
     # what turns the input shaft of another drive, in [drive.before]; empty if it cannot
     IN_FRONT: ClassVar[str] = ""
     # reason why no drive may stand before it; empty if one may
@@ -109,7 +107,7 @@ class Drive(SpecTable, kw_only=True):
         >>> Crank().turned_at_crank, SideCrank(A=0.6).turned_at_crank
         (True, False)
         """
-        return self.direct or not self.CRANKED
+        return True
 
     @property
     def wheels_on_carrier(self) -> int:
@@ -120,6 +118,11 @@ class Drive(SpecTable, kw_only=True):
     def cranks(self) -> tuple[float, ...]:
         """Places of the cranks about the wheel, in steps from the first one; (0,) for one crank."""
         return (0.0,)
+
+    @property
+    def crank(self) -> Drive | None:
+        """A plain crank with the same rollers; None if no crank carries them."""
+        return None
 
     @property
     def motions(self) -> int:

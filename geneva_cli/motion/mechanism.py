@@ -125,7 +125,13 @@ class Mechanism(NamedTuple):
     @property
     def law(self) -> Law | None:
         """Motion law by the angle of the drive's own input shaft; None for straight slots."""
-        return self.engagements[0].own.motion.law
+        motion = self.spec.motion
+        return motion.law if motion else None
+
+    @property
+    def input_law(self) -> Law | None:
+        """Motion law by the input's own angle; None for straight slots or behind another drive."""
+        return None if self.spec.drive_before else self.law
 
     @property
     def output(self) -> Output:

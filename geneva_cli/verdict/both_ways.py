@@ -179,7 +179,7 @@ def _half_way(mechanism: Mechanism, law: Law) -> float:
 
 
 def _is_tuned(mechanism: Mechanism) -> bool:
-    law = mechanism.engagements[0].motion.law
+    law = mechanism.input_law
     return law is not None and law.tuned_to is not None
 
 

@@ -130,7 +130,7 @@ def _ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
 
 def _arm_bore(spec: Spec, pin: float, L: float, arm: float) -> float:
     """Return the radius of the bore in the arm's hub; 0 without a crank, or without pins."""
-    if not (spec.drive.CRANKED and pin):
+    if not (spec.drive.crank and pin):
         return 0.0
     disc, space = 0.5 * (spec.size.crank_bore_mm or 0.0), L * arm - hole_radius(spec.size, pin)
     refuse_stepped_shaft(spec.size, disc, L)

@@ -24,7 +24,7 @@ def refuses(spec: Spec) -> Iterator[Conflict]:
         return
     drive, key = spec.drive, ("wheel", "stop")
     yield Conflict(
-        not drive.CRANKED or drive.first_wheel(spec.given_distance_mm) or spec.motion,
+        not drive.crank or drive.first_wheel(spec.given_distance_mm) or spec.motion,
         key,
         "stop needs straight slots and a crank without a first wheel: remove stop, or law and kind",
     )

@@ -74,7 +74,7 @@ class Index:
     """One kind of index: of one design, or of each design in a batch of m."""
 
     def __init__(self, mechanism: Mechanism, engagement: Engagement) -> None:
-        motion, law, m = engagement.motion, engagement.motion.law, mechanism.designs
+        motion, law, m = engagement.motion, mechanism.input_law, mechanism.designs
         self.motion = motion
         # its time over that of the machine's first motion
         self.scale = np.ravel(engagement.motion_deg / mechanism.engagements[0].motion_deg)
@@ -88,7 +88,7 @@ class Index:
         if is_array(mechanism.design):
             self.panels = law_shape(law) if law and alike else motion_shapes(motion, m)
         else:
-            self.panels = shape(engagement)
+            self.panels = law_shape(law) if law else shape(motion)
 
     def shapes(self, which: Whole) -> Whole:
         """Return the numbers of oscillators' motions among the panels'."""

@@ -86,7 +86,7 @@ def parts(mechanism: Mechanism) -> Parts:
         return Parts(spec if r is None else with_roller(spec, r), why)
     at, m = parts_data(spec), spec.drive.rollers
     # the parts do not depend on the drive that turns the crank
-    if spec.drive.CRANKED and not mechanism.law:
+    if spec.drive.crank and not mechanism.law:
         r, why = _of_crank(at.spec, m)
     else:
         r, why = _suiting_plane(assembly(mechanism), at, m)
