@@ -13,9 +13,11 @@ import pytest
 import repo
 
 import geneva_cli
+from geneva_cli.kinds import FOLDERS
 from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.wheels.gearing import Gearing
+from geneva_cli.spec.load_named import load_named
 
 ROOT = os.path.dirname(geneva_cli.__file__)
 
@@ -37,7 +39,6 @@ FLOORS = [
     {"design"},
     {"study"},
     {"kinds", "extras"},
-    {"bench"},
     {"cli"},
     {"__main__"},
 ]
@@ -67,7 +68,6 @@ MEMBERS = {
 # share, and the list of them.
 SHARED = {
     "cli.commands": set(),
-    "bench.subjects": set(),
     "verdict.checks": {"check", "registry"},
     "verdict.report": set(),
 }
@@ -88,7 +88,9 @@ ALONE = {
     "verdict.quantities.names",
 }
 # A kind's names; "table" is a law, and also what people are shown.
-NAMES = {*registry.DRIVES, *registry.GEARINGS, *registry.LAWS} - {"table"}
+NAMES = {*registry.LAWS, *(kind.name for kind in registry.KINDS)} - {"table"}
+# The names of kinds in folders: no text of the core is one of them.
+FAR = {kind.name for folder in FOLDERS for kind in load_named(f"kinds.{folder}:KINDS")}
 
 
 def modules():
@@ -182,6 +184,22 @@ def beside_designs(text):
     return {m for m in ours(text) if room(m) in rooms | {"numerics", "specfile"}} - ALONE
 
 
+# The drive whose line a template leaves out; wheels that a record names; a key of a wheel.
+ASKS = {
+    "drives.refuses": ["spec.wheel.NAME not in able"],
+    "specfile.template": ["name != Crank.NAME"],
+    "study.synth.reading": ["field.key == 'stop'"],
+}
+# Keys and tables of a kind that stand in the core.
+NAMED = {
+    "motion.registry": {"linear"},  # what a user may mean by "rack"
+    "specfile.template": {"stop"},  # to be an example of the kind
+    "study.document.answers": {"carousel", "stop"},  # tables of the report
+    "study.synth.reading": {"linear", "stop"},  # --linear; the key of a wheel
+    "study.target": {"stop"},  # the key of a wheel
+    "verdict.headline": {"stop"},  # a label
+}
+
 CALLS = ("open", "io.open", "os.open", "print", "input", "exec")
 
 
@@ -205,14 +223,35 @@ def streams(nodes):
             yield ast.unparse(node)
 
 
+def of_name(node):
+    """Return True for the name of a machine's kind, ``NAME`` of a wheel, a drive or a law."""
+    return isinstance(node, ast.Attribute) and node.attr == "NAME"
+
+
 def asks(nodes):
-    """Where it is asked which machine it is: by a kind's name, or by a literal attribute."""
+    """Where it is asked which machine it is: by a kind's name or class, or a literal attribute."""
     for node in nodes:
         if isinstance(node, ast.Compare):
-            for side in (node.left, *node.comparators):
-                words = {n.value for n in ast.walk(side) if isinstance(n, ast.Constant)}
-                if words & NAMES:
-                    yield ast.unparse(node)
+            sides = (node.left, *node.comparators)
+            record = any(isinstance(side, ast.Attribute) and side.attr == "name" for side in sides)
+            words = {
+                n.value for side in sides for n in ast.walk(side) if isinstance(n, ast.Constant)
+            }
+            classes = {named(n) for side in sides for n in (side, *getattr(side, "elts", ()))}
+            if words & NAMES or classes & CLASSES or (any(map(of_name, sides)) and not record):
+                yield ast.unparse(node)
+        if isinstance(node, (ast.MatchValue, ast.MatchClass)):
+            key = node.value if isinstance(node, ast.MatchValue) else node.cls
+            if getattr(key, "value", None) in NAMES or named(key) in CLASSES or of_name(key):
+                yield ast.unparse(node)
+        if isinstance(node, ast.Subscript) and of_name(node.slice):
+            yield ast.unparse(node)
+        if (
+            isinstance(node, ast.Call)
+            and called(node).endswith(".get")
+            and any(map(of_name, node.args[:1]))
+        ):
+            yield ast.unparse(node)
         if not (isinstance(node, ast.Call) and len(node.args) > 1):
             continue
         name, second = named(node.func), node.args[1]
@@ -222,6 +261,13 @@ def asks(nodes):
             kinds = {ast.unparse(n).rpartition(".")[2] for n in ast.walk(second)}
             if kinds & CLASSES:
                 yield ast.unparse(node)
+
+
+def far(nodes):
+    """The texts that are the name of a kind that only some users need."""
+    for node in nodes:
+        if isinstance(node, ast.Constant) and node.value in FAR:
+            yield node.value
 
 
 CORE = {"numerics", "geometry", "motion", "drives", "loads", "parts", "drawings"}
@@ -304,6 +350,7 @@ class Read(NamedTuple):
     known: list  # those for types too
     streams: list
     asks: list
+    far: set
     untyped: set
     long_lists: set
 
@@ -319,6 +366,7 @@ def read(text):
         list(imported(every)),
         list(streams(run)),
         list(asks(every)),
+        set(far(every)),
         set(untyped(every)),
         set(long_lists(every)),
     )
@@ -350,7 +398,7 @@ def names_kinds(module):
 
 def test_nothing_outside_names_a_kind():
     """The core asks by records: of a folder that is not there, nobody has heard."""
-    core = [m for m in MODULES if m.partition(".")[0] not in ("kinds", "extras", "bench")]
+    core = [m for m in MODULES if m.partition(".")[0] not in ("kinds", "extras")]
     assert broken(names_kinds, core).keys() == TO_CUT_NAMES
 
 
@@ -440,7 +488,12 @@ def test_drives_and_wheels_have_few_flags():
 
 def test_nobody_asks_which_machine_it_is():
     others = [m for m in MODULES if m != "motion.registry"]
-    assert broken(lambda m: read(source(m)).asks, others) == {}
+    assert broken(lambda m: read(source(m)).asks, others) == ASKS
+
+
+def test_the_core_names_no_kind():
+    core = [m for m in MODULES if room(m).partition(".")[0] not in ("kinds", "bench")]
+    assert broken(lambda m: read(source(m)).far, core) == NAMED
 
 
 def test_no_number_of_the_core_is_any():

@@ -6,6 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import repo
+from bench import truth
 from machine_witness import mp as exact_digits
 from machine_witness import on_path
 from sampling import some
@@ -14,7 +15,6 @@ from words import law as load_law
 from words import load, points
 
 from geneva_cli import Crank, Design, External, Shaft, SideCrank
-from geneva_cli.bench import truth
 from geneva_cli.drives.noncircular_gears import NoncircularGears
 from geneva_cli.loads.vibration.lobes import highest_ratio, lobes
 from geneva_cli.loads.vibration.oscillator import Oscillator

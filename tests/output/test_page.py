@@ -102,7 +102,7 @@ def test_the_wheel_and_the_rollers_are_where_the_core_has_them(name):
         assert np.abs(rollers[:, i] - there).max() < PLACE * data["size"]
 
 
-PLATES = [path.stem for path in repo.WHEELS if "spherical" not in path.stem]
+PLATES = [path.stem for path in repo.wheels() if "spherical" not in path.stem]
 
 
 @pytest.mark.sampled(8)

@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from geneva_cli.bench.formulas import textbook
-from geneva_cli.bench.kinds import KINDS, VariedMachine, values_of
-from geneva_cli.bench.method import Method, Subject, Task, missing
-from geneva_cli.bench.scalar_loop import by_numba, motion_loop
-from geneva_cli.bench.truth import digits
-from geneva_cli.bench.truth import motion as exact_motion
+from bench.formulas import textbook
+from bench.kinds import KINDS, VariedMachine, values_of
+from bench.method import Method, Subject, Task, missing
+from bench.scalar_loop import by_numba, motion_loop
+from bench.truth import digits
+from bench.truth import motion as exact_motion
 from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from geneva_cli.bench.method import Method, Subject, Task
-from geneva_cli.bench.whole_runs import GENEVA, WholeRun, geneva, task
+from bench.method import Method, Subject, Task
+from bench.whole_runs import GENEVA, WholeRun, geneva, task
 from geneva_cli.specfile.template import template
 
 # A user's own script instead: a row of the table as in handbooks.

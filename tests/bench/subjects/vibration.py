@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from geneva_cli.bench.method import Method, Subject, Task
-from geneva_cli.bench.truth import digits
+from bench.method import Method, Subject, Task
+from bench.truth import digits
 from geneva_cli.loads.vibration.oscillator import Oscillator
 from geneva_cli.loads.vibration.shape import law_shape
 from geneva_cli.loads.vibration.swing import residual_swing

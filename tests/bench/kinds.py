@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from geneva_cli.bench.formulas import Proportions, rates, textbook
-from geneva_cli.bench.method import Method, Task
+from bench.formulas import Proportions, rates, textbook
+from bench.method import Method, Task
 from geneva_cli.drives.crank import Crank
 from geneva_cli.drives.elliptical_gears import EllipticalGears
 from geneva_cli.drives.epicyclic import Epicyclic

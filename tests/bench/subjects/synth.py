@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from geneva_cli.bench.method import Method, Subject
-from geneva_cli.bench.timing_pairs import wall_s
-from geneva_cli.bench.whole_runs import geneva, task
+from bench.method import Method, Subject
+from bench.timing_pairs import wall_s
+from bench.whole_runs import geneva, task
 
 
 def subject(quick: bool) -> Subject:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from functools import partial
 
-from geneva_cli.bench.formulas import Proportions, acceleration
-from geneva_cli.bench.method import Method, Subject, Task, missing
-from geneva_cli.bench.numeric import NUMERIC, by_chebpy, closed
-from geneva_cli.bench.truth import acceleration_peak, relative
+from bench.formulas import Proportions, acceleration
+from bench.method import Method, Subject, Task, missing
+from bench.numeric import NUMERIC, by_chebpy, closed
+from bench.truth import acceleration_peak, relative
 from geneva_cli.drives.crank import Crank
 from geneva_cli.drives.side_crank import SideCrank
 from geneva_cli.motion import registry

@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from geneva_cli.bench.method import BenchRow, Subject
+from bench.method import BenchRow, Subject
 from geneva_cli.errors import GenevaError
 
 OUR_COLOUR = "#c8102e"
@@ -20,7 +20,7 @@ def require() -> None:
         import matplotlib.figure  # noqa: F401
     except ImportError:
         raise GenevaError(
-            "--plots needs matplotlib, which is not installed: pip install 'geneva-cli[bench]'"
+            "--plots needs matplotlib, which is not installed: pip install --group bench"
         ) from None
 
 

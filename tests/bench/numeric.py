@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from geneva_cli.bench.formulas import Proportions, acceleration, jerk
+from bench.formulas import Proportions, acceleration, jerk
 
 
 def size_at(d: Proportions, x: float) -> float:

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from geneva_cli.bench.method import Method, Subject, Task
+from bench.method import Method, Subject, Task
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion_table import motion_table

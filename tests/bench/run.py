@@ -11,8 +11,8 @@ import importlib
 from collections.abc import Iterator
 from typing import cast
 
-from geneva_cli.bench.method import BenchRow, Subject, Task, with_frontier
-from geneva_cli.bench.timing_pairs import exponent, ratios
+from bench.method import BenchRow, Subject, Task, with_frontier
+from bench.timing_pairs import exponent, ratios
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.table import Table, rows_table
 
@@ -49,7 +49,7 @@ def names(word: str) -> tuple[str, ...]:
 
 def measure(name: str, quick: bool) -> tuple[Subject, list[BenchRow]]:
     """One subject with its rows."""
-    module = importlib.import_module(f"geneva_cli.bench.subjects.{name}")
+    module = importlib.import_module(f"bench.subjects.{name}")
     subject = cast(Subject, module.subject(quick))
     rows = [row for task in subject.tasks for row in _rows(name, subject, task, quick)]
     return subject, rows
@@ -94,7 +94,7 @@ def _with_exponents(rows: list[BenchRow]) -> list[BenchRow]:
 
 
 def bench_table(rows: list[BenchRow], for_people: bool) -> Table:
-    """Rows as ``geneva bench`` writes them, without columns that are all empty.
+    """Rows as the bench writes them, without columns that are all empty.
 
     People get errors in powers of ten. A table for them shows numbers as 0 that are small compared
     with the column's largest, and here the smallest ones count.

@@ -21,7 +21,7 @@ def digits() -> Any:
         import mpmath
     except ImportError:
         raise GenevaError(
-            "errors need mpmath, which is not installed: pip install 'geneva-cli[bench]'"
+            "errors need mpmath, which is not installed: pip install --group bench"
         ) from None
     context = mpmath.mp.clone()
     context.dps = 50
@@ -65,7 +65,7 @@ def acceleration_peak(z: int, gearing: str, A: float) -> Any:
     """
     import numpy as np
 
-    from geneva_cli.bench.formulas import Proportions, jerk
+    from bench.formulas import Proportions, jerk
 
     mp = digits()
     crank = np.linspace(0.0, np.pi / 2 - registry.gearing(gearing).SIGN * np.pi / z, 401)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
-from geneva_cli.bench.timing_pairs import processor_s
+from bench.timing_pairs import processor_s
 
 
 class Method(NamedTuple):

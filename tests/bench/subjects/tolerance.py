@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from geneva_cli.bench.kinds import task_of_many
-from geneva_cli.bench.method import Method, Subject
+from bench.kinds import task_of_many
+from bench.method import Method, Subject
 from geneva_cli.loads.tolerance.draws import Draws
 from geneva_cli.loads.tolerance.entry_jump import entry_jumps
 from geneva_cli.loads.tolerance.locking import Lock

@@ -1,14 +1,23 @@
-"""``geneva bench``."""
+"""``python -m bench`` in the tests' folder: run time against error, as ``make bench`` does."""
 
+import os
+import sys
 from typing import Annotated
 
 import typer
 
+from bench.plot import require, svg
+from bench.run import bench_table, measure, names
 from geneva_cli.cli.options import Format, Output, flag, option
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.output import show
+from geneva_cli.output.files import write
+from geneva_cli.output.formats import is_for_people
 
-EXAMPLES = ("geneva bench peaks --quick",)
+app = typer.Typer(add_completion=False)
 
 
+@app.command()
 def run(
     subject: Annotated[
         str,
@@ -28,18 +37,15 @@ def run(
     Errors are against 50 digits. Times are ratios of processor time to a baseline of the same run,
     which has a row.
     """
-    import os
-    import sys
+    try:
+        _print(subject, plots, quick, output, format)
+    except GenevaError as error:
+        print(error, file=sys.stderr)
+        raise typer.Exit(2) from None
 
-    from geneva_cli.bench.run import bench_table, measure, names
-    from geneva_cli.errors import GenevaError, cut
-    from geneva_cli.output import show
-    from geneva_cli.output.files import write
-    from geneva_cli.output.formats import is_for_people
 
+def _print(subject: str, plots: str, quick: bool, output: str, format: str) -> None:
     if plots:
-        from geneva_cli.bench.plot import require, svg
-
         require()
         if not os.path.isdir(plots):
             raise GenevaError(f"--plots {cut(plots, 300)}: no such folder")
@@ -55,4 +61,8 @@ def run(
     for name, libraries in absent.items():
         if libraries:
             note = f"{name}: {libraries} not measured, as not installed"
-            print(f"{note}; pip install 'geneva-cli[bench]'", file=sys.stderr)
+            print(f"{note}; pip install --group bench", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    app()

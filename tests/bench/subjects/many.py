@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from geneva_cli.bench.kinds import (
+from bench.kinds import (
     CHECKED,
     KINDS,
     QUICK,
@@ -23,7 +23,7 @@ from geneva_cli.bench.kinds import (
     task_of_many,
     values_of,
 )
-from geneva_cli.bench.method import Method, Subject, Task
+from bench.method import Method, Subject, Task
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many, worst_peaks
 from geneva_cli.motion.mechanism import Mechanism

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.bench.method import Method, Subject, Task
+from bench.method import Method, Subject, Task
 from geneva_cli.motion.laws.standard import Cycloidal
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from geneva_cli.bench.method import Method, Subject, Task
-from geneva_cli.bench.truth import digits, motion
+from bench.method import Method, Subject, Task
+from bench.truth import digits, motion
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build

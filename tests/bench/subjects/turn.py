@@ -9,7 +9,7 @@ from functools import partial
 
 import numpy as np
 
-from geneva_cli.bench.method import Method, Subject, Task
+from bench.method import Method, Subject, Task
 from geneva_cli.drives.crank import Crank
 from geneva_cli.motion.laws.standard import ModifiedSine
 from geneva_cli.motion.machine_spec import Spec

@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.bench.kinds import KINDS, QUICK, VariedMachine, drawn, one_by_one, task_of_many
-from geneva_cli.bench.method import Method, Subject, Task
+from bench.kinds import KINDS, QUICK, VariedMachine, drawn, one_by_one, task_of_many
+from bench.method import Method, Subject, Task
 from geneva_cli.motion.laws.standard import ModifiedSine
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from geneva_cli.bench.method import Method, Task
+from bench.method import Method, Task
 
 # What the installed ``geneva`` does.
 GENEVA = "import sys; sys.argv[0] = 'geneva'; from geneva_cli.__main__ import main; main()"

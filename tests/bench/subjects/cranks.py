@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from geneva_cli.bench.formulas import Proportions, acceleration, jerk
-from geneva_cli.bench.kinds import task_of_many
-from geneva_cli.bench.method import Method, Subject, missing
-from geneva_cli.bench.numeric import NUMERIC, vertex
-from geneva_cli.bench.scalar_loop import by_numba, looped
-from geneva_cli.bench.truth import acceleration_peak, relative
+from bench.formulas import Proportions, acceleration, jerk
+from bench.kinds import task_of_many
+from bench.method import Method, Subject, missing
+from bench.numeric import NUMERIC, vertex
+from bench.scalar_loop import by_numba, looped
+from bench.truth import acceleration_peak, relative
 from geneva_cli.motion.wheels.side_crank_arrays import acceleration_peaks, wheels
 from geneva_cli.numerics.angles import one_minus_sin_pi
 

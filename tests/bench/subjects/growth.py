@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from geneva_cli.bench.method import Method, Subject, Task
-from geneva_cli.bench.whole_runs import geneva, task
+from bench.method import Method, Subject, Task
+from bench.whole_runs import geneva, task
 from geneva_cli.specfile.template import template
 
 SWEEP = "sweep - --set drive.kind=side-crank --vary drive.A=-0.3..0.5 --jobs 1 --random {n}"
