@@ -9,6 +9,7 @@ reaches, over the pin's least distance from the wheel's axis, counts as a condit
 """
 
 import math
+import re
 from functools import cache
 from itertools import pairwise
 
@@ -151,6 +152,9 @@ CASES = {
     ),
     "slider-crank-turned": text("z = 3", f"{SLIDER}point_mm = 60, point_deg = 30"),
 }
+KIND = re.compile('(?:kind|gearing) = "([^"]+)"')
+KNOWN = {*registry.DRIVES, *registry.GEARINGS}  # the kinds that there are
+CASES = {case: text for case, text in CASES.items() if {*KIND.findall(text)} <= KNOWN}
 # Machines on a linkage's path, with places near which their wheel's entry and exit are.
 ON_PATH = {
     "four-bar": (59.15, 289.43),
