@@ -39,6 +39,7 @@ class Kind(NamedTuple):
     refuses: str = ""  # rules of what makes no machine with it
     # keys of other tables, as in "load.mass_kg", that it alone has: its rules apply if one is set
     keys: tuple[str, ...] = ()
+    unbuilt: str = ""  # function that returns the reason why a spec's parts are not built
     parts: str = ""  # class of the parts of wheel and crank
     wheel_body: str = ""  # function that returns mass and inertia of a mechanism's wheel
     motion_checks: Mapping[str, str] = _NONE  # by their names

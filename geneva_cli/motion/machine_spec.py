@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, Self
@@ -313,19 +314,10 @@ class Spec:
         return any(kind.parts for kind in registry.of_wheel(self.wheel.NAME))
 
     @property
-    def guided(self) -> bool:
-        """True if a rack slides in a guide, which stands on the frame of its crank.
-
-        >>> Spec(Linear(6)).guided, Spec(External(6)).guided
-        (True, False)
-        """
-        return not self.output.turns and (self.drive.direct or self.drive.gears is not None)
-
-    @property
     def is_turned(self) -> bool:
         """True if wheel and crank can be checked for collisions in a full turn of the crank.
 
-        >>> Spec(Linear(6)).is_turned, Spec(External(400)).is_turned
+        >>> Spec(External(6)).is_turned, Spec(External(400)).is_turned
         (True, False)
         """
         if not self._built:
@@ -355,11 +347,9 @@ class Spec:
                 f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '
                 "built: the shaft between them has no bearing, since the input crank turns below it"
             )
-        if not (self.output.turns or self.guided):
-            return (
-                f"frame and guide of a rack behind {self.drive.WORDS} are not built: the crank's "
-                "shaft has no bearing between the rack above it and the input crank below it"
-            )
+        unbuilt: Callable[[Spec], str] | None = registry.thing(self.wheel.NAME, "unbuilt")
+        if unbuilt and (why := unbuilt(self)):
+            return why
         if self.wheel.z > Z_DRAWN:
             return f"wheels of more than {Z_DRAWN} slots are not drawn"
         return ""

@@ -8,6 +8,7 @@ KINDS = (
         wheel="kinds.linear.motion:Linear",
         refuses="kinds.linear.refuses:refuses",
         keys=("load.mass_kg", "load.force_N", "load.guide_friction"),
+        unbuilt="kinds.linear.refuses:unbuilt",
         parts="kinds.linear.drawn:Rack",
         quantities=(
             Quantities(

@@ -1,4 +1,4 @@
-"""What a rack refuses, and which keys are a rack's only."""
+"""What a rack refuses, which keys are a rack's only, and when a rack has a guide."""
 
 from __future__ import annotations
 
@@ -7,6 +7,21 @@ from collections.abc import Iterator
 from geneva_cli.motion.compatible import Conflict, is_set
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.spec.tables import Shaft
+
+
+def guided(spec: Spec) -> bool:
+    """True if a rack slides in a guide, which stands on the frame of its crank."""
+    return not spec.output.turns and (spec.drive.direct or spec.drive.gears is not None)
+
+
+def unbuilt(spec: Spec) -> str:
+    """Why the parts of a rack are not built; empty if they are."""
+    if guided(spec):
+        return ""
+    return (
+        f"frame and guide of a rack behind {spec.drive.WORDS} are not built: the crank's "
+        "shaft has no bearing between the rack above it and the input crank below it"
+    )
 
 
 def refuses(spec: Spec) -> Iterator[Conflict]:
@@ -23,7 +38,7 @@ def refuses(spec: Spec) -> Iterator[Conflict]:
         "inertia_kgm2 and torque_Nm are of a wheel that turns; a rack has mass_kg and force_N",
     )
     yield Conflict(
-        not spec.guided and load.guide_friction is not None,
+        not guided(spec) and load.guide_friction is not None,
         ("load", "guide_friction"),
         "guide_friction is of the guide of a rack that a plain crank or gears drive: remove it",
     )
