@@ -174,9 +174,10 @@ def _jammed(cycle: Cycle) -> Iterator[Notice]:
         "wall gives. Use a smaller roller or less friction"
     )
     if case.guided:  # the slot's friction is across the travel, and holds nothing
+        held = cycle.mechanism.output.noun
         text = (
-            f"friction of {case.guide_friction:g} in the guide holds the {cycle.mechanism.output.noun} {when}: "
-            "it takes as much force as the roller gives. Use a smaller roller or less guide_friction"
+            f"friction of {case.guide_friction:g} in the guide holds the {held} {when}: it takes "
+            "as much force as the roller gives. Use a smaller roller or less guide_friction"
         )
     yield Notice("friction-holds-the-wheel", text)
 
