@@ -381,12 +381,13 @@ class Design:
         >>> Design(External(6)).motion(4).to_dict()["input_deg"].tolist()
         [-60.0, 60.0, 180.0, 300.0]
         """
-        from geneva_cli.motion.knots import periods
+        from geneva_cli.motion.knots import knots_deg, periods
         from geneva_cli.motion.motion_table import motion_table, turns_table
 
         if turns is None:
             return motion_table(self.mechanism, samples)
-        return turns_table(self.mechanism, samples, periods(self.mechanism, turns))
+        count = periods(self.mechanism, turns)
+        return turns_table(self.mechanism, samples, count, knots_deg(self.mechanism, count))
 
     @question
     def figure(self, pick: Sequence[str] = ()) -> Figure:

@@ -10,7 +10,8 @@ from geneva_cli.loads.load_functions import LoadFunctions, signed_instant
 from geneva_cli.loads.load_functions import load_batch as of
 from geneva_cli.loads.load_summary import LoadSummary
 from geneva_cli.loads.summaries import load_summaries
-from geneva_cli.motion.many import many, taken
+from geneva_cli.motion.batch import taken
+from geneva_cli.motion.many import many
 from geneva_cli.spec.tables import Load
 
 LOAD = Load(inertia_kgm2=1.0, friction=0.1)

@@ -14,7 +14,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension
-from geneva_cli.motion.registry import of_wheel
+from geneva_cli.motion.records import of_wheel
 from geneva_cli.parts.missing import Missing
 from geneva_cli.spec.load_named import load_named
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from geneva_cli.motion.compatible import Conflict, is_set
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.registry import KINDS
+from geneva_cli.motion.records import KINDS
 
 
 def other_wheels(spec: Spec) -> Conflict:

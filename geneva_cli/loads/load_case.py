@@ -9,7 +9,7 @@ from geneva_cli.loads.carried import MM, inertia_kgm2, resisting_torque_Nm, unba
 from geneva_cli.loads.forces import LoadCase, contact_modulus_GPa
 from geneva_cli.loads.strength.pin import pin_diameter_mm
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.registry import thing
+from geneva_cli.motion.records import thing
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import all_true, choose, library
 from geneva_cli.spec.materials import roller_material, wheel_material

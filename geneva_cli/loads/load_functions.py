@@ -25,8 +25,8 @@ from geneva_cli.loads.forces import (
     wheel_torque,
 )
 from geneva_cli.loads.instant import Instant
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.many import taken
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Number, Whole, all_true, array
 from geneva_cli.numerics.jet import Array, Jet

@@ -15,7 +15,7 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.kind import Kind
 from geneva_cli.motion.machine_spec import Spec, attribute
-from geneva_cli.motion.registry import KINDS
+from geneva_cli.motion.records import KINDS
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.rules import is_array
 from geneva_cli.spec.schema import SpecTable, fields

@@ -8,11 +8,12 @@ from functools import partial
 from typing import Any, Self
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive, Gears
 from geneva_cli.motion.motion import Motion
+from geneva_cli.motion.records import CRANK, of_wheel
 from geneva_cli.motion.wheels.gearing import Gearing, Output
-from geneva_cli.numerics.arrays import all_true
+from geneva_cli.numerics.arrays import Batchable, all_true
+from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.schema import SpecTable, copied, hash_once, refuse_kind, without_hash
 from geneva_cli.spec.tables import (
     DISTANCE_MM,
@@ -87,7 +88,7 @@ def _no_load(key: str, keys: str) -> GenevaError:
 
 
 @dataclass(frozen=True)
-class Spec:
+class Spec(Batchable):
     """All values from which a machine is built, as in the spec's file.
 
     ``path`` is that file, for messages; ``files`` are the CSV files of its points. ``drive_before``
@@ -98,7 +99,7 @@ class Spec:
     """
 
     wheel: Gearing
-    drive: Drive = field(default_factory=lambda: registry.drive("crank")())
+    drive: Drive = field(default_factory=lambda: load_named(CRANK)())
     motion: Motion | None = None
     size: Size = field(default_factory=Size)
     load: Load = field(default_factory=Load)
@@ -311,7 +312,7 @@ class Spec:
     @property
     def _built(self) -> bool:
         """True if the wheel's kind has parts, or one that adds to it."""
-        return any(kind.parts for kind in registry.of_wheel(self.wheel.NAME))
+        return any(kind.parts for kind in of_wheel(self.wheel.NAME))
 
     @property
     def is_turned(self) -> bool:

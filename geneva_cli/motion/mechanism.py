@@ -18,7 +18,7 @@ from geneva_cli.motion.pivots import (
     crank_places,
     wheel_places,
 )
-from geneva_cli.motion.registry import IN_FRONT
+from geneva_cli.motion.records import IN_FRONT
 from geneva_cli.motion.size_rules import refuse_sizes, refuse_tolerances
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.numerics.arrays import N, Whole, choose, designs_of, larger, library

@@ -14,8 +14,8 @@ import numpy as np
 from geneva_cli.drawings.model import kind_of
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.tolerance.locking import Lock
+from geneva_cli.motion.batch import alone, designs_in
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.many import alone, designs_in
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.numerics.arrays import Record, parameter, record_of
 from geneva_cli.numerics.jet import Array

@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator, Mapping
 
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.registry import KINDS
+from geneva_cli.motion.records import KINDS
 from geneva_cli.parts.shafts.screws import SCREWS
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.tables import Z_USUAL, Size

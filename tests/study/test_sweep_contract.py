@@ -10,8 +10,9 @@ from words import Motion
 import geneva_cli
 from geneva_cli import Design, External, Load, SideCrank
 from geneva_cli.design import load
+from geneva_cli.motion.batch import alone, taken
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.many import alone, many, may_vary, taken
+from geneva_cli.motion.many import many, may_vary
 from geneva_cli.study.sweep.best import best_spec
 from geneva_cli.study.sweep.outcome import Outcome
 from geneva_cli.study.sweep.request import request

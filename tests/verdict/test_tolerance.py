@@ -374,12 +374,13 @@ def test_mean_jump_of_large_errors():
         Design(External(6), SideCrank(A=-0.4)),
         Design(External(6, offset_mm=8.0)),
         Design(Spherical(5)),
-        load(str(ROOT / "designs" / "four-bar-z4.toml")),
+        "four-bar-z4",
     ],
 )
 def test_the_table_of_jumps_against_each_exact_one(design):
     from geneva_cli.loads.impacts.shock import first_contacts
 
+    design = load(str(ROOT / "designs" / f"{design}.toml")) if isinstance(design, str) else design
     one = entry_jumps(design.mechanism)[0]
     arm = design.spec.drive.ONE_ARM
     center = design.spec.wheel.FLAT

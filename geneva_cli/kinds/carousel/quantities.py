@@ -8,7 +8,7 @@ from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.carried import carried_kg
 from geneva_cli.loads.unbalance import centrifugal_N, held_unbalance_Nm
-from geneva_cli.motion.peak_search import worst_peaks
+from geneva_cli.motion.many import worst_peaks
 from geneva_cli.verdict.checks.cranks import reach_mm
 from geneva_cli.verdict.quantities.designs import Columns, Designs, Values
 

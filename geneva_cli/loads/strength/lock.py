@@ -33,7 +33,7 @@ import numpy as np
 
 from geneva_cli.loads.forces import contact_modulus_GPa, hertz_MPa
 from geneva_cli.loads.tolerance.locking import Lock
-from geneva_cli.motion.many import taken
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import all_true, blocks, choose_record, parameter
 from geneva_cli.numerics.jet import Array, Number

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.loads.vibration.panels import Panels, panels_of
+from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.laws.law import Law
-from geneva_cli.motion.many import selection
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, Number, Whole, read_only
 from geneva_cli.numerics.jet import Jet

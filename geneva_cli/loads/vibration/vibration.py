@@ -33,8 +33,8 @@ from geneva_cli.loads.vibration.lobes import Lobes, highest_ratio, lobes
 from geneva_cli.loads.vibration.oscillator import PERIOD_RATIO, Oscillator, period_ratio_of
 from geneva_cli.loads.vibration.shape import law_shape, motion_shapes, shape
 from geneva_cli.loads.vibration.swing import residual_swing
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.many import taken
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import motion_peaks
 from geneva_cli.motion.timing import timings

@@ -10,7 +10,7 @@ import numpy as np
 
 from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.registry import thing
+from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.scene import Body, Box
 from geneva_cli.study.animation.turn import MachineTurn

@@ -17,7 +17,7 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.registry import thing
+from geneva_cli.motion.records import thing
 from geneva_cli.motion.undercut import depths_mm
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.parts.assembly import Assembly, assembly

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.records import KINDS
 from geneva_cli.motion.registry import STANDARD_LAWS as LAWS
 from geneva_cli.spec.rules import POSITIVE, Range, range_text
 from geneva_cli.spec.schema import fields
@@ -195,7 +196,7 @@ def _gearings(
 
 def _carried() -> tuple[str, ...]:
     """The gearings of wheels on a carrier."""
-    drives = (kind for kind in registry.KINDS if "carrier" in kind.families)
+    drives = (kind for kind in KINDS if "carrier" in kind.families)
     able = tuple(name for drive in drives for name in drive.gearings)
     if not able:
         raise GenevaError("--carousel: no drive with wheels on a carrier is installed")

@@ -9,8 +9,9 @@ import numpy as np
 
 from geneva_cli.loads.product import ProductMotion, product_motion
 from geneva_cli.motion.engagement import WheelMotion
+from geneva_cli.motion.many import worst_peaks
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.peak_search import QUANTITIES, worst_peaks
+from geneva_cli.motion.peak_search import QUANTITIES
 from geneva_cli.motion.timing import timings
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.numerics.angles import omega

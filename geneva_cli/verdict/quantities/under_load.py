@@ -16,7 +16,7 @@ from geneva_cli.loads.strength import lock, shafts
 from geneva_cli.loads.strength import pin as pins
 from geneva_cli.loads.strength.pin import PinSize
 from geneva_cli.loads.summaries import load_peaks
-from geneva_cli.motion.registry import thing
+from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Array, Number, library, parameter
 from geneva_cli.parts.outlines.outline_sizes import Layout, sized
 from geneva_cli.spec.materials import roller_material

@@ -25,9 +25,8 @@ from bench.kinds import (
 )
 from bench.method import Method, Subject, Task
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.many import many
+from geneva_cli.motion.many import many, worst_peaks
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.peak_search import worst_peaks
 from geneva_cli.motion.peaks import peak
 from geneva_cli.numerics.jet import Array
 

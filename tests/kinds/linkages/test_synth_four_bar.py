@@ -13,9 +13,8 @@ from geneva_cli.drives.crank import Crank
 from geneva_cli.kinds.linkages import four_bar_family as families
 from geneva_cli.kinds.linkages.four_bar import FourBar
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.many import many
+from geneva_cli.motion.many import many, worst_peaks
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.peak_search import worst_peaks
 from geneva_cli.motion.peaks import peak as peak_of
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.spec.tables import Size

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 from typing import TypeAlias
 
-from geneva_cli.motion.registry import families_of_kinds
+from geneva_cli.motion.records import families_of_kinds
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.study.synth.families.curved import with_laws
 from geneva_cli.study.synth.families.family import Family
