@@ -10,7 +10,7 @@ from typing import Any, Self
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.drive import Drive, Gears
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.records import CRANK, of_wheel
+from geneva_cli.motion.records import CRANK, of_wheel, thing
 from geneva_cli.motion.wheels.gearing import Gearing, Output
 from geneva_cli.numerics.arrays import Batchable, all_true
 from geneva_cli.spec.load_named import load_named
@@ -348,7 +348,7 @@ class Spec(Batchable):
                 f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '
                 "built: the shaft between them has no bearing, since the input crank turns below it"
             )
-        unbuilt: Callable[[Spec], str] | None = registry.thing(self.wheel.NAME, "unbuilt")
+        unbuilt: Callable[[Spec], str] | None = thing(self.wheel.NAME, "unbuilt")
         if unbuilt and (why := unbuilt(self)):
             return why
         if self.wheel.z > Z_DRAWN:
