@@ -19,7 +19,7 @@ KINDS = (
         ),
         horns="kinds.linear.quantities:rack_horns",
         roller="kinds.linear.roller:rack_roller",
-        load_case="kinds.linear.guide_place:with_guide",
+        load_case="kinds.linear.guide_friction:with_guide",
         scene="kinds.linear.scene:RackScene",
         motion_checks={
             "rack_horn_mm": "kinds.linear.checks:rack_horn",
