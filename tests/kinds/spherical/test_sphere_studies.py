@@ -5,7 +5,6 @@ import pytest
 
 from geneva_cli import Design, Size, Spherical, Tolerance
 from geneva_cli.motion.mechanism import build
-from geneva_cli.spec.tables import Size
 from geneva_cli.study.synth.built import built
 from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.search import search
