@@ -40,6 +40,7 @@ class Kind(NamedTuple):
     # keys of other tables, as in "load.mass_kg", that it alone has: its rules apply if one is set
     keys: tuple[str, ...] = ()
     parts: str = ""  # class of the parts of wheel and crank
+    no_parts: str = ""  # function that returns the reason why a spec has no parts, or ""
     wheel_body: str = ""  # function that returns mass and inertia of a mechanism's wheel
     motion_checks: Mapping[str, str] = _NONE  # by their names
     parts_checks: Mapping[str, str] = _NONE  # of parts at rest, all or those that it adds

@@ -7,6 +7,7 @@ KINDS = (
         "linear",
         wheel="kinds.linear.motion:Linear",
         refuses="kinds.linear.refuses:refuses",
+        no_parts="kinds.linear.motion:no_parts",
         keys=("load.mass_kg", "load.force_N", "load.guide_friction"),
         parts="kinds.linear.drawn:Rack",
         quantities=(

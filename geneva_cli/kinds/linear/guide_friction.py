@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from geneva_cli.kinds.linear.guide_place import guide_place
+from geneva_cli.kinds.linear.motion import guided
 from geneva_cli.loads.forces import Contact, LoadCase, lesser
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import choose
@@ -54,7 +55,7 @@ def with_guide(mechanism: Mechanism, case: LoadCase) -> LoadCase:
     A rack whose slots leave no space for a guide has none.
     """
     spec, L = mechanism.spec, mechanism.center_distance_mm
-    if not spec.guided:
+    if not guided(spec):
         return case
     place = guide_place(mechanism)
     friction = value_or(spec.load.guide_friction, spec.load.friction)
