@@ -219,9 +219,8 @@ ANY = {
     "numerics.pieces": {"at", "column", "rows", "evaluate", "_turn"},
     "loads.summary": {"_rows", "_cells"},
     "loads.vibration.answers": {"values"},
-    "motion.registry": {"_load_kind"},
+    "motion.registry": {"thing", "parts_class", "_load_kind"},
     "motion.machine_spec": {"replace", "table"},
-    "drawings.catalogue": {"_loaded"},
     "drawings.sheet.composed": {"on_paper", "_composed", "_items"},
     "drawings.sheet.content": {"rows"},
 }

@@ -24,8 +24,7 @@ def plate(parts: FlatParts | RackParts) -> Drawing:
 
     Raises GenevaError for a part that cannot be built.
     """
-    parts.require_wheel()
-    every = (one for _, build in parts.by_name() for part in build() for one in solids(part))
+    every = (one for _, build in parts.turned.by_name() for part in build() for one in solids(part))
     whole = [one for one in every if not isinstance(one, Shell)]
     title = titled(parts.mechanism, "plate")
     solid = Group(title, tuple(_laid(whole)))

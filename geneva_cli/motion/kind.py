@@ -25,5 +25,11 @@ class Kind(NamedTuple):
     drive: str = ""  # class, whose fields are keys of [drive]
     adds_to: str = ""  # name of the kind to which it adds, where it is neither wheel nor drive
     parts: str = ""  # class of the parts of wheel and crank
+    front: str = ""  # class of links and gears in front of a crank that is not flat
+    drawings: Mapping[str, str] = _NONE  # or sheets, by the names of the parts that they show
+    tables: Mapping[str, str] = _NONE  # of points, by the names of the parts
+    dimensions: str = ""  # in the list of parts, of these parts
+    stressed: str = ""  # dimensions of stressed parts, where no layout of flat parts has them
+    wheel_body: str = ""  # mass and inertia of the wheel, where it is no plate
     motion_checks: Mapping[str, str] = _NONE  # by their names
     parts_checks: Mapping[str, str] = _NONE  # of parts at rest, all or those that it adds

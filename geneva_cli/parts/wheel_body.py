@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import lru_cache, reduce
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import plates
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.registry import thing
 from geneva_cli.parts.outlines.outline_sizes import machine_sizes
 from geneva_cli.parts.outlines.wheel_outline import turned_walls, wheel_contour
 from geneva_cli.parts.wheel import wheel_part
@@ -27,10 +29,9 @@ def wheel_body(mechanism: Mechanism) -> MassProperties | None:
     spec = mechanism.spec
     if spec.size.wheel_thickness_mm is None and spec.size.face_width_mm is None:
         return None
-    if spec.wheel.SHELLS:
-        from geneva_cli.kinds.spherical.parts import shell_body  # only on a sphere
-
-        return shell_body(mechanism)
+    own: Callable[[Mechanism], MassProperties] | None = thing(spec.wheel.NAME, "wheel_body")
+    if own:
+        return own(mechanism)
     from geneva_cli.geometry.mass import added, mass_properties
 
     where, size = machine_sizes(mechanism)

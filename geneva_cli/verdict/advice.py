@@ -25,7 +25,7 @@ from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
 from geneva_cli.verdict.checks.registry import STANDING, checks_of_turn, turn_checks
 
 if TYPE_CHECKING:
-    from geneva_cli.drawings.model import PartsModel
+    from geneva_cli.parts.parts import Parts
     from geneva_cli.verdict.changes import Change, Value
 
 # Work of all searches of a design: evaluations of a motion at an array of angles, of about 0.3 ms.
@@ -62,14 +62,12 @@ class OutOfWork(Exception):
     """The adviser has no work left: not a fault of the spec, so not a GenevaError."""
 
 
-def judged(
-    mechanism: Mechanism, model: PartsModel | None = None, parts: bool = True
-) -> list[Check]:
+def judged(mechanism: Mechanism, machine: Parts | None = None, parts: bool = True) -> list[Check]:
     """Every check of a design; failing ones have one change with which all checks pass.
 
     Without such a change they say why, and name a change with which they pass themselves.
     """
-    rows = checks(mechanism, model, parts)
+    rows = checks(mechanism, machine, parts)
     failing = [c for c in rows if c.passes is False]
     if not failing:
         return rows
@@ -274,15 +272,15 @@ class _Search:
 
     def _margins(self, machine: Mechanism) -> Iterator[float]:
         """The margin of each wanted check; parts are built for the first that needs them."""
-        from geneva_cli.drawings.model import PartsModel
+        from geneva_cli.parts.parts import parts_of
 
-        models = [PartsModel(way, advice=False) for way in every_way(machine)]
+        ways = [parts_of(way, advice=False) for way in every_way(machine)]
         built = False
         for check in self.wanted:
             if _needs_parts(check) and not built:
-                self._spend(PARTS * len(models))
+                self._spend(PARTS * len(ways))
                 built = True
-            yield min(_left(model, check) for model in models)
+            yield min(_left(parts, check) for parts in ways)
 
     def _holds(self, change: Change, value: Value) -> bool:
         """Return True if the wanted checks pass with a value, and no other check begins to fail."""
@@ -303,20 +301,20 @@ class _Search:
             return False
 
     def _holds_one_way(self, machine: Mechanism, turn: bool) -> bool:
-        from geneva_cli.drawings.model import PartsModel
+        from geneva_cli.parts.parts import parts_of
 
         # parts that cannot be built, and need not be, hide no check of the motion
         built = self.parts and machine.spec.is_turned and "parts" not in self.may_fail
-        model = PartsModel(machine, advice=False) if built else None
-        self._spend(PARTS if model else 0)
-        if model and any(check.name == "parts" for check in self.wanted):
-            _ = model.built  # most trials end here, before the checks of the motion
-        if not self._pass(checks_at_rest(machine, model)):
+        parts = parts_of(machine, advice=False) if built else None
+        self._spend(PARTS if parts else 0)
+        if parts and any(check.name == "parts" for check in self.wanted):
+            _ = parts.built  # most trials end here, before the checks of the motion
+        if not self._pass(checks_at_rest(machine, parts)):
             return False
-        if model is None or not turn:
+        if parts is None or not turn:
             return True
         self._spend(TURN)
-        return self._pass(turn_checks(model.parts, model.turn))
+        return self._pass(turn_checks(parts, parts.turned.turn))
 
     def _pass(self, rows: Iterable[Check]) -> bool:
         return all(c.passes is not False or c.name in self.may_fail for c in rows)
@@ -328,7 +326,7 @@ def _needs_parts(check: Check) -> bool:
     return near or check.name in STANDING
 
 
-def _left(model: PartsModel, check: Check) -> float:
+def _left(parts: Parts, check: Check) -> float:
     """The margin of a machine to the limit of a check that fails now, negative outside.
 
     A check of the turn is made near the input angle where it fails. If only a whole turn can decide
@@ -339,14 +337,14 @@ def _left(model: PartsModel, check: Check) -> float:
             from geneva_cli.parts.turn.glance import gap_about, play_about
             from geneva_cli.verdict.checks.play import finds_slot
 
-            parts = model.parts
+            _ = parts.turned
             if check.name in GAPS:
                 return gap_about(parts, check.at_deg) + parts.contact
             output = parts.assembly.full.output
             return output.from_deg(finds_slot(parts) - play_about(parts, check.at_deg))
         if check.name in checks_of_turn():
             return math.inf
-        row = single_check(model.mechanism, check.name, model)
+        row = single_check(parts.mechanism, check.name, parts)
         return row.spare if row else math.inf
     except GenevaError:
         return -math.inf

@@ -8,41 +8,41 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import Notice
 from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.machine_spec import BEFORE
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import worst
+from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.wheel_body import known_wheel_body
 from geneva_cli.verdict.carried_warnings import carried_warnings, unlikely_warnings
 from geneva_cli.verdict.motion_warnings import motion_warnings
 from geneva_cli.verdict.parts_warnings import bearing_warnings, process_warnings, turn_warnings
 
 
-def warnings(model: PartsModel) -> list[Notice]:
+def warnings(parts: Parts) -> list[Notice]:
     """Warnings about the motion, the loads and the parts of a machine, in this order.
 
     A machine that turns both ways also has those that appear backwards only.
     """
-    mechanism = model.mechanism
-    out = one_way_warnings(model)
+    mechanism = parts.mechanism
+    out = one_way_warnings(parts)
     for other in every_way(mechanism)[1:]:
         own = set(map(str, out))
         # the law's name alone makes no other warning
         more = [
             text
-            for text in one_way_warnings(PartsModel(other))
+            for text in one_way_warnings(parts_of(other))
             if text.replace(", backwards", "") not in own
         ]
         out += [Notice(text.name, f"backwards, {text}") for text in more]
     return [*direction_warnings(mechanism), *out]
 
 
-def one_way_warnings(model: PartsModel) -> list[Notice]:
+def one_way_warnings(parts: Parts) -> list[Notice]:
     """Warnings about a machine in its own direction, in the order of ``warnings``."""
-    mechanism = model.mechanism
+    mechanism = parts.mechanism
     is_loaded = mechanism.spec.is_loaded
     return [
         *motion_warnings(mechanism),
@@ -50,9 +50,9 @@ def one_way_warnings(model: PartsModel) -> list[Notice]:
         *unlikely_warnings(mechanism),
         *carried_warnings(mechanism, known_wheel_body(mechanism)),
         *(_of_strength(mechanism) if is_loaded else ()),
-        *turn_warnings(model),
-        *bearing_warnings(model),
-        *process_warnings(model),
+        *turn_warnings(parts),
+        *bearing_warnings(parts),
+        *process_warnings(parts),
     ]
 
 

@@ -12,7 +12,7 @@ from geneva_cli.drawings.sheet.view import View
 from geneva_cli.geometry.plates import Group, Member, Plate, Shell
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.parts_of_machine import PartsOfMachine
+from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.shafts.fits import Fits
 from geneva_cli.parts.shafts.shaft import FIX
 from geneva_cli.parts.written import length
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 Begin: TypeAlias = Callable[..., View]
 
 
-def titled(rows: Sequence[Mapping[str, object]], scale: float, parts: PartsOfMachine) -> Begin:
+def titled(rows: Sequence[Mapping[str, object]], scale: float, parts: Parts) -> Begin:
     """Return a function that begins a view, titled with its parts' numbers and thicknesses.
 
     Its fits are those of the process, for the thickness of the first part.

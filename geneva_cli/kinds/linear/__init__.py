@@ -6,7 +6,22 @@ KINDS = (
     Kind(
         "linear",
         wheel="kinds.linear.motion:Linear",
-        parts="kinds.linear.drawn:Rack",
+        parts="kinds.linear.parts:RackParts",
+        front="parts.front_parts:FrontParts",
+        drawings={
+            "slot": "kinds.linear.drawings:slot",
+            "wheel": "drawings.part_drawings:wheel",
+            "crank": "drawings.part_drawings:crank",
+            "arm": "kinds.linear.drawings:arm",
+            "frame": "drawings.part_drawings:frame",
+            "guide": "kinds.linear.drawings:guide",
+            "assembly": "kinds.linear.drawings:assembly",
+            "plate": "drawings.print_plate:plate",
+            "sheet": "kinds.linear.sheet:sheet",
+        },
+        tables={"slot": "parts.slots.slot_sampling:profile_table"},
+        dimensions="kinds.linear.drawings:dimensions",
+        stressed="kinds.linear.stressed:rack_stressed",
         motion_checks={
             "rack_horn_mm": "kinds.linear.checks:rack_horn",
             "guide_locks": "kinds.linear.checks:guide_locks",

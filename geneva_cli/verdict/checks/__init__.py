@@ -6,11 +6,11 @@ A check is a file, or a function in a file of related ones, and one line in ``re
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.verdict.checks.check import Check as Check
 from geneva_cli.verdict.checks.check import all_pass as all_pass
 from geneva_cli.verdict.checks.check import refused, worst
@@ -25,12 +25,9 @@ from geneva_cli.verdict.checks.registry import (
     turn_checks,
 )
 
-if TYPE_CHECKING:
-    from geneva_cli.drawings.model import PartsModel
-
 
 def checks(
-    mechanism: Mechanism, model: PartsModel | None = None, parts: bool = True, turned: bool = True
+    mechanism: Mechanism, machine: Parts | None = None, parts: bool = True, turned: bool = True
 ) -> list[Check]:
     """Every check of one design: its motion, its parts unless left out, its own ``[limits]``.
 
@@ -38,43 +35,41 @@ def checks(
     turns both ways has each check in its worse direction.
     """
     _, *others = every_way(mechanism)
-    rows = _one_way(mechanism, model, parts, turned)
+    rows = _one_way(mechanism, machine, parts, turned)
     for other in others:
         rows = worst(rows, _one_way(other, None, parts, turned))
     return rows
 
 
-def _one_way(
-    mechanism: Mechanism, model: PartsModel | None, parts: bool, turned: bool
-) -> list[Check]:
+def _one_way(mechanism: Mechanism, machine: Parts | None, parts: bool, turned: bool) -> list[Check]:
     motion = list(applicable(MOTION, mechanism))
-    shown = list(_parts(mechanism, model, turned)) if parts else []
+    shown = list(_parts(mechanism, machine, turned)) if parts else []
     return [*motion, *shown, *applicable(LIMITS, mechanism)]
 
 
-def checks_at_rest(mechanism: Mechanism, model: PartsModel | None) -> Iterator[Check]:
-    """The checks of the motion and of the limits, then those of ``model``'s parts at rest.
+def checks_at_rest(mechanism: Mechanism, parts: Parts | None) -> Iterator[Check]:
+    """The checks of the motion and of the limits, then those of ``parts`` at rest.
 
     Raises GenevaError if wheel or crank cannot be built.
     """
     yield from applicable(MOTION, mechanism)
     yield from applicable(LIMITS, mechanism)
-    if model is not None and mechanism.spec.has_parts:
-        yield from standing_checks(model.built)
+    if parts is not None and mechanism.spec.has_parts:
+        yield from standing_checks(parts.built)
 
 
-def proofs(model: PartsModel, to_mm: float | None = None) -> list[Check]:
+def proofs(parts: Parts, to_mm: float | None = None) -> list[Check]:
     """The proof that no parts collide in a whole turn; none if they cannot be made or turned.
 
     ``to_mm`` is the tolerance of the proof, by default ``certificate.tolerance_mm``.
     """
     try:
-        return list(applicable(PROOFS, model, to_mm))
+        return list(applicable(PROOFS, parts, to_mm))
     except GenevaError:
         return []  # the checks of the parts report the error
 
 
-def single_check(mechanism: Mechanism, name: str, model: PartsModel | None = None) -> Check | None:
+def single_check(mechanism: Mechanism, name: str, parts: Parts | None = None) -> Check | None:
     """The check with this name, without the others and the turn; None if there is no such check.
 
     Raises GenevaError if its parts cannot be built.
@@ -86,16 +81,10 @@ def single_check(mechanism: Mechanism, name: str, model: PartsModel | None = Non
     among = standing(mechanism)
     if not mechanism.spec.has_parts or name not in among:
         return None
-    return check_named(among, name, (model or _model(mechanism)).built)
+    return check_named(among, name, (parts or parts_of(mechanism)).built)
 
 
-def _model(mechanism: Mechanism) -> PartsModel:
-    from geneva_cli.drawings.model import PartsModel
-
-    return PartsModel(mechanism)
-
-
-def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iterator[Check]:
+def _parts(mechanism: Mechanism, machine: Parts | None, turned: bool) -> Iterator[Check]:
     """Walls, shafts and, if ``turned``, the full turn of a machine whose parts are drawn.
 
     If wheel or crank cannot be built, or turned, a single check says so instead. A rack can be
@@ -107,10 +96,10 @@ def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iter
     if not spec.is_turned:
         yield from none
         return
-    model = model or _model(mechanism)
+    machine = machine or parts_of(mechanism)
     try:
-        rows = none or list(standing_checks(model.built))
-        parts = model.parts
+        rows = none or list(standing_checks(machine.built))
+        _ = machine.turned
     except GenevaError as error:
         yield refused("parts", error)
         return
@@ -120,8 +109,8 @@ def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iter
     from geneva_cli.parts.turn.machine_parts import WorkLimit
 
     try:
-        turn = model.turn
+        turn = machine.turn
     except WorkLimit as error:
         yield refused("full_turn", error)
         return
-    yield from turn_checks(parts, turn)
+    yield from turn_checks(machine, turn)

@@ -7,11 +7,12 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.kinds.spherical.locking import SphereLock
+from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.shells import Shells
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.parts.outlines.cut_lock import cut_arcs
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.turn.machine_parts import MachineParts
+from geneva_cli.parts.parts import Parts
 
 if TYPE_CHECKING:
     from geneva_cli.kinds.spherical.ball import Ball
@@ -20,17 +21,16 @@ CutLock: TypeAlias = Lock | SphereLock
 SAME = 1e-6  # fraction of the centre distance, or radians: nearer radii and angles are equal
 
 
-def ball_of(parts: MachineParts) -> Ball | None:
+def ball_of(parts: Parts) -> Ball | None:
     """The sizes of shells of a sphere; None for plates."""
-    return parts.ball if isinstance(parts, Shells) else None
+    return parts.ball if isinstance(parts, SphereParts) else None
 
 
-def locks_of(parts: MachineParts) -> Sequence[CutLock]:
+def locks_of(parts: Parts) -> Sequence[CutLock]:
     """The locks of plates or shells, one for each shape; none without a locking disc."""
-    if isinstance(parts, Shells):
-        return sphere_locks(parts)
-    assert isinstance(parts, Outlines)
-    return flat_locks(parts)
+    if isinstance(parts, SphereParts):
+        return sphere_locks(parts.shells)
+    return flat_locks(parts.outlines)
 
 
 def flat_locks(outlines: Outlines) -> list[Lock]:

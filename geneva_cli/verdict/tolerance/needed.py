@@ -16,7 +16,6 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.loads.impacts.impacts import arm_mm
@@ -25,7 +24,7 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.turn.machine_parts import MachineParts
+from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.checks.registry import turn_checks
 from geneva_cli.verdict.tolerance.locks import ball_of, locks_of
@@ -76,7 +75,7 @@ class LeastClearances(NamedTuple):
 
 
 def required_clearances(
-    mechanism: Mechanism, model: PartsModel, sizes: dict[str, float]
+    mechanism: Mechanism, parts: Parts, sizes: dict[str, float]
 ) -> RequiredClearances:
     """The clearances that the tolerances need, and a whole turn of the tightest and the loosest.
 
@@ -84,7 +83,7 @@ def required_clearances(
     """
     spec, why = mechanism.spec, "there are no drawn parts to turn"
     try:
-        least = least_clearances(mechanism, model.parts, sizes) if spec.is_turned else None
+        least = least_clearances(mechanism, parts.turned, sizes) if spec.is_turned else None
     except GenevaError as error:
         least, why = None, str(error)
     if least is None:
@@ -95,7 +94,7 @@ def required_clearances(
 
 
 def least_clearances(
-    mechanism: Mechanism, parts: MachineParts, sizes: dict[str, float]
+    mechanism: Mechanism, parts: Parts, sizes: dict[str, float]
 ) -> LeastClearances:
     """The clearances with which machines within the tolerances enter their slots and locks."""
     ends = corners(list(sizes.values()))
@@ -104,8 +103,7 @@ def least_clearances(
     ball = ball_of(parts)
     if ball is not None:
         return LeastClearances(slot, *_on_sphere(mechanism.spec, ball, sizes, slot))
-    assert isinstance(parts, Outlines)  # nothing else has tolerances
-    return LeastClearances(slot, *_flat(mechanism.spec, parts, sizes, slot))
+    return LeastClearances(slot, *_flat(mechanism.spec, parts.outlines, sizes, slot))
 
 
 def _slot_mm(mechanism: Mechanism, sizes: dict[str, float], least_play: float) -> float:
@@ -212,8 +210,8 @@ def _arc_increase_mm(angle: float, by: float, L: float) -> float:
 def _failing_check(spec: Spec) -> tuple[bool | None, str] | None:
     """The check of a whole turn that fails; None if all pass."""
     try:
-        model = PartsModel(build(spec.replace(tolerance=Tolerance())))
-        rows = list(turn_checks(model.parts, model.turn))
+        parts = parts_of(build(spec.replace(tolerance=Tolerance())))
+        rows = list(turn_checks(parts, parts.turned.turn))
     except GenevaError as error:
         return None, str(error)
     for row in rows:
