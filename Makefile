@@ -42,7 +42,7 @@ docs: .venv/dev
 # Run time against error, tables and plots in build/bench; an hour.
 bench: .venv/dev
 	@mkdir -p build/bench
-	$(BIN)/geneva bench --plots build/bench -o build/bench/bench.md
+	PYTHONPATH=tests $(BIN)/python -m bench --plots build/bench -o build/bench/bench.md
 
 # Numerical stress against mpmath, random machines turned, then every case of the tests, of which
 # `make test` takes a sample (tests/sampling.py): sweeps of every key of all designs are among them,
@@ -122,7 +122,7 @@ fuzz: .venv/dev
 # Start-up of every command against `import typer` alone: whole processes in pairs, processor time.
 # The budget of `geneva table --z 6` is 1.05.
 bench-start: .venv/dev
-	$(BIN)/geneva bench start
+	PYTHONPATH=tests $(BIN)/python -m bench start
 
 # Wheel and sdist in dist/, each installed alone and run, with the lowest and the highest releases of
 # what it needs; some minutes.

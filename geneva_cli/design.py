@@ -25,6 +25,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.gearing import Gearing
+from geneva_cli.spec.load_named import load_extra
 from geneva_cli.spec.rules import plain
 from geneva_cli.spec.schema import SHOWN_MAX, refuse_keywords, shortly
 from geneva_cli.spec.tables import (
@@ -49,7 +50,7 @@ if TYPE_CHECKING:
     from geneva_cli.geometry.mass import MassProperties
     from geneva_cli.geometry.sheet import Sheet
     from geneva_cli.loads.cycle import Cycle
-    from geneva_cli.loads.summaries import LoadSummary
+    from geneva_cli.loads.load_summary import LoadSummary
     from geneva_cli.motion.peaks import Peaks
     from geneva_cli.motion.timing import Timing
     from geneva_cli.parts.parts import Parts
@@ -332,10 +333,10 @@ class Design:
         >>> Design(External(6)).certificate("acceleration").text
         'acceleration.max in [1.34963727590190, 1.34963727590191], at two mirrored places, proved'
         """
-        from geneva_cli.extras.certify.certificate import LIMIT, certificate
-
-        limit = LIMIT if intervals is None else intervals
-        return certificate(self.mechanism, quantity, limit)
+        limit = {} if intervals is None else {"limit": intervals}
+        proof: Certificate
+        proof = load_extra("certify", "certificate")(self.mechanism, quantity, **limit)
+        return proof
 
     @question
     def certified_peaks(self, for_people: bool = False) -> Table:
@@ -349,9 +350,9 @@ class Design:
         >>> design.certified_peaks(for_people=True).to_dict()["certificate"][2]
         'jerk.max in [5.99999999999999, 6.00000000000001], unique, proved'
         """
-        from geneva_cli.extras.certify.certificate import with_certificates
-
-        return with_certificates(self.peaks_table, self.mechanism, for_people)
+        table: Table
+        table = load_extra("certify", "peaks")(self.peaks_table, self.mechanism, for_people)
+        return table
 
     @question
     def certified_loads(self, for_people: bool = False) -> Table:
@@ -363,11 +364,10 @@ class Design:
         >>> [row["proved"] for row in table.to_dict()["certificate"]]
         [True, True, True]
         """
-        from geneva_cli.extras.certify.certificate import load_certificates
         from geneva_cli.table import record_table
 
         own = {"spec": self.spec.path, "title": self.spec.title or None}
-        certificates = load_certificates(self.mechanism, for_people)
+        certificates = load_extra("certify", "loads")(self.mechanism, for_people)
         return record_table(own | {"certificate": certificates})
 
     @question
@@ -380,12 +380,13 @@ class Design:
         >>> Design(External(6)).motion(4).to_dict()["input_deg"].tolist()
         [-60.0, 60.0, 180.0, 300.0]
         """
-        from geneva_cli.motion.electronic_cam import periods
+        from geneva_cli.motion.knots import knots_deg, periods
         from geneva_cli.motion.motion_table import motion_table, turns_table
 
         if turns is None:
             return motion_table(self.mechanism, samples)
-        return turns_table(self.mechanism, samples, periods(self.mechanism, turns))
+        count = periods(self.mechanism, turns)
+        return turns_table(self.mechanism, samples, count, knots_deg(self.mechanism, count))
 
     @question
     def figure(self, pick: Sequence[str] = ()) -> Figure:
@@ -440,16 +441,18 @@ class Design:
         return self._loads(for_people=False)
 
     def _loads(self, for_people: bool) -> Table:
+        from geneva_cli.loads.sizing import sizing_with_wheel
         from geneva_cli.loads.summary import loads_table, missing
         from geneva_cli.verdict.strength import OF_LIFE
 
         _ = self.loads  # all quantities at once, some of which the life needs
         # without a load every quantity needs one, and that is reported already
         needed = self.strength.missing(OF_LIFE) if self.cycle.is_loaded else []
-        notes = (*self.warnings, *missing(self.cycle), *needed)
         own = self.wheel_plate and self.wheel_plate.inertia_kgm2
+        sizing, sized_by = sizing_with_wheel(self.cycle, own)
+        notes = (*self.warnings, *missing(self.cycle), *needed, *sized_by)
         impact = self.strength.reversal
-        return loads_table(self.cycle, self.life, impact, own, notes, for_people)
+        return loads_table(self.cycle, sizing, self.life, impact, notes, for_people)
 
     @answer
     def wheel_plate(self) -> MassProperties | None:
@@ -856,10 +859,11 @@ class Design:
         >>> [text.name for text in Design(External(30)).warnings]
         ['many-slots']
         """
-        from geneva_cli.verdict.warnings import one_way_warnings, warnings
+        from geneva_cli.verdict.both_ways import all_warnings
+        from geneva_cli.verdict.warnings import warnings
 
         # the other direction's would be called backwards, which this one is
-        return (one_way_warnings if self.is_backwards else warnings)(self.parts)
+        return (warnings if self.is_backwards else all_warnings)(self.parts)
 
     @answer
     def report(self) -> Report:

@@ -15,8 +15,7 @@ from hypothesis import settings
 from sampling import left_out, some
 from words import Drive, Keys, Motion, Spec, Wheel
 
-from geneva_cli import load, study
-from geneva_cli.kinds.linkages import four_bar_search
+from geneva_cli import extras, kinds, load, study
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.outlines import outline_sizes as own_sizes
 from geneva_cli.parts.outlines import outlines as outline
@@ -169,8 +168,10 @@ def few_four_bars():
     The search still returns four-bars, though not the best; test_synth_four_bar.py tests those.
     """
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(four_bar_search, "SAMPLES", (128, 256))
-        patch.setattr(four_bar_search, "SAMPLINGS", (7, 8))
+        if "linkages" in kinds.FOLDERS:
+            search = "geneva_cli.kinds.linkages.four_bar_search"
+            patch.setattr(f"{search}.SAMPLES", (128, 256))
+            patch.setattr(f"{search}.SAMPLINGS", (7, 8))
         yield
 
 
@@ -191,7 +192,8 @@ def read_once():
     """
     for module in pkgutil.iter_modules(study.__path__, "geneva_cli.study."):
         importlib.import_module(module.name)
-    importlib.import_module("geneva_cli.extras.servo.against")
+    if "servo" in extras.FOLDERS:
+        importlib.import_module("geneva_cli.extras.servo.against")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("geneva_cli.design.load", read)
         yield

@@ -12,6 +12,8 @@ from geneva_cli.motion.mechanism import build
 
 
 def machine(wheel, kind="crank", motion=None, gearing="external", own=(), **keys):
+    if kind not in registry.DRIVES:
+        return None
     return Spec(Wheel(wheel, gearing, **dict(own)), registry.drive(kind)(**keys), motion=motion)
 
 
@@ -148,6 +150,7 @@ MACHINES = {
         for law in registry.STANDARD_LAWS
     },
 }
+MACHINES = {name: row for name, row in MACHINES.items() if row[0]}  # of the kinds that there are
 
 
 def drawn(rules, n, seed):

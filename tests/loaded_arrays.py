@@ -5,12 +5,13 @@ from design_arrays import MACHINES, drawn
 
 from geneva_cli.loads.contact import NEAR_CUSP, contact
 from geneva_cli.loads.cycle_quantities import QUANTITIES, SQUARED
-from geneva_cli.loads.forces import load_case
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions, signed_instant
 from geneva_cli.loads.load_functions import load_batch as of
-from geneva_cli.loads.summaries import LoadSummary, load_summaries
-from geneva_cli.loads.summary import plain
-from geneva_cli.motion.many import many, taken
+from geneva_cli.loads.load_summary import LoadSummary
+from geneva_cli.loads.summaries import load_summaries
+from geneva_cli.motion.batch import taken
+from geneva_cli.motion.many import many
 from geneva_cli.spec.tables import Load
 
 LOAD = Load(inertia_kgm2=1.0, friction=0.1)
@@ -108,7 +109,7 @@ def dense_means(cycle, name, parts=2000):
     sums = np.zeros(2)
 
     def both(engagement, stretch, x):
-        value = plain(cycle, cycle.along(engagement, stretch, x.ravel()), name).reshape(x.shape)
+        value = cycle.plain(cycle.along(engagement, stretch, x.ravel()), name).reshape(x.shape)
         return np.stack((value, value * value))
 
     for engagement, stretch in cycle.stretches:

@@ -1,5 +1,6 @@
 """Where the repository's files are, for tests in any folder."""
 
+import functools
 import os
 import signal
 import sys
@@ -8,9 +9,15 @@ from pathlib import Path
 TESTS = Path(__file__).parent
 ROOT = TESTS.parent
 DESIGNS = ROOT / "designs"
-# designs of wheels that turn: a rack has no angle, so that it has tests of its own
-WHEELS = sorted(p for p in DESIGNS.glob("*.toml") if p.stem != "linear")
 GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")  # the installed command
+
+
+@functools.cache
+def wheels() -> list[Path]:
+    """The designs whose output turns: what has no angle has tests of its own."""
+    from geneva_cli import load
+
+    return sorted(p for p in DESIGNS.glob("*.toml") if load(str(p)).spec.output.turns)
 
 
 def put(name: str, text: str = "") -> None:

@@ -18,7 +18,6 @@ from words import Spec, Wheel
 
 from geneva_cli.cli.app import app
 from geneva_cli.drawings.catalogue import PARTS, Part
-from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.motion import registry
 from geneva_cli.motion.engagement import Displacement, Slot
 from geneva_cli.motion.laws.law import Law, from_velocity
@@ -26,7 +25,7 @@ from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.motion.wheels.poses import HalfStep, PinPose
-from geneva_cli.numerics.jet import Jet, Number, sine_versine
+from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.output.formats import FORMATS
 from geneva_cli.spec.rules import Range
@@ -76,44 +75,6 @@ def new(kind: str) -> str:
     shown = CliRunner().invoke(app, ["new", kind, "--all"])
     assert shown.exit_code == 0, shown.stderr
     return shown.stdout
-
-
-class Reduced(Transmission, kw_only=True):
-    """A reduction gear before the crank."""
-
-    NAME: ClassVar[str] = "reduced"
-    WORDS: ClassVar[str] = "a crank behind a reduction"
-    EXAMPLE: ClassVar[Example] = Example(
-        "a crank behind a reduction", {"wheel": {"z": 6}, "drive": {"teeth": 3}}
-    )
-    ALIKE: ClassVar[bool] = True
-    teeth: Annotated[int, Range(1, 9), "input turns in a turn of the crank"]
-
-    @property
-    def turns(self) -> int:
-        """The reduction."""
-        return self.teeth
-
-    def about(self, crank_deg: float) -> LocalTransmission:
-        """The input's angle, and the crank's since then."""
-        return LocalTransmission(self.teeth * crank_deg, self.advance)
-
-    def advance(self, tau: Number, order: int) -> tuple[Jet, Jet]:
-        """A share of the input's."""
-        return sine_versine(Jet.variable(tau, order) * (1.0 / self.teeth))
-
-
-def test_a_drive(add: Add, run: Callable[..., Any]) -> None:
-    add(registry.DRIVES, "reduced", "drives.added:Reduced", "drives")
-    text = new("reduced")
-    assert 'kind = "reduced"' in text and "teeth = 3" in text
-    found, plain = run("peaks", text), run("peaks", "[wheel]\nz = 6\n")
-    assert found["motion_deg"] == pytest.approx(3 * 120.0, rel=1e-15)
-    # a third of the speed, so a third of each derivative a step further
-    for power, quantity in ((1, "velocity"), (2, "acceleration"), (3, "jerk")):
-        expected = plain[quantity]["max"] / 3**power
-        assert found[quantity]["max"] == pytest.approx(expected, rel=1e-13)
-    assert run("check", text)["rows"]  # and exit status 0
 
 
 class Leaning(Gearing):
@@ -278,7 +239,7 @@ def test_a_group_of_the_report(
     add: Add, run: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     add({}, "", "", "verdict.quantities")
-    line = groups.QuantityGroup("slots", ("count",), batch="added:counted")
+    line = groups.QuantityGroup("slots", ("count",), batch="verdict.quantities.added:counted")
     monkeypatch.setattr("geneva_cli.verdict.report.REPORT", (line, *groups.REPORT))
     shown = run("report", "[wheel]\nz = 6\n")
     assert shown["slots"] == {"count": 6}

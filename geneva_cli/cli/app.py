@@ -54,7 +54,6 @@ GROUPS = {
         "explain": "What a check, a quantity, a kind or a warning means.",
         "keys": "Every key of a spec: unit, range, default, meaning.",
         "schema": "JSON Schema of a spec, for editors.",
-        "bench": "Run time against error, compared with other tools.",
     },
 }
 COMMANDS = {name: line for group in GROUPS.values() for name, line in group.items()}

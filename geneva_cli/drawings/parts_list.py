@@ -22,7 +22,7 @@ from geneva_cli.geometry.plates import Part, Shell, Solid
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot
-from geneva_cli.motion.registry import thing
+from geneva_cli.motion.records import thing
 from geneva_cli.motion.rollers import places
 from geneva_cli.parts.alike import alike
 from geneva_cli.parts.missing import Missing, built_of, or_missing
@@ -181,9 +181,9 @@ def _dimensions(parts: Parts) -> Iterator[Row | Missing]:
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     own = thing(spec.wheel.NAME, "dimensions")
     entries += own(parts) if own else ()
-    if mechanism.law is None and spec.drive.CRANKED:
+    if mechanism.law is None and spec.drive.crank:
         entries += _straight(mechanism)
-    elif spec.drive.CRANKED:
+    elif spec.drive.crank:
         entries.append(Dimension("crank radius", mechanism.ratio * L, "mm"))
         entries.append(Dimension("rollers, evenly", spec.drive.rollers))
     elif spec.drive.rollers > 1:

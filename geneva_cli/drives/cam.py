@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from geneva_cli.drives.pin_path import PinPath
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.motion.drive import Needs, Plan
+from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import Carrier, ConstantRate, Engagement, Vector, cross
 from geneva_cli.motion.law_motion import LawMotion, refuse_alpha0
 from geneva_cli.motion.slot_and_motion import SolvedPath, SolvedPathSlot
@@ -45,9 +45,6 @@ class Cam(PinPath, kw_only=True):
             "motion": {"law": "cycloidal"},
         },
     )
-    GEARINGS: ClassVar[tuple[str, ...]] = ("external", "internal")
-    LAW: ClassVar[Needs] = Needs.LAW
-    ONE_ROLLER: ClassVar[bool] = False
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """The engagement of each roller. Raises GenevaError for an impossible law or ratio."""

@@ -15,7 +15,7 @@ from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.drive import Gears, Plan
 from geneva_cli.motion.engagement import Displacement, Path
-from geneva_cli.motion.pivots import Dimension, Layout, Pivot
+from geneva_cli.motion.pivots import Dimension, Layout, Pivot, ShaftPlace
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import enclosed, library
@@ -43,8 +43,6 @@ class EllipticalGears(Transmission, kw_only=True):
             "drive": {"eccentricity": 0.3},
         },
     )
-    GEARED: ClassVar[bool] = True
-    INPUT_SENSE: ClassVar[float] = -1.0
     eccentricity: Annotated[float, Range(0.0, 1.0, "[)"), "of the gears' pitch ellipses"]
     phase: Annotated[str, OneOf(("slow", "quick")), "phase of the gears at mid-motion"] = "slow"
     gear_distance_mm: Annotated[float, POSITIVE, "distance between the two gears' axes, C"] = 100.0
@@ -65,15 +63,15 @@ class EllipticalGears(Transmission, kw_only=True):
         """The pair of gears."""
         return Gears(self.gear_distance_mm, self.about(0.0).advance)
 
-    def input_axis_mm(self, plan: Plan, sign: float) -> float:
-        """Place of the driver gear's axis, mm from the wheel's."""
-        return plan.center_distance_mm + self.gear_distance_mm
+    def input_shaft(self, plan: Plan, sign: float, sense: float) -> ShaftPlace:
+        """The shaft of the driver gear, which turns against the driven one."""
+        return ShaftPlace(plan.center_distance_mm + self.gear_distance_mm, -sense)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Pivots and dimensions: each gear turns about a focus, the driven one with the crank."""
         a = 0.5 * self.gear_distance_mm
         return (
-            Pivot("driver gear axis", self.input_axis_mm(plan, sign), 0.0),
+            Pivot("driver gear axis", plan.center_distance_mm + self.gear_distance_mm, 0.0),
             Dimension("gears' axes", self.gear_distance_mm, "mm"),
             Dimension("gears' semi-major axis", a, "mm"),
             Dimension("gears' focus from centre", a * self.eccentricity, "mm"),

@@ -52,13 +52,17 @@ class Epicyclic(PinPath, kw_only=True):
             "size": {"roller_radius_mm": 4.0},
         },
     )
-    TOOTHED: ClassVar[bool] = True
     planet_ratio: Annotated[
         float | str,
         Words(Range(-0.4, 0.4), ("shockless",)),
         'planet crank rp / L, either sign; "shockless" for no jump at entry',
     ]
     fixed: Annotated[str, OneOf(("sun", "ring")), "fixed gear that the planet rolls on"] = "sun"
+
+    @property
+    def round_gears(self) -> tuple[str, ...]:
+        """The planet, and the gear on which it rolls."""
+        return "planet", "fixed gear"
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """The engagement, with the planet's arm pointing outwards at mid-motion."""

@@ -19,7 +19,7 @@ from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.drive import Gears, Plan
 from geneva_cli.motion.engagement import CarrierVelocity, ClosedPeaks, Path
-from geneva_cli.motion.pivots import Dimension, Layout, Pivot
+from geneva_cli.motion.pivots import Dimension, Layout, Pivot, ShaftPlace
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number, sine_versine_of
@@ -51,8 +51,6 @@ class NoncircularGears(Transmission, kw_only=True):
             "drive": {"A": 0.6},
         },
     )
-    GEARED: ClassVar[bool] = True
-    INPUT_SENSE: ClassVar[float] = -1.0
     A: Annotated[float | None, Range(-1.0, 1.0, "()"), "ratio of a side-crank with this A"] = None
     ratio: Annotated[
         Points | None,
@@ -90,9 +88,9 @@ class NoncircularGears(Transmission, kw_only=True):
         """The pair of gears."""
         return Gears(self.gear_distance_mm, self.about(0.0).advance)
 
-    def input_axis_mm(self, plan: Plan, sign: float) -> float:
-        """Place of the driver gear's axis, mm from the wheel's."""
-        return plan.center_distance_mm + self.gear_distance_mm
+    def input_shaft(self, plan: Plan, sign: float, sense: float) -> ShaftPlace:
+        """The shaft of the driver gear, which turns against the driven one."""
+        return ShaftPlace(plan.center_distance_mm + self.gear_distance_mm, -sense)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """The gears' axes, and the source of their pitch curves: A of a side-crank, or a file."""
@@ -102,7 +100,7 @@ class NoncircularGears(Transmission, kw_only=True):
             else Dimension("gears' ratio as of side-crank A", self.A or 0.0)
         )
         return (
-            Pivot("driver gear axis", self.input_axis_mm(plan, sign), 0.0),
+            Pivot("driver gear axis", plan.center_distance_mm + self.gear_distance_mm, 0.0),
             Dimension("gears' axes", self.gear_distance_mm, "mm"),
             law,
         )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from geneva_cli.motion.drive import Drive, Needs, Plan
+from geneva_cli.motion.drive import Drive, Plan
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.wheels.classic import refuse_jam, rollers_max
 
@@ -12,12 +12,7 @@ from geneva_cli.motion.wheels.classic import refuse_jam, rollers_max
 class PinPath(Drive, kw_only=True):
     """A drive whose roller does not run on the crank's circle."""
 
-    GEARINGS: ClassVar[tuple[str, ...]] = ("external",)
-    LAW: ClassVar[Needs] = Needs.NO_LAW
-    ONE_ROLLER: ClassVar[bool] = True
     ONE_ARM: ClassVar[bool] = False
-    RADIAL: ClassVar[bool] = True
-    ALIKE: ClassVar[bool] = True
 
     def planned(
         self,

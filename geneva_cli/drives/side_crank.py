@@ -12,7 +12,7 @@ from geneva_cli.drives.pushed import PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import CarrierVelocity, ClosedPeaks, Displacement, Path
-from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot
+from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, ShaftPlace
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library
@@ -41,7 +41,6 @@ class SideCrank(Transmission, kw_only=True):
             "drive": {"A": 0.6},
         },
     )
-    LENGTH: ClassVar[str] = "input_crank_mm"
     A: Annotated[
         float, Range(-1.0, 1.0, "()"), "side-crank: base offset / input crank length; > 0 is slower"
     ]
@@ -67,7 +66,16 @@ class SideCrank(Transmission, kw_only=True):
         """Rate of the crank, which is the coulisse."""
         return whitworth.turning(self.A, crank_deg, sense)
 
-    def input_axis_mm(self, plan: Plan, sign: float) -> float:
+    @property
+    def missing_length(self) -> str:
+        """The input crank's, where it is not set."""
+        return "input_crank_mm" if self.input_crank_mm is None else ""
+
+    def input_shaft(self, plan: Plan, sign: float, sense: float) -> ShaftPlace:
+        """The shaft of the input crank."""
+        return ShaftPlace(self._axis_mm(plan, sign), sense)
+
+    def _axis_mm(self, plan: Plan, sign: float) -> float:
         """Place of the input crank's axis, mm from the wheel's."""
         return plan.center_distance_mm - sign * self.A * self._crank_mm(plan)
 
@@ -75,7 +83,7 @@ class SideCrank(Transmission, kw_only=True):
         """Pivot and dimensions of the input crank, by default as long as the Geneva crank."""
         r = self._crank_mm(plan)
         return (
-            Pivot("input crank axis", self.input_axis_mm(plan, sign), 0.0),
+            Pivot("input crank axis", self._axis_mm(plan, sign), 0.0),
             Dimension("input crank r", r, "mm"),
             Dimension("base offset a", self.A * r, "mm"),
         )
@@ -85,7 +93,7 @@ class SideCrank(Transmission, kw_only=True):
         L, r = plan.center_distance_mm, self._crank_mm(plan)
         turn, still = radians(input_deg), 0.0 * input_deg
         m = library(turn)
-        axis = still + self.input_axis_mm(plan, sign), still
+        axis = still + self._axis_mm(plan, sign), still
         pin = axis[0] - sign * r * m.cos(turn), r * m.sin(turn)
         own = still + L, still
         return (

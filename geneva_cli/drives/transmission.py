@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.motion.drive import Drive, Needs, Plan
+from geneva_cli.motion import registry
+from geneva_cli.motion.drive import Drive, Plan
 from geneva_cli.motion.engagement import (
     Anchor,
     Carrier,
@@ -66,12 +67,25 @@ class PinTravel(NamedTuple):
 class Transmission(Drive, kw_only=True):
     """A drive in front of the crank; a kind defines ``about``, and more only if it needs more."""
 
-    LAW: ClassVar[Needs] = Needs.MAY
-    CRANKED: ClassVar[bool] = True
-
     @abstractmethod
     def about(self, crank_deg: float) -> LocalTransmission:
         """The transmission about a crank angle in degrees, which is 0 at mid-motion."""
+
+    @property
+    def crank(self) -> Drive:
+        """The crank behind the transmission, without it."""
+        plain, angles = registry.drive("crank"), self.roller_angles_deg
+        return plain(n_rpm=self.n_rpm, rollers=self.rollers, roller_angles_deg=angles)
+
+    @property
+    def turned_at_crank(self) -> bool:
+        """True if the input shaft carries the crank."""
+        return self.direct
+
+    @property
+    def motions(self) -> int:
+        """One for each roller."""
+        return self.rollers
 
     @property
     def reach_deg(self) -> float:
@@ -211,7 +225,10 @@ class Transmission(Drive, kw_only=True):
 class Direct(Transmission, kw_only=True):
     """A drive without a transmission: crank angle and input angle are equal."""
 
-    ALIKE: ClassVar[bool] = True
+    @property
+    def motions(self) -> int:
+        """1: all rollers move the wheel alike."""
+        return 1
 
     @property
     def direct(self) -> bool:

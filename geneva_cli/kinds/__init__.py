@@ -4,11 +4,11 @@ The list holds folders. Each has ``KINDS``, the records of its kinds, and import
 """
 
 FOLDERS = (
-    "linear",
     "series",
     "linkages",
     "gear_sector",
     "carousel",
     "spherical",
     "stop",
+    "linear",
 )

@@ -8,33 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Generic, NamedTuple
 
+from geneva_cli.loads.forces import Contact, contact_values
 from geneva_cli.motion.engagement import Engagement, Vector
 from geneva_cli.numerics.arrays import Whole, all_true, choose, library
-from geneva_cli.numerics.jet import Array, Jet, Number, V, piecewise, sin_cos, sqrt
+from geneva_cli.numerics.jet import Array, Jet, Number, piecewise, sin_cos, sqrt
 
 NEAR_CUSP = 1e-4  # fraction of a half motion: nearer to a cusp, slopes are lost to rounding
-
-
-class Contact(NamedTuple, Generic[V]):
-    """The state of roller and slot that the loads depend on: jets of one order, or values."""
-
-    velocity: V
-    acceleration: V
-    lever: V  # M . t: of the walls' normal about the wheel's axis
-    offset: V  # M x t: of the slot's tangent from the wheel's axis
-    along: V  # the roller centre's speed along t
-    curvature: V  # of the pitch curve, positive to the left of t: 0 in a straight slot
-    spin: V  # rate of the roller's body relative to the wheel
-    arm: V  # of friction at the wall about the wheel's axis, beyond M's: over the radius
-    touches: V  # 0 while gears drive and no roller does, else 1
-    crank: V  # rate of the shaft that carries the crank
-    # Reactions of the joints of the roller's body (the crank's shaft, a guide) to a force of 1
-    # along the normal i t, to one along t, and to a couple of 1; None where there is only a shaft.
-    reactions: tuple[tuple[tuple[V, V], tuple[V, V]], ...] | None = None
-    # Sine and cosine of the wheel's angle since the first mid-motion; None where no load needs it.
-    heading: tuple[V, V] | None = None
 
 
 def contacts(engagement: Engagement, input_deg: Array) -> Contact[Array]:
@@ -48,14 +28,6 @@ def contacts(engagement: Engagement, input_deg: Array) -> Contact[Array]:
     else:
         at = contact(engagement, input_deg)
     return contact_values(at)
-
-
-def contact_values(at: Contact[Jet]) -> Contact[Array]:
-    """The values of a contact's jets."""
-    *jets, joints, heading = at
-    reactions = joints and [[(x.c[0], y.c[0]) for x, y in pair] for pair in joints]
-    turned = heading and tuple(jet.c[0] for jet in heading)
-    return Contact._make([*[jet.c[0] for jet in jets], reactions, turned])
 
 
 def column(at: Contact[Jet], number: int) -> Contact[Jet]:

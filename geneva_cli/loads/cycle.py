@@ -15,24 +15,26 @@ from typing import TypeAlias
 import numpy as np
 
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.contact import Contact, contact, contacts
-from geneva_cli.loads.cycle_quantities import KINETIC, known_quantities, sources
-from geneva_cli.loads.forces import LoadCase, is_loaded, load_case, wheel_torque
-from geneva_cli.loads.instant import INSTANT_QUANTITIES, Instant, bounded, bounded_loads, values
-from geneva_cli.loads.load_functions import LoadFunctions, load_batch
-from geneva_cli.loads.stretches import Stretch, refuse_noise, refuse_rounding, to_mid_motion, whole
-from geneva_cli.loads.summaries import (
-    EngagementExtremes,
-    LoadSummary,
-    search_loads,
-    shown_deg,
-    summaries_from,
-    sums_of,
+from geneva_cli.loads.contact import contact, contacts
+from geneva_cli.loads.cycle_quantities import (
+    KINETIC,
+    known_quantities,
+    multiples,
+    plain_of,
+    sources,
 )
-from geneva_cli.motion.engagement import Engagement
+from geneva_cli.loads.forces import Contact, LoadCase, is_loaded, wheel_torque
+from geneva_cli.loads.instant import INSTANT_QUANTITIES, Instant, bounded, bounded_loads, values
+from geneva_cli.loads.load_case import load_case
+from geneva_cli.loads.load_functions import LoadFunctions, load_batch
+from geneva_cli.loads.load_search import search_loads, shown_deg, sums_of
+from geneva_cli.loads.load_summary import EngagementExtremes, LoadSummary, summaries_from
+from geneva_cli.loads.stretches import Stretch, refuse_noise, refuse_rounding, to_mid_motion, whole
+from geneva_cli.motion.engagement import Engagement, Peak
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Whole, array
+from geneva_cli.numerics.greatest import first_greatest
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
 from geneva_cli.numerics.search import SearchResult
@@ -118,6 +120,12 @@ class Cycle:
         with np.errstate(all="ignore"):
             at = contacts(engagement, input_deg)
             return bounded(Instant(self.case, at, stretch.drives, stretch.slides, stretch.feeds))
+
+    def plain(self, states: Instant[Array], name: str) -> Array:
+        """Return a quantity of ``known``, or a multiple of one, at states of the cycle."""
+        source, factor, _ = multiples(self.mechanism).get(name, (name, 1.0, ""))
+        assert factor is not None  # known quantities have a factor
+        return plain_of(states, source) * factor
 
     @cached_property
     def _searches(self) -> list[tuple[LoadFunctions, SearchResult]]:
@@ -208,3 +216,21 @@ class Cycle:
 def cycle_of(mechanism: Mechanism) -> Cycle:
     """The cycle of a machine, cached for its loads, strength and warnings."""
     return Cycle(mechanism)
+
+
+def greatest(mechanism: Mechanism, name: str) -> Peak[float]:
+    """The greatest size of a quantity of the cycle, and its first input angle in degrees.
+
+    Without a load it is 0.
+    """
+    one = cycle_of(mechanism).extremes.get(name)
+    if one is None:
+        return Peak(0.0, 0.0)
+    first = mechanism.engagements[0]
+    whole = mechanism.under_load.whole_deg
+    start = first.mid_deg + first.entry_deg - 1e-9  # less the rounding of an input angle
+    ends = [(one.max, one.max_at_deg), (-one.min, one.min_at_deg)]
+    ends.sort(key=lambda end: (end[1] - start) % whole)
+    value, place = np.array(ends).T[..., None]
+    most, at_deg = first_greatest(value, place, np.zeros(1))
+    return Peak(float(most[0]), float(at_deg[0]))

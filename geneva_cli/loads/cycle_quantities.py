@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from geneva_cli.loads.forces import QuantityValue, load_case
+from geneva_cli.loads.forces import QuantityValue
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.numerics.greatest import first_greatest
 
 if TYPE_CHECKING:

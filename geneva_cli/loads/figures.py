@@ -18,8 +18,9 @@ from geneva_cli.figure import Axis, Curve, Figure, Mark, Panel, Piece
 from geneva_cli.loads import summary
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.cycle_quantities import FORCE, WALL_FORCE, sources
+from geneva_cli.loads.load_summary import LoadSummary
 from geneva_cli.loads.stages import MOTION_QUANTITIES, Stage, load_stages, motion_stages, pieces
-from geneva_cli.loads.summaries import LoadSummary, load_summaries
+from geneva_cli.loads.summaries import load_summaries
 from geneva_cli.motion import peaks
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import first_entry_deg
@@ -268,7 +269,7 @@ def _bounds(cycle: Cycle, ends: Mapping[str, LoadSummary[float]]) -> dict[str, t
         sizes = []
         for engagement, stretch in cycle.stretches:
             middle = np.array([0.5 * (stretch.start + stretch.end)])
-            here = summary.plain(cycle, cycle.along(engagement, stretch, middle), name)
+            here = cycle.plain(cycle.along(engagement, stretch, middle), name)
             sizes.append(abs(float(here[0])))
         # an unbounded load is visible up to three times its typical size
         high = 3.0 * max((size for size in sizes if math.isfinite(size)), default=1.0)

@@ -19,9 +19,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.forces import LoadCase, QuantityValue, load_case
+from geneva_cli.loads.forces import LoadCase, QuantityValue
 from geneva_cli.loads.groups import parts
 from geneva_cli.loads.instant import Instant
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import (
     LoadFunctions,
     LoadQuantity,
@@ -30,8 +31,8 @@ from geneva_cli.loads.load_functions import (
     signed_instant,
 )
 from geneva_cli.loads.stretches import spans_of, to_mid_motion
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.many import taken
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Whole

@@ -19,20 +19,40 @@ from typing import Generic, NamedTuple
 
 import numpy as np
 
-from geneva_cli.kinds.linear.guide_place import guide_place
-from geneva_cli.loads.carried import MM, inertia_kgm2, resisting_torque_Nm, unbalance_kgm
-from geneva_cli.loads.contact import Contact
-from geneva_cli.loads.strength.pin import pin_diameter_mm
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import Mask, N, Whole, all_true, choose, designs_of, library
-from geneva_cli.numerics.jet import Jet, Number, V
-from geneva_cli.spec.default_sizes import value_or
-from geneva_cli.spec.materials import roller_material, wheel_material
+from geneva_cli.numerics.jet import Array, Jet, Number, V
 from geneva_cli.spec.workshops import Stock
 
 NEGLIGIBLE = 1e-12  # fraction of a torque, of a motion, or of a lever over L that is rounding
+
+
+class Contact(NamedTuple, Generic[V]):
+    """The state of roller and slot that the loads depend on: jets of one order, or values."""
+
+    velocity: V
+    acceleration: V
+    lever: V  # M . t: of the walls' normal about the wheel's axis
+    offset: V  # M x t: of the slot's tangent from the wheel's axis
+    along: V  # the roller centre's speed along t
+    curvature: V  # of the pitch curve, positive to the left of t: 0 in a straight slot
+    spin: V  # rate of the roller's body relative to the wheel
+    arm: V  # of friction at the wall about the wheel's axis, beyond M's: over the radius
+    touches: V  # 0 while gears drive and no roller does, else 1
+    crank: V  # rate of the shaft that carries the crank
+    # Reactions of the joints of the roller's body (the crank's shaft, a guide) to a force of 1
+    # along the normal i t, to one along t, and to a couple of 1; None where there is only a shaft.
+    reactions: tuple[tuple[tuple[V, V], tuple[V, V]], ...] | None = None
+    # Sine and cosine of the wheel's angle since the first mid-motion; None where no load needs it.
+    heading: tuple[V, V] | None = None
+
+
+def contact_values(at: Contact[Jet]) -> Contact[Array]:
+    """The values of a contact's jets."""
+    *jets, joints, heading = at
+    reactions = joints and [[(x.c[0], y.c[0]) for x, y in pair] for pair in joints]
+    turned = heading and tuple(jet.c[0] for jet in heading)
+    return Contact._make([*[jet.c[0] for jet in jets], reactions, turned])
 
 
 class LoadCase(NamedTuple):
@@ -93,87 +113,6 @@ class LoadCase(NamedTuple):
     def all_friction(self) -> float:
         """A number that is above 0 for a design with any friction, which may hold the wheel."""
         return self.friction + self.guide_friction
-
-
-def load_case(mechanism: Mechanism) -> LoadCase:
-    """The load case of a machine's spec."""
-    spec = mechanism.spec
-    load, size = spec.load, spec.size
-    w = omega(spec.drive.n_rpm)
-    hertz = None
-    if size.face_width_mm is not None:
-        # p0² = N E* / (pi b R_e)
-        modulus = contact_modulus_GPa(wheel_material(spec), roller_material(spec)) * 1e3
-        hertz = modulus / (math.pi * size.face_width_mm * mechanism.roller_radius_mm)
-    return LoadCase(
-        w,
-        inertia_kgm2(spec) * w * w,
-        resisting_torque_Nm(spec),
-        mechanism.center_distance_mm / 1000.0,
-        mechanism.roller_radius_mm / mechanism.center_distance_mm,
-        rubbing(mechanism),
-        load.efficiency,
-        hertz,
-        mechanism.frame,
-        *unbalance_Nm(mechanism),
-        *_guide(mechanism),
-        mechanism.design,
-    )
-
-
-def _guide(mechanism: Mechanism) -> tuple[float, float, float]:
-    """The friction of a rack's guide, its middle and half its length, over L.
-
-    A wheel has none, nor has a rack whose slots leave no space for one.
-    """
-    spec, L = mechanism.spec, mechanism.center_distance_mm
-    if not spec.guided:
-        return 0.0, 0.0, 1.0
-    place = guide_place(mechanism)
-    friction = value_or(spec.load.guide_friction, spec.load.friction)
-    there = place.half > 0.0
-    return choose(there, friction, 0.0), place.middle / L, choose(there, place.half / L, 1.0)
-
-
-def unbalance_Nm(mechanism: Mechanism) -> tuple[float, float]:
-    """The centrifugal moment of bodies off the axis of a wheel on a carrier, as a vector, N m.
-
-    Its parts are along the first slot, which points at the carrier's axis at mid-motion, and ahead
-    of it. On the ground it is 0.
-    """
-    spec = mechanism.spec
-    w = omega(spec.drive.n_rpm)
-    factor = abs(mechanism.frame) * mechanism.center_distance_mm * MM * w * w
-    along, across = unbalance_kgm(spec)
-    return along * factor, across * factor
-
-
-def rubbing(mechanism: Mechanism) -> float:
-    """Ratio of the force along the wall to the force on it, for a roller that moves along it.
-
-    A roller fixed to its pin rubs in the slot, with the coefficient itself. A roller that turns on
-    its pin rolls, held back by the pin. The load passes a circle with the pin's radius times sin
-    rho, tan rho being the coefficient (the friction circle of a journal). So its angle to the
-    wall's normal has the sine: sin rho times pin over roller. The sliding speed on the pin is
-    smaller in the same ratio. In either case the friction work is N times the speed along the wall
-    times the value returned here.
-
-    >>> from geneva_cli import External, Load
-    >>> from geneva_cli.motion.mechanism import build
-    >>> from geneva_cli.motion.machine_spec import Spec
-    >>> turning = Load(torque_Nm=1.0, friction=0.1, friction_at="pin")  # on a pin half as thick
-    >>> round(rubbing(build(Spec(External(6), load=turning))), 6)
-    0.049814
-    """
-    load = mechanism.spec.load
-    if all_true(load.friction == 0.0) or load.rubs_in_slot:
-        return load.friction
-    thickness = 0.5 * pin_diameter_mm(mechanism) / mechanism.roller_radius_mm
-    m = library(thickness, load.friction)
-    sine = thickness * load.friction / m.hypot(1.0, load.friction)
-    turning = sine / m.sqrt((1.0 - sine) * (1.0 + sine))
-    coefficient: float = choose(thickness == 1.0, load.friction, turning)
-    return coefficient
 
 
 def contact_modulus_GPa(one: Stock, other: Stock) -> float:

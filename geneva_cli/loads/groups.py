@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from geneva_cli.loads.load_functions import LoadBatch
-from geneva_cli.motion.many import taken
+from geneva_cli.motion.batch import taken
 from geneva_cli.numerics.arrays import Array, Number, Whole
 
 

@@ -11,10 +11,11 @@ from typing import Generic
 import numpy as np
 
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.contact import Contact, contact_values
 from geneva_cli.loads.forces import (
+    Contact,
     LoadCase,
     QuantityValue,
+    contact_values,
     feeding,
     frame_torque,
     guide_drag,

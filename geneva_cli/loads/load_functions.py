@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 import numpy as np
 
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.contact import Contact, column, contact, rows
+from geneva_cli.loads.contact import column, contact, rows
 from geneva_cli.loads.cycle_quantities import PV, QUANTITIES
 from geneva_cli.loads.forces import (
     NEGLIGIBLE,
+    Contact,
     LoadCase,
     QuantityValue,
     feeding,
@@ -25,8 +26,8 @@ from geneva_cli.loads.forces import (
     wheel_torque,
 )
 from geneva_cli.loads.instant import Instant
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.many import taken
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Number, Whole, all_true, array
 from geneva_cli.numerics.jet import Array, Jet

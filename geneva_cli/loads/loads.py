@@ -13,39 +13,21 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.carried import inertia_kgm2
-from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.cycle_quantities import FORCE, SQUARED, STRESS, TORQUE
-from geneva_cli.loads.forces import LoadCase, QuantityValue, load_case
+from geneva_cli.loads.forces import LoadCase, QuantityValue
 from geneva_cli.loads.instant import Instant
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions, LoadQuantity, load_batch
-from geneva_cli.loads.summaries import load_peaks, search_loads, shown_deg
-from geneva_cli.motion.engagement import Engagement, Peak
+from geneva_cli.loads.load_search import search_loads, shown_deg
+from geneva_cli.loads.summaries import load_peaks
+from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray
 from geneva_cli.motion.pitch_curve import retraces
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import parameter
-from geneva_cli.numerics.greatest import first_greatest
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.spec.load_limits import load_limits
-
-
-def greatest(mechanism: Mechanism, name: str) -> Peak[float]:
-    """The greatest size of a quantity of the cycle, and its first input angle in degrees.
-
-    Without a load it is 0.
-    """
-    one = cycle_of(mechanism).extremes.get(name)
-    if one is None:
-        return Peak(0.0, 0.0)
-    first = mechanism.engagements[0]
-    whole = mechanism.under_load.whole_deg
-    start = first.mid_deg + first.entry_deg - 1e-9  # less the rounding of an input angle
-    ends = [(one.max, one.max_at_deg), (-one.min, one.min_at_deg)]
-    ends.sort(key=lambda end: (end[1] - start) % whole)
-    value, place = np.array(ends).T[..., None]
-    most, at_deg = first_greatest(value, place, np.zeros(1))
-    return Peak(float(most[0]), float(at_deg[0]))
 
 
 def slope_squared(i: Instant[Jet]) -> QuantityValue[Jet]:

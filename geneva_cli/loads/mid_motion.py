@@ -11,9 +11,10 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.loads.contact import NEAR_CUSP, Contact, contact
+from geneva_cli.loads.contact import NEAR_CUSP, contact
 from geneva_cli.loads.forces import (
     NEGLIGIBLE,
+    Contact,
     LoadCase,
     QuantityValue,
     is_loaded,

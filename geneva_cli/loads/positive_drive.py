@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.forces import load_case
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pitch_curve import opposites
 from geneva_cli.numerics.arrays import Array, Mask

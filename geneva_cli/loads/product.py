@@ -25,10 +25,11 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.carried import G
+from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.many import selection
+from geneva_cli.motion.many import worst_peaks
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.peak_search import PeakArray, by_degrees, greater, worst_peaks
+from geneva_cli.motion.peak_search import PeakArray, by_degrees, greater
 from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import Array, Which, parameter

@@ -22,11 +22,13 @@ import numpy as np
 from geneva_cli.loads.carried import inertia_kgm2, support_torque_Nm, working_torque_Nm
 from geneva_cli.loads.cycle_quantities import TORQUE
 from geneva_cli.loads.fluctuation import fluctuations, flywheel_kgm2
-from geneva_cli.loads.forces import load_case
 from geneva_cli.loads.indexer_formula import IndexerFormula, ShaftLoad, indexer_formula
-from geneva_cli.loads.summaries import LoadSummary, load_summaries
+from geneva_cli.loads.load_case import load_case
+from geneva_cli.loads.load_summary import LoadSummary
+from geneva_cli.loads.summaries import load_summaries
 from geneva_cli.motion.cam_factors import CamFactors, cam_factors
 from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import motion_peaks
 from geneva_cli.numerics.angles import DEGREE
@@ -102,6 +104,25 @@ def sizing(cycle: Cycle) -> tuple[Mapping[str, float | None], tuple[str, ...]]:
     elif cycle.mechanism.unbalanced:
         needs.append("inertia_ratio, coasting_speed_share: need masses on the wheel's axis")
     return out, tuple(needs)
+
+
+def sizing_with_wheel(
+    cycle: Cycle, wheel_inertia_kgm2: float | None
+) -> tuple[Mapping[str, float | None], tuple[str, ...]]:
+    """The sizing with the wheel's own inertia, which is known from its parts, and what it needs."""
+    values, needed = sizing(cycle)
+    if cycle.is_loaded and wheel_inertia_kgm2 is None:
+        needed = *needed, f"{WHEEL_INERTIA}: {_unweighed(cycle.mechanism.spec)}"
+    return {**values, WHEEL_INERTIA: wheel_inertia_kgm2}, needed
+
+
+def _unweighed(spec: Spec) -> str:
+    """The reason why the wheel's own inertia is not known."""
+    if not spec.is_flat:
+        return "computed for flat wheels only"
+    if spec.size.face_width_mm is None and spec.size.wheel_thickness_mm is None:
+        return "needs face_width_mm in [size]"
+    return "needs a wheel that can be cut; `geneva profile` shows why it cannot"
 
 
 def sizings(

@@ -14,7 +14,6 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.figure import Piece
-from geneva_cli.loads import summary
 from geneva_cli.loads.contact import NEAR_CUSP, is_straight
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.stretches import Stretch, smooth_ranges
@@ -109,7 +108,7 @@ def _loaded(
 ) -> Array:
     local = np.clip(x - engagement.mid_deg, inside.start, inside.end)
     here = cycle.along(engagement, inside, local)
-    rows = {name: summary.plain(cycle, here, name) for name in names}
+    rows = {name: cycle.plain(here, name) for name in names}
     return np.array([np.clip(row, *bounds[n]) if n in bounds else row for n, row in rows.items()])
 
 

@@ -16,20 +16,17 @@ designs are searched together, one block of designs after the other.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import Generic, NamedTuple, TypeVar, cast
 
 import numpy as np
 
 from geneva_cli.loads.cycle_quantities import (
     FORCE,
-    NEVER_NEGATIVE,
-    PRESSED,
     SQUARED,
     STRESS,
-    outermost,
 )
-from geneva_cli.loads.forces import LoadCase, load_case
+from geneva_cli.loads.forces import LoadCase
 from geneva_cli.loads.groups import of_groups
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import (
     NO_MORE,
     LoadBatch,
@@ -37,42 +34,16 @@ from geneva_cli.loads.load_functions import (
     LoadQuantity,
     load_batch,
 )
-from geneva_cli.loads.means import means_from, sources_of, sums
-from geneva_cli.loads.stretches import on_breaks, spans_of
-from geneva_cli.motion.engagement import Engagement
+from geneva_cli.loads.load_search import search_loads, shown_deg, sums_of
+from geneva_cli.loads.load_summary import (
+    EngagementExtremes,
+    LoadSummary,
+    sources_of,
+    summaries_from,
+)
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray, greater
-from geneva_cli.numerics.arrays import Number
 from geneva_cli.numerics.jet import Array
-from geneva_cli.numerics.search import SearchResult, search
-
-S = TypeVar("S", float, "float | None", Array)  # of one design, as printed, of a batch
-
-
-class LoadSummary(NamedTuple, Generic[S]):
-    """Greatest and least over the motions, mean and root mean square over a period.
-
-    Input angles are as shown; values are infinite if unbounded. Each is (m,) for m designs, or a
-    number of one; as it is printed, None for a value that is not known.
-    """
-
-    max: S
-    max_at_deg: S
-    min: S
-    min_at_deg: S
-    mean: S | None = None  # None if not requested
-    rms: S | None = None
-
-
-class EngagementExtremes(NamedTuple):
-    """Greatest values over one engagement, their places, and the sums; one row for each quantity.
-
-    For signed extremes, the greatest values of the quantities' negatives follow.
-    """
-
-    most: Array
-    at_deg: Array  # as shown
-    total: Array | None  # the result of ``sums``
 
 
 def load_peaks(
@@ -123,53 +94,6 @@ def load_summaries(
     return summaries_from(mechanism, names, each, "mean" in requested)
 
 
-def summaries_from(
-    mechanism: Mechanism, names: Sequence[str], each: Sequence[EngagementExtremes], plain: bool
-) -> dict[str, LoadSummary[Array]]:
-    """The summaries of quantities, from the results of their sources in each engagement.
-
-    With ``plain`` the sums include those of the quantities, besides those of their squares.
-    """
-    multiple_of, sources = sources_of(mechanism, names)
-    totals = [one.total for one in each if one.total is not None]
-    means = means_from(mechanism, sources, totals, plain) if totals else {}
-    best: dict[str, LoadSummary[Array]] = {}
-    for i, name in enumerate(sources):
-        k = i + len(sources)
-        rows = [(one.most[i], one.at_deg[i], -one.most[k], one.at_deg[k]) for one in each]
-        most, most_at, least, least_at = outermost(np.array(rows))
-        most, least = _ends_of(name, most, least)
-        mean, rms = means.get(name, (None, None))
-        best[name] = LoadSummary(most, most_at, least, least_at, mean, rms)
-    return {name: _multiple(best[source], factor) for name, (source, factor) in multiple_of.items()}
-
-
-def _multiple(one: LoadSummary[Array], factor: Array) -> LoadSummary[Array]:
-    """The summary of a multiple of the quantity."""
-    mean, rms = (None if v is None else v * factor for v in one[4:])
-    return LoadSummary(
-        one.max * factor, one.max_at_deg, one.min * factor, one.min_at_deg, mean, rms
-    )
-
-
-def _ends_of(name: str, most: Array, least: Array) -> list[Array]:
-    """Greatest and least of a quantity, from those of its square or of itself.
-
-    Where the torque changes sign, rounding may leave a size below 0. Either value is replaced by 0
-    if it is rounding compared with the other.
-    """
-    ends = [np.maximum(x, 0.0) if name in NEVER_NEGATIVE else np.asarray(x) for x in (most, least)]
-    if name in PRESSED:  # the square goes with the force, and has its rounding
-        return [np.sqrt(x) for x in _without_rounding(ends)]
-    return _without_rounding([np.sqrt(x) if name in SQUARED else x for x in ends])
-
-
-def _without_rounding(ends: Sequence[Array]) -> list[Array]:
-    """Greatest and least, 0 for one that is below 1e-14 of the other: that is rounding."""
-    level = 1e-14 * np.maximum(*[np.where(np.isfinite(x), np.abs(x), 0.0) for x in ends])
-    return [np.where(np.abs(x) > level, x, 0.0) for x in ends]
-
-
 def _engagement_extremes(
     mechanism: Mechanism,
     every: LoadBatch,
@@ -186,28 +110,3 @@ def _engagement_extremes(
 
     most, x, *total = of_groups(every, extremes)
     return EngagementExtremes(most, shown_deg(mechanism, every.engagement, x), *(total or (None,)))
-
-
-def search_loads(load: LoadFunctions, n: int, sized: bool = False) -> SearchResult:
-    """The extremes of n designs' loads over a motion, and its stretches."""
-    spans = spans_of(load.engagement, n)
-    if sized and load.repeats:
-        spans = spans[: len(spans) // 2]
-    return search(load, spans, n, sized, load.at_mid_motion(n), load.spread)
-
-
-def sums_of(load: LoadFunctions, result: SearchResult, n: int, plain: bool) -> Array:
-    """The integrals of n designs' quantities over the stretches of a search: (rows, n)."""
-    bounded = np.asarray(np.isfinite(result.most).reshape(2, -1, n).all(axis=0))
-    return sums(load, result.stretches, bounded, n, plain)
-
-
-def shown_deg(mechanism: Mechanism, engagement: Engagement, x: Array) -> Array:
-    """Input angles of an engagement, (rows, m), as they are shown."""
-    places = np.reshape(engagement.mid_deg, (-1, 1)) + on_breaks(x, engagement).T
-    rows = [_shown(mechanism, places[:, i : i + 1]) for i in range(len(x))]
-    return np.hstack([np.broadcast_to(row, (x.shape[1], 1)) for row in rows]).T
-
-
-def _shown(mechanism: Mechanism, places: Array) -> Number:
-    return mechanism.shown_deg(cast("float", places))

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from geneva_cli.errors import Notice
-from geneva_cli.loads.cycle import Cycle
+from geneva_cli.loads.cycle import Cycle, greatest
 from geneva_cli.loads.cycle_quantities import (
     PRESSED,
     PV,
@@ -21,10 +21,7 @@ from geneva_cli.loads.cycle_quantities import (
     plain_of,
     sources,
 )
-from geneva_cli.loads.instant import Instant
-from geneva_cli.loads.loads import greatest
-from geneva_cli.loads.summaries import LoadSummary
-from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.loads.load_summary import LoadSummary
 from geneva_cli.numerics.jet import Array
 from geneva_cli.table import Reading, Table, computed_table, record_table, rows_table
 
@@ -72,13 +69,6 @@ def _finite(x: float | None) -> float | None:
     return x if x is not None and math.isfinite(x) else None
 
 
-def plain(cycle: Cycle, states: Instant[Array], name: str) -> Array:
-    """A quantity of ``known``, or a multiple of one, at states of the cycle."""
-    source, factor, _ = multiples(cycle.mechanism).get(name, (name, 1.0, ""))
-    assert factor is not None  # known quantities have a factor
-    return plain_of(states, source) * factor
-
-
 def reversals_deg(cycle: Cycle) -> list[float]:
     """Input angles at which the wheel's torque changes sign and the roller changes walls."""
     out = []
@@ -90,19 +80,17 @@ def reversals_deg(cycle: Cycle) -> list[float]:
 
 def loads_table(
     cycle: Cycle,
+    sizing: Mapping[str, float | None],
     life: Mapping[str, float | None],
     reversal: Mapping[str, float | None],
-    wheel_inertia_kgm2: float | None,
     warnings: Sequence[str],
     for_people: bool = False,
 ) -> Table:
     """The summary of the loads, with the impact of a reversal, sizing, life and warnings.
 
-    ``life``, ``reversal`` and the wheel's own inertia are known from its parts. For people the
+    ``life``, ``reversal`` and some of ``sizing`` are known from the machine's parts. For people the
     quantities that have a value are rows of a table.
     """
-    from geneva_cli.loads.sizing import WHEEL_INERTIA, sizing
-
     spec = cycle.mechanism.spec
     values: dict[str, object] = {"spec": spec.path, "title": spec.title}
     loads = summaries(cycle)
@@ -117,25 +105,12 @@ def loads_table(
         for name, one in loads.items():
             values |= {f"{name}.{key}": value for key, value in one._asdict().items()}
     values["reversals_deg"] = tuple(reversals_deg(cycle)) if cycle.is_loaded else None
-    computed, needed = sizing(cycle)
-    bought = {**computed, WHEEL_INERTIA: wheel_inertia_kgm2}
-    if cycle.is_loaded and wheel_inertia_kgm2 is None:
-        needed = *needed, f"{WHEEL_INERTIA}: {_unweighed(spec)}"
     # a roller that changes no side has no impact to be shown
     struck = {} if for_people and reversal["jump"] is None else reversal
-    for group, answers in (("shock.reversal", struck), ("sizing", bought), ("life", life)):
+    for group, answers in (("shock.reversal", struck), ("sizing", sizing), ("life", life)):
         values |= {f"{group}.{key}": value for key, value in answers.items()}
-    values["warnings"] = (*warnings, *needed)
+    values["warnings"] = tuple(warnings)
     return record_table(values)
-
-
-def _unweighed(spec: Spec) -> str:
-    """The reason why the wheel's own inertia is not known."""
-    if not spec.is_flat:
-        return "computed for flat wheels only"
-    if spec.size.face_width_mm is None and spec.size.wheel_thickness_mm is None:
-        return "needs face_width_mm in [size]"
-    return "needs a wheel that can be cut; `geneva profile` shows why it cannot"
 
 
 def no_load(cycle: Cycle) -> str:
@@ -151,8 +126,9 @@ def missing(cycle: Cycle) -> list[Notice]:
     wide = cycle.case.hertz is not None
     out = [] if wide else [f"{name}: needs face_width_mm in [size]" for name in PRESSED]
     spec, guide = cycle.mechanism.spec, "guide_force_N"
-    if spec.drive.LENGTH and spec.wheel.FLAT and guide not in known_quantities(cycle.mechanism):
-        needs = f"needs {spec.drive.LENGTH} in [drive]"
+    missing = spec.drive.missing_length
+    if missing and spec.wheel.FLAT and guide not in known_quantities(cycle.mechanism):
+        needs = f"needs {missing} in [drive]"
         out.append(f"{guide}, and the share of it in the crank's bearings: {needs}")
     unknown: dict[str, list[str]] = {}
     for name, (_, factor, needs) in multiples(cycle.mechanism).items():

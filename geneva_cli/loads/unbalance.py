@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from geneva_cli.loads.carried import carried_kg
-from geneva_cli.loads.forces import unbalance_Nm
+from geneva_cli.loads.load_case import unbalance_Nm
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.jet import Array

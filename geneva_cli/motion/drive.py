@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from collections.abc import Callable
-from enum import Enum
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.motion.engagement import Displacement, Engagement
-from geneva_cli.motion.pivots import Layout, Link
+from geneva_cli.motion.pivots import Layout, Link, ShaftPlace
 from geneva_cli.spec.rules import SPEED, Z_MAX, Range
 from geneva_cli.spec.schema import Example, SpecTable
 
@@ -19,14 +18,6 @@ if TYPE_CHECKING:
     from geneva_cli.motion.wheels.gearing import Gearing
     from geneva_cli.numerics.arrays import Array
     from geneva_cli.numerics.spline import Doubt
-
-
-class Needs(Enum):
-    """Need of a drive for a motion law: none allowed, optional, or required."""
-
-    NO_LAW = "no law"
-    MAY = "may"
-    LAW = "law"
 
 
 class Plan(NamedTuple):
@@ -62,35 +53,14 @@ class Drive(SpecTable, kw_only=True):
     WORDS: ClassVar[str]
     # example spec, without its kind
     EXAMPLE: ClassVar[Example]
-    # the only gearings that it drives; empty for any
-    GEARINGS: ClassVar[tuple[str, ...]] = ()
-    LAW: ClassVar[Needs]
-    # True if it carries one roller only; else any number, also unevenly spaced
-    ONE_ROLLER: ClassVar[bool] = False
     # True if the roller stays as far from the crank's axis as at mid-motion
     ONE_ARM: ClassVar[bool] = True
-    # True if its slots must be radial and its steps equal
-    RADIAL: ClassVar[bool] = False
-    # True if all rollers on its crank move the wheel alike
-    ALIKE: ClassVar[bool] = False
     # True if its crank can carry a locking disc about the line of centres
     LOCKS: ClassVar[bool] = True
-    # True if a crank carries the roller, so that a plain crank drive could replace it
-    CRANKED: ClassVar[bool] = False
-    # True for a pair of noncircular gears, which have pitch curves
-    GEARED: ClassVar[bool] = False
-    # True if it has other gears, with pitch circles
-    TOOTHED: ClassVar[bool] = False
     # what turns the input shaft of another drive, in [drive.before]; empty if it cannot
     IN_FRONT: ClassVar[str] = ""
     # reason why no drive may stand before it; empty if one may
     FIRST: ClassVar[str] = ""
-    # 1 if its own input shaft turns as the crank does, -1 if against it
-    INPUT_SENSE: ClassVar[float] = 1.0
-    # True if a first Geneva wheel turns its crank
-    IN_SERIES: ClassVar[bool] = False
-    # key of [drive] that its link reactions need; empty if none
-    LENGTH: ClassVar[str] = ""
     n_rpm: Annotated[
         float,
         SPEED,
@@ -137,7 +107,7 @@ class Drive(SpecTable, kw_only=True):
         >>> Crank().turned_at_crank, SideCrank(A=0.6).turned_at_crank
         (True, False)
         """
-        return self.direct or not self.CRANKED
+        return True
 
     @property
     def wheels_on_carrier(self) -> int:
@@ -150,9 +120,29 @@ class Drive(SpecTable, kw_only=True):
         return (0.0,)
 
     @property
+    def crank(self) -> Drive | None:
+        """A plain crank with the same rollers; None if no crank carries them."""
+        return None
+
+    @property
+    def motions(self) -> int:
+        """Number of different motions of the wheel, by one roller after the other on the crank."""
+        return 1
+
+    @property
     def gears(self) -> Gears | None:
         """Noncircular gears between input and crank; None for a drive without."""
         return None
+
+    @property
+    def round_gears(self) -> tuple[str, ...]:
+        """Names of its links that are gears with pitch circles."""
+        return ()
+
+    @property
+    def missing_length(self) -> str:
+        """Key of ``[drive]`` that its link reactions need and that is not set; empty if none."""
+        return ""
 
     def first_wheel(self, L: float) -> FirstWheel | None:
         """External wheel that turns the crank, or None; L is the second wheel's centre distance."""
@@ -178,13 +168,13 @@ class Drive(SpecTable, kw_only=True):
         """Input angle from mid-motion at a crank angle from mid-motion, degrees."""
         return crank_deg
 
-    def input_axis_mm(self, plan: Plan, sign: float) -> float:
-        """Place of its own input shaft on the line of centres, mm from the wheel's axis.
+    def input_shaft(self, plan: Plan, sign: float, sense: float) -> ShaftPlace:
+        """Its own input shaft; ``sign`` is the wheel's, ``sense`` that of the crank's rotation.
 
-        >>> SideCrank(A=0.6).input_axis_mm(Design(External(6)).mechanism.plan, 1.0)
-        70.0
+        >>> SideCrank(A=0.6).input_shaft(Design(External(6)).mechanism.plan, 1.0, -1.0)
+        ShaftPlace(x_mm=70.0, sense=-1.0)
         """
-        return plan.center_distance_mm
+        return ShaftPlace(plan.center_distance_mm, sense)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Pivots and dimensions of this kind of drive; ``sign`` is the wheel's (-1 inside).

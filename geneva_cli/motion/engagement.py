@@ -11,15 +11,12 @@ import copy
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
+from typing import ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 from geneva_cli.kept import cached_property
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, Batchable, all_true, array, blocks, library
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
-
-if TYPE_CHECKING:
-    from geneva_cli.motion.laws.law import Law
 
 K = TypeVar("K", float, "Array")
 
@@ -192,8 +189,6 @@ class RoughMotion(Protocol):
 class WheelMotion(Batchable, ABC):
     """The wheel's angle as the input turns, from rest to rest."""
 
-    # motion law, if a law gives the motion
-    law: Law | None = None
     # False if the two halves of the path differ
     mirrored = True
     # peaks that need no general search

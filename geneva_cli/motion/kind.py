@@ -1,4 +1,4 @@
-"""The record of a kind of machine: what the program knows of it, by name.
+"""The records of kinds of machines and of extras: what the program knows of them, by name.
 
 Functions and classes are written ``module:name``, and imported at their first use. The core asks a
 kind for a thing, such as its parts; it never asks which kind it has.
@@ -13,6 +13,17 @@ from typing import NamedTuple
 _NONE: Mapping[str, str] = MappingProxyType({})
 
 
+class Quantities(NamedTuple):
+    """Quantities of a kind that are computed together, as a group of the verdict."""
+
+    table: str  # beginning of the whole names
+    names: str  # own names, as words of a text
+    after: str  # table of the report behind which they are shown
+    alone: str = ""  # function that computes them for a single design
+    batch: str = ""  # function that computes them for a batch of designs
+    makes_parts: bool = False
+
+
 class Kind(NamedTuple):
     """One kind: a wheel, a drive, or an addition to one of them.
 
@@ -24,12 +35,33 @@ class Kind(NamedTuple):
     wheel: str = ""  # class, whose fields are keys of [wheel]
     drive: str = ""  # class, whose fields are keys of [drive]
     adds_to: str = ""  # name of the kind to which it adds, where it is neither wheel nor drive
+    gearings: tuple[str, ...] = ()  # kinds of wheels that a drive can drive; empty for any
+    refuses: str = ""  # rules of what makes no machine with it
+    # keys of other tables, as in "load.mass_kg", that it alone has: its rules apply if one is set
+    keys: tuple[str, ...] = ()
     parts: str = ""  # class of the parts of wheel and crank
     front: str = ""  # class of links and gears in front of a crank that is not flat
     drawings: Mapping[str, str] = _NONE  # or sheets, by the names of the parts that they show
     tables: Mapping[str, str] = _NONE  # of points, by the names of the parts
     dimensions: str = ""  # in the list of parts, of these parts
     stressed: str = ""  # dimensions of stressed parts, where no layout of flat parts has them
-    wheel_body: str = ""  # mass and inertia of the wheel, where it is no plate
+    wheel_body: str = ""  # function that returns mass and inertia of a mechanism's wheel
     motion_checks: Mapping[str, str] = _NONE  # by their names
     parts_checks: Mapping[str, str] = _NONE  # of parts at rest, all or those that it adds
+    remedies: str = ""  # changes of the spec that may make its checks pass, by their names
+    load_case: str = ""  # function that completes the load case of a mechanism
+    quantities: tuple[Quantities, ...] = ()  # of the report
+    horns: str = ""  # function that returns the horns of designs, with their stress
+    cut_parts: str = ""  # class of the parts as they are cut within the tolerances
+    # functions that return families of synth, by where they are searched: beside "straight" slots
+    # of a wheel, "alone", or where wheels on a "carrier" are required
+    families: Mapping[str, str] = _NONE
+    roller: str = ""  # function that returns the roller that suits a mechanism, for synth
+    scene: str = ""  # class of what a page shows of the wheels
+
+
+class Extra(NamedTuple):
+    """What a folder of ``extras`` adds."""
+
+    answers: Mapping[str, str]  # functions by the names of their answers
+    laws: Mapping[str, str] = _NONE  # classes of motion laws by their names

@@ -20,7 +20,6 @@ MOTION_MIN = 1e-10  # degrees: a shorter motion, or dwell, is rounding
 class LawMotion(WheelMotion):
     """A law, scaled to the wheel's step and to the motion angle."""
 
-    law: Law
     BREAKS_TO: ClassVar[float] = 1e-15  # a few roundings of an angle
 
     def __init__(self, entry_deg: float, exit_deg: float, half_step: float, law: Law) -> None:

@@ -6,13 +6,13 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, Self
 
-from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.drive import Drive, Gears
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.registry import of_wheel
+from geneva_cli.motion.records import CRANK, of_wheel
 from geneva_cli.motion.wheels.gearing import Gearing, Output
-from geneva_cli.numerics.arrays import all_true
+from geneva_cli.numerics.arrays import Batchable, all_true
+from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.schema import SpecTable, copied, hash_once, refuse_kind, without_hash
 from geneva_cli.spec.tables import (
     DISTANCE_MM,
@@ -87,7 +87,7 @@ def _no_load(key: str, keys: str) -> GenevaError:
 
 
 @dataclass(frozen=True)
-class Spec:
+class Spec(Batchable):
     """All values from which a machine is built, as in the spec's file.
 
     ``path`` is that file, for messages; ``files`` are the CSV files of its points. ``drive_before``
@@ -98,7 +98,7 @@ class Spec:
     """
 
     wheel: Gearing
-    drive: Drive = field(default_factory=Crank)
+    drive: Drive = field(default_factory=lambda: load_named(CRANK)())
     motion: Motion | None = None
     size: Size = field(default_factory=Size)
     load: Load = field(default_factory=Load)
@@ -320,7 +320,7 @@ class Spec:
         >>> Spec(Linear(6)).guided, Spec(External(6)).guided
         (True, False)
         """
-        return not self.output.turns and (self.drive.direct or self.drive.GEARED)
+        return not self.output.turns and (self.drive.direct or self.drive.gears is not None)
 
     @property
     def is_turned(self) -> bool:
@@ -346,12 +346,12 @@ class Spec:
         before = self.drive_before
         if before is not None and len(self.drive.cranks) > 1:
             return f'the gears between several cranks and kind = "{before.NAME}" are not built'
-        if before is not None and before.GEARED and self.drive.GEARED:
+        if before is not None and before.gears and self.drive.gears:
             return (
                 f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '
                 "built: one pair of noncircular-gears with the ratio of both does the same"
             )
-        if before is not None and not (before.GEARED or self.drive.turned_at_crank):
+        if before is not None and not (before.gears or self.drive.turned_at_crank):
             return (
                 f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '
                 "built: the shaft between them has no bearing, since the input crank turns below it"

@@ -10,6 +10,8 @@
     array([False, False,  True])
     >>> batch.spread(batch.machine.ratio)
     array([0.5, 0.5, nan])
+    >>> batch.spread(worst_peaks(batch.machine, ["velocity"])["velocity"].max)
+    array([1.   , 0.625,   nan])
 
 ``batch.machine`` is an ordinary machine of the designs that can be built, in their order. The
 numbers that vary are arrays (m, 1), and so are the results. At k input angles, (k,) or (m, k),
@@ -23,32 +25,20 @@ for a key that may vary.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from functools import cache, partial
-from typing import NamedTuple, TypeAlias, TypeVar, cast
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError, marking
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.machine_spec import BEFORE, Spec, attribute
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.motion import Motion
-from geneva_cli.numerics.arrays import (
-    Array,
-    Batchable,
-    Mask,
-    Number,
-    Which,
-    Whole,
-    numbers_of,
-    record_of,
-)
-from geneva_cli.numerics.latest import Latest
+from geneva_cli.motion.peak_search import QUANTITIES, PeakArray, greater, motion_peaks
+from geneva_cli.numerics.arrays import Array, Mask, Number, Whole, parameter
 from geneva_cli.spec.rules import is_array
-from geneva_cli.spec.schema import Field, Points, SpecTable, fields, unknown
-
-T = TypeVar("T")
-Change: TypeAlias = "Callable[[Array], object]"
+from geneva_cli.spec.schema import Field, SpecTable, fields, unknown
 
 # tables whose numbers may vary
 TABLES = (
@@ -159,71 +149,14 @@ def _field(spec: Spec, key: str) -> Field:
     return known[name]
 
 
-def taken(thing: T, which: Which) -> T:
-    """Reduce an object of a batch to some designs; ``which`` is a mask or their numbers."""
-    if isinstance(which, slice):
-        return cast("T", _changed(thing, lambda array: array[which], {}))
-    numbers = numbers_of(which)
-    return cast("T", _changed(thing, lambda array: array.take(numbers, axis=0), {}))
-
-
-def selection(thing: T) -> Callable[[Which], T]:
-    """Return the function that reduces an object of a batch to some designs, as ``taken`` does.
-
-    It looks for arrays once: an object without them is the same for all designs.
-    """
-    if taken(thing, slice(0)) is thing:
-        return lambda _: thing
-    return partial(taken, thing)
-
-
-def alone(thing: T, i: int) -> T:
-    """The i-th design of an object of a batch, with numbers in place of arrays."""
-    return cast("T", _changed(thing, lambda array: array[i, 0].item(), {}))
-
-
-def designs_in(thing: object) -> int:
-    """Number of designs in an object; 1 without an array along a design axis."""
-    lengths = {1}
-
-    def note(array: Array) -> Array:
-        lengths.add(len(array))
-        return array
-
-    _changed(thing, note, {})
-    return max(lengths)
-
-
-def _changed(thing: object, change: Change, done: dict[int, object]) -> object:
-    """Copy an object and change every array (n, 1) in it; return it unchanged if it has none."""
-    if isinstance(thing, np.ndarray):
-        return change(thing) if thing.ndim == 2 and thing.shape[1] == 1 else thing
-    kind: type = type(thing)
-    if not _may_hold(kind):
-        return thing
-    if id(thing) not in done:
-        done[id(thing)] = _anew(thing, change, done)
-    return done[id(thing)]
-
-
-def _anew(thing: object, change: Change, done: dict[int, object]) -> object:
-    if isinstance(thing, (tuple, list)):
-        parts = [_changed(part, change, done) for part in thing]
-        if all(a is b for a, b in zip(parts, thing, strict=True)):
-            return thing
-        return parts if isinstance(thing, list) else record_of(thing, parts)
-    old = vars(thing)
-    values = {name: _changed(value, change, done) for name, value in old.items()}
-    if all(values[name] is value for name, value in old.items()):
-        return thing
-    new: object = object.__new__(type(thing))
-    for name, value in values.items():  # a stored result belongs to the old set of designs
-        vars(new)[name] = Latest() if isinstance(value, Latest) else value
-    return new
-
-
-@cache  # by type: most of what a machine holds is None or a number
-def _may_hold(kind: type) -> bool:
-    """True for tables of a spec, for what is built from them, and for records of both."""
-    holders = SpecTable, Spec, Batchable, tuple, list
-    return issubclass(kind, holders) and not issubclass(kind, Points)
+def worst_peaks(
+    mechanism: Mechanism, quantities: Sequence[str] = QUANTITIES
+) -> dict[str, PeakArray]:
+    """The greatest peaks over all engagements; angles are the machine's input angles."""
+    best: dict[str, PeakArray] = {}
+    for engagement in mechanism.engagements:
+        for name, peak in motion_peaks(engagement.motion, quantities).items():
+            at_deg = engagement.mid_deg + parameter(peak.at_deg[:, None])
+            here = PeakArray(peak.max, np.ravel(mechanism.shown_deg(at_deg)))
+            best[name] = greater(best[name], here) if name in best else here
+    return best

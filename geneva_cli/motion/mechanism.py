@@ -6,28 +6,25 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.motion import compatible
-from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.drive import FirstWheel, Plan
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.pivots import AxisPlace, Layout, Pivot, crank_places, wheel_places
+from geneva_cli.motion.pivots import (
+    AxisPlace,
+    Layout,
+    Pivot,
+    ShaftPlace,
+    crank_places,
+    wheel_places,
+)
+from geneva_cli.motion.records import IN_FRONT
 from geneva_cli.motion.size_rules import refuse_sizes, refuse_tolerances
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.numerics.arrays import N, Whole, choose, designs_of, larger, library
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
-
-
-class ShaftPlace(NamedTuple):
-    """A shaft on the line of centres."""
-
-    x_mm: float  # from the wheel's axis
-    sense: float  # 1 if it turns counterclockwise, else -1
-
-    @property
-    def at(self) -> tuple[float, float]:
-        """Its axis."""
-        return self.x_mm, 0.0
+from geneva_cli.spec.load_named import load_named
 
 
 class Mechanism(NamedTuple):
@@ -70,16 +67,24 @@ class Mechanism(NamedTuple):
     @property
     def own_shaft(self) -> ShaftPlace:
         """The input shaft of the drive itself, which a drive before it turns."""
-        drive, at = self.spec.drive, self.crank_shaft
-        return ShaftPlace(
-            drive.input_axis_mm(self.plan, self.spec.wheel.SIGN), at.sense * drive.INPUT_SENSE
-        )
+        spec = self.spec
+        return spec.drive.input_shaft(self.plan, spec.wheel.SIGN, self.crank_shaft.sense)
 
     @property
     def gear_shaft(self) -> ShaftPlace:
         """The shaft of the driven one of noncircular gears."""
         before = self.spec.drive_before
-        return self.own_shaft if before and before.GEARED else self.crank_shaft
+        return self.own_shaft if before and before.gears else self.crank_shaft
+
+    @property
+    def axes(self) -> tuple[Pivot, ...]:
+        """Axes of wheel and crank in the plane of the parts; none if they meet."""
+        return self.spec.wheel.axes(self.center_distance_mm)
+
+    @property
+    def first_wheel(self) -> FirstWheel | None:
+        """The wheel that turns the crank; None for a crank without one."""
+        return self.spec.drive.first_wheel(self.center_distance_mm)
 
     @property
     def layout(self) -> Layout:
@@ -88,8 +93,8 @@ class Mechanism(NamedTuple):
         Of several cranks it has the axes behind the first. Pivots have places only in a plane that
         also has the axes of wheel and crank.
         """
-        spec, layout = self.spec, self._whole_layout
-        if spec.wheel.axes(self.center_distance_mm):
+        layout = self._whole_layout
+        if self.axes:
             return layout
         return tuple(one for one in layout if not isinstance(one, Pivot))
 
@@ -120,7 +125,13 @@ class Mechanism(NamedTuple):
     @property
     def law(self) -> Law | None:
         """Motion law by the angle of the drive's own input shaft; None for straight slots."""
-        return self.engagements[0].own.motion.law
+        motion = self.spec.motion
+        return motion.law if motion else None
+
+    @property
+    def input_law(self) -> Law | None:
+        """Motion law by the input's own angle; None for straight slots or behind another drive."""
+        return None if self.spec.drive_before else self.law
 
     @property
     def output(self) -> Output:
@@ -253,9 +264,7 @@ def build(spec: Spec) -> Mechanism:
     compatible.refuse_conflicts(spec)
     plan = spec.drive.plan(spec.wheel, spec.motion, spec.given_distance_mm)
     if spec.drive_before:
-        from geneva_cli.kinds.series.retimed import retimed  # few machines have drives in series
-
-        plan = retimed(plan, spec, spec.drive_before)
+        plan = load_named(IN_FRONT)(plan, spec, spec.drive_before)
     refuse_sizes(spec, plan.center_distance_mm, plan.ratio)
     refuse_tolerances(spec, plan.center_distance_mm, plan.ratio)
     return Mechanism(spec, *plan)

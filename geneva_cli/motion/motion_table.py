@@ -13,7 +13,6 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.motion.electronic_cam import knots_deg
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
@@ -50,13 +49,13 @@ def motion_table(mechanism: Mechanism, samples: int) -> Table:
     return computed_table(names, samples, lambda i, j: _rows(mechanism, samples, i, j))
 
 
-def turns_table(mechanism: Mechanism, samples: int, count: int) -> Table:
+def turns_table(mechanism: Mechanism, samples: int, count: int, knots: Array) -> Table:
     """Rows as of ``motion_table`` over ``count`` periods, and one at each entry, exit and jump.
 
-    ``samples`` rows are evenly spaced. The wheel's angle goes on from period to period.
+    ``knots`` are those of ``knots_deg``. ``samples`` rows are evenly spaced. The wheel's angle goes
+    on from period to period.
     """
     check_samples(samples)
-    knots = knots_deg(mechanism, count)
     whole = count * mechanism.period_deg
     even = np.linspace(0.0, whole, samples)
     nearest = np.searchsorted(knots, even)

@@ -2,14 +2,6 @@
 
 A peak is at a root of the next derivative, at an end of the motion, or where the law's derivative
 jumps. It is refined to the last bit, and never the largest sample of a grid.
-
->>> import numpy as np
->>> from geneva_cli import External, SideCrank
->>> from geneva_cli.motion.many import many
->>> from geneva_cli.motion.machine_spec import Spec
->>> batch = many(Spec(External(6), SideCrank(A=0.0)), {"drive.A": np.array([0.0, 0.6, 2.0])})
->>> batch.spread(worst_peaks(batch.machine, ["velocity"])["velocity"].max)
-array([1.   , 0.625,   nan])
 """
 
 from __future__ import annotations
@@ -19,11 +11,10 @@ from typing import NamedTuple, TypeAlias, cast
 
 import numpy as np
 
+from geneva_cli.motion.batch import designs_in, selection, taken
 from geneva_cli.motion.engagement import Engagement, Peak, WheelMotion
-from geneva_cli.motion.many import designs_in, selection, taken
-from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Which, blocks, joined, parameter
+from geneva_cli.numerics.arrays import Array, Which, blocks, joined
 from geneva_cli.numerics.extrema import (
     GROUP,
     Rough,
@@ -183,19 +174,6 @@ def greater(first: PeakArray, other: PeakArray) -> PeakArray:
         np.where(other.max > first.max, other.max, first.max),
         np.where(more, other.at_deg, first.at_deg),
     )
-
-
-def worst_peaks(
-    mechanism: Mechanism, quantities: Sequence[str] = QUANTITIES
-) -> dict[str, PeakArray]:
-    """The greatest peaks over all engagements; angles are the machine's input angles."""
-    best: dict[str, PeakArray] = {}
-    for engagement in mechanism.engagements:
-        for name, peak in motion_peaks(engagement.motion, quantities).items():
-            at_deg = engagement.mid_deg + parameter(peak.at_deg[:, None])
-            here = PeakArray(peak.max, np.ravel(mechanism.shown_deg(at_deg)))
-            best[name] = greater(best[name], here) if name in best else here
-    return best
 
 
 def braking(engagement: Engagement) -> float:

@@ -98,18 +98,15 @@ def _placed(mechanism: Mechanism, engagement: Engagement, p: Peak[float]) -> Pea
 
 def peaks_table(mechanism: Mechanism) -> Table:
     """The greatest peaks, and a table of each engagement's peaks if there are several."""
-    from geneva_cli.motion.timing import timings
-
-    times = timings(mechanism)
     rows = [
         _record(placed_peaks(mechanism, engagement))
-        | {"motion_deg": time.motion_deg, "dwell_deg": time.dwell_deg}
-        for engagement, time in zip(mechanism.engagements, times, strict=True)
+        | {"motion_deg": engagement.motion_deg, "dwell_deg": mechanism.dwell_deg(i)}
+        for i, engagement in enumerate(mechanism.engagements)
     ]
     differ = len(rows) > 1
     values: dict[str, object] = {"spec": mechanism.spec.path, "title": mechanism.spec.title}
     values |= _record(worst(mechanism)) if differ else rows[0]
-    values |= {"motion_deg": times[0].motion_deg, "dwell_deg": times[0].dwell_deg}
+    values |= {key: rows[0][key] for key in ("motion_deg", "dwell_deg")}
     each = rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
     return record_table(values | {"stations": each if differ else None})
 

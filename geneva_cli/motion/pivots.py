@@ -20,6 +20,18 @@ class Pivot(NamedTuple):
     y_mm: float
 
 
+class ShaftPlace(NamedTuple):
+    """A shaft on the line of centres."""
+
+    x_mm: float  # from the wheel's axis
+    sense: float  # 1 if it turns counterclockwise, else -1
+
+    @property
+    def at(self) -> tuple[float, float]:
+        """Its axis."""
+        return self.x_mm, 0.0
+
+
 class Dimension(NamedTuple):
     """A dimension by name: a length, an angle, a number, or a word."""
 

@@ -94,51 +94,6 @@ class Turning(PlaneMotion):
         return math.asin(reach / level) if reach < level else math.pi
 
 
-class Sliding(PlaneMotion):
-    """The travel of a rack along y, by ``radius`` a radian.
-
-    >>> Sliding(50.0).into(np.array([[0.0, 2.0]]), np.array([0.04]))
-    array([[0., 0.]])
-    """
-
-    PERIOD = math.inf
-
-    def __init__(self, radius: float) -> None:
-        self.radius = radius
-
-    def into(self, points: Array, turn: Array) -> Array:
-        """Return points, moved back along y."""
-        out = np.array(points)
-        out[:, 1] -= self.radius * turn
-        return out
-
-    def angle(self, turn: Array) -> Array:
-        """Return 0: a rack does not turn."""
-        return 0.0 * turn
-
-    def level(self, points: Array) -> Array:
-        """Return the position across the rack, x."""
-        return points[..., 0]
-
-    def place(self, points: Array) -> Array:
-        """Return the position along the rack, over the radius."""
-        out: Array = points[..., 1] / self.radius
-        return out
-
-    def outwards(self, points: Array) -> Array:
-        """Return the x axis."""
-        out: Array = 0.0 * points + (1.0, 0.0)
-        return out
-
-    def lever(self, level: N) -> N:
-        """Return the radius, at any level."""
-        return 0.0 * level + self.radius
-
-    def half_span(self, reach: float, level: float) -> float:
-        """Return the disc's radius over the rack's."""
-        return reach / self.radius
-
-
 def turned_points(points: Array, angle: Array) -> Array:
     """Return points (n, 2), each turned about the origin by its own angle, radians."""
     c, s = np.cos(angle), np.sin(angle)

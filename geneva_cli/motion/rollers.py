@@ -33,7 +33,7 @@ def places(wheel: Gearing, drive: Drive, L: float) -> list[RollerPlace]:
     if angles:
         return _at_angles(angles, [one] * len(angles))
     refuse_jam(m, 2.0 * one.half_motion_deg, wheel.SIGN < 0.0)
-    return [one._replace(crank_deg=360.0 * j / m) for j in range(1 if drive.ALIKE else m)]
+    return [one._replace(crank_deg=360.0 * j / m) for j in range(drive.motions)]
 
 
 def _at_angles(angles: tuple[float, ...], rollers: list[RollerPlace]) -> list[RollerPlace]:

@@ -408,7 +408,7 @@ def rising(x: Either) -> Either:
 class Batchable:
     """An object whose attributes are floats, arrays (n, 1) of n designs, or objects with such.
 
-    Paths, slots, motions and engagements are. ``motion.many`` reduces a batch of them to some of
+    Paths, slots, motions and engagements are. ``motion.batch`` reduces a batch of them to some of
     its designs; an object without this base keeps its numbers, whatever they are.
     """
 

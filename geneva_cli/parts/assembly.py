@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism, build
@@ -197,7 +196,7 @@ def assembly(mechanism: Mechanism) -> Assembly:
 def input_of(mechanism: Mechanism) -> Callable[[float], float]:
     """Return the function of an assembly's input angle that is the machine's, both in degrees."""
     spec = mechanism.spec
-    if mechanism.law is None and spec.drive.CRANKED:  # it is turned by a plain crank
+    if mechanism.law is None and spec.drive.crank:  # it is turned by a plain crank
         return spec.input_deg
     return spec.drive_before.input_deg if spec.drive_before else _same
 
@@ -206,11 +205,7 @@ def assembled(mechanism: Mechanism) -> Assembly:
     """Return the assembly of any machine; on a sphere ``pin`` is seen along the wheel's axis."""
     full, spec, to_input = mechanism, mechanism.spec, input_of(mechanism)
     no_gears = spec.size.replace(gear_module_mm=None, gear_teeth=None, gear_shift=None)
-    if mechanism.law is None and spec.drive.CRANKED:
-        keep = spec.drive
-        crank = Crank(
-            n_rpm=keep.n_rpm, rollers=keep.rollers, roller_angles_deg=keep.roller_angles_deg
-        )
+    if mechanism.law is None and (crank := spec.drive.crank):
         mechanism = build(spec.replace(drive=crank, drive_before=None, size=no_gears))
     elif spec.drive_before:  # slots and path are by the angle of the drive's own input shaft
         mechanism = build(spec.replace(drive_before=None, size=no_gears))

@@ -32,6 +32,16 @@ class EdgedParts(Parts):
 
     @property
     @abstractmethod
+    def wheel(self) -> Member:
+        """The wheel or the rack."""
+
+    @property
+    @abstractmethod
+    def crank_without_arm(self) -> Member:
+        """The crank as it lies in the plane of the wheel or the rack."""
+
+    @property
+    @abstractmethod
     def _framed(self) -> FrameAndShafts:
         """The frame and the shafts with sharp edges, computed once."""
 

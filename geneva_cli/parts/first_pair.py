@@ -31,9 +31,9 @@ def first_pair(mechanism: Mechanism) -> Mechanism:
     Raises GenevaError for a machine without a first wheel.
     """
     spec, L = mechanism.spec, mechanism.center_distance_mm
-    first = spec.drive.first_wheel(L)
+    first = mechanism.first_wheel
     if first is None:
-        having = [k for k in registry.DRIVES if registry.drive(k).IN_SERIES]
+        having = registry.drives_with("first_wheel")
         raise GenevaError(
             f'--part first-wheel, first-crank: kind = "{spec.drive.NAME}" has one wheel; '
             f"{' or '.join(having)} has two"

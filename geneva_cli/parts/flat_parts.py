@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.hole_walls import require_faces
 from geneva_cli.geometry.plates import Group, Member, Plate, plates
 from geneva_cli.geometry.shapes import Contour, Point
 from geneva_cli.kept import cached_property
@@ -256,7 +255,7 @@ class FlatParts(EdgedParts):
     @property
     def in_front(self) -> tuple[FlatParts, ...]:
         """Those parts; none without a second wheel, or for a wheel that is not drawn."""
-        return (self.front,) if self.drawn and self.mechanism.spec.drive.IN_SERIES else ()
+        return (self.front,) if self.drawn and self.mechanism.first_wheel else ()
 
     @cached_property
     def first(self) -> tuple[Member, ...]:
@@ -362,6 +361,8 @@ class FlatParts(EdgedParts):
 
     def require(self) -> None:
         """Raise GenevaError for a part that cannot be built, without fitting curves for it."""
+        from geneva_cli.geometry.hole_walls import require_faces
+
         turning = (self.wheel, self.crank) if self.drawn else ()
         for member in (*turning, *self.links.cut, self.frame):
             for plate in plates(member.part):

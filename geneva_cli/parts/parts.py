@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple, Self, TypeAlias
 
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.registry import parts_class, thing
+from geneva_cli.motion.records import parts_class, thing
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly, input_of
 from geneva_cli.parts.turn.machine_parts import CONTACT, Clearances, Lengths, Shape, WorkLimit

@@ -15,12 +15,12 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.numerics.latest import counted
 from geneva_cli.numerics.roots import Falsi
-from geneva_cli.verdict.checks import checks, checks_at_rest, single_check
+from geneva_cli.verdict.both_ways import parts_of_ways, worst_checks
+from geneva_cli.verdict.checks import checks_at_rest, single_check
 from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
 from geneva_cli.verdict.checks.registry import STANDING, checks_of_turn, turn_checks
 
@@ -67,7 +67,7 @@ def judged(mechanism: Mechanism, machine: Parts | None = None, parts: bool = Tru
 
     Without such a change they say why, and name a change with which they pass themselves.
     """
-    rows = checks(mechanism, machine, parts)
+    rows = worst_checks(mechanism, machine, parts)
     failing = [c for c in rows if c.passes is False]
     if not failing:
         return rows
@@ -272,15 +272,12 @@ class _Search:
 
     def _margins(self, machine: Mechanism) -> Iterator[float]:
         """The margin of each wanted check; parts are built for the first that needs them."""
-        from geneva_cli.parts.parts import parts_of
-
-        ways = [parts_of(way, advice=False) for way in every_way(machine)]
-        built = False
+        each, built = parts_of_ways(machine), False
         for check in self.wanted:
             if _needs_parts(check) and not built:
-                self._spend(PARTS * len(ways))
+                self._spend(PARTS * len(each))
                 built = True
-            yield min(_left(parts, check) for parts in ways)
+            yield min(_left(parts, check) for parts in each)
 
     def _holds(self, change: Change, value: Value) -> bool:
         """Return True if the wanted checks pass with a value, and no other check begins to fail."""
@@ -294,24 +291,21 @@ class _Search:
 
         try:
             with self._trial():
-                return all(self._holds_one_way(way, turn) for way in every_way(build(spec)))
+                return all(self._holds_one_way(parts, turn) for parts in parts_of_ways(build(spec)))
         except WorkLimit:
             raise OutOfWork from None  # a trial of some seconds, which is not repeated
         except GenevaError:
             return False
 
-    def _holds_one_way(self, machine: Mechanism, turn: bool) -> bool:
-        from geneva_cli.parts.parts import parts_of
-
+    def _holds_one_way(self, parts: Parts, turn: bool) -> bool:
         # parts that cannot be built, and need not be, hide no check of the motion
-        built = self.parts and machine.spec.is_turned and "parts" not in self.may_fail
-        parts = parts_of(machine, advice=False) if built else None
-        self._spend(PARTS if parts else 0)
-        if parts and any(check.name == "parts" for check in self.wanted):
+        built = self.parts and parts.mechanism.spec.is_turned and "parts" not in self.may_fail
+        self._spend(PARTS if built else 0)
+        if built and any(check.name == "parts" for check in self.wanted):
             _ = parts.built  # most trials end here, before the checks of the motion
-        if not self._pass(checks_at_rest(machine, parts)):
+        if not self._pass(checks_at_rest(parts.mechanism, parts if built else None)):
             return False
-        if parts is None or not turn:
+        if not (built and turn):
             return True
         self._spend(TURN)
         return self._pass(turn_checks(parts, parts.turned.turn))

@@ -13,8 +13,8 @@ from geneva_cli.loads.cycle import Cycle, cycle_of
 from geneva_cli.loads.cycle_quantities import FORCE, STRESS
 from geneva_cli.loads.forces import wheel_grip
 from geneva_cli.loads.impacts.arrival import arrival
+from geneva_cli.loads.load_summary import LoadSummary
 from geneva_cli.loads.stretches import Stretch
-from geneva_cli.loads.summaries import LoadSummary
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import braking

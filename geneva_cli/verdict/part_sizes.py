@@ -1,4 +1,4 @@
-"""The dimensions of stressed parts, of the lock and of racks' horns, for one machine or a batch.
+"""The dimensions of stressed parts, and of the lock, for one machine or a batch.
 
 Parts are sized one design after the other, as their defaults depend on rollers' whole paths.
 """
@@ -13,10 +13,10 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.tolerance.locking import Lock
+from geneva_cli.motion.batch import alone, designs_in
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.many import alone, designs_in
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.registry import thing
+from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Record, parameter, record_of
 from geneva_cli.numerics.jet import Array
 from geneva_cli.parts.outlines.cut_lock import cut_lock
@@ -45,7 +45,7 @@ def layouts_lock_sizes(layouts: Sequence[Layout | None]) -> LockSizes | None:
         LockSizes(one[1].half_width, cut_lock(*one)) if one and one[1].lock else None
         for one in layouts
     ]
-    return batched(locks, _number)
+    return batched(locks, as_numbers)
 
 
 def batched(
@@ -68,7 +68,7 @@ def batched(
     return record_of(like, [member(k) for k in range(len(like))])
 
 
-def _number(values: Array) -> float:
+def as_numbers(values: Array) -> float:
     """Numbers (m,) as those of a machine: (m, 1), or one number."""
     return parameter(values[:, None]) if len(values) > 1 else values.item()
 
@@ -82,21 +82,3 @@ def stressed_parts(machine: Mechanism, layout: Layout | None) -> Stressed | None
         return own(machine) if own else None
     except GenevaError:  # the check of the parts reports the error
         return None
-
-
-def rack_horns(machines: Sequence[Mechanism]) -> tuple[float, float] | None:
-    """Half the slot's width and the recess's radius of racks, (m, 1); None if none has a lock.
-
-    They are NaN for a rack without a lock, and for one that cannot be cut.
-    """
-    return batched([_horn(machine) for machine in machines], _number)
-
-
-def _horn(machine: Mechanism) -> tuple[float, float] | None:
-    from geneva_cli.kinds.linear.rack import rack_sizes  # a wheel that turns needs none
-
-    try:
-        sizes = rack_sizes(machine)
-    except GenevaError:  # the check of the parts reports the error
-        return None
-    return (sizes.half_width, sizes.recess) if sizes.lock else None

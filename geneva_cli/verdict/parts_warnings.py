@@ -36,7 +36,7 @@ def process_warnings(parts: Parts) -> Iterator[Notice]:
         named = list(parts.built.by_name())
     except GenevaError:  # the check of the parts has the reason
         return
-    if spec.wheel.SHELLS and math.isfinite(shop.plate_mm):
+    if parts.LAID_FLAT and math.isfinite(shop.plate_mm):
         yield Notice(
             "bent-parts",
             f"a {spec.size.process} cuts flat plates, but these parts are shells of a sphere: cut "

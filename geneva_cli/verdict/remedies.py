@@ -6,10 +6,12 @@ They are candidates only, the likeliest first; the adviser tries them (see ``adv
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.records import KINDS
 from geneva_cli.parts.shafts.screws import SCREWS
+from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.tables import Z_USUAL, Size
 from geneva_cli.verdict.changes import (
     SIZE_STEPS,
@@ -48,11 +50,12 @@ def _candidates(check: Check, mechanism: Mechanism) -> Iterator[Change]:
     own = {} if is_known else _own_sizes(mechanism)
     # a size that the reason names, such as "wheel_bore_mm = 30: it must be below 20"
     yield from (change for key, changes in own.items() if key in check.why for change in changes)
-    if name in REMEDIES:
+    known = REMEDIES if name in REMEDIES else of_kinds(name)
+    if name in known:
         if name in ("crank_shaft_mm", "crank_hub_mm", "wheel_shaft_mm"):
             yield from _hub(mechanism, name.partition("_")[0])
         has_law = mechanism.spec.motion is not None
-        yield from (change for change in REMEDIES[name] if has_law or change not in _MOTION)
+        yield from (change for change in known[name] if has_law or change not in _MOTION)
     else:
         if mechanism.engagements[0].overtaking > 0.0:
             yield set_to("drive", "gear_ratio", "shockless")
@@ -65,6 +68,13 @@ def _candidates(check: Check, mechanism: Mechanism) -> Iterator[Change]:
         )
     for changes in own.values():
         yield from changes
+
+
+def of_kinds(name: str) -> Mapping[str, tuple[Change, ...]]:
+    """The remedies of the kind that has a check; none without one."""
+    paths = [kind.remedies for kind in KINDS if kind.remedies and name in kind.parts_checks]
+    own: Mapping[str, tuple[Change, ...]] = load_named(paths[0]) if paths else {}
+    return own
 
 
 def _hub(mechanism: Mechanism, part: str) -> Iterator[Change]:
@@ -142,9 +152,9 @@ _LARGER = scaled("size", "center_distance_mm", 20.0)
 _LESS_LOAD = (_SLOWER, _LARGER)
 _TIGHTER = scaled("size", "slot_clearance_mm", 0.0)
 _WIDER_FACE = scaled("size", "face_width_mm", 10.0)
-_BLUNTER = (scaled("size", "lock_edge_mm", 10.0), _WIDER_FACE, _LARGER)
-_OTHER_LOCK = sized("size", "lock_radius_mm")
-_SMALLER = scaled("size", "roller_radius_mm", 0.2)
+BLUNTER = (scaled("size", "lock_edge_mm", 10.0), _WIDER_FACE, _LARGER)
+OTHER_LOCK = sized("size", "lock_radius_mm")
+SMALLER = scaled("size", "roller_radius_mm", 0.2)
 _CRANK = (scaled("size", "crank_bore_mm", 0.2), replaced("size", "crank_bore_mm", 0.0))
 _WIDER = (scaled("size", "roller_radius_mm", 3.0), *_MOTION)
 _CONVEX = (towards("drive", "eccentricity", 0.0), towards("drive", "A", 0.0), _SLOTS)
@@ -179,7 +189,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
     ),
     "horn_stress_MPa": (_WIDER_FACE, scaled("size", "lock_radius_mm", 0.5), _LARGER),
     "lock_horn_stress_MPa": (_WIDER_FACE, scaled("size", "lock_radius_mm", 0.5), _LARGER),
-    "lock_stress_max_MPa": _BLUNTER,
+    "lock_stress_max_MPa": BLUNTER,
     "lock_deflection_max_deg": (scaled("size", "lock_clearance_mm", 0.1), _WIDER_FACE, _LARGER),
     "wheel_shaft_stress_MPa": (
         scaled("shaft", "wheel_diameter_mm", 5.0),
@@ -234,7 +244,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
     ),
     "pressure_angle_deg": (set_to("motion", "ratio", "matched"), *_MOTION, _SLOTS),
     "driven_fraction": (scaled("drive", "n_rpm", 30.0), *_MOTION),
-    "undercut_mm": (_SMALLER, *_MOTION),
+    "undercut_mm": (SMALLER, *_MOTION),
     "velocity_min": (Change("motion", "lambda", _sine),),
     "dwell_deg": (fewer("drive", "rollers", 1), *_MOTION),
     "driver_gear_convexity": _CONVEX,
@@ -246,17 +256,15 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
     "tolerance_slot_mm": (increased("size", "slot_clearance_mm", 1.0),),
     "tolerance_lock_mm": (increased("size", "lock_clearance_mm", 1.0),),
     "tolerance_turns": (),
-    **dict.fromkeys(("stop_turns", "stop_overlap_mm"), (*_OTHER_LOCK, _SMALLER)),
-    "stop_stress_max_MPa": _BLUNTER,
-    "wall_between_slots_mm": (_SMALLER, scaled("size", "slot_clearance_mm", 0.0)),
+    "wall_between_slots_mm": (SMALLER, scaled("size", "slot_clearance_mm", 0.0)),
     "horn_mm": (
-        *_OTHER_LOCK,
-        _SMALLER,
+        *OTHER_LOCK,
+        SMALLER,
         scaled("size", "lock_clearance_mm", 0.0),
         scaled("size", "slot_clearance_mm", 0.0),
     ),
-    "wheels_apart_mm": (_SMALLER, _LARGER, fewer("drive", "wheels", 1)),
-    "rollers_apart_mm": (_SMALLER, increased("drive", "sector_deg", 30.0)),
+    "wheels_apart_mm": (SMALLER, _LARGER, fewer("drive", "wheels", 1)),
+    "rollers_apart_mm": (SMALLER, increased("drive", "sector_deg", 30.0)),
     "crank_shaft_mm": _CRANK,
     "crank_hub_mm": _CRANK,
     "crank_bore_wall_mm": _CRANK,

@@ -8,17 +8,17 @@ which swing, are checked in their planes (``planes``). The frame has holes for t
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.measure import at, bounds
+from geneva_cli.geometry.measure import at
 from geneva_cli.geometry.moments import oriented
 from geneva_cli.geometry.placed import in_place
-from geneva_cli.geometry.plates import Member, plates
-from geneva_cli.geometry.shapes import Arc, Layer, Point, Segment, as_contour
+from geneva_cli.geometry.plates import Member
+from geneva_cli.geometry.shapes import Arc, Layer, Point, Segment
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -26,9 +26,6 @@ from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.gears.gear_pair import gear_seats, pitch_radii
 from geneva_cli.parts.gears.pair_teeth import pair_teeth
 from geneva_cli.parts.outlines.outlines import Outlines
-
-if TYPE_CHECKING:
-    from geneva_cli.kinds.linear.parts import RackParts
 
 Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere
 
@@ -70,9 +67,9 @@ def shaft_gap(parts: FlatParts) -> ShaftGap | None:
 
     Raises GenevaError for sizes that leave no parts.
     """
-    turning = _rings_of((parts.wheel, parts.crank))
-    others = _rings_of((*parts.first, *parts.groove_plate))
-    return _least(parts, turning, [*turning, *others])
+    turning = rings_of((parts.wheel, parts.crank))
+    others = rings_of((*parts.first, *parts.groove_plate))
+    return least_gap(parts.mechanism, turning, [*turning, *others], parts.shafts)
 
 
 def gear_gap(parts: FlatParts) -> ShaftGap | None:
@@ -82,20 +79,17 @@ def gear_gap(parts: FlatParts) -> ShaftGap | None:
 
     Raises GenevaError for sizes that leave no parts.
     """
-    turning = _rings_of((parts.wheel, parts.crank))
-    rings = list(_noncircular(parts.mechanism, parts.drawn))
-    return _least(parts, turning, rings, parts.spacers)
+    turning = rings_of((parts.wheel, parts.crank))
+    rings = list(gear_rings(parts.mechanism, parts.drawn))
+    return least_gap(parts.mechanism, turning, rings, (*parts.shafts, *parts.spacers))
 
 
-def _least(
-    parts: FlatParts | RackParts,
-    turning: list[Ring],
-    rings: list[Ring],
-    others: Sequence[Member] = (),
+def least_gap(
+    mechanism: Mechanism, turning: list[Ring], rings: list[Ring], shafts: Iterable[Member]
 ) -> ShaftGap | None:
-    """Return the least gap of rings to shafts, other parts, and the hubs of wheel and crank."""
-    near = SAME_LENGTH * parts.mechanism.center_distance_mm
-    axes = [ring for ring in turning if ring.layer == "HUB"] + _rings_of((*parts.shafts, *others))
+    """Return the least gap of rings to shafts, and to the hubs of wheel and crank."""
+    near = SAME_LENGTH * mechanism.center_distance_mm
+    axes = [ring for ring in turning if ring.layer == "HUB"] + rings_of(shafts)
     return min(
         (
             ShaftGap(
@@ -110,49 +104,7 @@ def _least(
     )
 
 
-def rack_gear_gap(parts: RackParts) -> ShaftGap | None:
-    """Return the least gap of the gears before a rack's crank to shafts and guide; None without.
-
-    Raises GenevaError for sizes that leave no parts.
-    """
-    rings = list(_noncircular(parts.mechanism, None))
-    to_shafts = _least(parts, [], rings)
-    gaps = [*_guide_gaps(parts, rings), *([to_shafts] if to_shafts else [])]
-    return min(gaps, default=None)
-
-
-def rack_shaft_gap(parts: RackParts) -> ShaftGap | None:
-    """Return the least gap of a shaft to the rack; None where none reaches the rack's heights.
-
-    The rack slides along y, and covers everything up to its edge.
-
-    Raises GenevaError for sizes that leave no parts.
-    """
-    near = SAME_LENGTH * parts.mechanism.center_distance_mm
-    (rack,) = plates(parts.wheel.part)
-    edge = bounds(rack.outline).x1
-    return min(
-        (
-            ShaftGap(shaft.axis[0] - shaft.outer - edge, shaft.name, rack.name)
-            for shaft in _rings_of(parts.shafts)
-            if shaft.high - rack.low > near
-        ),
-        default=None,
-    )
-
-
-def _guide_gaps(parts: RackParts, rings: list[Ring]) -> Iterator[ShaftGap]:
-    """Yield the gaps of rings to the plates of a rack's guide at their heights."""
-    near = SAME_LENGTH * parts.mechanism.center_distance_mm
-    for plate in (plate for one in parts.guide for plate in plates(one.part)):
-        outline = Polyarc([as_contour(plate.outline)])
-        for ring in rings:
-            if min(ring.high, plate.high) - max(ring.low, plate.low) > near:
-                away = float(outline.signed(np.array([ring.axis]))[0])
-                yield ShaftGap(away - ring.outer, plate.name, ring.name)
-
-
-def _noncircular(mechanism: Mechanism, drawn: Outlines | None) -> Iterator[Ring]:
+def gear_rings(mechanism: Mechanism, drawn: Outlines | None) -> Iterator[Ring]:
     """Yield the rings of noncircular gears, out to their farthest points.
 
     ``drawn`` are the outlines of wheel and crank, if they are drawn.
@@ -167,7 +119,8 @@ def _noncircular(mechanism: Mechanism, drawn: Outlines | None) -> Iterator[Ring]
         yield Ring(seat.part, "PITCH", (place, 0.0), 0.0, pitch + tip, seat.low, seat.high)
 
 
-def _rings_of(members: Iterable[Member]) -> list[Ring]:
+def rings_of(members: Iterable[Member]) -> list[Ring]:
+    """Return the rings of some parts."""
     return [ring for one in members for ring in _rings(one)]
 
 

@@ -68,7 +68,8 @@ class Strength:
         """A note on the limits of a known stress."""
         if self["strength.horn.stress_MPa"] is None:
             return []
-        stout, recess = self._stoutness()
+        assert self.load.horns  # which have the stress
+        stout, recess = self.load.horns.stoutness()
         if stout <= horn.STOUT:
             return []
         return [
@@ -79,18 +80,6 @@ class Strength:
                 "stress is 7 % too small for horns of half that radius, more for thicker ones",
             )
         ]
-
-    def _stoutness(self) -> tuple[float, float]:
-        """The thickness of the horns at their mouth over the recess's radius, and that, mm."""
-        sizes = self.load.flat_horns
-        if sizes is not None:
-            return float(horn.stoutness(self.mechanism, *sizes)[0]), sizes[1]
-        (ball,) = self.load.balls
-        assert ball is not None  # without a lock there is no stress
-        from geneva_cli.kinds.spherical.horn import sphere_stoutness
-
-        stout = sphere_stoutness(self.mechanism, ball.half_width, ball.recess, ball.axes)
-        return stout, ball.radius_mm * math.sin(ball.recess)
 
     def reason(self, name: str) -> str | None:
         """The keys that a value of ``REASONS`` needs, in words.
@@ -151,7 +140,7 @@ class Strength:
         yield [self.has_bound]
 
     def _horn(self) -> Keys:
-        if self.load.balls == [None] and self.spec.output.turns:
+        if self.load.horns is None:
             yield self._drawn_parts()
         if self.load.has_horns:
             yield from self._pin()

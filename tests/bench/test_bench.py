@@ -15,23 +15,23 @@ from sampling import some
 from scipy.integrate import dblquad
 from typer.testing import CliRunner
 
-from geneva_cli.bench import run as bench_run
-from geneva_cli.bench.formulas import Proportions
-from geneva_cli.bench.kinds import KINDS, values_of
-from geneva_cli.bench.method import BenchRow, beats, missing, with_frontier
-from geneva_cli.bench.numeric import by_chebpy
-from geneva_cli.bench.plot import svg
-from geneva_cli.bench.run import SUBJECTS, measure
-from geneva_cli.bench.scalar_loop import looped, motion_loop
-from geneva_cli.bench.subjects import export as bench_export
-from geneva_cli.bench.subjects import start as bench_start
-from geneva_cli.bench.subjects import tolerance as bench_tolerance
-from geneva_cli.bench.subjects.cranks import CrankDesigns
-from geneva_cli.bench.subjects.many import PEAK_QUANTITIES
-from geneva_cli.bench.subjects.motion import blocks, stable, stable_texts
-from geneva_cli.bench.timing_pairs import exponent, median_ratio, ratios
-from geneva_cli.bench.truth import acceleration_peak, relative
-from geneva_cli.cli.app import app
+from bench import __main__ as bench_main
+from bench.__main__ import app
+from bench.formulas import Proportions
+from bench.kinds import KINDS, values_of
+from bench.method import BenchRow, beats, missing, with_frontier
+from bench.numeric import by_chebpy
+from bench.plot import svg
+from bench.run import SUBJECTS, measure
+from bench.scalar_loop import looped, motion_loop
+from bench.subjects import export as bench_export
+from bench.subjects import start as bench_start
+from bench.subjects import tolerance as bench_tolerance
+from bench.subjects.cranks import CrankDesigns
+from bench.subjects.many import PEAK_QUANTITIES
+from bench.subjects.motion import blocks, stable, stable_texts
+from bench.timing_pairs import exponent, median_ratio, ratios
+from bench.truth import acceleration_peak, relative
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import peak
 
@@ -132,19 +132,19 @@ def test_ratios_are_of_pairs():
 
 def test_where_the_clock_of_the_processor_stands_still_the_wall_counts(monkeypatch):
     """Some systems' clock ticks every sixteen milliseconds."""
-    monkeypatch.setattr("geneva_cli.bench.timing_pairs.process_time", lambda: 1.0)
+    monkeypatch.setattr("bench.timing_pairs.process_time", lambda: 1.0)
     _, (found,) = ratios(lambda: 0, [lambda: sum(range(1000))], 1e-4)
     assert 0.0 < found.least_s < 1.0
 
 
 def invoke(*words):
-    return CliRunner().invoke(app, ["bench", *words])
+    return CliRunner().invoke(app, words)
 
 
 @pytest.fixture
 def measured_once(monkeypatch):
     """A command shows the rows that another test has measured."""
-    monkeypatch.setattr(bench_run, "measure", lambda name, quick: measured(name))
+    monkeypatch.setattr(bench_main, "measure", lambda name, quick: measured(name))
 
 
 @pytest.mark.usefixtures("measured_once")
@@ -181,7 +181,7 @@ def test_export_names_the_libraries_that_are_missing(monkeypatch):
     found = invoke("export", "--quick", "--format", "json")
     assert found.exit_code == 0, found.output
     assert "polars" in found.stderr
-    assert "geneva-cli[bench]" in found.stderr
+    assert "--group bench" in found.stderr
     methods = {row["method"] for row in json.loads(found.stdout)["rows"]}
     assert "polars" not in methods
     assert "orjson" in methods  # of the tests' own needs
@@ -340,7 +340,7 @@ def test_plots_without_matplotlib(monkeypatch, tmp_path):
         monkeypatch.setitem(sys.modules, name, None)
     found = invoke("start", "--quick", "--plots", str(tmp_path))
     assert found.exit_code == 2
-    assert "geneva-cli[bench]" in found.output
+    assert "--group bench" in found.output
     assert not list(tmp_path.iterdir())
 
 

@@ -9,7 +9,7 @@ import pytest
 import repo
 
 from geneva_cli import Design, design
-from geneva_cli.loads import loads
+from geneva_cli.loads.cycle import greatest
 from geneva_cli.table import Table
 
 pytestmark = pytest.mark.usefixtures("made_once", "read_once")
@@ -49,8 +49,8 @@ def one_zero(found: Design) -> None:
     page, summary, rows = found.report.table, found.peaks_table, found.checks
     places = [*angles("report", page), *angles("peaks", summary)]
     places += [(c.name, c.at_deg) for c in rows if c.at_deg is not None]
-    greatest = {q: loads.greatest(mechanism, q) for q in LIMITED}
-    places += [(q, each.at_deg) for q, each in greatest.items()]
+    most = {q: greatest(mechanism, q) for q in LIMITED}
+    places += [(q, each.at_deg) for q, each in most.items()]
     assert len(places) > 8
     for name, at_deg in places:
         assert low <= at_deg <= low + whole, name
@@ -61,10 +61,10 @@ def one_zero(found: Design) -> None:
     each = {c.name: c.at_deg for c in rows}
     for q in LIMITED:
         shown = told[f"loads.{q}.at_deg"]
-        assert shown in (None, greatest[q].at_deg)
+        assert shown in (None, most[q].at_deg)
         limit = f"{q.rpartition('_')[0]}_max_{q.rpartition('_')[2]}"
         # a check searches sizes, loads both signs: their places differ by rounding, 1e-14 degrees
-        assert each.get(limit) in (None, pytest.approx(greatest[q].at_deg, abs=1e-12))
+        assert each.get(limit) in (None, pytest.approx(most[q].at_deg, abs=1e-12))
     if told["parts.smallest_gap_at_deg"] is not None:
         gaps = [each[n] for n in ("gap_mm", "idle_roller_mm") if n in each]
         assert told["parts.smallest_gap_at_deg"] in gaps

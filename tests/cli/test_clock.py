@@ -13,8 +13,8 @@ import geneva_cli
 from geneva_cli.cli.app import app
 
 ROOT = Path(geneva_cli.__file__).parent
-# Which files may read a clock: the progress bar's, and the bench's, whose subject time is.
-TIMED = {"output/terminal/bar.py", "bench/timing_pairs.py"}
+# Which file may read a clock: the progress bar's.
+TIMED = {"output/terminal/bar.py"}
 CLOCK = re.compile(r"^\s*(import|from) (time|timeit|datetime|resource|sched)\b|os\.times", re.M)
 CLOCKS = ("time", "monotonic", "perf_counter", "process_time", "thread_time")
 HOUR = 3600
@@ -65,7 +65,7 @@ def test_a_slow_computer_prints_the_same_bytes(
     assert shown in slow
 
 
-def test_only_the_progress_bar_and_the_bench_read_a_clock() -> None:
+def test_only_the_progress_bar_reads_a_clock() -> None:
     files = [Path(folder, name) for folder, _, names in os.walk(ROOT) for name in names]
     texts = {
         file.relative_to(ROOT).as_posix(): file.read_text(encoding="utf-8")

@@ -17,7 +17,6 @@ WITHOUT_SPEC = {
     "laws",
     "new",
     "synth",
-    "bench",
     "explain",
     "keys",
     "help",

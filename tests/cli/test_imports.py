@@ -121,9 +121,6 @@ ROWS = [
     Row("synth --motion-deg 180 --z 6 --write 1", "tomli numpy"),
     Row("synth --motion-deg 180 --z 6 --write 4", "tomli numpy"),
     Row("new external"),
-    Row("bench --help"),
-    # json, numpy.ma: SciPy's; matplotlib only for plots
-    Row("bench peaks --quick", "numpy scipy json numpy.ma"),
 ]
 
 # The quick ones may import this much of the program, and no more.

@@ -82,7 +82,7 @@ def test_of_equal_extremes_the_first_is_told() -> None:
         states = cycle.states(x)
         for one, places in told:
             if one.name not in values:
-                values[one.name] = summary.plain(cycle, states, one.name)
+                values[one.name] = cycle.plain(states, one.name)
             at = values[one.name][np.searchsorted(x, places)] * one.sign
             tie = max(SAME * abs(one.value), ROUNDING * one.size)
             assert (at < one.value * one.sign - tie).all(), (design.stem, one, places)

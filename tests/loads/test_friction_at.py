@@ -7,7 +7,7 @@ import pytest
 from words import Spec, Wheel
 
 from geneva_cli import Design
-from geneva_cli.loads.forces import rubbing
+from geneva_cli.loads.load_case import rubbing
 from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.tables import Load, Size
 

@@ -25,6 +25,8 @@ def curved(z, law, alpha0=0.0, ratio=None, gearing="external"):
 
 def pushed(kind, gearing="external", z=6, **keys):
     """Behind a drive whose lengths are known, and with them the forces in its joints."""
+    if kind not in registry.DRIVES:
+        return None
     return Spec(Wheel(z, gearing), registry.drive(kind)(**keys), load=LOAD)
 
 
@@ -46,6 +48,7 @@ MACHINES = {
         drive=registry.drive("elliptical-gears")(eccentricity=0.3)
     ),
 }
+MACHINES = {name: spec for name, spec in MACHINES.items() if spec}  # of the kinds that there are
 FILES = ["epicyclic-z4", "epicyclic-soft-z6", "side-crank-z6", "cam-geneva", "slider-crank"]
 # Places near which a linkage's wheel has its entry and exit, degrees of its crank.
 NEAR = {"slider-crank": (60.75, 225.23), "four-bar": (59.15, 289.43)}

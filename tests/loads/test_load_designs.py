@@ -18,7 +18,7 @@ WITHIN = {"table-law": 128.0}
 PLACES = (-0.85, -0.3, 0.05, 0.7)  # shares of the way to entry, and to exit
 # Where a linkage's wheel has its entry and exit, nearly: degrees of its crank.
 NEAR = {"slider-crank": (60.75, 225.23), "four-bar": (123.3, 236.7)}
-NAMES = [path.stem for path in repo.WHEELS]
+NAMES = [path.stem for path in repo.wheels()]
 QUANTITIES = (
     "omega_rad_s",
     "wheel_torque_Nm",

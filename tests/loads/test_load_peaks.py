@@ -14,9 +14,9 @@ from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads import load_functions, loads
 from geneva_cli.loads.contact import contact
-from geneva_cli.loads.cycle import Cycle
+from geneva_cli.loads.cycle import Cycle, greatest
 from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS
-from geneva_cli.loads.forces import load_case
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import worst
@@ -64,12 +64,12 @@ def test_inertia_alone_takes_the_peaks_of_the_motion(spec):
     """T1 = I w² psi' psi'' and T = I w² psi'', whose peaks have a search of their own: 64 ulp."""
     mechanism = build(spec)
     motion, scale = worst(mechanism), 0.05 * OMEGA**2
-    shaft = loads.greatest(mechanism, "input_torque_Nm")
+    shaft = greatest(mechanism, "input_torque_Nm")
     assert shaft.max == pytest.approx(scale * motion.power.max, rel=2e-14)
     assert loads.kinetic_power_W(mechanism, motion.power.max) == pytest.approx(
         shaft.max * OMEGA, rel=2e-14
     )
-    torque = loads.greatest(mechanism, "wheel_torque_Nm")
+    torque = greatest(mechanism, "wheel_torque_Nm")
     assert torque.max == pytest.approx(scale * motion.acceleration.max, rel=2e-14)
 
 
@@ -104,7 +104,7 @@ def test_against_a_dense_grid(spec):
         if quantity == "pressure_deg":
             found = loads.greatest_pressure(mechanism).max
         else:
-            found = loads.greatest(mechanism, REPORTED_PEAKS[quantity]).max
+            found = greatest(mechanism, REPORTED_PEAKS[quantity]).max
         most = float(np.max(np.abs(values)))
         assert found >= most * (1.0 - 1e-12), quantity
         assert found <= most * 1.002 or math.isinf(found), quantity
@@ -155,7 +155,7 @@ def test_place_and_value_of_a_peak_with_friction():
         return torque(a) * mp.diff(psi, a) + f * force(a) * abs(rubs(a)) * mp.mpf("0.1")
 
     for quantity, of in (("pin_force_N", force), ("input_torque_Nm", shaft)):
-        found = loads.greatest(mechanism, quantity)
+        found = greatest(mechanism, quantity)
         with mp.workdps(60):
             at = mp.findroot(lambda a, of=of: mp.diff(of, a), math.radians(found.at_deg))
             assert found.at_deg == pytest.approx(float(mp.degrees(at)), abs=1e-11)
@@ -169,7 +169,7 @@ def test_a_bearing_wall_as_sharp_as_the_roller_ends_in_an_edge():
     mechanism = mechanism._replace(spec=mechanism.spec.replace(load=load))
     engagement = mechanism.engagements[0]
     assert state(mechanism, engagement, -1.0).contact_stress_MPa == pytest.approx(2179.5, abs=0.1)
-    found = loads.greatest(mechanism, "contact_stress_MPa")
+    found = greatest(mechanism, "contact_stress_MPa")
     assert math.isinf(found.max)
     # The radius of curvature is the roller's there, by differences of the pitch curve in 50 digits.
     l, b = mp.mpf(1) / 2, mp.pi / 6
@@ -209,7 +209,7 @@ def test_the_fastest_speed_meets_its_limit(spec, key, quantity, limit, load):
         return
     assert n is not None
     again = build(mechanism.spec.replace(drive=spec.drive.replace(n_rpm=n)))
-    assert loads.greatest(again, quantity).max == pytest.approx(limit, rel=2e-14)
+    assert greatest(again, quantity).max == pytest.approx(limit, rel=2e-14)
 
 
 def test_the_fastest_speed_where_the_load_is_rounding_at_rest(monkeypatch):
@@ -229,7 +229,7 @@ def test_the_fastest_speed_where_the_load_is_rounding_at_rest(monkeypatch):
     mechanism = build(Spec(Wheel(4), drive, keys, load=Load(0.043), limits=limits))
     n = loads.fastest_rpm(mechanism)
     again = build(mechanism.spec.replace(drive=mechanism.spec.drive.replace(n_rpm=n)))
-    assert loads.greatest(again, "pin_force_N").max == pytest.approx(55.0, rel=2e-14)
+    assert greatest(again, "pin_force_N").max == pytest.approx(55.0, rel=2e-14)
     assert 0 < sum(looks) < 5000
 
 
@@ -259,7 +259,7 @@ def test_limits_that_any_speed_keeps():
 def test_friction_that_holds_the_wheel():
     """r f > rho at mid-motion: no pin force turns the wheel, and a warning says so."""
     mechanism = build(crank(3, load=Load(0.0, 3.0, friction=3.0)))
-    found = loads.greatest(mechanism, "pin_force_N")
+    found = greatest(mechanism, "pin_force_N")
     assert math.isinf(found.max)
     engagement = mechanism.engagements[0]
     # it is told where that begins: all the way to it the force has a bound

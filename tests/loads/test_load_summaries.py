@@ -10,8 +10,7 @@ from loaded_arrays import CARRIED, LOAD, MISSED, NAMES, beyond, dense_means, loa
 from scipy.integrate import quad
 
 from geneva_cli import design
-from geneva_cli.loads import loads
-from geneva_cli.loads.cycle import Cycle
+from geneva_cli.loads.cycle import Cycle, greatest
 from geneva_cli.loads.summaries import load_peaks, load_summaries
 from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import build
@@ -215,7 +214,7 @@ def test_greatest_sizes_as_the_report_tells_them(name):
     for row, i in list(enumerate(found.which))[:2]:
         machine = alone(spec, varied, i)
         for told, name_ in names.items():
-            one = loads.greatest(machine, name_)
+            one = greatest(machine, name_)
             assert together[name_].max[row] == pytest.approx(one.max, rel=32 * ULP), (told, i)
             if np.isfinite(one.max):
                 assert together[name_].at_deg[row] == pytest.approx(one.at_deg, abs=1e-4)

@@ -7,7 +7,7 @@ import pytest
 from load_states import state
 from words import Drive, Motion, Spec, Wheel
 
-from geneva_cli.loads import loads
+from geneva_cli.loads.cycle import greatest
 from geneva_cli.motion import registry
 from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.tables import Load, Size
@@ -23,16 +23,16 @@ PRESS = Spec(
 
 
 def pin_force(motion: Motion) -> float:
-    return loads.greatest(build(PRESS.replace(motion=motion)), "pin_force_N").max
+    return greatest(build(PRESS.replace(motion=motion)), "pin_force_N").max
 
 
 def test_the_press_with_straight_slots() -> None:
     """Krasniqi: 3433 N, at 17.07 degrees before mid-motion (theory of the straight slot)."""
-    found = loads.greatest(build(PRESS), "pin_force_N")
+    found = greatest(build(PRESS), "pin_force_N")
     assert found.max == pytest.approx(3433.0, abs=0.5)
     assert found.at_deg == pytest.approx(-17.07, abs=0.005)
     # Hertz for 3433 N, 30 mm, roller of 20 mm, E = 210 GPa: 458.4 MPa
-    assert loads.greatest(build(PRESS), "contact_stress_MPa").max == pytest.approx(458.4, abs=0.1)
+    assert greatest(build(PRESS), "contact_stress_MPa").max == pytest.approx(458.4, abs=0.1)
 
 
 @pytest.mark.parametrize(
@@ -78,8 +78,8 @@ def test_inertia_factors(z: int, force: float, power: float) -> None:
     """
     spec = Spec(Wheel(z), Drive(n_rpm=30.0 / math.pi), size=Size(1000.0), load=Load(1.0))
     mechanism = build(spec)
-    assert loads.greatest(mechanism, "pin_force_N").max == pytest.approx(force, rel=4e-15)
-    assert loads.greatest(mechanism, "input_torque_Nm").max == pytest.approx(power, rel=4e-15)
+    assert greatest(mechanism, "pin_force_N").max == pytest.approx(force, rel=4e-15)
+    assert greatest(mechanism, "input_torque_Nm").max == pytest.approx(power, rel=4e-15)
 
 
 def test_power_closes_over_a_cycle() -> None:
@@ -100,7 +100,7 @@ def test_the_greatest_of_two_that_are_nearly_one() -> None:
     """
     drive = registry.drive("side-crank")(A=0.3, roller_angles_deg=(0.0, 120.0, 240.0 - 5e-12))
     m = build(Spec(Wheel(3), drive, size=Size(100.0), load=Load(1.0)))
-    found = loads.greatest(m, "pin_force_N")
+    found = greatest(m, "pin_force_N")
     _, one, other = m.engagements  # the other's motion is the one's, backwards
     near = found.at_deg - one.mid_deg + np.linspace(-1e-3, 1e-3, 2001)  # of a flat top
     both = state(m, one, near), state(m, other, -near)

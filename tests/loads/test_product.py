@@ -67,7 +67,7 @@ def test_plain_wheel(z, ratio):
     assert got.friction_needed.item() == pytest.approx(got.acceleration_m_s2.max.item() / G)
 
 
-@pytest.mark.parametrize("file", repo.WHEELS, ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", repo.wheels(), ids=lambda file: file.stem)
 @pytest.mark.sampled(8)
 def test_dense_scan(file):
     """No place of 20,000 has more acceleration than the peak, and one nearly as much."""

@@ -11,7 +11,7 @@ from witness import mp
 from words import Drive, Keys, Motion, Spec, Wheel, load
 
 from geneva_cli.loads.cycle import Cycle
-from geneva_cli.loads.forces import load_case
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.strength.roller import (
     LIFE_EXPONENT,
     Life,

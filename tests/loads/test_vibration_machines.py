@@ -6,6 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import repo
+from bench import truth
 from machine_witness import mp as exact_digits
 from machine_witness import on_path
 from sampling import some
@@ -14,9 +15,7 @@ from words import law as load_law
 from words import load, points
 
 from geneva_cli import Crank, Design, External, Shaft, SideCrank
-from geneva_cli.bench import truth
 from geneva_cli.drives.noncircular_gears import NoncircularGears
-from geneva_cli.kinds.linkages.four_bar import FourBar
 from geneva_cli.loads.vibration.lobes import highest_ratio, lobes
 from geneva_cli.loads.vibration.oscillator import Oscillator
 from geneva_cli.loads.vibration.shape import law_shape, shape
@@ -119,6 +118,8 @@ def test_rounding_is_no_burden():
     The wheel's angle in 50 digits, by parts twice, gives the residual p² integral of s e^(p (1-u)),
     plus p. The terms of the series that rounding fills are 5e-13 of the greatest derivative.
     """
+    from geneva_cli.kinds.linkages.four_bar import FourBar
+
     drive = FourBar(
         crank_mm=35.0, ground_mm=91.0, coupler_mm=79.5, rocker_mm=94.76896748337387,
         point_mm=121.4652374962513, point_deg=25.0, entry_deg=81.61205802280841,

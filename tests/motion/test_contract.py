@@ -16,7 +16,8 @@ from machine_witness import motions
 from sampling import some
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.many import many, may_vary, taken
+from geneva_cli.motion.batch import taken
+from geneva_cli.motion.many import many, may_vary
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.jet import turning

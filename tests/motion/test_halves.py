@@ -12,8 +12,7 @@ from geneva_cli.design import Size
 from geneva_cli.drawings.sheet.points import tables
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion import registry
-from geneva_cli.motion.many import many
-from geneva_cli.motion.peak_search import worst_peaks
+from geneva_cli.motion.many import many, worst_peaks
 from geneva_cli.motion.peaks import worst
 from geneva_cli.parts.slots.slot_sampling import chord_errors, nodes
 

@@ -164,6 +164,7 @@ def test_solids_have_the_bores_of_drawings(shape):
 
 def test_a_shaft_fits_a_spherical_hub():
     """Its bore is in the hub alone, whose round outside is in the shell."""
+
     size = Size(80.0, 5.0, wheel_bore="hex", wheel_bore_mm=10.0, wheel_hub_mm=16.0, crank_bore="D")
     design = Design(Spherical(6), size=size)
     members = parts_of(design.mechanism).members
@@ -218,6 +219,7 @@ def test_without_a_spherical_hub_the_wall_is_that_to_the_slots():
 
 
 def test_a_spherical_crank_hub_that_its_keyway_cuts_is_refused():
+
     size = {"crank_bore_mm": 8.0, "crank_hub_mm": 9.0, "crank_keyway": "DIN 6885-1"}
     design = Design(TILTED, size=Size(100.0, 5.0, **size))
     with pytest.raises(GenevaError, match="crank_hub_mm = 9: it must be above 10, the diam") as no:

@@ -10,7 +10,6 @@ import pytest
 from words import Spec, Wheel
 
 from geneva_cli import Design
-from geneva_cli.kinds.spherical.ball import inner_edge
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.outlines.outline_sizes import machine_sizes
 from geneva_cli.parts.outlines.wheel_outline import dial_bolts
@@ -156,6 +155,8 @@ def test_bores_of_a_sphere():
 
     Where a hole is nearer than that, it ends midway between both.
     """
+    from geneva_cli.kinds.spherical.ball import inner_edge
+
     for distance, bore in ((90.0, 7.5), (89.9, 6.0)):
         mechanism = Design.of(Spec(Wheel(6, "spherical"), size=Size(distance))).mechanism
         assert parts_of(mechanism).shells.ball.bore_mm == bore

@@ -16,7 +16,6 @@ from geneva_cli import (
     EllipticalGears,
     Epicyclic,
     External,
-    GearSector,
     NoncircularGears,
     SideCrank,
 )
@@ -31,7 +30,6 @@ from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.gears.gear_mesh import gear_mesh
 from geneva_cli.parts.gears.gear_pair import driven_curve, driver_curve
 from geneva_cli.spec.tables import Size
-from geneva_cli.verdict.headline import both_ways_lines
 
 WRITE = {
     "arcs": lambda c, a, b: fit.arcs(c, a, b, 1e-5),
@@ -293,44 +291,6 @@ def test_planet_and_fixed_gear_mesh_with_their_backlash(drive, z, keys):
         assert play * at_planet.radius == pytest.approx(backlash, abs=4e-3)
 
 
-@pytest.mark.sampled(6)
-@pytest.mark.parametrize("backlash", [0.0, 0.1])
-@pytest.mark.parametrize(
-    ("z", "sector", "module"),
-    [
-        (3, 60.0, 2.0),
-        (4, 150.0, 2.0),
-        (8, 4.0, 1.0),
-        (3, 60.0, 5.0),
-        (3, 67.0, 4.0),
-        (6, 20.0, 3.0),
-    ],
-)
-def test_sectors_drive_the_whole_arc_and_are_free_beyond(z, sector, module, backlash):
-    """Turned as crank and wheel turn: in contact while gears drive, and no overlap at any time."""
-    drive = GearSector(sector_deg=sector)
-    design, ((crank, on_crank), (wheel, _)) = gears(
-        drive, z, gear_module_mm=module, gear_backlash_mm=backlash
-    )
-    where, half = assembly(design.mechanism), 0.5 * sector
-    near = shapely.box(on_crank.at[0] - on_crank.cut.teeth.tip, -60.0, 70.0 + on_crank.at[0], 60.0)
-    assert on_crank.cut.last_tip <= on_crank.cut.teeth.tip
-    gaps = {}
-    inner = np.linspace(-half + 0.01, half - 0.01, 41)
-    for x in (*inner, *np.linspace(half, half + 40.0, 60), *np.linspace(-half - 40.0, -half, 60)):
-        turns = [
-            float((angle(np.array([x])) - angle(np.zeros(1)))[0])
-            for angle in (where.crank, where.wheel)
-        ]
-        one = translate(rotate(crank, turns[0], (0.0, 0.0), use_radians=True), *on_crank.at)
-        other = rotate(wheel, turns[1], (0.0, 0.0), use_radians=True).intersection(near)
-        assert one.intersection(other).area < 1e-6
-        gaps[x] = one.distance(other)
-    # chords of the outlines' arcs lie below them by up to 1e-4 mm
-    assert max(gaps[x] for x in inner) < 3e-4
-    assert not gaps[half + 40.0] < 1e-3  # NaN: no tooth is near
-
-
 @cache
 def pair(drive, **keys):
     design = Design(External(6), drive, size=Size(gear_module_mm=2.0, **keys))
@@ -387,27 +347,6 @@ def test_noncircular_gears_mesh(kind):
     [
         (SOFT, 4, {"gear_module_mm": 5.0}, "pointed; gear_module_mm = 4 is small enough"),
         (SOFT, 4, {"gear_module_mm": 2.0, "gear_shift": -0.5}, "gear_shift = -0.5.*undercut"),
-        (GearSector(sector_deg=60.0), 3, {"gear_module_mm": 2.0, "gear_teeth": 9}, "on sectors"),
-        (GearSector(sector_deg=60.0), 3, {"gear_module_mm": 30.0}, "small enough"),
-        # a gear of 100 mm has 1000 teeth at 0.1 mm, to rounding
-        (
-            GearSector(sector_deg=60.0),
-            3,
-            {"gear_module_mm": 0.01},
-            "gear_module_mm = 0.1.* is large",
-        ),
-        (
-            GearSector(sector_deg=60.0),
-            3,
-            {"gear_module_mm": 1.0, "gear_shift": -0.9},
-            "by more than 0.86 modules; remove gear_shift",
-        ),
-        (
-            GearSector(sector_deg=60.0),
-            3,
-            {"gear_module_mm": 1.0, "gear_backlash_mm": 9.0},
-            "pointed; reduce gear_backlash_mm",
-        ),
         (SOFT, 4, {"gear_module_mm": 0.5, "gear_teeth": 3}, "; remove gear_teeth"),
         (EllipticalGears(eccentricity=0.3), 6, {"gear_module_mm": 2.0}, "for 49 teeth"),
         (
@@ -435,22 +374,6 @@ def test_a_module_without_gears_is_refused(drive):
     with pytest.raises(GenevaError, match="gear_module_mm cuts the teeth of gears") as caught:
         _ = Design(External(4), drive, size=Size(gear_module_mm=2.0)).mechanism
     assert caught.value.key == ("size", "gear_module_mm")
-
-
-@pytest.mark.usefixtures("no_advice")
-def test_sectors_whose_last_tooth_is_lower_do_not_serve_both_ways():
-    """Backwards the lower tooth would be the first, and the last one would jam."""
-    sector = GearSector(sector_deg=60.0, both_ways=True)
-    design = Design(External(3), sector, size=Size(gear_module_mm=2.0))
-    (row,) = [check for check in design.checks if check.name == "link_gap_mm"]
-    assert row.passes is False
-    assert "crank gear is lower, so that it drives one way only" in row.why
-    (line,) = both_ways_lines(design.checks)
-    assert line.text == "no: every check is the same in both directions"
-    assert Design(External(3), sector).passes
-    # planets turn either way
-    planet = Epicyclic(planet_ratio="shockless", both_ways=True)
-    assert Design(External(4), planet, size=Size(gear_module_mm=2.0)).passes
 
 
 def test_solids_lists_and_drawings_have_the_teeth():

@@ -13,7 +13,8 @@ from drawing_witness import vertices
 from scipy.spatial import KDTree
 from words import Drive, Keys, Motion, Spec, Wheel
 
-from geneva_cli import Design, EllipticalGears, External, Internal, Linear, load
+import geneva_cli
+from geneva_cli import Design, EllipticalGears, External, Internal, load
 from geneva_cli.drawings.sheet.bores import bored
 from geneva_cli.drawings.sheet.crank import draw_arm, draw_disc, draw_roller
 from geneva_cli.drawings.sheet.links import draw_link
@@ -25,10 +26,6 @@ from geneva_cli.geometry.moments import moments
 from geneva_cli.geometry.plates import plates, solids
 from geneva_cli.geometry.shapes import Arc, Circle
 from geneva_cli.geometry.sheet import CENTRE, OUTLINE
-from geneva_cli.kinds.linear.arm import crank_arm as rack_arm
-from geneva_cli.kinds.linear.frame import guide
-from geneva_cli.kinds.spherical.arm_drawing import arm_cone
-from geneva_cli.kinds.spherical.drawings import wheel_cone
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.first_pair import first_pair
 from geneva_cli.parts.gears.gear_pair import gear_shafts
@@ -125,7 +122,9 @@ def test_the_bolts_of_a_racks_arm_are_amid_its_locking_sector():
     It lies over half a turn opposite the roller, so the bolts are at 135° and 225°. A hole of up to
     2 R/40 = 2.5 mm is one of 2.4 mm for M2, whose pitch is 0.4 mm.
     """
-    design = Design(Linear(6), size=Size(center_distance_mm=50.0, roller_radius_mm=6.0))
+    from geneva_cli.kinds.linear.arm import crank_arm as rack_arm
+
+    design = Design(geneva_cli.Linear(6), size=Size(center_distance_mm=50.0, roller_radius_mm=6.0))
     far = 0.5 * (50.0 - 38.0 + 0.25 + 38.0)
     arm, at = rack_arm(design.mechanism), far * math.sqrt(0.5)
     holes = [(*bolt.centre, bolt.radius) for bolt in arm.bolts]
@@ -238,8 +237,10 @@ def test_a_groove_plate_has_its_screws_amid_its_rim():
 
 def test_screws_are_amid_the_guides_bars():
     """R = 50, half a slot 6.1: bars of R/10, whose screws are half a bar from their ends."""
+    from geneva_cli.kinds.linear.frame import guide
+
     keys = {"roller_radius_mm": 6.0, "slot_clearance_mm": 0.1}
-    design = Design(Linear(6), size=Size(center_distance_mm=50.0, **keys))
+    design = Design(geneva_cli.Linear(6), size=Size(center_distance_mm=50.0, **keys))
     for bar in guide(design.mechanism)[:2]:
         box = bounds(bar.outline)
         middle, far = 0.5 * (box.x0 + box.x1), 50.0 - 6.1 - 2.5
@@ -405,6 +406,7 @@ def test_the_crank_of_a_sphere():
     Their circle's diameter is across the sphere of the machine, whose radius is L. Half of the
     wheel's thickness is inside of that sphere.
     """
+
     bolts = {"lock_bolts": 2, "lock_bolt_circle_mm": 60.0, "lock_bolt_mm": 2.0}
     size = Size(
         L,
@@ -441,6 +443,9 @@ def test_cones_that_shells_are_laid_flat_on():
 
     The pin is 30° off the crank's axis. At entry the roller is 90° off the wheel's.
     """
+    from geneva_cli.kinds.spherical.arm_drawing import arm_cone
+    from geneva_cli.kinds.spherical.drawings import wheel_cone
+
     size = Size(L, 6.0, pin_gap_mm=0.5, wheel_thickness_mm=8.0, arm_thickness_mm=5.0)
     mechanism = Design.of(Spec(Wheel(6, "spherical"), size=size)).mechanism
     ball = parts_of(mechanism).shells.ball

@@ -19,6 +19,7 @@ from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.moments import moments
 from geneva_cli.motion import registry
+from geneva_cli.motion.records import of_wheel
 from geneva_cli.output.chosen import only
 
 DESIGNS = sorted(Path(__file__, "../../../designs").resolve().glob("*.toml"))
@@ -322,7 +323,7 @@ def test_every_kind_is_rebuilt():
     """No drive, and no gearing with a parts list, is left out of the designs."""
     specs = [load(str(path)).spec for path in DESIGNS]
     assert {spec.drive.NAME for spec in specs} == set(registry.DRIVES)
-    listed = {name for name in registry.GEARINGS if any(k.parts for k in registry.of_wheel(name))}
+    listed = {name for name in registry.GEARINGS if any(k.parts for k in of_wheel(name))}
     assert {spec.wheel.NAME for spec in specs} == listed
 
 

@@ -23,7 +23,8 @@ from sheet_witness import (
 )
 from words import Drive, Keys, Motion, Spec, Wheel
 
-from geneva_cli import EllipticalGears, Linear, load
+import geneva_cli
+from geneva_cli import EllipticalGears, load
 from geneva_cli.design import Design
 from geneva_cli.drawings.sheet.cut import faces
 from geneva_cli.drawings.sheet.paper import FORMATS, SCALES
@@ -37,8 +38,6 @@ from geneva_cli.geometry.placed import in_place
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line
 from geneva_cli.geometry.sheet import Label
 from geneva_cli.geometry.sphere import place
-from geneva_cli.kinds.spherical.drawings import wheel_cone
-from geneva_cli.kinds.spherical.sheet import flat_slot
 from geneva_cli.output.sheets import dxf
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.spec.tables import RollerMaterial, Size, TitleBlock, Tolerance, WheelMaterial
@@ -354,6 +353,9 @@ def test_points_of_a_slot_laid_flat_are_on_the_sphere():
 
     Within the rounding to three decimals and a tenth of the table's tolerance.
     """
+    from geneva_cli.kinds.spherical.drawings import wheel_cone
+    from geneva_cli.kinds.spherical.sheet import flat_slot
+
     ball = load(str(repo.DESIGNS / "spherical-z6.toml")).parts.shells.ball
     cone, R, b = wheel_cone(ball), ball.radius_mm, math.pi / ball.z
     points = printed(flat_slot(ball, TOLERANCE))
@@ -425,7 +427,7 @@ def test_dimensions_stay_clear_of_each_other_in_a_narrow_bore(sheets):
 
 def test_a_distance_that_has_no_place_says_what_it_is():
     """A rack of 24 slots is drawn at 1:10: texts of shorter distances are in the way of others."""
-    design = Design(Linear(24), EllipticalGears(eccentricity=0.3))
+    design = Design(geneva_cli.Linear(24), EllipticalGears(eccentricity=0.3))
     notes = {label.text for label in design.sheet(TOLERANCE).labels}
     box = bounds(design.drawing("frame", TOLERANCE).shapes[0])
     assert f"{box.x1 - box.x0:g} wide" in notes

@@ -8,7 +8,8 @@ import trimesh
 from drawing_witness import polygon
 from step_witness import File, Solid
 
-from geneva_cli import Design, External, GenevaPair, Internal, SideCrank, Size, Spherical, load
+import geneva_cli
+from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.plates import Group, Plate, Stack, lowered, solids
@@ -225,6 +226,7 @@ def test_refused(design, said):
 
 def test_steps_on_a_sphere():
     """Seen from its axis each shaft is one of a plane: the sphere's outside is the height 0."""
+
     size = Size(80.0, 5.0, shafts="turned", wheel_bore_mm=16.0, wheel_hub_mm=24.0, arm_bore_mm=10.0)
     parts = parts_of(Design(Spherical(6), size=size).mechanism)
     wheel, crank = (m.part for m in parts.shafts)
@@ -341,6 +343,7 @@ def test_stress_in_the_bearing():
 
 @pytest.mark.parametrize("shape", ["round", "D", "hex"])
 def test_shafts_of_a_sphere_fit_too(shape):
+
     size = Size(80.0, 5.0, wheel_bore=shape, wheel_bore_mm=10.0, wheel_hub_mm=16.0, process="print")
     parts = parts_of(Design(Spherical(6), size=size).mechanism)
     (bar,) = [m.part for m in parts.shafts if m.part.name == "wheel's shaft"]
@@ -353,6 +356,6 @@ def test_shafts_of_a_sphere_fit_too(shape):
 
 @pytest.mark.parametrize("crank", [{"crank_bore": "hex"}, {"crank_keyway": "DIN 6885-1"}])
 def test_a_first_wheel_on_a_shaft_that_is_not_round_is_refused(crank):
-    design = Design(External(4), GenevaPair(first_z=4), size=Size(**crank))
+    design = Design(External(4), geneva_cli.GenevaPair(first_z=4), size=Size(**crank))
     with pytest.raises(GenevaError, match="the first wheel on the crank's shaft has a round bore"):
         design.drawing("assembly")

@@ -11,19 +11,18 @@ from geneva_cli import (
     Design,
     External,
     Internal,
-    Linear,
     Load,
     Mass,
     Motor,
     RollerMaterial,
     Size,
-    Spherical,
     Support,
     WheelMaterial,
     load,
 )
 from geneva_cli.drawings.parts_list import parts_table
 from geneva_cli.geometry.mass import MassProperties
+from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.verdict.carried_warnings import carried_warnings, unlikely_warnings
@@ -94,9 +93,10 @@ def test_a_wheel_that_hardly_counts_is_not_mentioned():
     assert not told(Spec(External(6)), MassProperties(2.0, (0.0, 0.0), 0.005))
 
 
-@pytest.mark.parametrize("wheel", [External(6), Internal(6), Spherical(6), Linear(6)])
-def test_lengths_in_metres_are_said(wheel):
+@pytest.mark.parametrize("gearing", ["external", "internal", "spherical", "linear"])
+def test_lengths_in_metres_are_said(gearing):
     """A quarter of a metre is 250 mm, and no machine is below 5 mm."""
+    wheel = registry.gearing(gearing)(6)
     (said,) = unlikely_warnings(build(Spec(wheel, size=Size(0.25))))
     assert said.name == "tiny-machine"
     assert "in metres, write 250;" in said

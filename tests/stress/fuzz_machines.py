@@ -327,7 +327,7 @@ def machine_text(rng, kind=None):
 def fitting(text):
     """The lines without those of teeth, where the machine has none or they have no module."""
     kinds = [line[8:-1] for line in text if line.startswith("kind = ")]
-    toothed = any(drive(kind).TOOTHED or drive(kind).GEARED for kind in kinds)
+    toothed = any({"gears", "round_gears"} & {*vars(drive(kind))} for kind in kinds)
     if toothed and any(line.startswith("gear_module_mm") for line in text):
         return text
     teeth = ("gear_module", "gear_teeth", "gear_shift", "gear_backlash")

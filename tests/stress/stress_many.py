@@ -24,7 +24,8 @@ from machine_witness import motions
 from many_options import options
 from witness import QUANTITIES as EXACT
 
-from geneva_cli.motion.many import many, taken
+from geneva_cli.motion.batch import taken
+from geneva_cli.motion.many import many
 from geneva_cli.motion.peak_search import motion_peaks
 
 NAMES = ("velocity", "acceleration")

@@ -52,7 +52,6 @@ def fuzz(examples):
 
 
 seeds = st.integers(0, 2**32)
-SLOW = {"bench": ["--quick"]}  # without it a run takes minutes
 SECONDS = 120  # advice on curved parts that fail takes some 10 s of CPU
 
 
@@ -364,7 +363,7 @@ def test_command_lines(name, tmp_path, monkeypatch):
     for case in range(LINES):
         rng, sound = numbers(name, case), case % 2 == 0
         written(rng, sound)
-        words = (sound_line if sound else wild_line)(rng, name) + SLOW.get(name, [])
+        words = (sound_line if sound else wild_line)(rng, name)
         found = tried(words, rng.choice(SOUND_SPECS))
         succeeds = found.exit_code < (2 if name in JUDGES else 1)
         assert succeeds or not sound, (words, found.stderr)

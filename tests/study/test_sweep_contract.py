@@ -7,10 +7,12 @@ import pytest
 from design_arrays import MACHINES
 from words import Motion
 
-from geneva_cli import Design, External, GearSector, Load, SideCrank
+import geneva_cli
+from geneva_cli import Design, External, Load, SideCrank
 from geneva_cli.design import load
+from geneva_cli.motion.batch import alone, taken
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.many import alone, many, may_vary, taken
+from geneva_cli.motion.many import many, may_vary
 from geneva_cli.study.sweep.best import best_spec
 from geneva_cli.study.sweep.outcome import Outcome
 from geneva_cli.study.sweep.request import request
@@ -125,7 +127,9 @@ def test_a_gear_sector_under_loads_that_vary_alone(tmp_path, friction):
     text += f"[load]\ninertia_kgm2 = 0.3\nfriction = {friction}\n"
     rows = swept(tmp_path, text, "load.inertia_kgm2=0.3,0.6", pick="loads.pin_force_N.max")
     assert rows[1][1] / rows[0][1] == pytest.approx(2.0, rel=1e-12)
-    spec = Spec(External(3), GearSector(sector_deg=60.0), load=Load(0.3, friction=friction))
+    spec = Spec(
+        External(3), geneva_cli.GearSector(sector_deg=60.0), load=Load(0.3, friction=friction)
+    )
     single = Design(spec.wheel, spec.drive, load=spec.load).loads["pin_force_N"]
     assert rows[0][1] == pytest.approx(max(single.max, -single.min), rel=1e-14)
 

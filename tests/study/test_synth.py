@@ -30,8 +30,7 @@ from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.rows import NEAR_DEG, MachineRow, _slot_failure
 from geneva_cli.study.synth.search import search
 from geneva_cli.study.synth.shown import for_people, for_terminal
-from geneva_cli.study.synth.table import NAMES, synthesis_table, turned
-from geneva_cli.study.synth.written import chosen, commented
+from geneva_cli.study.synth.table import NAMES, chosen, commented, synthesis_table, turned
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.motion import GROOVE_MAX_DEG, groove_pressure
 

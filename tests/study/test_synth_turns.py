@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+import geneva_cli
 from geneva_cli.drives.cam import Cam
 from geneva_cli.drives.crank import Crank
-from geneva_cli.kinds.gear_sector.motion import GearSector
 from geneva_cli.motion.laws.standard import ModifiedSine
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
@@ -113,15 +113,16 @@ def test_a_wheel_that_is_free_by_far_is_given_up(wheel, alpha0_deg, end):
 
 
 MENDED = [  # what is found to fail with the usual roller, and the roller that mends it, mm
-    (Spec(External(21), GearSector(sector_deg=33.0)), "rollers_apart_mm", 3.0),
-    (Spec(External(21, offset_mm=10.0), Crank(rollers=2)), "gap_mm", 3.0),
+    (lambda: geneva_cli.GearSector(sector_deg=33.0), External(21), "rollers_apart_mm", 3.0),
+    (lambda: Crank(rollers=2), External(21, offset_mm=10.0), "gap_mm", 3.0),
 ]
 
 
 @pytest.mark.sampled(2)
-@pytest.mark.parametrize("spec, name, radius", MENDED, ids=[name for _, name, _ in MENDED])
-def test_the_first_roller_that_passes_every_check_is_taken(spec, name, radius):
+@pytest.mark.parametrize("drive, wheel, name, radius", MENDED, ids=["gear-sector", "two rollers"])
+def test_the_first_roller_that_passes_every_check_is_taken(drive, wheel, name, radius):
     """As trying one after the other has it, with all their checks."""
+    spec = Spec(wheel, drive())
     assert name in [c.name for c in checks(build(spec)) if c.passes is False]
     L = build(spec).center_distance_mm
     sized = (with_roller(spec, exact(0.01 * percent * L)) for percent in USUAL)

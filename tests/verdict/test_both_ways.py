@@ -15,7 +15,6 @@ from geneva_cli import (
     Crank,
     Design,
     External,
-    GenevaPair,
     Internal,
     Limits,
     Load,
@@ -35,8 +34,8 @@ from geneva_cli.motion.many import many
 from geneva_cli.parts.outlines.outline_sizes import built
 from geneva_cli.study.summary.loads import of_loads
 from geneva_cli.verdict.advice import judged
-from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.checks.check import Check, worst
+from geneva_cli.verdict.both_ways import worse_of, worst_checks
+from geneva_cli.verdict.checks.check import Check
 
 BOTH = Crank(both_ways=True)
 OFFSET = External(6, offset_mm=12.0)
@@ -60,11 +59,12 @@ def both(name, *settings):
         Design(Spherical(6), BOTH),
         Design(External(6, steps_deg=(72, 48)), BOTH),
         Design(External(6), SideCrank(A=0.4, rollers=2, both_ways=True)),
-        Design(External(4), GenevaPair(first_z=4, both_ways=True)),
+        "geneva-pair.toml",
         Design(OFFSET),  # which turns one way
     ],
 )
 def test_one_machine_serves_both_ways(machine):
+    machine = both(machine) if isinstance(machine, str) else machine
     assert every_way(machine.mechanism) == (machine.mechanism,)
 
 
@@ -75,11 +75,12 @@ def test_one_machine_serves_both_ways(machine):
         Design(External(6), BOTH, TILTED),
         Design(External(3, steps_deg=(100, 122.5, 137.5)), BOTH),
         Design(External(8), Crank(both_ways=True, roller_angles_deg=(0.0, 140.0))),
-        both("four-bar-z4.toml"),
-        both("slider-crank.toml"),
+        "four-bar-z4.toml",
+        "slider-crank.toml",
     ],
 )
 def test_backwards_twice_is_the_machine_itself(machine):
+    machine = both(machine) if isinstance(machine, str) else machine
     first, second = every_way(machine.mechanism)
     again = backwards(second)
     assert second.spec != first.spec
@@ -182,12 +183,12 @@ def test_a_batch_has_the_sizes_of_its_designs():
 def test_each_check_is_the_worse_one():
     of = both("offset-slots.toml")
     one, other = every_way(of.mechanism)
-    rows = {c.name: c for c in checks(of.mechanism)}
+    rows = {c.name: c for c in worst_checks(of.mechanism)}
     pin = [Design.of(m.spec).strength["strength.pin.stress_MPa"] for m in (one, other)]
     assert rows["pin_stress_MPa"].value == max(pin) == pin[1]
     assert rows["pin_stress_MPa"].direction == "backwards"
     assert rows["dwell_deg"].direction == ""
-    assert not any(c.direction for c in checks(one_way("offset-slots.toml").mechanism))
+    assert not any(c.direction for c in worst_checks(one_way("offset-slots.toml").mechanism))
 
 
 def test_the_worse_of_two_rows():
@@ -202,10 +203,10 @@ def test_the_worse_of_two_rows():
         ([], [bad], (bad, "backwards")),
     ):
         row, direction = want
-        assert worst(one, other) == [row._replace(direction=direction)]
+        assert worse_of(one, other) == [row._replace(direction=direction)]
     # two checks of one name stay two
     two = [good, good._replace(limit=3.0, passes=False)]
-    assert worst(two, two) == two
+    assert worse_of(two, two) == two
 
 
 def test_advice_serves_both_directions():
@@ -277,8 +278,8 @@ def test_a_tuned_law_with_damping_is_tuned_forwards_only():
 def test_every_design_can_be_judged_both_ways(name):
     """Nothing is refused backwards, and what is its own mirror image is no worse."""
     of = both(name)
-    rows = checks(of.mechanism)
-    assert len(rows) >= len(checks(one_way(name).mechanism))
+    rows = worst_checks(of.mechanism)
+    assert len(rows) >= len(worst_checks(one_way(name).mechanism))
     if len(every_way(of.mechanism)) == 1:
         assert not any(c.direction for c in rows)
 

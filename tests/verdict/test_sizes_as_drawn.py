@@ -17,7 +17,7 @@ from geneva_cli.verdict.report.sizes import sizes
 pytestmark = pytest.mark.usefixtures("made_once")
 CHORD = 1e-4  # mm, of the polylines that stand for outlines
 CLOSE = 1e-3  # mm: curved walls are known to 2e-6 of L, here up to 420 mm
-FLAT = [file.stem for file in repo.WHEELS if "spherical" not in file.read_text()]
+FLAT = [file.stem for file in repo.wheels() if "spherical" not in file.read_text()]
 GIVEN = {
     "a given rim": "[wheel]\nz = 6\n[size]\nwheel_radius_mm = 82\nslot_clearance_mm = 0.1\n",
     "a given opening": "[wheel]\nz = 6\ngearing = 'internal'\n[size]\nwheel_radius_mm = 93\n",

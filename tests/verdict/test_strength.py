@@ -12,7 +12,8 @@ import repo
 from typer.testing import CliRunner
 from words import Drive, Motion, Spec, Wheel, load
 
-from geneva_cli import Cam, Carousel, Design, Epicyclic, External, Internal, SideCrank, design
+import geneva_cli
+from geneva_cli import Cam, Design, Epicyclic, External, Internal, SideCrank, design
 from geneva_cli.cli.app import app
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle import cycle_of
@@ -300,7 +301,7 @@ def test_the_crank_shaft_behind_another_drive_turns_at_its_own_rate(
 def test_the_finger_of_a_carousel_bears_the_slot_s_torque_alone(wheel, sense):
     """The carrier, not the finger, turns the wheels round: psi' and psi'' of a plain crank."""
     b, w, shaft = math.pi / wheel.z, 2.0 * math.pi, Shaft(crank_overhang_mm=0.0)
-    found = Strength(build(Spec(wheel, Carousel(), load=Load(0.3, 5.0), shaft=shaft)))
+    found = Strength(build(Spec(wheel, geneva_cli.Carousel(), load=Load(0.3, 5.0), shaft=shaft)))
     half, l = 0.5 * math.pi - sense * b, math.sin(b)
     x = np.linspace(-half, half, 200001)
     square = 1.0 - 2.0 * sense * l * np.cos(x) + l * l

@@ -8,17 +8,8 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from geneva_cli import (
-    Crank,
-    Design,
-    External,
-    GearSector,
-    Internal,
-    SideCrank,
-    Size,
-    Spherical,
-    Tolerance,
-)
+import geneva_cli
+from geneva_cli import Crank, Design, External, Internal, SideCrank, Size, Spherical, Tolerance
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.tolerance import random_machines
@@ -32,7 +23,7 @@ from geneva_cli.motion.many import many
 from geneva_cli.motion.motion import Motion
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.verdict.checks.registry import turn_checks
-from geneva_cli.verdict.tolerance.locks import flat_locks, sphere_locks
+from geneva_cli.verdict.tolerance.locks import flat_locks
 from tests.repo import ROOT
 
 pytestmark = pytest.mark.usefixtures("made_once")
@@ -154,6 +145,8 @@ ROUND = [(60.0, 1), (60.0, 2), (90.0, 1), (120.0, 1)]  # the corner's, the end's
 
 def on_sphere(axes_deg, rollers):
     """A machine on a sphere with play, and its lock."""
+    from geneva_cli.kinds.spherical.cut_shells import sphere_locks
+
     size = Size(slot_clearance_mm=0.1, lock_clearance_mm=0.1)
     drive = Crank(rollers=rollers)
     design = Design(Spherical(6, axes_deg=axes_deg), drive, size=size)
@@ -522,7 +515,7 @@ def test_what_does_not_apply_is_null_and_said():
     assert "crank_radius_mm is left out" in found["warnings"][0]
     assert found["motion_play.rss_deg"] == 0.0
     # slots that are a six-slot wheel's are entered as those are
-    gears = told(Design(External(3), GearSector(sector_deg=60), tolerance=angle))
+    gears = told(Design(External(3), geneva_cli.GearSector(sector_deg=60), tolerance=angle))
     plain = told(Design(External(6), tolerance=angle))
     for name in ("entry_jump.mean", "entry_jump.worst", "entry_jump.mouth_worst"):
         assert gears[name] == pytest.approx(plain[name], rel=1e-12) != 0.0

@@ -73,10 +73,12 @@ def run(
 
 def _against(specs: list[str], settings: list[str], names: str, others: bool) -> "Table":
     """The comparison of one spec with other kinds of drives."""
-    from geneva_cli.extras.servo.against import against
+    from geneva_cli.spec.load_named import load_extra
 
     if len(specs) > 1 or others:
         raise GenevaError(
             "--against: it compares one spec, without --vary, --pick, --ratio and --reverse"
         )
-    return against(specs[0], settings, [name.strip() for name in names.split(",")])
+    listed = [name.strip() for name in names.split(",")]
+    table: Table = load_extra("servo", "against")(specs[0], settings, listed)
+    return table

@@ -69,22 +69,20 @@ def run(
         show(design.motion(361 if samples is None else samples, turns), output, format, files)
         warn(design)
         return
-    from geneva_cli.extras.servo.cam_files import LIMITED, cam, rounded_up
+    from geneva_cli.spec.load_named import load_extra
 
     if samples is not None:
         raise GenevaError("--samples: a cam has the points that its --tolerance needs")
     controller = controller or CONTROLLERS[0]
-    content, rows, error_deg = cam(
+    content, rows, error_deg = load_extra("servo", "cam")(
         design, controller, turns, 1e-4 if tolerance is None else tolerance
     )
     if isinstance(content, str):
         show_text(content, output, files)
     else:
         show(content, output, "csv", files)
-    text = f"{spec}: {rows} rows, greatest error {rounded_up(error_deg)} degrees of the wheel"
-    is_met = tolerance is None or error_deg <= tolerance
-    why = "" if is_met else f", more than --tolerance {tolerance:g}: {LIMITED[controller]}"
-    print(clean(text + why), file=sys.stderr)
+    text, is_met = load_extra("servo", "cam_words")(controller, rows, error_deg, tolerance)
+    print(clean(f"{spec}: {text}"), file=sys.stderr)
     warn(design)
     if not is_met:
         raise typer.Exit(1)

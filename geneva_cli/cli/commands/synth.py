@@ -146,7 +146,7 @@ def _write(
     from geneva_cli.design import Design
     from geneva_cli.output import show_text
     from geneva_cli.study.synth.search import search
-    from geneva_cli.study.synth.written import chosen
+    from geneva_cli.study.synth.table import chosen
 
     if format:
         raise GenevaError(f"--format {cut(format)}: --write writes a spec, which is TOML")

@@ -33,7 +33,7 @@ def exact_rates(mechanism: Mechanism) -> list[Formula] | None:
     spec = mechanism.spec
     wheel, drive, L = spec.wheel, spec.drive, mechanism.center_distance_mm
     known = None if spec.drive_before else drive.exact_advance(_sin_cos(Fraction(0)), _exact)
-    if spec.motion is not None or known is None or (wheel.steps and not drive.ALIKE):
+    if spec.motion is not None or known is None or (wheel.steps and not drive.direct):
         return None
     rates: list[Formula] = []
     for i, engagement in enumerate(mechanism.engagements):

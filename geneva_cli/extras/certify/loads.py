@@ -10,17 +10,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, TypeAlias, cast
 
-from geneva_cli.loads.contact import Contact, contact
+from geneva_cli.loads.contact import contact
 from geneva_cli.loads.cycle_quantities import FORCE, QUANTITIES, TORQUE
-from geneva_cli.loads.forces import (
-    LoadCase,
-    QuantityValue,
-    feeding,
-    load_case,
-    sliding,
-    wheel_torque,
-)
+from geneva_cli.loads.forces import Contact, LoadCase, QuantityValue, feeding, sliding, wheel_torque
 from geneva_cli.loads.instant import Instant
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.numerics.arrays import Undecided, enclosed
 from geneva_cli.numerics.jet import Jet, Number
 

@@ -11,7 +11,8 @@ from decimal import ROUND_CEILING, Context
 
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.motion.electronic_cam import CamPoints, cam_pairs, cam_pieces, cam_points, periods
+from geneva_cli.extras.servo.electronic_cam import CamPoints, cam_pairs, cam_pieces, cam_points
+from geneva_cli.motion.knots import periods
 from geneva_cli.output.formats import CONTROLLERS
 from geneva_cli.table import Table
 
@@ -112,3 +113,13 @@ def cam(
         points = cam_pairs(mechanism, count, tolerance_deg)
         text = beckhoff(points, design.spec.title)
     return "".join(text), len(points.master_deg), points.error_deg
+
+
+def words(
+    controller: str, rows: int, error_deg: float, tolerance_deg: float | None
+) -> tuple[str, bool]:
+    """A cam's rows and error in words, and True if it meets a tolerance that was given."""
+    text = f"{rows} rows, greatest error {rounded_up(error_deg)} degrees of the wheel"
+    if tolerance_deg is None or error_deg <= tolerance_deg:
+        return text, True
+    return f"{text}, more than --tolerance {tolerance_deg:g}: {LIMITED[controller]}", False

@@ -1,5 +1,28 @@
 """Carousels: wheels on a carrier that turns about a standing finger."""
 
-from geneva_cli.motion.kind import Kind
+from geneva_cli.motion.kind import Kind, Quantities
 
-KINDS = (Kind("carousel", drive="kinds.carousel.motion:Carousel"),)
+KINDS = (
+    Kind(
+        "carousel",
+        drive="kinds.carousel.motion:Carousel",
+        gearings=("external", "internal"),
+        refuses="kinds.carousel.refuses:refuses",
+        families={"carrier": "kinds.carousel.family:carousels"},
+        quantities=(
+            Quantities(
+                "carousel",
+                "turn_deg velocity moving_fraction behind_deg centrifugal_N held_Nm",
+                after="product",
+                batch="kinds.carousel.quantities:motion",
+            ),
+            Quantities(
+                "carousel",
+                "envelope_mm",
+                after="parts",
+                alone="kinds.carousel.quantities:envelope",
+                makes_parts=True,
+            ),
+        ),
+    ),
+)

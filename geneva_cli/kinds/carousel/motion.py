@@ -39,7 +39,6 @@ class Carousel(Direct, kw_only=True):
         {"wheel": {"z": 4}, "drive": {"wheels": 3, "n_rpm": 1.0}},
     )
     FIRST: ClassVar[str] = "its carrier turns at a constant speed"
-    GEARINGS: ClassVar[tuple[str, ...]] = ("external", "internal")
     wheels: Annotated[int, Range(1, 24), "number of wheels on the carrier, evenly spaced"] = 1
 
     @property

@@ -2,4 +2,12 @@
 
 from geneva_cli.motion.kind import Kind
 
-KINDS = (Kind("gear-sector", drive="kinds.gear_sector.motion:GearSector"),)
+KINDS = (
+    Kind(
+        "gear-sector",
+        drive="kinds.gear_sector.motion:GearSector",
+        gearings=("external",),
+        refuses="drives.refuses:of_pin_path",
+        families={"straight": "kinds.gear_sector.family:sectors"},
+    ),
+)

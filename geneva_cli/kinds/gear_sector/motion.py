@@ -56,7 +56,6 @@ class GearSector(PinPath, kw_only=True):
             "drive": {"sector_deg": 60.0, "gear_ratio": "shockless"},
         },
     )
-    TOOTHED: ClassVar[bool] = True
     ONE_ARM: ClassVar[bool] = True  # both rollers are on the crank
     sector_deg: Annotated[float, Range(0.0, 330.0, "(]"), "crank angle in gear, D"]
     gear_ratio: Annotated[
@@ -64,6 +63,11 @@ class GearSector(PinPath, kw_only=True):
         Words(POSITIVE, ("shockless",)),
         'wheel speed / crank speed in gear; "shockless" for no jump, others are slightly above it',
     ] = "shockless"
+
+    @property
+    def round_gears(self) -> tuple[str, ...]:
+        """Both toothed sectors."""
+        return "crank gear", "wheel gear"
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """The engagement of each roller; the slot's half angle follows from the step."""

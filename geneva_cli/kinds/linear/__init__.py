@@ -1,6 +1,6 @@
 """The linear Geneva: a rack of slots."""
 
-from geneva_cli.motion.kind import Kind
+from geneva_cli.motion.kind import Kind, Quantities
 
 KINDS = (
     Kind(
@@ -22,16 +22,30 @@ KINDS = (
         tables={"slot": "parts.slots.slot_sampling:profile_table"},
         dimensions="kinds.linear.drawings:dimensions",
         stressed="kinds.linear.stressed:rack_stressed",
+        refuses="kinds.linear.refuses:refuses",
+        keys=("load.mass_kg", "load.force_N", "load.guide_friction"),
+        quantities=(
+            Quantities(
+                "guide",
+                "length_mm locks_at_friction force_N at_deg",
+                after="parts",
+                batch="kinds.linear.quantities:guide",
+            ),
+        ),
+        horns="kinds.linear.quantities:rack_horns",
+        roller="kinds.linear.roller:rack_roller",
+        load_case="kinds.linear.guide_place:with_guide",
+        scene="kinds.linear.scene:RackScene",
         motion_checks={
             "rack_horn_mm": "kinds.linear.checks:rack_horn",
             "guide_locks": "kinds.linear.checks:guide_locks",
         },
         parts_checks={
-            "beside_shafts_mm": "verdict.checks.shafts:passing_rack",
-            "gear_gap_mm": "verdict.checks.shafts:passing_rack_gears",
-            "cut_plate_mm": "verdict.checks.process:thickest_of_rack",
-            "cut_slot_mm": "verdict.checks.process:width_in_rack",
-            "parts": "verdict.checks.process:plates_built",
+            "beside_shafts_mm": "kinds.linear.parts_checks:passing_shafts",
+            "gear_gap_mm": "kinds.linear.parts_checks:passing_gears",
+            "cut_plate_mm": "kinds.linear.parts_checks:thickest_plate",
+            "cut_slot_mm": "kinds.linear.parts_checks:slot_width",
+            "parts": "kinds.linear.parts_checks:plates_built",
         },
     ),
 )

@@ -83,7 +83,7 @@ class Linear(Gearing):
 
     def plane_motion(self, center_distance_mm: float) -> PlaneMotion:
         """How the rack slides: by the crank's radius a radian."""
-        from geneva_cli.motion.plane_motion import Sliding
+        from geneva_cli.kinds.linear.sliding import Sliding
 
         return Sliding(center_distance_mm)
 

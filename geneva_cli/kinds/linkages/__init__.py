@@ -3,6 +3,17 @@
 from geneva_cli.motion.kind import Kind
 
 KINDS = (
-    Kind("four-bar", drive="kinds.linkages.four_bar:FourBar"),
-    Kind("slider-crank", drive="kinds.linkages.slider_crank:SliderCrank"),
+    Kind(
+        "four-bar",
+        drive="kinds.linkages.four_bar:FourBar",
+        gearings=("external",),
+        refuses="drives.refuses:of_pin_path",
+        families={"alone": "kinds.linkages.four_bar_family:four_bars"},
+    ),
+    Kind(
+        "slider-crank",
+        drive="kinds.linkages.slider_crank:SliderCrank",
+        gearings=("external",),
+        refuses="drives.refuses:of_pin_path",
+    ),
 )

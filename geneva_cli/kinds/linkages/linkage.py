@@ -16,10 +16,10 @@ from typing import (
     cast,
 )
 
-from geneva_cli.drives import path_wheels as linkage
 from geneva_cli.drives.pin_path import PinPath
 from geneva_cli.drives.roller_path import LinkReactions, RollerPath, rounded
 from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.kinds.linkages import driven_wheel
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot
 from geneva_cli.numerics import digits
@@ -70,11 +70,11 @@ class Linkage(PinPath, kw_only=True):
         )
         step, path = wheel.step, self.roller_path
         if self.varies or is_array(step.b):
-            engagement, L = linkage.solve_batch(path, step, self._wanted, self._alone)
+            engagement, L = driven_wheel.solve_batch(path, step, self._wanted, self._alone)
         else:
-            solved = linkage.solve(path, step, self._wanted)
+            solved = driven_wheel.solve(path, step, self._wanted)
             if solved is None:
-                raise linkage.none_fits(wheel.z)
+                raise driven_wheel.none_fits(wheel.z)
             engagement, L = solved
         x, y = engagement.path(0.0, 0)
         return self.planned(engagement, parameter(library(L).hypot(1.0 - x.c[0], y.c[0])), L)

@@ -2,4 +2,11 @@
 
 from geneva_cli.motion.kind import Kind
 
-KINDS = (Kind("geneva-pair", drive="kinds.series.geneva_pair:GenevaPair"),)
+KINDS = (
+    Kind(
+        "geneva-pair",
+        drive="kinds.series.geneva_pair:GenevaPair",
+        refuses="kinds.series.refuses:refuses",
+        families={"straight": "kinds.series.family:pairs"},
+    ),
+)

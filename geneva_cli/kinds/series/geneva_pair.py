@@ -12,7 +12,7 @@ from geneva_cli.drives.pushed import PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.motion.drive import FirstWheel, Plan
 from geneva_cli.motion.engagement import Path, Vector
-from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot
+from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, ShaftPlace
 from geneva_cli.motion.wheels import poses
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import of_each, radians, sin_cos_pi
@@ -48,10 +48,6 @@ class GenevaPair(Transmission, kw_only=True):
             "drive": {"first_z": 4},
         },
     )
-    ONE_ROLLER: ClassVar[bool] = True
-    INPUT_SENSE: ClassVar[float] = -1.0
-    IN_SERIES: ClassVar[bool] = True
-    LENGTH: ClassVar[str] = "first_distance_mm"
     first_z: Annotated[int, Range(3, Z_MAX), "number of slots of the first, external wheel"]
     first_distance_mm: Annotated[
         float | None, POSITIVE, "first centre distance, for its forces (parts use L by default)"
@@ -67,9 +63,15 @@ class GenevaPair(Transmission, kw_only=True):
         """Greatest angle of the second crank from mid-step while it moves its wheel, degrees."""
         return 180.0 / self.first_z
 
-    def input_axis_mm(self, plan: Plan, sign: float) -> float:
-        """Place of the first crank's axis, mm from the second wheel's."""
-        return plan.center_distance_mm + self._distance_mm(plan.center_distance_mm)
+    @property
+    def missing_length(self) -> str:
+        """The first centre distance, where it is not set."""
+        return "first_distance_mm" if self.first_distance_mm is None else ""
+
+    def input_shaft(self, plan: Plan, sign: float, sense: float) -> ShaftPlace:
+        """The shaft of the first crank, which turns against its wheel."""
+        L = plan.center_distance_mm
+        return ShaftPlace(L + self._distance_mm(L), -sense)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Pivots and dimensions of the first pair.

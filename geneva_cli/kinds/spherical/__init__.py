@@ -18,6 +18,9 @@ KINDS = (
         dimensions="kinds.spherical.dimensions:dimensions",
         stressed="kinds.spherical.sizes:stressed",
         wheel_body="kinds.spherical.parts:shell_body",
+        cut_parts="kinds.spherical.cut_shells:CutShells",
+        horns="kinds.spherical.horns:ball_horns",
+        roller="kinds.spherical.roller:ball_roller",
         parts_checks={
             "wall_between_slots_mm": "kinds.spherical.checks:between_slots",
             "horn_mm": "kinds.spherical.checks:horn",
@@ -29,9 +32,9 @@ KINDS = (
             "crank_bore_wall_mm": "kinds.spherical.checks:crank_bore",
             "beside_shafts_mm": "kinds.spherical.checks:passing_parts",
             "arm_wall_mm": "kinds.spherical.checks:arm_wall",
-            "cut_plate_mm": "verdict.checks.process:thickest_shell",
-            "cut_slot_mm": "verdict.checks.process:width_in_shell",
-            "parts": "verdict.checks.process:solids_built",
+            "cut_plate_mm": "kinds.spherical.checks:thickest",
+            "cut_slot_mm": "kinds.spherical.checks:slot_width",
+            "parts": "kinds.spherical.checks:solids_built",
         },
     ),
 )

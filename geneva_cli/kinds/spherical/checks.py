@@ -12,6 +12,7 @@ from geneva_cli.kinds.spherical.shaft_gap import shaft_gap
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sizes.arm_sizes import refuse_thin_hub
 from geneva_cli.verdict.checks.check import Check, at_least, compared, gap
+from geneva_cli.verdict.checks.process import built, cut_width, plate_thickness
 
 
 def between_slots(name: str, parts: SphereParts) -> Check:
@@ -95,6 +96,25 @@ def passing_parts(name: str, parts: SphereParts) -> Check | None:
     if any(row and row.value is None for row in walls):
         return None
     return gap(name, lambda: shaft_gap(parts), parts.ball.radius_mm)
+
+
+def thickest(name: str, parts: SphereParts) -> Check | None:
+    """The thickest shell of a sphere, where the process has a limit for plates."""
+    ball = parts.ball
+    spans = ball.span_mm, ball.lock_span_mm, ball.arm_span_mm
+    return plate_thickness(name, parts.mechanism, max(outer - inner for inner, outer in spans))
+
+
+def slot_width(name: str, parts: SphereParts) -> Check | None:
+    """The width of a sphere's slots inside, where the process cuts none that is narrow."""
+    inner, outer = parts.ball.span_mm
+    wide = 2.0 * inner * math.sin(parts.ball.half_width)
+    return cut_width(name, parts.mechanism, wide, outer - inner)
+
+
+def solids_built(name: str, parts: SphereParts) -> Check | None:
+    """The check that fails if a solid of a spherical machine cannot be built; else None."""
+    return built(name, lambda: parts.members)
 
 
 def _wall(name: str, angle: float, parts: SphereParts) -> Check:

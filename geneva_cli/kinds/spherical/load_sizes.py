@@ -7,7 +7,7 @@ the greatest force and its greatest distance from the bearing are at different a
 from __future__ import annotations
 
 import math
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING
 
 from geneva_cli.kinds.spherical.axles import hub_about
@@ -15,7 +15,7 @@ from geneva_cli.kinds.spherical.ball import Ball, inner_edge
 from geneva_cli.kinds.spherical.horn import sphere_horn
 from geneva_cli.kinds.spherical.stressed import sphere_stressed
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
-from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
+from geneva_cli.loads.strength.part_loads import PartLoads, greatest, single_loads
 from geneva_cli.loads.strength.shafts import (
     LoadedShaft,
     ShaftDimensions,
@@ -23,7 +23,6 @@ from geneva_cli.loads.strength.shafts import (
     shafts_under_load,
     wheel_forces,
 )
-from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array
@@ -58,10 +57,14 @@ def horn_thickness_mm(mechanism: Mechanism, usual: Ball) -> float | None:
     allowed = wheel_material(mechanism.spec).allowed_MPa
     angles = usual.half_width, usual.recess, usual.axes
     least = usual.span_mm[1] - usual.span_mm[0]
+
+    def bent_MPa(way: Mechanism, thick: float) -> float:
+        horn = sphere_horn(way, *angles, thick)
+        return horn.stress_MPa if horn else 0.0
+
     # a thicker wheel bends its pins more than its horns
     for thick in rounded_from(least, 2.0 * least):
-        each = [sphere_horn(way, *angles, thick) for way in every_way(mechanism)]
-        if all(keeps(one.stress_MPa, "at most", allowed) for one in each if one):
+        if keeps(greatest(partial(bent_MPa, thick=thick), mechanism), "at most", allowed):
             break
     return thick
 
@@ -176,5 +179,9 @@ def _hub_fits(spec: Spec, ball: Ball) -> bool:
 def _moment_Nm(mechanism: Mechanism, forces: ShaftForces, overhang_mm: float) -> float:
     """Return the greatest equivalent torque of a shaft; it needs a search of the whole cycle."""
     shaft = LoadedShaft(ShaftDimensions(None, overhang_mm, None, None), forces)
-    each = [one for way in every_way(mechanism) for one in shafts_under_load(way, [shaft])]
-    return max(array(one.moment_Nm).item() if one else 0.0 for one in each)
+
+    def moment_Nm(way: Mechanism) -> float:
+        (one,) = shafts_under_load(way, [shaft])
+        return array(one.moment_Nm).item() if one else 0.0
+
+    return greatest(moment_Nm, mechanism)

@@ -58,7 +58,7 @@ def ball(mechanism: Mechanism) -> Ball:
 def sized_ball(mechanism: Mechanism) -> Ball | None:
     """Return the cached sizes of a spherical machine; None where it has no parts."""
     spec = mechanism.spec
-    if not (spec.wheel.SHELLS and spec.has_parts):
+    if not spec.has_parts:
         return None
     try:
         return ball(mechanism)
@@ -139,7 +139,7 @@ def _ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
 
 def _arm_bore(spec: Spec, pin: float, L: float, arm: float) -> float:
     """Return the radius of the bore in the arm's hub; 0 without a crank, or without pins."""
-    if not (spec.drive.CRANKED and pin):
+    if not (spec.drive.crank and pin):
         return 0.0
     disc, space = 0.5 * (spec.size.crank_bore_mm or 0.0), L * arm - hole_radius(spec.size, pin)
     refuse_stepped_shaft(spec.size, disc, L)

@@ -1,11 +1,24 @@
 """Geneva stops: a closed recess that blocks the crank."""
 
-from geneva_cli.motion.kind import Kind
+from geneva_cli.motion.kind import Kind, Quantities
 
 KINDS = (
     Kind(
         "stop",
         adds_to="external",
+        refuses="kinds.stop.refuses:refuses",
+        keys=("wheel.stop", "load.winding_torque_Nm", "limits.stop_stress_max_MPa"),
+        quantities=(
+            Quantities(
+                "stop",
+                "turns first_deg last_deg overlap_mm lever_mm force_N contact_stress_MPa",
+                after="parts",
+                alone="kinds.stop.quantities:stop",
+                makes_parts=True,
+            ),
+        ),
+        remedies="kinds.stop.remedies:REMEDIES",
+        scene="kinds.stop.scene:StopScene",
         parts_checks={
             "stop_turns": "kinds.stop.checks:turns",
             "stop_overlap_mm": "kinds.stop.checks:overlap",

@@ -17,8 +17,8 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.carried import inertia_kgm2, resisting_torque_Nm
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement, WheelMotion
-from geneva_cli.motion.many import taken
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import braking, landmarks
 from geneva_cli.numerics.angles import DEGREE, omega

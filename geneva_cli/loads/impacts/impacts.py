@@ -8,14 +8,14 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.contact import contact as touching
-from geneva_cli.loads.forces import load_case
 from geneva_cli.loads.impacts.change_of_sides import changes, drag_over, impacts_of
 from geneva_cli.loads.impacts.mouth import mouth_contacts
 from geneva_cli.loads.impacts.shock import FirstContacts, RestingAxis, first_contacts
 from geneva_cli.loads.impacts.shock_force import forces_N, impulse_Nms
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.strength.pin import PinSize
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.many import taken
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import all_true, choose, library, only_of, parameter
 from geneva_cli.numerics.jet import Array

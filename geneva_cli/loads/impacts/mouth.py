@@ -24,8 +24,8 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.impacts.shock import OCTAVES, FirstContacts, RestingAxis
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.many import taken
 from geneva_cli.numerics.angles import DEGREE, radians
 from geneva_cli.numerics.arrays import Whole, library, parameter
 from geneva_cli.numerics.jet import Array, Jet, sqrt

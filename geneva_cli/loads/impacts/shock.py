@@ -17,8 +17,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Anchor, Engagement
-from geneva_cli.motion.many import taken
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import N, Whole, library, parameter
 from geneva_cli.numerics.jet import Array

@@ -35,7 +35,7 @@ from geneva_cli.loads.strength.horn_search import (
     slot_ends,
     squeezed,
 )
-from geneva_cli.motion.many import taken
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pitch_curve import pitch
 from geneva_cli.numerics.arrays import Number, blocks, joined, parameter

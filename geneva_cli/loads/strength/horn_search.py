@@ -12,11 +12,12 @@ from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from geneva_cli.loads.contact import NEAR_CUSP, contact, contact_values
-from geneva_cli.loads.forces import load_case
+from geneva_cli.loads.contact import NEAR_CUSP, contact
+from geneva_cli.loads.forces import contact_values
 from geneva_cli.loads.instant import bounded_loads
+from geneva_cli.loads.load_case import load_case
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.many import taken
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Number, Whole, array, parameter
 from geneva_cli.numerics.jet import Array

@@ -33,7 +33,7 @@ import numpy as np
 
 from geneva_cli.loads.forces import contact_modulus_GPa, hertz_MPa
 from geneva_cli.loads.tolerance.locking import Lock
-from geneva_cli.motion.many import taken
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import all_true, blocks, choose_record, parameter
 from geneva_cli.numerics.jet import Array, Number
@@ -225,30 +225,3 @@ def _weaker(one: HornBending, other: HornBending) -> HornBending:
     """The horn with the greater deflection, in each design."""
     more = other.deflection > one.deflection
     return choose_record(more, other, one)
-
-
-class StopContact(NamedTuple):
-    """Force and Hertz stress at a stop; None where a key is missing."""
-
-    force_N: float | None
-    contact_stress_MPa: float | None
-
-
-def stop_contact(mechanism: Mechanism, lever_mm: float, face_radius_mm: float) -> StopContact:
-    """Return the contact under ``winding_torque_Nm``; a sharp end of the disc has no stress.
-
-    The face is an arc about the wheel's axis. So the force between the end of the disc and the face
-    passes through that axis, turns no wheel, and loads no roller. About the crank's axis its lever
-    is h = L sin delta, where delta is the contact's direction from the line of centres, seen from
-    the wheel's axis: F = T/h.
-    """
-    size, torque = mechanism.spec.size, mechanism.spec.load.winding_torque_Nm
-    if torque is None:
-        return StopContact(None, None)
-    force = 1e3 * torque / lever_mm
-    if size.face_width_mm is None or size.lock_edge_mm is None:
-        return StopContact(force, None)
-    material = wheel_material(mechanism.spec)
-    modulus = contact_modulus_GPa(material, material)
-    radius = 1.0 / (1.0 / size.lock_edge_mm + 1.0 / face_radius_mm)
-    return StopContact(force, hertz_MPa(modulus, force / size.face_width_mm, radius))

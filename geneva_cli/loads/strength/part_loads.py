@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import lru_cache, reduce
 from typing import NamedTuple
 
@@ -55,6 +56,11 @@ def sizing_loads(mechanism: Mechanism, forwards: PartLoads | None = None) -> Par
     _, *others = every_way(mechanism)
     each = [forwards or part_loads(mechanism), *map(part_loads, others)]
     return PartLoads(*(reduce(larger, rows) for rows in zip(*each, strict=True)))
+
+
+def greatest(of: Callable[[Mechanism], float], mechanism: Mechanism) -> float:
+    """The greatest value of one design in every direction in which it turns."""
+    return max(map(of, every_way(mechanism)))
 
 
 def part_loads(mechanism: Mechanism) -> PartLoads:

@@ -19,16 +19,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.contact import Contact, contact, is_straight
+from geneva_cli.loads.contact import contact, is_straight
 from geneva_cli.loads.cycle_quantities import FORCE
-from geneva_cli.loads.forces import LoadCase, load_case
+from geneva_cli.loads.forces import Contact, LoadCase
 from geneva_cli.loads.groups import of_groups
 from geneva_cli.loads.instant import Instant
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadBatch, LoadFunctions, SignFunctions, load_batch
 from geneva_cli.loads.strength.wear import Rubbing, greatest_rubbing_N
 from geneva_cli.loads.stretches import refuse_noise, spans_of, to_mid_motion
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.many import taken
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Whole, array, parameter

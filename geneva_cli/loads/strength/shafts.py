@@ -184,7 +184,7 @@ def wheel_forces(mechanism: Mechanism) -> ShaftForces:
     """The loads of the wheel's shaft."""
     if mechanism.spec.drive.wheels_on_carrier:
         return on_carrier(mechanism)
-    return on_sphere_wheel if mechanism.spec.wheel.SHELLS else on_wheel
+    return on_wheel if mechanism.axes else on_sphere_wheel
 
 
 def on_carrier(mechanism: Mechanism) -> OnCarrier:
@@ -195,7 +195,7 @@ def on_carrier(mechanism: Mechanism) -> OnCarrier:
 
 def crank_forces(spec: Spec) -> ShaftForces:
     """The loads of the crank's shaft."""
-    return on_sphere_crank if spec.wheel.SHELLS else on_crank
+    return on_crank if spec.wheel.axes(spec.given_distance_mm) else on_sphere_crank
 
 
 class Moment(NamedTuple):

@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple, Protocol, cast
 
 import numpy as np
 
@@ -51,6 +51,13 @@ class LockPlay(NamedTuple):
 
     angle: Jet
     jams: Mask  # True if they do not fit together
+
+
+class CutLock(Protocol):
+    """A lock of parts as they are cut, whose play deviations change."""
+
+    def __call__(self, by: Deviations) -> LockPlay:
+        """Play of the wheel to one side."""
 
 
 class LockContact(NamedTuple):

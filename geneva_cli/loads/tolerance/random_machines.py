@@ -9,11 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.kinds.spherical.locking import SphereLock
 from geneva_cli.loads.tolerance.dimensions import Deviations, deviations, slope_of
 from geneva_cli.loads.tolerance.draws import Draws
 from geneva_cli.loads.tolerance.entry_jump import EntryJumpFunction
-from geneva_cli.loads.tolerance.locking import Lock
+from geneva_cli.loads.tolerance.locking import CutLock
 from geneva_cli.loads.tolerance.motion_error import MotionError
 from geneva_cli.numerics.jet import Array, Jet, Number
 from geneva_cli.progress import tracked
@@ -34,7 +33,7 @@ class RandomMachines(NamedTuple):
 def random_machines(
     machines: Draws,
     samples: int,
-    lock: Lock | SphereLock | None,
+    lock: CutLock | None,
     error: tuple[MotionError, float, float] | None,
     entry: EntryJumpFunction | None,
 ) -> RandomMachines:

@@ -25,7 +25,7 @@ from geneva_cli.loads.impacts.impacts import arm_mm
 from geneva_cli.loads.impacts.shock import first_contacts
 from geneva_cli.loads.tolerance.dimensions import corners, tolerances, without_effect
 from geneva_cli.loads.tolerance.motion_error import MOTION_SAMPLES, WorstErrors, motion_errors
-from geneva_cli.motion.many import taken
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, blocks, joined, parameter
 

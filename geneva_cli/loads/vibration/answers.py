@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from geneva_cli.errors import Notice
-from geneva_cli.loads.forces import unbalance_Nm
+from geneva_cli.loads.load_case import unbalance_Nm
 from geneva_cli.loads.vibration.centrifugal import STIFFEST, stiffness_ratio
 from geneva_cli.loads.vibration.oscillator import NO_INERTIA, Oscillator
 from geneva_cli.loads.vibration.vibration import (
@@ -122,7 +122,7 @@ def _warnings(mechanism: Mechanism, load: Oscillator[float], least: float) -> li
                 "use a stiffer shaft, less inertia or a lower speed",
             )
         )
-    law = mechanism.engagements[0].motion.law
+    law = mechanism.input_law
     tuned = law.tuned_to if law else None
     # a tuned law may miss its period ratio by a hundredth
     if tuned and not math.isclose(load.ratio, tuned, rel_tol=0.01):

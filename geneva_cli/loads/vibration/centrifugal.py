@@ -32,8 +32,8 @@ from geneva_cli.loads.vibration.oscillator import Oscillator
 from geneva_cli.loads.vibration.panels import Panels
 from geneva_cli.loads.vibration.shape import motion_shapes
 from geneva_cli.loads.vibration.swing import residual_swing
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.many import taken
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, Complex, Whole, matrix_product

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.loads.vibration.panels import Panels, panels_of
-from geneva_cli.motion.engagement import Engagement, WheelMotion
+from geneva_cli.motion.batch import selection
+from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.laws.law import Law
-from geneva_cli.motion.many import selection
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, Number, Whole, read_only
 from geneva_cli.numerics.jet import Jet
@@ -23,10 +23,9 @@ if TYPE_CHECKING:
 
 
 @lru_cache(maxsize=64)
-def shape(engagement: Engagement) -> Panels:
-    """Return the panels of one engagement's motion."""
-    motion = engagement.motion
-    return law_shape(motion.law) if motion.law else read_only(motion_shapes(motion, 1))
+def shape(motion: WheelMotion) -> Panels:
+    """Return the panels of one motion."""
+    return read_only(motion_shapes(motion, 1))
 
 
 @lru_cache(maxsize=64)

@@ -33,8 +33,8 @@ from geneva_cli.loads.vibration.lobes import Lobes, highest_ratio, lobes
 from geneva_cli.loads.vibration.oscillator import PERIOD_RATIO, Oscillator, period_ratio_of
 from geneva_cli.loads.vibration.shape import law_shape, motion_shapes, shape
 from geneva_cli.loads.vibration.swing import residual_swing
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.many import taken
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import motion_peaks
 from geneva_cli.motion.timing import timings
@@ -74,7 +74,7 @@ class Index:
     """One kind of index: of one design, or of each design in a batch of m."""
 
     def __init__(self, mechanism: Mechanism, engagement: Engagement) -> None:
-        motion, law, m = engagement.motion, engagement.motion.law, mechanism.designs
+        motion, law, m = engagement.motion, mechanism.input_law, mechanism.designs
         self.motion = motion
         # its time over that of the machine's first motion
         self.scale = np.ravel(engagement.motion_deg / mechanism.engagements[0].motion_deg)
@@ -88,7 +88,7 @@ class Index:
         if is_array(mechanism.design):
             self.panels = law_shape(law) if law and alike else motion_shapes(motion, m)
         else:
-            self.panels = shape(engagement)
+            self.panels = law_shape(law) if law else shape(motion)
 
     def shapes(self, which: Whole) -> Whole:
         """Return the numbers of oscillators' motions among the panels'."""

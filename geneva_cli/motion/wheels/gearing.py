@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self, TypeAli
 
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Layout, Pivot
-from geneva_cli.motion.wheels.poses import HalfStep, PinPose
+from geneva_cli.motion.wheels.poses import HalfStep, PinPose, Skew
 from geneva_cli.numerics.arrays import larger
 from geneva_cli.numerics.jet import Jet, turning
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
@@ -19,7 +19,6 @@ from geneva_cli.spec.schema import Example, SpecTable
 if TYPE_CHECKING:
     from geneva_cli.motion.engagement import CarrierVelocity, Displacement, Slot, WheelMotion
     from geneva_cli.motion.plane_motion import PlaneMotion
-    from geneva_cli.motion.wheels.skew import Skew
 
 
 # The wheel's rate from sin d and 1 - cos d of the crank's rotation d since mid-motion.
@@ -94,8 +93,6 @@ class Gearing(SpecTable):
     SIGN: ClassVar[float] = 1.0
     # True if wheel and crank are flat parts on parallel shafts
     FLAT: ClassVar[bool] = True
-    # True if they are shells of a sphere, on shafts that meet at its centre
-    SHELLS: ClassVar[bool] = False
     # meaning of center_distance_mm
     DISTANCE: ClassVar[str] = "centre distance"
     # what locks it in the dwell, on a crank

@@ -7,7 +7,7 @@ from functools import partial
 
 from geneva_cli.motion.engagement import Anchor, Slot, SlotAxis
 from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion, turned
-from geneva_cli.motion.wheels.skew import Skew
+from geneva_cli.motion.wheels.poses import Skew
 from geneva_cli.numerics.arrays import enclosed, library
 from geneva_cli.numerics.jet import Array, Jet, Number, integral, moment, piecewise, sqrt
 

@@ -56,6 +56,17 @@ class HalfStep(NamedTuple):
         return sin_cos_pi(self.p, self.q)
 
 
+class Skew(NamedTuple):
+    """Proportions of an offset slot."""
+
+    e: float
+    tilt: float  # d, radians: the slot against the line of centres, half-way through the step
+    deepest: float  # least coordinate of the pin along the slot's axis: at mid-motion
+    poses: tuple[PinPose, PinPose, PinPose]
+    # The poses at both ends are in the slot's own frame, whose axis is offset by -e from the ray
+    # from the wheel's centre. The pose in the middle is in the frame of the line of centres.
+
+
 def middle(sign: float, l: float, gap: float) -> PinPose:
     """Pose of the pin on the line of centres, ``gap`` from the wheel's axis.
 

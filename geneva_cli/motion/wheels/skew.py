@@ -11,23 +11,10 @@ computed once.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from geneva_cli.motion.wheels.classic import gap, half_motion_deg
-from geneva_cli.motion.wheels.poses import HalfStep, PinPose, middle
+from geneva_cli.motion.wheels.poses import HalfStep, PinPose, Skew, middle
 from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.numerics.arrays import choose, library
-
-
-class Skew(NamedTuple):
-    """Proportions of an offset slot."""
-
-    e: float
-    tilt: float  # d, radians: the slot against the line of centres, half-way through the step
-    deepest: float  # least coordinate of the pin along the slot's axis: at mid-motion
-    poses: tuple[PinPose, PinPose, PinPose]
-    # The poses at both ends are in the slot's own frame, whose axis is offset by -e from the ray
-    # from the wheel's centre. The pose in the middle is in the frame of the line of centres.
 
 
 def margin(step: HalfStep, e: float) -> float:

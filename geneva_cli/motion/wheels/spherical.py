@@ -34,7 +34,6 @@ class Spherical(Gearing):
         "a spherical wheel: shafts that meet, motion and dwell equal", {"wheel": {"z": 6}}
     )
     FLAT: ClassVar[bool] = False
-    SHELLS: ClassVar[bool] = True
     DISTANCE: ClassVar[str] = "sphere's radius"
     axes_deg: Annotated[
         float, Range(0.0, 180.0, "()"), "spherical: angle between the two shafts"

@@ -14,7 +14,7 @@ import numpy as np
 from geneva_cli.geometry.plates import Shell
 from geneva_cli.geometry.round_holes import RoundHole
 from geneva_cli.geometry.sphere import Region, SphereArc, Vector, cross, dot, square_to, unit
-from geneva_cli.kinds.spherical.face_mesh import SphereFace
+from geneva_cli.output.mesh.face_mesh import SphereFace
 from geneva_cli.output.mesh.polygons import Triangle, arc_chords, triangles
 from geneva_cli.output.mesh.surface import Surface, surface
 from geneva_cli.output.solid_part import require_thick

@@ -88,13 +88,12 @@ def required_gears(mechanism: Mechanism) -> Gears:
     if gears is None and mechanism.spec.drive_before:
         raise GenevaError(f"--part gears: {mechanism.spec.no_parts}")
     if gears is None:
-        geared = [kind for kind in registry.DRIVES if registry.drive(kind).GEARED]
-        if drive.TOOTHED:
+        if drive.round_gears:
             raise GenevaError(
                 f'--part gears: the pitch curves of kind = "{drive.NAME}" are circles and have no '
                 "table; write .dxf or .svg, or --part parts for their radii"
             )
-        geared += [kind for kind in registry.DRIVES if registry.drive(kind).TOOTHED]
+        geared = [*registry.drives_with("gears"), *registry.drives_with("round_gears")]
         raise GenevaError(
             f'--part gears: kind = "{drive.NAME}" has no gears; {", ".join(geared)} have some'
         )

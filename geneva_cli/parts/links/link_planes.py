@@ -92,7 +92,7 @@ def _gears(parts: Outlines, bars: Links, links: tuple[Link, ...], turn: Array) -
     A first wheel is no gear: ``shaft_gap`` computes its gap.
     """
     assert bars.sizes is not None
-    if parts.assembly.full.spec.drive.IN_SERIES:
+    if parts.assembly.full.first_wheel:
         return
     gears = [link for link in links if link.radius_mm]
     for gear, link in zip(bars.gears, gears, strict=True):

@@ -207,7 +207,7 @@ def _gears(
     L, size = mechanism.center_distance_mm, mechanism.spec.size
     at = [point_at_zero(*places(link)) for link in links]
     mesh = None
-    if mechanism.spec.drive.TOOTHED and size.gear_module_mm is not None:
+    if mechanism.spec.drive.round_gears and size.gear_module_mm is not None:
         driver, driven = links
         mesh = gear_mesh(driver, driven, (at[0], at[1]), size)
         if mechanism.spec.drive.both_ways and mesh.gears[driver.name].last_tip:

@@ -66,7 +66,7 @@ def sizes(
         from geneva_cli.parts.sizes.load_sizes import load_sizes
 
         first = None
-        if assembly.full.spec.drive.IN_SERIES:
+        if assembly.full.first_wheel:
             from geneva_cli.parts.sizes.first_sizes import first_sizes
 
             first = first_sizes(assembly.full, sized)

@@ -66,7 +66,7 @@ def first_sizes(mechanism: Mechanism, sized: Sized) -> FirstSizes | None:
     ``sized`` sizes a machine by its load, for that of the second wheel asks for the first one's.
     The crank is a link, with the bore of a link: larger ones are tried until its shaft holds.
     """
-    first = mechanism.spec.drive.first_wheel(mechanism.center_distance_mm)
+    first = mechanism.first_wheel
     spec = None if first is None else first_spec(mechanism, first)
     if spec is None or not spec.is_loaded:
         return None

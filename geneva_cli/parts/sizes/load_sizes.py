@@ -18,10 +18,9 @@ import numpy as np
 
 from geneva_cli.loads.strength import lock
 from geneva_cli.loads.strength.horn import single_horn_stresses
-from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
+from geneva_cli.loads.strength.part_loads import PartLoads, greatest, single_loads
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.loads.unbalance import centrifugal_N
-from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bores_from, rounded_from
 from geneva_cli.numerics.tolerances import keeps
@@ -91,7 +90,7 @@ def _thick(
     )
     thick = drawn_thicknesses(size, assembly.L)
     # a first wheel's own thickness stays
-    link = sizes.link_thickness if assembly.full.spec.drive.IN_SERIES else thick.link
+    link = sizes.link_thickness if assembly.full.first_wheel else thick.link
     return sizes._replace(
         wheel_thickness=thick.wheel,
         lock_thickness=thick.lock,
@@ -106,10 +105,13 @@ def _wheel_thickness(assembly: Assembly, sizes: Sizes, by: Lock | None) -> float
     if by is None:
         return usual
     held = lock.loaded_locks(machine, sizes.half_width, by, 1.0)
-    per_mm = [held.horn_stress_MPa] if held else []
-    for way in every_way(machine):
-        per_mm.append(single_horn_stresses(way, sizes.half_width, sizes.recess).stress_MPa)
-    most = float(np.nanmax(np.hstack([np.ravel(0.0), *map(np.ravel, per_mm)])))
+
+    def per_mm(way: Mechanism) -> float:
+        bent = single_horn_stresses(way, sizes.half_width, sizes.recess).stress_MPa
+        every = (0.0, bent, held.horn_stress_MPa if held else 0.0)
+        return float(np.nanmax(np.hstack([*map(np.ravel, every)])))
+
+    most = greatest(per_mm, machine)
     allowed = wheel_material(machine.spec).allowed_MPa
     trials = rounded_from(usual, 2.0 * usual)  # a thicker wheel bends its pins more than its horns
     return next((b for b in trials if keeps(most / b, "at most", allowed)), trials[-1])

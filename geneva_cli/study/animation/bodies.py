@@ -2,34 +2,28 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from contextlib import suppress
 
-import numpy as np
-
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, polygon
-from geneva_cli.kinds.linear.scene import rack
+from geneva_cli.geometry.shapes import Circle, Contour, Shape, polygon
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.scene import Body
 from geneva_cli.parts.gears.gear_curves import gears_table
 from geneva_cli.study.animation.teeth import DrawnTeeth, round_gears
 from geneva_cli.study.animation.tracks import still
 from geneva_cli.study.animation.turn import MachineTurn
+from geneva_cli.study.animation.wheels import wheels_of
 
 
 def bodies(design: Design, turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Body]:
     """Wheel, crank with its arm, the cam's groove and gears, as far as the machine has them."""
     L = turn.L
     # parts of a sphere are drawn laid flat: these outlines do not turn about the shaft
-    shapes = () if design.spec.wheel.SHELLS else _hollow(_shapes(design, "wheel"))
+    shapes = _hollow(_shapes(design, "wheel")) if turn.mechanism.axes else ()
     flat = bool(shapes)
-    if design.mechanism.output.turns:
-        yield from _wheels(shapes, turn)
-    else:
-        yield rack(shapes, turn)
+    yield from wheels_of(design.spec).bodies(shapes, turn)
     if flat:
         carried = (*_shapes(design, "arm"), *_shapes(design, "crank"))
         carried = tuple(shape for shape in carried if shape.layer != "ROLLER")
@@ -42,14 +36,6 @@ def bodies(design: Design, turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Bod
     yield from round_gears(turn, teeth)
     if design.spec.gears:
         yield from _gears(turn, teeth)
-
-
-def _wheels(shapes: tuple[Shape, ...], turn: MachineTurn) -> Iterator[Body]:
-    """All wheels; without shapes, as symbols."""
-    wheel = (*(shapes or _slots(turn)), _mark(shapes, turn))
-    for place in turn.mechanism.wheel_places:
-        name = f"wheel {place.number}" if place.number > 1 else "wheel"
-        yield Body(name, wheel, place.at, turn.wheel(place))
 
 
 def _shapes(design: Design, part: str) -> tuple[Shape, ...]:
@@ -69,32 +55,6 @@ def _hollow(shapes: tuple[Shape, ...]) -> tuple[Shape, ...]:
     return (*rims, *(h for h, s in zip(hollow, shapes, strict=True) if s not in rims))
 
 
-def _slots(turn: MachineTurn) -> tuple[Shape, ...]:
-    """A symbol for a wheel without drawing: a disc with a line along each slot."""
-    spec, reach = turn.mechanism.spec, _reach(turn)
-    lines = [
-        Contour("WHEEL", (Line(_at(reach.min(), a), _at(reach.max(), a)),), closed=False)
-        for a in np.arange(spec.wheel.z) * math.tau / spec.wheel.z
-    ]
-    return (Circle("WHEEL", (0.0, 0.0), 1.02 * float(reach.max())), *lines)
-
-
-def _reach(turn: MachineTurn) -> Array:
-    """The distances of the first roller from the wheel's axis in its slot."""
-    one = turn.passages[0]
-    return np.hypot(*turn.assembly.driving(0, np.linspace(one.entry, one.exit, 181)).T)
-
-
-def _at(r: float, a: float) -> tuple[float, float]:
-    return float(r * math.cos(a)), float(r * math.sin(a))
-
-
-def _mark(shapes: tuple[Shape, ...], turn: MachineTurn) -> Shape:
-    """A dot behind the end of the first slot, which tells the slots apart."""
-    least = float(_reach(turn).min())
-    return Circle("PITCH", (0.78 * least if shapes else 1.01 * least, 0.0), 0.012 * turn.L)
-
-
 def _gears(turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Body]:
     """Both gears, with their teeth or by their pitch curves."""
     machine = turn.mechanism
@@ -102,7 +62,7 @@ def _gears(turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Body]:
     assert gears
     driven, driver = teeth.pair or _pitch_curves(turn, -sense)
     before = machine.spec.drive_before
-    first = before is not None and before.GEARED  # the gears turn the shaft of the drive
+    first = before is not None and before.gears is not None  # the gears turn the shaft of the drive
     yield Body(
         "driver gear",
         driver,

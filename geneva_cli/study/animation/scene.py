@@ -14,8 +14,6 @@ from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import at, bounds
 from geneva_cli.geometry.shapes import Circle, Shape
-from geneva_cli.kinds.linear.scene import rack_ends, view_of_rack
-from geneva_cli.kinds.stop.parts import wheel_stop
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import radians
 from geneva_cli.output.scene import (
@@ -37,6 +35,7 @@ from geneva_cli.study.animation.bodies import bodies
 from geneva_cli.study.animation.pushes import pushes
 from geneva_cli.study.animation.teeth import DrawnTeeth, carried_gear, drawn_teeth
 from geneva_cli.study.animation.turn import MachineTurn
+from geneva_cli.study.animation.wheels import wheels_of
 from geneva_cli.study.summary.titles import title_of
 from geneva_cli.verdict.report.words import words
 
@@ -64,10 +63,9 @@ def scene(design: Design) -> Scene:
     bars, rollers = _bars(turn, outlines, teeth), turn.rollers()
     spec, title = design.spec, title_of(design)
     frame = _frame_rotation(mechanism, turn.start, turn.turn_deg)
-    moving = parts if mechanism.output.turns else parts[1:]
-    box = _box(moving, bars, rollers, mechanism.roller_radius_mm, turn.turn_deg)
-    if not mechanism.output.turns:
-        box = view_of_rack(parts[0], box, turn)
+    wheels = wheels_of(spec)
+    turning = tuple(body for body in parts if not body.travel)
+    box = _box(turning, bars, rollers, mechanism.roller_radius_mm, turn.turn_deg)
     return Scene(
         title=title,
         caption=words(mechanism) + _remark(design, bars, teeth),
@@ -82,20 +80,10 @@ def scene(design: Design) -> Scene:
         pushes=tuple(pushes(design.cycle, turn)),
         states=tuple(_states(design, turn)),
         figure=_figure(design),
-        box=_swept(parts, frame) if frame else box,
-        stops=_stops(outlines, turn),
+        box=_swept(parts, frame) if frame else wheels.view(parts[0], box, turn),
+        stops=wheels.stops(outlines, turn),
         frame=frame,
     )
-
-
-def _stops(outlines: Outlines | None, turn: MachineTurn) -> tuple[float, float] | None:
-    """Both stops of the crank or ends of a rack, degrees from the turn's start; None without."""
-    if not turn.mechanism.output.turns:
-        return rack_ends(turn)
-    stop = outlines and wheel_stop(outlines)
-    if not stop:
-        return None
-    return stop.first_deg - stop.drawn_deg - turn.start, stop.last_deg - stop.drawn_deg - turn.start
 
 
 def _bars(turn: MachineTurn, outlines: Outlines | None, teeth: DrawnTeeth) -> tuple[Bar, ...]:
@@ -112,7 +100,7 @@ def _bars(turn: MachineTurn, outlines: Outlines | None, teeth: DrawnTeeth) -> tu
 
 def _remark(design: Design, bars: tuple[Bar, ...], teeth: DrawnTeeth) -> str:
     """A remark on simplifications in the picture."""
-    if design.spec.wheel.SHELLS:
+    if not design.mechanism.axes:
         return " Seen along the wheel's shaft."
     out = " Gears are shown by their pitch circles." if any(bar.radius for bar in bars) else ""
     if teeth.why:

@@ -9,9 +9,8 @@ from typing import Any
 from geneva_cli.answer import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.design import Design
 from geneva_cli.loads.indexer_formula import RecommendedMotor, recommended_motor
-from geneva_cli.loads.summaries import LoadSummary
+from geneva_cli.loads.load_summary import LoadSummary
 from geneva_cli.loads.summary import no_load
-from geneva_cli.motion.both_ways import every_way
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.spec.tables import Motor
 from geneva_cli.study.fields import pick
@@ -48,14 +47,13 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
 
 def _backwards(design: Design) -> Iterator[SummaryLine]:
     """The lines on motor, input, pin and wheel that differ backwards, if it must turn both ways."""
-    if design.is_backwards:
+    if design.is_backwards or not design.spec.drive.both_ways:
         return
-    for machine in every_way(design.mechanism)[1:]:
-        other = Design.of(machine.spec)
-        own = {line.text for line in (motor_line(design), *cycle_lines(design))}
-        for there in (motor_line(other), *cycle_lines(other)):
-            if there.text not in own:
-                yield there._replace(label=f"{there.label}, backwards")
+    other = design.backwards
+    own = {line.text for line in (motor_line(design), *cycle_lines(design))}
+    for there in (motor_line(other), *cycle_lines(other)):
+        if there.text not in own:
+            yield there._replace(label=f"{there.label}, backwards")
 
 
 def cycle_lines(design: Design) -> Iterator[SummaryLine]:

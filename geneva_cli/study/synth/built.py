@@ -11,7 +11,7 @@ from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.study.synth.parts import SPARE, USUAL, exact, parts, with_roller
 from geneva_cli.study.synth.parts_data import parts_data
 from geneva_cli.study.synth.turns import HAND_OVER_PLAY, Turn, failing_of, is_lost
-from geneva_cli.verdict.checks import checks
+from geneva_cli.verdict.both_ways import worst_checks
 from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION, applicable
 
@@ -105,4 +105,4 @@ def _other_failing(spec: Spec, known: Sequence[Check]) -> list[Check]:
 
 
 def _of_motion(machine: Mechanism) -> list[Check]:
-    return failing_of(checks(machine, parts=False))
+    return failing_of(worst_checks(machine, parts=False))

@@ -21,11 +21,6 @@ def frame_limits(target: Target) -> tuple[Constraint, ...]:
     )
 
 
-def breaks_limit(row: MachineRow) -> bool:
-    """Return True if a row breaks a limit of its frame."""
-    return not LIMITED.keys().isdisjoint(row.trouble.split(", "))
-
-
 def _kind(row: MachineRow) -> tuple[object, ...]:
     """A key that is equal for all machines of one wheel, drive, law and number of rollers."""
     one = row.candidate
@@ -50,7 +45,7 @@ def first_of_each(rows: Sequence[MachineRow], linkages: bool = False) -> list[Ma
 
 def with_replacements(rows: Sequence[MachineRow], kept: Sequence[MachineRow]) -> list[MachineRow]:
     """The rows, with those that break a limit replaced by rows ``kept`` of their kind."""
-    broken = {_kind(row) for row in rows if breaks_limit(row)}
-    instead = [row for row in kept if _kind(row) in broken and not breaks_limit(row)]
+    broken = {_kind(row) for row in rows if row.breaks_limit}
+    instead = [row for row in kept if _kind(row) in broken and not row.breaks_limit]
     mended = {_kind(row) for row in instead}
     return [*(row for row in rows if _kind(row) not in mended), *instead]

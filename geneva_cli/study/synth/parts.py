@@ -15,16 +15,14 @@ from functools import cache, lru_cache
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinds.linear.rack import rack_sizes
-from geneva_cli.kinds.spherical.sizes import ball
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.motion.records import thing
 from geneva_cli.motion.undercut import depths_mm
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.outlines.outline_sizes import sizes
 from geneva_cli.parts.turn.machine_parts import CONTACT
-from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.study.synth.parts_data import PartsData, distances_at_rest, parts_data
 from geneva_cli.verdict.checks.motion import undercut_depth
 from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT
@@ -83,18 +81,12 @@ def parts(mechanism: Mechanism) -> Parts:
     spec = mechanism.spec
     if not spec.is_turned:
         return Parts(spec, None)
-    if not spec.output.turns:
-        try:
-            rack_sizes(mechanism)  # with the roller of the spec, or the usual one
-        except GenevaError:
-            return Parts(spec, SIZES)
-        return Parts(spec, "")
-    if not spec.is_flat:
-        r, why = _suiting_sphere(mechanism)
+    if suiting := thing(spec.wheel.NAME, "roller"):
+        r, why = suiting(mechanism)
         return Parts(spec if r is None else with_roller(spec, r), why)
     at, m = parts_data(spec), spec.drive.rollers
     # the parts do not depend on the drive that turns the crank
-    if spec.drive.CRANKED and not mechanism.law:
+    if spec.drive.crank and not mechanism.law:
         r, why = _of_crank(at.spec, m)
     else:
         r, why = _suiting_plane(assembly(mechanism), at, m)
@@ -124,39 +116,18 @@ def _suiting_plane(where: Assembly, at: PartsData, m: int) -> tuple[float | None
     if mechanism.spec.size.roller_radius_mm is not None:
         r = mechanism.spec.size.roller_radius_mm
         return None, obstacle(r) or (ISLAND if r < at.least else "")
-    radii = _radii(at.least / L)
-    percent, why = _largest(radii, of_percent)
+    radii = radii_from(at.least / L)
+    percent, why = largest(radii, of_percent)
     # the horns of a small roller are thin; those of a larger one may be thick enough
     if why == LOCK:
         percent, why = next(((r, "") for r in reversed(radii) if not of_percent(r)), (None, LOCK))
     if percent is None and at.least > 0.01 * USUAL[-1] * L:
-        percent, _ = _largest(_radii(0.0), of_percent)  # there is no obstacle except the island
+        percent, _ = largest(radii_from(0.0), of_percent)  # there is no obstacle except the island
         why = ISLAND
-    return _radius_mm(percent, L), why
+    return radius_mm(percent, L), why
 
 
-def _suiting_sphere(mechanism: Mechanism) -> tuple[float | None, str]:
-    """The radius of the roller that suits a machine on a sphere, and the obstacle to the parts."""
-    L, spec = mechanism.center_distance_mm, mechanism.spec
-    size = spec.size
-    least = wall_min(size, L) / L
-
-    def obstacle(percent: float) -> str:
-        try:
-            shells = ball(mechanism._replace(spec=with_roller(spec, 0.01 * percent * L)))
-        except GenevaError as error:
-            return LOCK if error.key == ("size", "lock_radius_mm") else SIZES
-        return (
-            LOCK if shells.lock and shells.arm - shells.half_width - shells.recess < least else ""
-        )
-
-    if size.roller_radius_mm is not None:
-        return None, obstacle(100.0 * size.roller_radius_mm / L)
-    percent, why = _largest(_radii(0.0), obstacle)
-    return _radius_mm(percent, L), why
-
-
-def _radius_mm(percent: float | None, L: float) -> float | None:
+def radius_mm(percent: float | None, L: float) -> float | None:
     """The radius of a roller in % of L; None for the usual one, or for none."""
     return None if percent in (None, USUAL[0]) else exact(0.01 * percent * L)
 
@@ -171,14 +142,14 @@ def exact(x: float) -> float:
     return float(f"{x:.12g}")
 
 
-def _radii(least: float) -> list[float]:
+def radii_from(least: float) -> list[float]:
     """Radii to try in ascending order, in % of L: the usual ones from a least one on."""
     percent = 100.0 * least * SPARE
     usual = [r for r in reversed(USUAL) if r >= percent]
     return usual if percent <= USUAL[-1] else [to_digits(percent, 2, math.ceil), *usual]
 
 
-def _largest(radii: list[float], obstacle: Callable[[float], str]) -> tuple[float | None, str]:
+def largest(radii: list[float], obstacle: Callable[[float], str]) -> tuple[float | None, str]:
     """The largest radius without an obstacle, or else the obstacle of the smallest.
 
     An obstacle to a roller is one to larger rollers too, except for the thin horns of a lock.

@@ -86,7 +86,7 @@ def compute_parts_data(specs: Iterable[Spec]) -> None:
 def _alike(spec: Spec) -> Spec:
     """The machine that represents all with the same slots and rollers' paths."""
     drive = spec.drive
-    if spec.motion is None and drive.CRANKED:
+    if spec.motion is None and drive.crank:
         return spec.replace(drive=Crank(n_rpm=USUAL_RPM))
     if drive.n_rpm == USUAL_RPM and drive.rollers == 1:
         return spec

@@ -6,9 +6,9 @@ import math
 from collections.abc import Sequence
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
-from geneva_cli.kinds.carousel.motion import Carousel
 from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.records import KINDS
 from geneva_cli.motion.registry import STANDARD_LAWS as LAWS
 from geneva_cli.spec.rules import POSITIVE, Range, range_text
 from geneva_cli.spec.schema import fields
@@ -177,7 +177,7 @@ def _gearings(
             )
         return ("linear",)
     if wheels:
-        able = Carousel.GEARINGS
+        able = _carried()
         wrong = next((name for name in chosen if name not in able), None)
         if wrong:
             raise GenevaError(f"--{wrong}: a carrier has {' or '.join(able)} wheels")
@@ -192,6 +192,15 @@ def _gearings(
     if not stopped:
         raise GenevaError(f"--{chosen[0]}: the spec has a stop, which this wheel cannot have")
     return stopped
+
+
+def _carried() -> tuple[str, ...]:
+    """The gearings of wheels on a carrier."""
+    drives = (kind for kind in KINDS if "carrier" in kind.families)
+    able = tuple(name for drive in drives for name in drive.gearings)
+    if not able:
+        raise GenevaError("--carousel: no drive with wheels on a carrier is installed")
+    return able
 
 
 def _rollers(rollers: int | None, racks: bool, frame: Spec | None) -> int | None:

@@ -12,7 +12,6 @@ from typing import NamedTuple, TypeAlias
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.study.synth.best import FamilySearch, Trial
 from geneva_cli.study.synth.families.family import Family
-from geneva_cli.study.synth.limited import breaks_limit
 from geneva_cli.study.synth.parts import has_no_obstacle
 from geneva_cli.study.synth.parts_data import compute_parts_data
 from geneva_cli.study.synth.rows import MachineRow, rows, with_peak_limit
@@ -39,7 +38,7 @@ def replacement_rows(
     Rows that break a limit of the frame are left out; another search replaces them.
     """
     able = {row.family for row in ranked if not row.is_impossible}
-    stuck = [row.family for row in first if row.is_impossible and not breaks_limit(row)]
+    stuck = [row.family for row in first if row.is_impossible and not row.breaks_limit]
     families = [*dict.fromkeys(family for family in stuck if family and family not in able)]
     known = {row.spec for row in ranked}
     others = buildable_rows(target, families) if families else []

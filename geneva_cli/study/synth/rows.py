@@ -121,6 +121,11 @@ class MachineRow(NamedTuple):
         """The reason why its parts cannot be built; empty if none is known."""
         return (self.candidate.parts or "").partition(": ")[2]
 
+    @property
+    def breaks_limit(self) -> bool:
+        """Return True if it breaks a limit of its frame."""
+        return not LIMITED.keys().isdisjoint(self.trouble.split(", "))
+
 
 def _failing(machine: Mechanism, costs: Sequence[float]) -> str:
     """The checks that fail among those that need no parts; the peaks are known."""

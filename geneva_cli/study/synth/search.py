@@ -19,7 +19,6 @@ from geneva_cli.study.synth.families import closed
 from geneva_cli.study.synth.families.every import Kind, families, kinds
 from geneva_cli.study.synth.families.family import natural_deg, pieces
 from geneva_cli.study.synth.limited import (
-    breaks_limit,
     first_of_each,
     frame_limits,
     with_replacements,
@@ -80,8 +79,8 @@ def search(target: Target) -> Ranking:
             return search(target.by_bounds)  # its message says how near they come
         raise GenevaError(_out_of_reach(target, errors))
     ranked = _ranked(target, every)
-    if frame_limits(target) and narrowed.motion_for(1) and any(map(breaks_limit, ranked)):
-        which = [any(map(breaks_limit, kind.rows)) for kind in by_kind]
+    if frame_limits(target) and narrowed.motion_for(1) and any(row.breaks_limit for row in ranked):
+        which = [any(row.breaks_limit for row in kind.rows) for kind in by_kind]
         within = _within_limits(target, narrowed, which)
         ranked = with_replacements(ranked, within)
         ranked.sort(key=partial(_rank, target))
@@ -108,7 +107,7 @@ def _within_limits(target: Target, narrowed: Target, which: Sequence[bool]) -> l
     """
     strict = narrowed._replace(bounds=(*narrowed.bounds, *frame_limits(target)))
     by_kind = _all_kinds(strict, target.names, which=which)
-    kept = [row for kind in by_kind for row in kind.rows if not breaks_limit(row)]
+    kept = [row for kind in by_kind for row in kind.rows if not row.breaks_limit]
     try:
         return _ranked(target, kept)
     except GenevaError:  # none keeps the bounds as well

@@ -6,14 +6,13 @@ A check is a file, or a function in a file of related ones, and one line in ``re
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.verdict.checks.check import Check as Check
 from geneva_cli.verdict.checks.check import all_pass as all_pass
-from geneva_cli.verdict.checks.check import refused, worst
+from geneva_cli.verdict.checks.check import refused
 from geneva_cli.verdict.checks.registry import (
     LIMITS,
     MOTION,
@@ -25,23 +24,17 @@ from geneva_cli.verdict.checks.registry import (
     turn_checks,
 )
 
+if TYPE_CHECKING:
+    from geneva_cli.parts.parts import Parts
+
 
 def checks(
     mechanism: Mechanism, machine: Parts | None = None, parts: bool = True, turned: bool = True
 ) -> list[Check]:
     """Every check of one design: its motion, its parts unless left out, its own ``[limits]``.
 
-    Without ``turned`` those of the whole turn are left out, which take the longest. A machine that
-    turns both ways has each check in its worse direction.
+    Without ``turned`` those of the whole turn are left out, which take the longest.
     """
-    _, *others = every_way(mechanism)
-    rows = _one_way(mechanism, machine, parts, turned)
-    for other in others:
-        rows = worst(rows, _one_way(other, None, parts, turned))
-    return rows
-
-
-def _one_way(mechanism: Mechanism, machine: Parts | None, parts: bool, turned: bool) -> list[Check]:
     motion = list(applicable(MOTION, mechanism))
     shown = list(_parts(mechanism, machine, turned)) if parts else []
     return [*motion, *shown, *applicable(LIMITS, mechanism)]
@@ -81,6 +74,8 @@ def single_check(mechanism: Mechanism, name: str, parts: Parts | None = None) ->
     among = standing(mechanism)
     if not mechanism.spec.has_parts or name not in among:
         return None
+    from geneva_cli.parts.parts import parts_of
+
     return check_named(among, name, (parts or parts_of(mechanism)).built)
 
 
@@ -96,6 +91,8 @@ def _parts(mechanism: Mechanism, machine: Parts | None, turned: bool) -> Iterato
     if not spec.is_turned:
         yield from none
         return
+    from geneva_cli.parts.parts import parts_of
+
     machine = machine or parts_of(mechanism)
     try:
         rows = none or list(standing_checks(machine.built))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError
@@ -108,40 +108,6 @@ def gap(name: str, least: Callable[[], ShaftGap | None], L: float) -> Check | No
         return Check(name, None, "at least", 0.0, False, str(error))
     # A gap is rounded to 1e-12 of the centre distance, or of the sphere's radius.
     return compared(name, smallest.gap, "at least", 0.0, noise=1e-12 * L) if smallest else None
-
-
-def worst(forwards: Sequence[Check], backwards: Sequence[Check]) -> list[Check]:
-    """Each check in the direction in which its margin is less.
-
-    >>> both = [compared("horn_mm", value, "at least", 1.0) for value in (3.0, 2.0)]
-    >>> worst(both[:1], both[1:])[0].direction
-    'backwards'
-    """
-    others = dict(_numbered(backwards))
-    rows = [_worse(check, others.pop(key, check)) for key, check in _numbered(forwards)]
-    return rows + [check._replace(direction="backwards") for check in others.values()]
-
-
-def _numbered(rows: Sequence[Check]) -> Iterator[tuple[tuple[str, int], Check]]:
-    """Checks by their names, and numbers where two have one name."""
-    for i, check in enumerate(rows):
-        yield (check.name, sum(other.name == check.name for other in rows[:i])), check
-
-
-def _worse(one: Check, other: Check) -> Check:
-    """The check with the smaller margin, and its direction if they differ."""
-    if one.passes == other.passes:
-        # outlines are as accurate as their drawings, some 1e-5 of a length
-        if (
-            one.value is None
-            or other.value is None
-            or math.isclose(one.value, other.value, rel_tol=1e-4)
-        ):
-            return one
-        first = one.spare <= other.spare
-    else:
-        first = one.passes is False or (one.passes is None and other.passes is True)
-    return (one if first else other)._replace(direction="forwards" if first else "backwards")
 
 
 def all_pass(rows: Iterable[Check]) -> bool:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, TypeAlias
 
-from geneva_cli.motion.registry import KINDS, of_wheel
+from geneva_cli.motion.records import KINDS, of_wheel
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.verdict.checks.check import Check
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.reliefs import is_whole
@@ -10,8 +10,18 @@ from geneva_cli.parts.shafts.clamps import clamp_of
 from geneva_cli.verdict.checks.check import Check, compared, gap
 
 if TYPE_CHECKING:
-    from geneva_cli.kinds.linear.parts import RackParts
-    from geneva_cli.kinds.spherical.parts import SphereParts
+    from geneva_cli.motion.mechanism import Mechanism
+
+
+class Hubs(Protocol):
+    """Parts with hubs."""
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The machine."""
+
+    def hub_radii(self, part: str) -> tuple[float, float]:
+        """Return the radii of the bore and the hub of a part, "wheel" or "crank", mm."""
 
 
 def crank_shaft(name: str, parts: FlatParts) -> Check | None:
@@ -61,7 +71,7 @@ def passing_parts(name: str, parts: FlatParts) -> Check | None:
         "crank_shaft_high_mm",
     )
     own = sizes["shafts"] == "turned" or any(sizes[key] is not None for key in keys)
-    if not (spec.drive.IN_SERIES or own):
+    if not (parts.mechanism.first_wheel or own):
         return None
     from geneva_cli.verdict.shaft_gap import shaft_gap  # which few machines need
 
@@ -77,23 +87,7 @@ def passing_gears(name: str, parts: FlatParts) -> Check | None:
     return gap(name, lambda: gear_gap(parts), parts.outlines.assembly.L)
 
 
-def passing_rack(name: str, parts: RackParts) -> Check | None:
-    """The least gap between shafts and a rack, of a crank's shaft that ends above the arm."""
-    if not parts.mechanism.spec.has_parts:
-        return None  # without a frame there are no shafts
-    from geneva_cli.verdict.shaft_gap import rack_shaft_gap
-
-    return gap(name, lambda: rack_shaft_gap(parts), parts.mechanism.center_distance_mm)
-
-
-def passing_rack_gears(name: str, parts: RackParts) -> Check | None:
-    """The least gap of gears before a rack's crank to its guide and to shafts."""
-    from geneva_cli.verdict.shaft_gap import rack_gear_gap
-
-    return gap(name, lambda: rack_gear_gap(parts), parts.mechanism.center_distance_mm)
-
-
-def held_torque(name: str, parts: FlatParts | SphereParts) -> Check | None:
+def held_torque(name: str, parts: Hubs) -> Check | None:
     """The torque that a clamp holds; None without a load, or a clamp that the hub has space for."""
     spec = parts.mechanism.spec
     part = name.partition("_")[0]

@@ -9,8 +9,8 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kept import cached_property
+from geneva_cli.motion.batch import alone
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.many import alone
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.numerics.latest import Known
 from geneva_cli.spec.load_limits import LIMITED, limits_by_key
@@ -75,7 +75,7 @@ class Designs:
     @cached_property
     def load_case(self) -> LoadCase:
         """The loads' parameters besides the motion."""
-        from geneva_cli.loads.forces import load_case  # quantities without loads need none
+        from geneva_cli.loads.load_case import load_case  # quantities without loads need none
 
         return load_case(self.machine)
 

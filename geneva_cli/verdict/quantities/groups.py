@@ -6,15 +6,17 @@ A new quantity is a name in one group here, and a value of the group's function.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
+from geneva_cli.motion.records import KINDS, of_wheel
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, WheelMaterial
 from geneva_cli.verdict.checks.registry import PROOFS, checks_before_turn, checks_of_turn
 
 if TYPE_CHECKING:
+    from geneva_cli.motion.machine_spec import Spec
     from geneva_cli.numerics.arrays import Number
     from geneva_cli.parts.parts import Parts
     from geneva_cli.verdict.quantities.designs import Columns, Designs, Values
@@ -63,7 +65,7 @@ class QuantityGroup(NamedTuple):
     """Quantities that are computed together.
 
     ``alone`` computes them for the machine of a Parts and ``batch`` for Designs, each as
-    module:function of this folder, imported at its first use. Both return values by the names in
+    module:function, imported at its first use. Both return values by the names in
     ``own``, and no design has those that they leave out. Without ``alone`` a single design is a
     batch of one. Groups may have one function for batches. ``alone`` may also return lists and
     tables.
@@ -75,6 +77,7 @@ class QuantityGroup(NamedTuple):
     batch: str = ""
     one_by_one: tuple[str, ...] = ()  # names in ``own`` that ``batch`` does not compute
     makes_parts: bool = False  # it makes the machine's parts or turns them, which may take seconds
+    kind: str = ""  # name of the kind to whose machines they belong; empty for all
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -90,9 +93,11 @@ class QuantityGroup(NamedTuple):
     def values(self, parts: Parts) -> Values:
         """The values of a single design; None for those that it lacks."""
         every: Values = {self._whole(name): None for name in self.own}
+        if not self._is_of(parts.mechanism.spec):
+            return every
         computed: Values
         if self.alone:
-            computed = load_named(f"verdict.{self.alone}")(parts)
+            computed = load_named(self.alone)(parts)
         else:
             from geneva_cli.verdict.quantities.designs import single
 
@@ -105,9 +110,16 @@ class QuantityGroup(NamedTuple):
 
         A name is left out if the batch cannot compute it, and each design must be built alone.
         """
-        compute: Callable[[Designs], Columns] = load_named(f"verdict.quantities.{self.batch}")
+        if not self._is_of(of.spec):
+            return dict.fromkeys(self.own)
+        compute: Callable[[Designs], Columns] = load_named(self.batch)
         columns = of.columns(compute)
         return columns if self.alone else {**dict.fromkeys(self.own), **columns}
+
+    def _is_of(self, spec: Spec) -> bool:
+        """Return True if the quantities belong to a machine of the spec's kinds."""
+        kinds = [kind.name for kind in of_wheel(spec.wheel.NAME)]
+        return self.kind in ("", spec.drive.NAME, *kinds)
 
     def _whole(self, name: str) -> str:
         return f"{self.table}.{name}" if self.table else name
@@ -155,22 +167,22 @@ def _group(
 MACHINE = _group(
     "",
     "wheel.z wheel.gearing drive.kind drive.rollers drive.before.kind motion.law",
-    "quantities.single:machine",
+    "verdict.quantities.single:machine",
 )
-# Quantities of a report, in the order shown.
-REPORT = (
+# Quantities of a report, in the order shown, but those of kinds.
+_REPORT = (
     QuantityGroup(
         "inputs",
         tuple(f"{table}.{key}" for table, names in ECHOED.items() for key in names),
-        "report.sizes:inputs",
+        "verdict.report.sizes:inputs",
     ),
     _group(
         "timing",
         "motion_deg dwell_deg index_deg k tau motion_s dwell_s cycle_s index_mm",
-        batch="motion:timing",
+        batch="verdict.quantities.motion:timing",
     ),
-    _group("timing", "shortest_motion_s", "report.stations:shortest_motion"),
-    _group("timing", "k_r", batch="motion:timing"),
+    _group("timing", "shortest_motion_s", "verdict.report.stations:shortest_motion"),
+    _group("timing", "k_r", batch="verdict.quantities.motion:timing"),
     QuantityGroup(
         "",
         (
@@ -181,10 +193,10 @@ REPORT = (
             *_product("jerk", "max at_deg max_rad_s3 max_m_s3 entry exit"),
             *_product("power", "max at_deg max_rad2_s3 max_m2_s3"),
         ),
-        "report.stations:peaks",
-        "motion:peaks",
+        "verdict.report.stations:peaks",
+        "verdict.quantities.motion:peaks",
     ),
-    _group("", "", "report.stations:stations"),
+    _group("", "", "verdict.report.stations:stations"),
     QuantityGroup(
         "loads",
         (
@@ -192,28 +204,36 @@ REPORT = (
             *_product("input_torque_Nm contact_stress_MPa", "max at_deg"),
             "kinetic_power_W",
         ),
-        "report.loads:greatest_loads",
-        "loads:greatest",
+        "verdict.report.loads:greatest_loads",
+        "verdict.quantities.loads:greatest",
     ),
     QuantityGroup(
         "cycle",
         _product("input_torque_Nm power_W crank_bearing_N", "max min mean rms"),
-        "report.loads:cycle",
+        "verdict.report.loads:cycle",
     ),
-    _group("shock.entry", "at_deg jump force_N moment_Nms", batch="disturbances:entry"),
+    _group(
+        "shock.entry",
+        "at_deg jump force_N moment_Nms",
+        batch="verdict.quantities.disturbances:entry",
+    ),
     _group(
         "shock.reversal",
         "at_deg jump force_N moment_Nms contact_stress_MPa drag_Nm",
-        batch="disturbances:reversal",
+        batch="verdict.quantities.disturbances:reversal",
     ),
-    _group("slot", "positively_driven", "report.loads:slot"),
-    _group("slot", "not_driven_share branch_gap_mm branch_gap_at_deg", batch="loads:slot"),
+    _group("slot", "positively_driven", "verdict.report.loads:slot"),
+    _group(
+        "slot",
+        "not_driven_share branch_gap_mm branch_gap_at_deg",
+        batch="verdict.quantities.loads:slot",
+    ),
     _group(
         "vibration",
         "none period_ratio damping_ratio natural_Hz residual_share residual_deg "
         "residual_share_worst steady_share dynamic_factor windup_deg",
-        "report.loads:vibration",
-        "disturbances:vibration",
+        "verdict.report.loads:vibration",
+        "verdict.quantities.disturbances:vibration",
     )._replace(one_by_one=("none",)),
     QuantityGroup(
         "product",
@@ -224,45 +244,32 @@ REPORT = (
                 "max at_deg",
             ),
         ),
-        batch="motion:product",
+        batch="verdict.quantities.motion:product",
     ),
-    _group(
-        "carousel",
-        "turn_deg velocity moving_fraction behind_deg centrifugal_N held_Nm",
-        batch="motion:carousel",
-    ),
-    _group("", "", "report.stations:wheels"),
-    _group("", "", "report.stations:cranks"),
+    _group("", "", "verdict.report.stations:wheels"),
+    _group("", "", "verdict.report.stations:cranks"),
     _group(
         "sizes",
         "axes_deg sphere_radius_mm crank_arm_mm slot_mouth_polar_deg slot_bottom_polar_deg "
         "center_distance_mm crank_radius_mm ratio roller_radius_mm slot_width_mm clearances_from "
         "slot_mouth_radius_mm slot_bottom_radius_mm wheel_radius_mm rim_radius_mm "
         "pressure_angle_max_deg rollers_max",
-        "report.sizes:sizes",
+        "verdict.report.sizes:sizes",
     ),
     _group(
         "parts",
         "none rim_radius_mm slot_end_radius_mm lock_radius_mm recess_radius_mm relief horn_mm "
         "wheel_bore_mm crank_bore_mm",
-        "report.parts:parts",
+        "verdict.report.parts:parts",
         makes_parts=True,
     ),
     _group(
         "parts",
         "smallest_gap_mm smallest_gap_at_deg dwell_play_deg dwell_play_mm",
-        "report.parts:turned",
+        "verdict.report.parts:turned",
         makes_parts=True,
     ),
-    _group("carousel", "envelope_mm", "report.parts:envelope", makes_parts=True),
-    _group(
-        "stop",
-        "turns first_deg last_deg overlap_mm lever_mm force_N contact_stress_MPa",
-        "report.parts:stop",
-        makes_parts=True,
-    ),
-    _group("guide", "length_mm locks_at_friction force_N at_deg", batch="strength:guide"),
-    _group("parts_list", "", "report.parts:parts_list_tables", makes_parts=True),
+    _group("parts_list", "", "verdict.report.parts:parts_list_tables", makes_parts=True),
     QuantityGroup(
         "tolerance",
         (
@@ -270,8 +277,8 @@ REPORT = (
             *_product("entry_jump", "mean worst mouth_worst"),
             *_product("clearances", "slot_needed_mm lock_needed_mm turns"),
         ),
-        "report.loads:tolerances",
-        "disturbances:tolerances",
+        "verdict.report.loads:tolerances",
+        "verdict.quantities.disturbances:tolerances",
         (
             *_product("dwell_position", "worst_deg rss_deg p997_deg"),
             *("motion_play.p997_deg", "entry_jump.mean", "entry_jump.mouth_worst"),
@@ -282,53 +289,71 @@ REPORT = (
     _group(
         "strength.pin",
         "diameter_mm bending_MPa shear_MPa stress_MPa allowed_MPa margin least_diameter_mm",
-        batch="strength:pin",
+        batch="verdict.quantities.strength:pin",
     ),
     _group(
         "strength.horn",
         "stress_MPa at_deg inwards_mm thickness_mm allowed_MPa margin",
-        batch="strength:horn",
+        batch="verdict.quantities.strength:horn",
     ),
     _group(
         "strength.lock",
         "torque_Nm force_N contact_stress_MPa pressure_MPa allowed_MPa margin horn_stress_MPa "
         "play_deg approach_deg bending_deg deflection_deg",
-        batch="strength:lock",
+        batch="verdict.quantities.strength:lock",
     ),
     *(
         _group(
             f"strength.{shaft}",
             "diameter_mm moment_Nm at_deg stress_MPa allowed_MPa margin least_diameter_mm "
             "twist_deg",
-            batch=f"strength:{shaft}",
+            batch=f"verdict.quantities.strength:{shaft}",
         )
         for shaft in ("wheel_shaft", "crank_shaft")
     ),
-    _group("strength.arm", "thickness_mm stress_MPa allowed_MPa margin", batch="strength:arm"),
-    _group("strength.arm", "least_thickness_mm", batch="strength:arm_thickness"),
+    _group(
+        "strength.arm",
+        "thickness_mm stress_MPa allowed_MPa margin",
+        batch="verdict.quantities.strength:arm",
+    ),
+    _group("strength.arm", "least_thickness_mm", batch="verdict.quantities.strength:arm_thickness"),
     *(
         _group(
             f"strength.{key}",
             "length_mm pressure_MPa shear_MPa allowed_MPa margin least_length_mm",
-            batch=f"strength:{key}",
+            batch=f"verdict.quantities.strength:{key}",
         )
         for key in ("wheel_key", "crank_key")
     ),
     _group(
         "life",
         "slot_travel_m roller_turns_per_motion equivalent_force_N friction_work_J",
-        batch="life:wear",
+        batch="verdict.quantities.life:wear",
     ),
-    _group("life", "pv_max_W_m2", batch="life:pressure_speed"),
-    _group("life", "pin_stress_MPa horn_stress_MPa", batch="life:bending"),
+    _group("life", "pv_max_W_m2", batch="verdict.quantities.life:pressure_speed"),
+    _group("life", "pin_stress_MPa horn_stress_MPa", batch="verdict.quantities.life:bending"),
     _group(
         "life",
         "roller_life_turns roller_life_motions roller_life_h slot_wear_mm_per_million",
-        batch="life:wear",
+        batch="verdict.quantities.life:wear",
     ),
-    _group("strength", "", "report.loads:needs"),
-    _group("", "", "report.both_ways:both_ways"),
+    _group("strength", "", "verdict.report.loads:needs"),
+    _group("", "", "verdict.both_ways:differences"),
 )
+
+
+def _with_kinds(groups: tuple[QuantityGroup, ...]) -> Iterator[QuantityGroup]:
+    """The groups of a report, each kind's own behind the tables that it names."""
+    last = {group.table: group for group in groups}
+    for group in groups:
+        yield group
+        for kind in KINDS:
+            for own in kind.quantities:
+                if last[own.after] is group:
+                    yield _group(own.table, own.names, *own[3:])._replace(kind=kind.name)
+
+
+REPORT = (*_with_kinds(_REPORT),)
 # Further quantities, for studies.
 STUDY = (
     QuantityGroup(
@@ -337,8 +362,8 @@ STUDY = (
             *_product(f"{SIZED} {SIGNED}", "min min_at_deg mean rms"),
             *_product(SIGNED, "max max_at_deg"),
         ),
-        "quantities.single:cycle",
-        "loads:summaries",
+        "verdict.quantities.single:cycle",
+        "verdict.quantities.loads:summaries",
     ),
     _group(
         "sizing",
@@ -346,19 +371,22 @@ STUDY = (
         "design_torque_Nm input_torque_Nm power_W Am Vm Qm energy_fluctuation_J flywheel_kgm2 "
         "motor_rpm motor_torque_max_Nm motor_torque_rms_Nm inertia_ratio flywheel_to_add_kgm2 "
         "coasting_speed_share input_torque_ratio",
-        "quantities.single:motor_sizing",
-        "loads:sizing",
+        "verdict.quantities.single:motor_sizing",
+        "verdict.quantities.loads:sizing",
     ),
     QuantityGroup(
-        "checks", checks_before_turn(), "quantities.single:values_before_turn", makes_parts=True
+        "checks",
+        checks_before_turn(),
+        "verdict.quantities.single:values_before_turn",
+        makes_parts=True,
     ),
     QuantityGroup(
         "checks",
         (*checks_of_turn(), "passes", "failed"),
-        "quantities.single:check_values",
+        "verdict.quantities.single:check_values",
         makes_parts=True,
     ),
-    QuantityGroup("checks", tuple(PROOFS), "quantities.single:proved", makes_parts=True),
+    QuantityGroup("checks", tuple(PROOFS), "verdict.quantities.single:proved", makes_parts=True),
 )
 # All quantities; those that make parts come last.
 GROUPS = tuple(sorted((MACHINE, *REPORT, *STUDY), key=lambda group: group.makes_parts))

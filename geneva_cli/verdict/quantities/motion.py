@@ -1,4 +1,4 @@
-"""Timing and peaks of designs; motion of wheels on a carrier and of the product."""
+"""Timing and peaks of designs, and motion of their products."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from typing import cast
 
 import numpy as np
 
-from geneva_cli.loads.carried import carried_kg
 from geneva_cli.loads.product import ProductMotion, product_motion
 from geneva_cli.motion.engagement import WheelMotion
+from geneva_cli.motion.many import worst_peaks
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.peak_search import QUANTITIES, worst_peaks
+from geneva_cli.motion.peak_search import QUANTITIES
 from geneva_cli.motion.timing import timings
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.numerics.angles import omega
@@ -97,29 +97,6 @@ def _ends(machine: Mechanism, order: int) -> list[Array]:
 
 def _size(motion: WheelMotion, at_deg: Number, order: int) -> Array:
     return np.ravel(abs(motion(at_deg, order).arrays()[order]))
-
-
-def carousel(of: Designs) -> Columns:
-    """Turn and velocity of the wheels from the ground, and their centrifugal force."""
-    machine, wheels = of.machine, of.spec.drive.wheels_on_carrier
-    if not wheels:
-        return {}
-    from geneva_cli.loads.unbalance import centrifugal_N, held_unbalance_Nm
-
-    own = sum(2.0 * one.half_step for one in machine.engagements) * (360.0 / machine.period_deg)
-    fastest = worst_peaks(machine, ["velocity"])["velocity"].max
-    every = machine.under_load  # its period has the motions of all wheels
-    moving = sum(one.motion_deg for one in every.engagements) / every.period_deg
-    force = centrifugal_N(machine) if carried_kg(of.spec) else np.inf
-    held = held_unbalance_Nm(machine) if of.spec.unbalanced else np.inf
-    return {
-        "turn_deg": np.ravel(360.0 + machine.frame * np.degrees(own)),
-        "velocity": 1.0 + machine.frame * fastest,
-        "moving_fraction": np.ravel(moving),
-        "behind_deg": 360.0 / wheels if wheels > 1 else np.inf,
-        "centrifugal_N": np.ravel(force),
-        "held_Nm": np.ravel(held),
-    }
 
 
 def product_motion_of(of: Designs) -> ProductMotion | None:

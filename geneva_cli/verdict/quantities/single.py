@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.sizing import WHEEL_INERTIA, sizing
 from geneva_cli.loads.summary import summaries
-from geneva_cli.verdict.checks import Check, checks, proofs
+from geneva_cli.verdict.both_ways import worst_checks
+from geneva_cli.verdict.checks import Check, proofs
 from geneva_cli.verdict.checks.registry import checks_before_turn, checks_of_turn
 from geneva_cli.verdict.quantities.loads import summary_ends
 
@@ -32,12 +33,12 @@ def machine(parts: Parts) -> Values:
 
 def values_before_turn(parts: Parts) -> Values:
     """The value of each check but those of the turn."""
-    return _values(checks_before_turn(), checks(parts.mechanism, parts, turned=False))
+    return _values(checks_before_turn(), worst_checks(parts.mechanism, parts, turned=False))
 
 
 def check_values(parts: Parts) -> Values:
     """The value of each check of the turn, and whether all checks pass."""
-    rows = checks(parts.mechanism, parts)
+    rows = worst_checks(parts.mechanism, parts)
     values = _values(checks_of_turn(), rows)
     failed = [c.name for c in rows if c.passes is False]
     return values | {"passes": not failed, "failed": " ".join(failed) or None}

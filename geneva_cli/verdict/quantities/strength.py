@@ -1,13 +1,11 @@
-"""Strength of designs: pin, horn, lock, shafts, arm, keys, and a guide."""
+"""Strength of designs: pin, horn, lock, shafts, arm and keys."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.loads.impacts.shock_force import least_pin_mm
 from geneva_cli.loads.strength import arm as arms
 from geneva_cli.loads.strength import pin as pins
@@ -15,7 +13,6 @@ from geneva_cli.loads.strength import shafts
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.loads.unbalance import centrifugal_N
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, Number, array, parameter
 from geneva_cli.spec.materials import roller_material, wheel_material
 from geneva_cli.spec.tables import Material
@@ -76,12 +73,12 @@ def horn(of: Designs) -> Columns:
     allowed, load = _allowed(of, of.spec.material_wheel, wheel_material), under_load(of)
     out: dict[str, Number | None] = {"allowed_MPa": allowed}
     width = load.contact_mm
-    if width is None or not load.has_horns:
+    if width is None or not (load.horns and load.horns.exist):
         return out
     force = load.force_N
     if not np.isfinite(force).any():
         return out | dict.fromkeys(("stress_MPa", "at_deg", "inwards_mm", "thickness_mm"), force)
-    rows = {name: _known(row) for name, row in load.horn(width)._asdict().items()}
+    rows = {name: _known(row) for name, row in load.horns.stress(width)._asdict().items()}
     stress = np.where(np.isfinite(force), rows["stress_MPa"], force)
     out["margin"] = margin(stress, allowed)
     return out | {name: np.where(np.isfinite(force), row, force) for name, row in rows.items()}
@@ -239,25 +236,3 @@ def _key(of: Designs, key: KeyDimensions | None, torque: str) -> Columns:
         "margin": margin(pressure, _known(allowed)),
         "least_length_mm": _known(stress.least_length_mm),
     }
-
-
-def guide(of: Designs) -> Columns:
-    """The guides of racks; none for a wheel, and for a rack that has no guide."""
-    if not of.spec.guided:
-        return {}
-    names = "length_mm", "locks_at_friction", "force_N", "at_deg"
-    rows = [_guide(one) for one in of.each]
-    return dict(zip(names, np.array(rows).T, strict=True))
-
-
-def _guide(machine: Mechanism) -> tuple[float, float, float, float]:
-    """Length, friction that locks, force and its angle; infinite for what a design lacks."""
-    from geneva_cli.kinds.linear.guide_forces import guide_force, locks_at_friction
-    from geneva_cli.kinds.linear.rack import rack_sizes
-
-    try:
-        sizes = rack_sizes(machine)
-    except GenevaError:  # the check of the horn reports the error
-        return (math.inf,) * 4
-    force = guide_force(machine) if machine.spec.is_loaded else (math.inf, math.inf)
-    return 2.0 * sizes.guide.half, locks_at_friction(machine), *force

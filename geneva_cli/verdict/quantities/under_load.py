@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +16,7 @@ from geneva_cli.loads.strength import lock, shafts
 from geneva_cli.loads.strength import pin as pins
 from geneva_cli.loads.strength.pin import PinSize
 from geneva_cli.loads.summaries import load_peaks
+from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Array, Number, library, parameter
 from geneva_cli.parts.outlines.outline_sizes import Layout, sized
 from geneva_cli.spec.materials import roller_material
@@ -24,13 +25,11 @@ from geneva_cli.verdict.part_sizes import (
     batched,
     design_lock_sizes,
     layouts_lock_sizes,
-    rack_horns,
     stressed_parts,
 )
+from geneva_cli.verdict.quantities.horns import Horns
 
 if TYPE_CHECKING:
-    from geneva_cli.kinds.spherical.ball import Ball
-    from geneva_cli.loads.strength.horn_search import HornStress
     from geneva_cli.loads.strength.lock import LockUnderTorque
     from geneva_cli.loads.strength.part_loads import PartLoads
     from geneva_cli.parts.sizes.stressed import Stressed
@@ -83,42 +82,19 @@ class UnderLoad:
         return design_lock_sizes(self.machine)
 
     @cached_property
-    def balls(self) -> Sequence[Ball | None]:
-        """Sizes of each design on a sphere; None for a design without parts there."""
-        from geneva_cli.kinds.spherical.sizes import sized_ball  # which flat machines need not
-
-        return [sized_ball(one) for one in self.designs.each]
-
-    @cached_property
-    def flat_horns(self) -> tuple[float, float] | None:
-        """Half the slot's width and the recess's radius, (m, 1); None if no design has a lock."""
-        if self.machine.spec.output.turns:
-            sizes = self.lock_sizes
-            return sizes and (sizes.half_width, sizes.lock.recess)
-        return rack_horns(self.designs.each)
+    def horns(self) -> Horns | None:
+        """The horns of the designs; None where no part is cut."""
+        of_kind: Callable[[Designs], Horns | None] | None
+        of_kind = thing(self.machine.spec.wheel.NAME, "horns")
+        if of_kind:
+            return of_kind(self.designs)
+        sizes = self.lock_sizes
+        return Horns(self.designs, (sizes.half_width, sizes.lock.recess)) if sizes else None
 
     @property
     def has_horns(self) -> bool:
         """True if a design has horns: a locking disc and its recesses."""
-        return self.flat_horns is not None or any(ball and ball.recess for ball in self.balls)
-
-    def horn(self, width: float) -> HornStress:
-        """The greatest stress in the horns under the roller, for a width of its contact."""
-        from geneva_cli.loads.strength.horn import horn_stresses, single_horn_stresses
-        from geneva_cli.loads.strength.horn_search import HornStress
-
-        if self.flat_horns is not None and self.designs.single:
-            return single_horn_stresses(self.machine, *self.flat_horns).over(width)
-        if self.flat_horns is not None:
-            return horn_stresses(self.machine, *self.flat_horns, width)
-        from geneva_cli.kinds.spherical.horn import sphere_horn
-
-        rows = np.full((len(HornStress._fields), len(self.balls)), np.nan)
-        widths = np.broadcast_to(np.ravel(width), len(self.balls))
-        for i, (one, ball) in enumerate(zip(self.designs.each, self.balls, strict=True)):
-            angles = (ball.half_width, ball.recess, ball.axes) if ball else (0.0, 0.0, 0.0)
-            rows[:, i] = sphere_horn(one, *angles, float(widths[i])) or np.nan
-        return HornStress(*map(parameter, rows))
+        return bool(self.horns and self.horns.exist)
 
     @cached_property
     def layouts(self) -> Sequence[Layout | None]:

@@ -7,7 +7,7 @@ import math
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads import loads
 from geneva_cli.loads.carried import inertia_kgm2
-from geneva_cli.loads.cycle import cycle_of
+from geneva_cli.loads.cycle import cycle_of, greatest
 from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS, sources
 from geneva_cli.loads.summary import reversals_deg
 from geneva_cli.motion.peaks import worst
@@ -26,7 +26,7 @@ def greatest_loads(parts: Parts) -> Values:
     loaded, known = mechanism.spec.is_loaded, sources(mechanism)
     values: Values = {}
     for name, source in REPORTED_PEAKS.items():
-        peak = loads.greatest(mechanism, source) if loaded and source in known else None
+        peak = greatest(mechanism, source) if loaded and source in known else None
         bounded = peak is not None and math.isfinite(peak.max)
         values[f"{name}.max"] = peak.max if peak and bounded else None
         values[f"{name}.at_deg"] = peak.at_deg if peak else None

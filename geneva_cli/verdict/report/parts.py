@@ -1,4 +1,4 @@
-"""Cut sizes and list of the parts, results of their whole turn, and the stops of a crank."""
+"""Cut sizes and list of the parts, and results of their whole turn."""
 
 from __future__ import annotations
 
@@ -6,10 +6,8 @@ from collections.abc import Callable
 
 from geneva_cli.drawings.parts_list import FIRST, KINDS, parts_list
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinds.stop.parts import wheel_stop
 from geneva_cli.parts.parts import Parts
 from geneva_cli.table import Reading, rows_table
-from geneva_cli.verdict.checks.cranks import reach_mm
 from geneva_cli.verdict.quantities.designs import Values
 
 
@@ -62,41 +60,6 @@ def cut_sizes(parts: Parts) -> Values:
         "relief": outlines.relief if locked else None,
         "wheel_bore_mm": 2.0 * size.wheel_bore,
         "crank_bore_mm": 2.0 * size.crank_bore,
-    }
-
-
-def envelope(parts: Parts) -> Values:
-    """Radius about the fixed axis that the wheels sweep, on a carrier."""
-    spec = parts.mechanism.spec
-    if not (spec.drive.wheels_on_carrier and spec.is_flat):
-        return {}
-    try:
-        outlines = parts.outlines
-    except GenevaError:  # ``parts.none`` gives the reason
-        return {}
-    return {"envelope_mm": parts.mechanism.center_distance_mm + reach_mm(outlines)}
-
-
-def stop(parts: Parts) -> Values:
-    """The stops of a crank, where the wheel has a convex face."""
-    if not (parts.mechanism.spec.wheel.stopped and parts.mechanism.spec.is_flat):
-        return {}
-    try:
-        outlines = parts.outlines
-    except GenevaError:  # ``parts.none`` gives the reason
-        return {}
-    stops = wheel_stop(outlines)
-    assert stops is not None  # the wheel has a convex face
-    from geneva_cli.loads.strength.lock import stop_contact
-
-    contact = stop_contact(parts.mechanism, stops.lever_mm, outlines.sizes.rim)
-    return {
-        "turns": stops.turns,
-        "first_deg": stops.first_deg,
-        "last_deg": stops.last_deg,
-        "overlap_mm": stops.overlap_mm,
-        "lever_mm": stops.lever_mm,
-        **contact._asdict(),
     }
 
 

@@ -19,7 +19,7 @@ def sizes(parts: Parts) -> Values:
 
     The rim is None if the spec's sizes leave no wheel; the slots too if no wheel is drawn.
     """
-    if parts.mechanism.spec.wheel.SHELLS:
+    if not parts.mechanism.axes:
         return _sphere_sizes(parts.mechanism)
     return _flat_sizes(parts)
 

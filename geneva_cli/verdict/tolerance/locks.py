@@ -1,36 +1,45 @@
-"""The locks of parts as they are cut, whose play the tolerances change."""
+"""Parts as they are cut within the tolerances: their locks, and the extremes of their machines."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from collections.abc import Callable, Sequence
+from typing import TypeAlias
 
-from geneva_cli.kinds.spherical.locking import SphereLock
-from geneva_cli.kinds.spherical.parts import SphereParts
-from geneva_cli.kinds.spherical.shells import Shells
-from geneva_cli.loads.tolerance.locking import Lock
+from geneva_cli.loads.tolerance.locking import CutLock, Lock
+from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.records import thing
 from geneva_cli.parts.outlines.cut_lock import cut_arcs
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.parts import Parts
 
-if TYPE_CHECKING:
-    from geneva_cli.kinds.spherical.ball import Ball
-
-CutLock: TypeAlias = Lock | SphereLock
 SAME = 1e-6  # fraction of the centre distance, or radians: nearer radii and angles are equal
+# The lock's need, None for none, and the spec of the tightest machine (-1) or the loosest (+1)
+Corners: TypeAlias = tuple[float | None, Callable[[float], Spec]]
 
 
-def ball_of(parts: Parts) -> Ball | None:
-    """The sizes of shells of a sphere; None for plates."""
-    return parts.ball if isinstance(parts, SphereParts) else None
+class CutParts:
+    """Flat parts as they are cut."""
+
+    def __init__(self, parts: Parts) -> None:
+        self.outlines = parts.outlines
+
+    def locks(self) -> Sequence[CutLock]:
+        """The locks, one for each shape; none without a locking disc."""
+        return flat_locks(self.outlines)
+
+    def corners(self, spec: Spec, sizes: dict[str, float], slot: float) -> Corners:
+        """The clearance that the lock needs, and the specs of tightest and loosest machine."""
+        ring = sizes["lock_radius_mm"] + sizes["recess_radius_mm"]
+        lock = ring + sizes["center_distance_mm"] if self.outlines.crank else None
+        return lock, lambda sign: corner(spec, self.outlines, sizes, sign, slot, lock or 0.0)
 
 
-def locks_of(parts: Parts) -> Sequence[CutLock]:
-    """The locks of plates or shells, one for each shape; none without a locking disc."""
-    if isinstance(parts, SphereParts):
-        return sphere_locks(parts.shells)
-    return flat_locks(parts.outlines)
+def cut_parts(parts: Parts) -> CutParts:
+    """The parts as they are cut, which a kind of wheel may have in its own way."""
+    wheel = parts.mechanism.spec.wheel.NAME
+    cut: CutParts = (thing(wheel, "cut_parts") or CutParts)(parts)
+    return cut
 
 
 def flat_locks(outlines: Outlines) -> list[Lock]:
@@ -56,15 +65,29 @@ def flat_locks(outlines: Outlines) -> list[Lock]:
     ]
 
 
-def sphere_locks(shells: Shells) -> list[SphereLock]:
-    """A recess with each locking sector of a spherical crank; empty without one."""
-    ball = shells.ball
-    halves = {
-        round(edge.sweep / SAME): 0.5 * edge.sweep
-        for region in shells.crank
-        for edge in region.boundary[:1]  # it begins with the locking edge
-    }
-    return [
-        SphereLock(ball.radius_mm, ball.axes, ball.lock, ball.recess, ball.rim, half)
-        for half in halves.values()
-    ]
+def corner(
+    spec: Spec, outlines: Outlines, sizes: dict[str, float], sign: float, slot: float, lock: float
+) -> Spec:
+    """The spec of the tightest machine (``sign`` -1) or the loosest (+1); other sizes fixed."""
+    cut, size = outlines.sizes, spec.size
+    roller = cut.roller - sign * 0.5 * sizes["roller_diameter_mm"]
+    clearance = max(size.allowances.slot_clearance_mm + sign * slot, 0.0)
+    end = cut.slot_bottom + cut.half_width - roller - clearance
+    changed = size.replace(
+        roller_radius_mm=roller,
+        slot_clearance_mm=clearance,
+        slot_bottom_clearance_mm=max(end, 0.0),
+        lock_radius_mm=cut.lock - sign * sizes["lock_radius_mm"],
+        lock_clearance_mm=max(size.allowances.lock_clearance_mm + sign * lock, 0.0),
+        wheel_radius_mm=cut.rim,
+        relief_clearance_mm=cut.relief,
+        relief=outlines.relief if outlines.crank else size.relief,
+        wheel_bore_mm=2.0 * cut.wheel_bore,
+        wheel_hub_mm=2.0 * cut.wheel_hub,
+        crank_bore_mm=2.0 * cut.crank_bore,
+        crank_hub_mm=2.0 * cut.crank_hub,
+        pin_mm=2.0 * cut.pin,
+    )
+    if cut.outer:
+        changed = changed.replace(wheel_outer_radius_mm=cut.outer)
+    return spec.replace(size=changed)

@@ -12,25 +12,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.loads.impacts.impacts import arm_mm
 from geneva_cli.loads.tolerance.dimensions import corners
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.checks.registry import turn_checks
-from geneva_cli.verdict.tolerance.locks import ball_of, locks_of
-
-# The lock's need, None for none, and the spec of the tightest machine (-1) or the loosest (+1)
-Corners: TypeAlias = tuple[float | None, Callable[[float], Spec]]
+from geneva_cli.verdict.tolerance.locks import cut_parts
 
 
 class RequiredClearances(NamedTuple):
@@ -98,12 +93,10 @@ def least_clearances(
 ) -> LeastClearances:
     """The clearances with which machines within the tolerances enter their slots and locks."""
     ends = corners(list(sizes.values()))
-    plays = [float(np.min(lock(ends).angle.c[0])) for lock in locks_of(parts)]
+    cut = cut_parts(parts)
+    plays = [float(np.min(lock(ends).angle.c[0])) for lock in cut.locks()]
     slot = _slot_mm(mechanism, sizes, min(plays, default=0.0))
-    ball = ball_of(parts)
-    if ball is not None:
-        return LeastClearances(slot, *_on_sphere(mechanism.spec, ball, sizes, slot))
-    return LeastClearances(slot, *_flat(mechanism.spec, parts.outlines, sizes, slot))
+    return LeastClearances(slot, *cut.corners(mechanism.spec, sizes, slot))
 
 
 def _slot_mm(mechanism: Mechanism, sizes: dict[str, float], least_play: float) -> float:
@@ -134,77 +127,6 @@ def _slot_offset_mm(
         of_angle = lever * (math.sin(sizes["slot_angle_deg"]) - math.sin(least_play))
         most = max(most, of_arm + of_distance + of_angle)
     return most
-
-
-def _flat(spec: Spec, outlines: Outlines, sizes: dict[str, float], slot: float) -> Corners:
-    """The clearance that the lock needs, and the specs of the tightest and the loosest machine."""
-    ring = sizes["lock_radius_mm"] + sizes["recess_radius_mm"]
-    lock = ring + sizes["center_distance_mm"] if outlines.crank else None
-    return lock, lambda sign: corner(spec, outlines, sizes, sign, slot, lock or 0.0)
-
-
-def corner(
-    spec: Spec, outlines: Outlines, sizes: dict[str, float], sign: float, slot: float, lock: float
-) -> Spec:
-    """The spec of the tightest machine (``sign`` -1) or the loosest (+1); other sizes fixed."""
-    cut, size = outlines.sizes, spec.size
-    roller = cut.roller - sign * 0.5 * sizes["roller_diameter_mm"]
-    clearance = max(size.allowances.slot_clearance_mm + sign * slot, 0.0)
-    end = cut.slot_bottom + cut.half_width - roller - clearance
-    changed = size.replace(
-        roller_radius_mm=roller,
-        slot_clearance_mm=clearance,
-        slot_bottom_clearance_mm=max(end, 0.0),
-        lock_radius_mm=cut.lock - sign * sizes["lock_radius_mm"],
-        lock_clearance_mm=max(size.allowances.lock_clearance_mm + sign * lock, 0.0),
-        wheel_radius_mm=cut.rim,
-        relief_clearance_mm=cut.relief,
-        relief=outlines.relief if outlines.crank else size.relief,
-        wheel_bore_mm=2.0 * cut.wheel_bore,
-        wheel_hub_mm=2.0 * cut.wheel_hub,
-        crank_bore_mm=2.0 * cut.crank_bore,
-        crank_hub_mm=2.0 * cut.crank_hub,
-        pin_mm=2.0 * cut.pin,
-    )
-    if cut.outer:
-        changed = changed.replace(wheel_outer_radius_mm=cut.outer)
-    return spec.replace(size=changed)
-
-
-def _on_sphere(spec: Spec, ball: Ball, sizes: dict[str, float], slot: float) -> Corners:
-    """The clearance of a sphere's lock, an arc, and the specs of its tightest and loosest machine.
-
-    The radii that deviate are from the crank's axis, L times the sine of the angle from it.
-    """
-    size, L = spec.size, ball.radius_mm
-    least = _arc_increase_mm(ball.lock, sizes["lock_radius_mm"] + sizes["recess_radius_mm"], L)
-
-    def corner(sign: float) -> Spec:
-        roller = L * ball.roller - sign * 0.5 * sizes["roller_diameter_mm"]
-        clearance = max(size.allowances.slot_clearance_mm + sign * slot, 0.0)
-        beyond = L * (ball.half_width - ball.bottom) - roller - clearance
-        disc = L * math.sin(ball.lock) - sign * sizes["lock_radius_mm"]
-        changed = size.replace(
-            roller_radius_mm=roller,
-            slot_clearance_mm=clearance,
-            slot_bottom_clearance_mm=max(beyond + L * (ball.axes - ball.arm), 0.0),
-            lock_radius_mm=disc,
-        )
-        if ball.lock:
-            recess = (
-                ball.recess + _arc_increase_mm(ball.recess, sign * sizes["recess_radius_mm"], L) / L
-            )
-            changed = changed.replace(
-                lock_clearance_mm=max(L * (recess - math.asin(disc / L)), 0.0)
-            )
-        return spec.replace(size=changed)
-
-    return least if ball.lock else None, corner
-
-
-def _arc_increase_mm(angle: float, by: float, L: float) -> float:
-    """The arc, mm, by which an angle from an axis grows if its radius L sin(angle) grows ``by``."""
-    return L * (math.asin(min(1.0, max(-1.0, math.sin(angle) + by / L))) - angle)
 
 
 def _failing_check(spec: Spec) -> tuple[bool | None, str] | None:

@@ -12,6 +12,7 @@ from geneva_cli.loads.impacts.impacts import mouth_jumps_worst
 from geneva_cli.loads.tolerance.dimensions import Deviations, corners, tolerances, without_effect
 from geneva_cli.loads.tolerance.draws import Draws
 from geneva_cli.loads.tolerance.entry_jump import entry_jumps
+from geneva_cli.loads.tolerance.locking import CutLock
 from geneva_cli.loads.tolerance.motion_error import WorstErrors, motion_errors
 from geneva_cli.loads.tolerance.random_machines import (
     RandomMachines,
@@ -24,7 +25,7 @@ from geneva_cli.loads.tolerance.worst_effects import entry_jumps_worst
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
 from geneva_cli.parts.parts import Parts
-from geneva_cli.verdict.tolerance.locks import CutLock, locks_of
+from geneva_cli.verdict.tolerance.locks import cut_parts
 from geneva_cli.verdict.tolerance.needed import RequiredClearances, required_clearances
 
 
@@ -168,7 +169,7 @@ def _locks(mechanism: Mechanism, parts: Parts, warnings: list[Notice]) -> Sequen
     if not mechanism.spec.is_turned:
         return []
     try:
-        return locks_of(parts.turned)
+        return cut_parts(parts.turned).locks()
     except GenevaError as error:
         warnings.append(Notice("not-known", f"no parts: {error}"))
         return []

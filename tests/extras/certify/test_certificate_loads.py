@@ -13,8 +13,8 @@ from geneva_cli import Design, External, GenevaError, Load, Size
 from geneva_cli.cli.app import app
 from geneva_cli.design import load
 from geneva_cli.extras.certify.loads import LOADS
-from geneva_cli.loads.forces import load_case
-from geneva_cli.loads.loads import greatest
+from geneva_cli.loads.cycle import greatest
+from geneva_cli.loads.load_case import load_case
 
 LOADED = Design(External(6), load=Load(0.4, 15))
 STRAIGHT = (

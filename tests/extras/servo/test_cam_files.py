@@ -16,7 +16,7 @@ from geneva_cli.extras.servo.cam_files import cam, rounded_up
 from geneva_cli.manual import page
 from geneva_cli.output.formats import CONTROLLERS
 
-DESIGNS = repo.WHEELS
+DESIGNS = repo.wheels()
 SOME = ("turret", "two-pins-z4", "unequal-steps", "side-crank-z6", "gear-sector", "sine-group")
 TOLERANCE = 1e-4
 

@@ -17,12 +17,12 @@ from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.moments import moments
 from geneva_cli.geometry.plates import solids
 from geneva_cli.kinds.linear.outlines import turned_rack
+from geneva_cli.kinds.linear.quantities import guide
 from geneva_cli.kinds.linear.rack import locking_sector, rack_contour, rack_sizes
 from geneva_cli.kinds.linear.stressed import rack_stressed
 from geneva_cli.motion.many import many
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.verdict.quantities.designs import Designs
-from geneva_cli.verdict.quantities.strength import guide
 
 R, r = 50.0, 6.0
 

@@ -10,7 +10,8 @@ from words import Drive, Keys, Spec, Wheel
 from geneva_cli.drives.path_wheels.wheels import wheels
 from geneva_cli.drives.path_wheels.wheels_for_paths import fits_of_batch
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.many import changed, many, taken
+from geneva_cli.motion.batch import taken
+from geneva_cli.motion.many import changed, many
 from geneva_cli.motion.mechanism import build
 
 # One design is solved in 50 digits, many in long doubles, and both are rounded once: numbers differ

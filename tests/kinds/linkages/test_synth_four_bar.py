@@ -13,17 +13,15 @@ from geneva_cli.drives.crank import Crank
 from geneva_cli.kinds.linkages import four_bar_family as families
 from geneva_cli.kinds.linkages.four_bar import FourBar
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.many import many
+from geneva_cli.motion.many import many, worst_peaks
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.peak_search import worst_peaks
 from geneva_cli.motion.peaks import peak as peak_of
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.spec.tables import Size
 from geneva_cli.study.synth.parts import parts
 from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.search import search
-from geneva_cli.study.synth.table import turned
-from geneva_cli.study.synth.written import chosen
+from geneva_cli.study.synth.table import chosen, turned
 from geneva_cli.verdict.checks import checks
 
 KEYS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg")

@@ -94,18 +94,3 @@ def shortest(low: float, high: float) -> float:
         if low <= x <= high:
             return x
     return middle
-
-
-def sector_deg(z: int, b: float) -> float:
-    """The crank angle that gears drive between slots of half angle b: D = (2 pi/z - 2b)/u.
-
-    Here u = l/(1-l) and l = sin b, with which the gears take over without a jump.
-    """
-    short = 2.0 * math.sin(0.5 * (0.5 * math.pi - b)) ** 2  # 1 - l
-    l = math.sin(b)
-    return 2.0 * (math.pi / z - b) * short / l / DEGREE if l else math.inf
-
-
-def sector_motion(z: int, b: float) -> float:
-    """The motion of slots of half angle b with gears between them: 180 deg - 2b + D."""
-    return 180.0 - 2.0 * b / DEGREE + sector_deg(z, b)

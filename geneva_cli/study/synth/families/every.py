@@ -10,62 +10,19 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 from typing import TypeAlias
 
-from geneva_cli.kinds.carousel.motion import Carousel
-from geneva_cli.kinds.linkages.four_bar_family import four_bars
-from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.wheels.classic import rollers_max
+from geneva_cli.motion.records import families_of_kinds
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.study.synth.families.curved import with_laws
-from geneva_cli.study.synth.families.family import (
-    Family,
-    allowed_motions,
-    allows,
-    is_compatible,
-    machine,
-    natural_deg,
-    only,
-    rollers,
-)
+from geneva_cli.study.synth.families.family import Family
 from geneva_cli.study.synth.families.straight import straight
 from geneva_cli.study.synth.families.two_numbers import two_numbers
 from geneva_cli.study.target import Target
-
-
-def carousels(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
-    """One wheel with any number of fingers, or several wheels with one finger.
-
-    The wheels must not meet in time: each moves before the next one reaches the finger.
-    """
-    for wheel in wheels:
-        natural = natural_deg(wheel)
-        several = rollers(target, natural)
-        for fingers in several:
-            if not allows(allowed_motions(target, fingers, natural), natural):
-                continue
-            for count in target.wheels:
-                # each finger and each wheel has its own part of a turn
-                if count == 1 or (fingers == 1 and count <= rollers_max(natural)):
-                    spec = _carousel(target, wheel, fingers, count)
-                    if is_compatible(spec):
-                        yield only(spec)
-
-
-def _carousel(target: Target, wheel: Gearing, fingers: int, wheels: int) -> Spec:
-    """A carousel with radial slots."""
-    return machine(
-        target,
-        wheel,
-        lambda n: Carousel(n_rpm=n, rollers=fingers, wheels=wheels),
-        fingers,
-        natural_deg(wheel),
-    )
-
 
 Kind: TypeAlias = Callable[[Target, Sequence[Gearing]], Iterator[Family]]
 
 
 def kinds(target: Target) -> list[tuple[Kind, Target]]:
-    """Independent groups of machines: four-bars; straight slots, and laws, of each gearing.
+    """Independent groups of machines: straight slots, and laws, of each gearing; those of kinds.
 
     Each has some of the numbers of slots. If the target has wheels on a carrier: the carousels of
     each gearing.
@@ -73,10 +30,10 @@ def kinds(target: Target) -> list[tuple[Kind, Target]]:
     some = [target._replace(z=z) for z in _groups(target.z)]
     each = [one._replace(gearings=(gearing,)) for gearing in target.gearings for one in some]
     if target.wheels:
-        return [(carousels, one) for one in each]
+        return [(kind, one) for kind in families_of_kinds("carrier") for one in each]
     alone = target.only_acceleration
     return [
-        *((four_bars, one) for one in some),
+        *((kind, one) for kind in families_of_kinds("alone") for one in some),
         *((_straight, one.by_bounds if alone else one) for one in each),
         *((with_laws, one._replace(laws=(law,))) for law in target.laws for one in each),
     ]

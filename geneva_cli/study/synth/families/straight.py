@@ -14,8 +14,8 @@ from geneva_cli.drives.crank import Crank
 from geneva_cli.drives.elliptical_gears import EllipticalGears
 from geneva_cli.drives.epicyclic import Epicyclic
 from geneva_cli.drives.side_crank import SideCrank
-from geneva_cli.kinds.series.two_stages import pairs, sectors
 from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.records import families_of_kinds
 from geneva_cli.motion.wheels.classic import half_motion_deg, rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import sin_cos_pi
@@ -48,8 +48,8 @@ def straight(target: Target, wheel: Gearing) -> Iterator[Family]:
                 yield from planets(target, wheel)
     yield from driven(target, wheel)
     if target.rollers in (None, 1):
-        yield from sectors(target, wheel)
-        yield from pairs(target, wheel)
+        for kind in families_of_kinds("straight"):
+            yield from kind(target, wheel)
 
 
 def plain(target: Target, wheel: Gearing, m: int) -> Spec:
@@ -117,7 +117,7 @@ def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
             span = AllowedSpan(*(parameter(natural, x) for x in motion)).within(limits)
             if not span.empty:
                 yield Family(partial(make, target, wheel), *span, known=plain_too, plain=0.0)
-    if wheel.SHELLS:
+    if "axes_deg" in wheel.as_dict():
         yield from _inclined(target, wheel)
 
 

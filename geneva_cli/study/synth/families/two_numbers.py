@@ -66,7 +66,7 @@ def _gears(phase: str) -> _InFront:
 
 def two_numbers(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     """For each wheel and drive the best machine of two numbers, if one keeps the bounds."""
-    inclined = [wheel for wheel in wheels if wheel.SHELLS]
+    inclined = [wheel for wheel in wheels if "axes_deg" in wheel.as_dict()]
     if target.rollers not in (None, 1) or not inclined:
         return
     moved = all(map(is_motion, target.quantities))

@@ -1,0 +1,177 @@
+"""What the core's drives refuse: wheels, laws and rollers with which they make no machine."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from geneva_cli.motion.compatible import Conflict, is_set
+from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.records import KINDS
+
+
+def other_wheels(spec: Spec) -> Conflict:
+    """A wheel of another kind than those that the drive can drive."""
+    able = next(kind.gearings for kind in KINDS if kind.drive and kind.name == spec.drive.NAME)
+    return Conflict(
+        spec.wheel.NAME not in able,
+        ("wheel", "gearing"),
+        f'kind = "{{spec.drive.NAME}}" drives an {" or ".join(able)} wheel, not gearing = '
+        '"{spec.wheel.NAME}"',
+    )
+
+
+def several_rollers(spec: Spec) -> Iterator[Conflict]:
+    """More than one roller, with a drive that carries one."""
+    text = 'kind = "{spec.drive.NAME}" carries one roller only'
+    yield Conflict(spec.drive.rollers > 1, ("drive", "rollers"), text)
+    yield Conflict(_placed(spec), ("drive", "kind"), text)
+
+
+def _placed(spec: Spec) -> int:
+    """Number of rollers that ``steps_deg`` or ``roller_angles_deg`` place; 0 without either."""
+    return len(spec.wheel.steps or spec.drive.roller_angles_deg or ())
+
+
+def of_pin_path(spec: Spec) -> Iterator[Conflict]:
+    """Rules of a drive whose roller has a path of its own."""
+    yield _not_radial(spec)
+    yield other_wheels(spec)
+    yield Conflict(
+        spec.motion is not None,
+        ("motion", "law"),
+        'kind = "{spec.drive.NAME}" sets the path of the roller, and the slots are straight: '
+        "remove law",
+    )
+    yield from several_rollers(spec)
+
+
+def of_cam(spec: Spec) -> Iterator[Conflict]:
+    """Rules of a roller in a groove that a law gives."""
+    yield _not_radial(spec)
+    yield other_wheels(spec)
+    yield Conflict(
+        spec.motion is None,
+        ("drive", "kind"),
+        'kind = "{spec.drive.NAME}" needs a law in [motion]: the groove is cut for it',
+    )
+
+
+def _not_radial(spec: Spec) -> Conflict:
+    return Conflict(
+        spec.drive.roller_angles_deg or spec.wheel.skewed,
+        ("drive", "kind"),
+        'kind = "{spec.drive.NAME}" needs one roller and radial slots: remove offset_mm, steps_deg '
+        "and roller_angles_deg",
+    )
+
+
+def of_transmission(spec: Spec) -> Iterator[Conflict]:
+    """Rules of a roller on a crank: of curved slots, then of several rollers."""
+    yield from of_curved_slots(spec)
+    yield from of_rollers(spec)
+
+
+def of_curved_slots(spec: Spec) -> Iterator[Conflict]:
+    """Rules of the slots that a law gives."""
+    if spec.motion is None:
+        return
+    yield Conflict(
+        spec.wheel.steps,
+        ("wheel", "steps_deg"),
+        "steps_deg is for straight slots, and a law makes curved slots: remove one of them",
+    )
+    yield Conflict(
+        spec.wheel.skewed,
+        ("wheel", "offset_mm"),
+        "offset_mm is for straight slots, and a law makes curved slots: remove one of them",
+    )
+    yield Conflict(
+        not spec.wheel.FLAT,
+        ("motion", "law"),
+        'gearing = "{spec.wheel.NAME}" has straight slots only: remove law',
+    )
+
+
+def of_rollers(spec: Spec) -> Iterator[Conflict]:
+    """Rules of several rollers on the crank."""
+    drive, wheel, placed = spec.drive, spec.wheel, _placed(spec)
+    yield Conflict(
+        wheel.steps and len(drive.roller_angles_deg or wheel.steps) != placed,
+        ("drive", "roller_angles_deg"),
+        f"each of the {placed} steps has a roller: roller_angles_deg needs as many angles",
+    )
+    yield Conflict(
+        placed and drive.rollers not in (1, placed),
+        ("drive", "rollers"),
+        f"rollers = {{spec.drive.rollers}}, but there are {placed} "
+        f"{'steps' if wheel.steps else 'angles'}: remove rollers",
+    )
+    if spec.motion is None:
+        return
+    yield Conflict(
+        drive.roller_angles_deg,
+        ("drive", "roller_angles_deg"),
+        "roller_angles_deg is for straight slots: remove law or roller_angles_deg",
+    )
+    yield Conflict(
+        drive.motions > 1,
+        ("drive", "rollers"),
+        "{spec.drive.rollers} rollers on a {spec.drive.NAME} move the wheel differently, so one "
+        "curved slot cannot serve them all; use rollers = 1, or straight slots (no law)",
+    )
+
+
+def of_crank(spec: Spec) -> Iterator[Conflict]:
+    """Rules of a plain crank, or of several about one wheel."""
+    yield from of_transmission(spec)
+    drive, wheel, cranks = spec.drive, spec.wheel, len(spec.drive.cranks)
+    if cranks > 1:
+        yield Conflict(
+            not (wheel.FLAT and spec.output.turns and wheel.SIGN > 0.0),
+            ("drive", "crank_steps"),
+            "crank_steps needs an external wheel, which has cranks around it, not gearing = "
+            '"{spec.wheel.NAME}": remove crank_steps',
+        )
+    yield Conflict(
+        _off_steps(drive.cranks, wheel.z),
+        ("drive", "crank_steps"),
+        "crank_steps must begin with 0 and hold different whole numbers below z = {spec.wheel.z}: "
+        "one for each crank",
+    )
+    if cranks < 2:
+        return
+    yield Conflict(
+        wheel.steps,
+        ("wheel", "steps_deg"),
+        "a wheel of unequal steps looks different from each crank of crank_steps: remove one of "
+        "them",
+    )
+    yield Conflict(
+        drive.roller_angles_deg,
+        ("drive", "roller_angles_deg"),
+        "the cranks of crank_steps are equal and work in even turns: remove roller_angles_deg",
+    )
+    yield Conflict(
+        drive.rollers != cranks,
+        ("drive", "rollers"),
+        f"crank_steps places {cranks} cranks with one roller each: set rollers = {cranks}",
+    )
+    yield Conflict(
+        spec.unbalanced,
+        ("mass", "radius_mm"),
+        "each crank of crank_steps pushes the wheel from another side, so that a body off its "
+        "axis would give each motion other loads: set count to 2 or more, or radius_mm = 0",
+    )
+    yield Conflict(
+        is_set(spec.tolerance),
+        ("tolerance",),
+        "[tolerance] has no key for the places of the cranks of crank_steps about the wheel, which "
+        "add to each step: remove one of them",
+    )
+
+
+def _off_steps(places: tuple[float, ...], z: int) -> object:
+    """True if cranks do not stand on whole steps, each on one of its own, the first one on 0."""
+    whole = all(place == int(place) for place in places)
+    wrong = not whole or places[0] != 0.0 or len({*places}) < len(places)
+    return wrong | (max(places) >= z)

@@ -1,0 +1,43 @@
+"""Quantities of wheels on a carrier: their motion from the ground, and their space."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.loads.carried import carried_kg
+from geneva_cli.loads.unbalance import centrifugal_N, held_unbalance_Nm
+from geneva_cli.motion.many import worst_peaks
+from geneva_cli.parts.parts import Parts
+from geneva_cli.verdict.checks.cranks import reach_mm
+from geneva_cli.verdict.quantities.designs import Columns, Designs, Values
+
+
+def motion(of: Designs) -> Columns:
+    """Return turn and velocity of the wheels from the ground, and their centrifugal force."""
+    machine, wheels = of.machine, of.spec.drive.wheels_on_carrier
+    own = sum(2.0 * one.half_step for one in machine.engagements) * (360.0 / machine.period_deg)
+    fastest = worst_peaks(machine, ["velocity"])["velocity"].max
+    every = machine.under_load  # its period has the motions of all wheels
+    moving = sum(one.motion_deg for one in every.engagements) / every.period_deg
+    force = centrifugal_N(machine) if carried_kg(of.spec) else np.inf
+    held = held_unbalance_Nm(machine) if of.spec.unbalanced else np.inf
+    return {
+        "turn_deg": np.ravel(360.0 + machine.frame * np.degrees(own)),
+        "velocity": 1.0 + machine.frame * fastest,
+        "moving_fraction": np.ravel(moving),
+        "behind_deg": 360.0 / wheels if wheels > 1 else np.inf,
+        "centrifugal_N": np.ravel(force),
+        "held_Nm": np.ravel(held),
+    }
+
+
+def envelope(parts: Parts) -> Values:
+    """Return the radius about the fixed axis that the wheels sweep, on a carrier."""
+    if not parts.mechanism.spec.is_flat:
+        return {}
+    try:
+        outlines = parts.outlines
+    except GenevaError:  # ``parts.none`` gives the reason
+        return {}
+    return {"envelope_mm": parts.mechanism.center_distance_mm + reach_mm(outlines)}

@@ -1,0 +1,68 @@
+"""Gear sectors between two slots that turn an external wheel, with a longer motion."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from functools import partial
+
+from geneva_cli.kinds.gear_sector.motion import GearSector
+from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.wheels.gearing import Gearing
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.roots import boundary
+from geneva_cli.study.synth.families.family import (
+    BARE,
+    Family,
+    allowed_motions,
+    closed_span,
+    is_compatible,
+    machine,
+    natural_deg,
+)
+from geneva_cli.study.target import Target
+
+
+def sectors(target: Target, wheel: Gearing) -> Iterator[Family]:
+    """Gear sectors that take over without a jump, with a free half angle b of the slots.
+
+    At the plain crank's b the gears have nothing to drive.
+    """
+    span = closed_span(allowed_motions(target, 1, natural_deg(wheel)), 1)
+    example = BARE.replace(wheel=wheel, drive=GearSector(sector_deg=90.0))
+    if span is None or not is_compatible(example):
+        return
+    z = wheel.z
+
+    def slot(angle: Callable[[int, float], float], least: float) -> float:
+        """The half angle of slots at which a decreasing angle reaches ``least``."""
+        return boundary(lambda b: angle(z, b) >= least, 0.0, wheel.step.b)
+
+    ends = (slot(sector_motion, span.high), slot(sector_motion, span.low))
+    # gear sectors drive the crank by 0.001 to 330 degrees
+    low = max(ends[0], slot(sector_deg, 330.0))
+    high = min(ends[1], slot(sector_deg, 1e-3))
+    if low <= high:
+        make = partial(_with_sectors, target, wheel)
+        yield Family(make, low, high, wheel.step.b, wheel.step.b)
+
+
+def _with_sectors(target: Target, wheel: Gearing, b: float) -> Spec:
+    """Gear sectors between slots of half angle b."""
+    angle, motion = sector_deg(wheel.z, b), sector_motion(wheel.z, b)
+    return machine(target, wheel, lambda n: GearSector(sector_deg=angle, n_rpm=n), 1, motion)
+
+
+def sector_deg(z: int, b: float) -> float:
+    """Return the crank angle that gears drive between slots of half angle b: D = (2 pi/z - 2b)/u.
+
+    Here u = l/(1-l) and l = sin b, with which the gears take over without a jump.
+    """
+    short = 2.0 * math.sin(0.5 * (0.5 * math.pi - b)) ** 2  # 1 - l
+    l = math.sin(b)
+    return 2.0 * (math.pi / z - b) * short / l / DEGREE if l else math.inf
+
+
+def sector_motion(z: int, b: float) -> float:
+    """Return the motion of slots of half angle b with gears between them: 180 deg - 2b + D."""
+    return 180.0 - 2.0 * b / DEGREE + sector_deg(z, b)

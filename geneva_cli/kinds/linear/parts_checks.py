@@ -1,0 +1,92 @@
+"""The checks of a rack's parts at rest: shafts that pass it, and what the process cuts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from geneva_cli.geometry.distance import Polyarc
+from geneva_cli.geometry.measure import bounds
+from geneva_cli.geometry.plates import plates
+from geneva_cli.geometry.shapes import as_contour
+from geneva_cli.kinds.linear.parts import RackParts
+from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses
+from geneva_cli.verdict.checks.check import Check, gap
+from geneva_cli.verdict.checks.process import built, cut_width, plate_thickness
+from geneva_cli.verdict.shaft_gap import Ring, ShaftGap, gear_rings, least_gap, rings_of
+
+
+def passing_shafts(name: str, parts: RackParts) -> Check | None:
+    """The least gap between shafts and a rack, of a crank's shaft that ends above the arm."""
+    if not parts.mechanism.spec.has_parts:
+        return None  # without a frame there are no shafts
+    return gap(name, lambda: rack_shaft_gap(parts), parts.mechanism.center_distance_mm)
+
+
+def passing_gears(name: str, parts: RackParts) -> Check | None:
+    """The least gap of gears before a rack's crank to its guide and to shafts."""
+    return gap(name, lambda: rack_gear_gap(parts), parts.mechanism.center_distance_mm)
+
+
+def thickest_plate(name: str, parts: RackParts) -> Check | None:
+    """The thickest plate of a rack's machine, where the process has a limit.
+
+    Bar, rail and wall of the guide are bars, which may be cut from stock.
+    """
+    thick = drawn_thicknesses(parts.mechanism.spec.size, parts.sizes.arm)
+    return plate_thickness(name, parts.mechanism, max(thick.wheel, thick.lock, thick.arm))
+
+
+def slot_width(name: str, parts: RackParts) -> Check | None:
+    """The width of a rack's slots, where the process cuts none that is narrow for its plate."""
+    thick = drawn_thicknesses(parts.mechanism.spec.size, parts.sizes.arm).wheel
+    return cut_width(name, parts.mechanism, 2.0 * parts.sizes.half_width, thick)
+
+
+def plates_built(name: str, parts: RackParts) -> Check | None:
+    """The check that fails if a plate of a machine cannot be built; else None."""
+    return built(name, parts.require)
+
+
+def rack_gear_gap(parts: RackParts) -> ShaftGap | None:
+    """Return the least gap of the gears before a rack's crank to shafts and guide; None without.
+
+    Raises GenevaError for sizes that leave no parts.
+    """
+    rings = list(gear_rings(parts.mechanism, None))
+    to_shafts = least_gap(parts.mechanism, [], rings, parts.shafts)
+    gaps = [*_guide_gaps(parts, rings), *([to_shafts] if to_shafts else [])]
+    return min(gaps, default=None)
+
+
+def rack_shaft_gap(parts: RackParts) -> ShaftGap | None:
+    """Return the least gap of a shaft to the rack; None where none reaches the rack's heights.
+
+    The rack slides along y, and covers everything up to its edge.
+
+    Raises GenevaError for sizes that leave no parts.
+    """
+    near = SAME_LENGTH * parts.mechanism.center_distance_mm
+    (rack,) = plates(parts.wheel.part)
+    edge = bounds(rack.outline).x1
+    return min(
+        (
+            ShaftGap(shaft.axis[0] - shaft.outer - edge, shaft.name, rack.name)
+            for shaft in rings_of(parts.shafts)
+            if shaft.high - rack.low > near
+        ),
+        default=None,
+    )
+
+
+def _guide_gaps(parts: RackParts, rings: list[Ring]) -> Iterator[ShaftGap]:
+    """Yield the gaps of rings to the plates of a rack's guide at their heights."""
+    near = SAME_LENGTH * parts.mechanism.center_distance_mm
+    for plate in (plate for one in parts.guide for plate in plates(one.part)):
+        outline = Polyarc([as_contour(plate.outline)])
+        for ring in rings:
+            if min(ring.high, plate.high) - max(ring.low, plate.low) > near:
+                away = float(outline.signed(np.array([ring.axis]))[0])
+                yield ShaftGap(away - ring.outer, plate.name, ring.name)

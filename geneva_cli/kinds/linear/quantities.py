@@ -1,0 +1,47 @@
+"""Quantities of the guides of racks, and the horns of racks between slot and recess."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.kinds.linear.guide_forces import guide_force, locks_at_friction
+from geneva_cli.kinds.linear.rack import rack_sizes
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.verdict.part_sizes import as_numbers, batched
+from geneva_cli.verdict.quantities.designs import Columns, Designs
+from geneva_cli.verdict.quantities.horns import Horns
+
+
+def guide(of: Designs) -> Columns:
+    """Return the guides of racks; none for a wheel, and for a rack that has no guide."""
+    if not of.spec.guided:
+        return {}
+    names = "length_mm", "locks_at_friction", "force_N", "at_deg"
+    rows = [_guide(one) for one in of.each]
+    return dict(zip(names, np.array(rows).T, strict=True))
+
+
+def _guide(machine: Mechanism) -> tuple[float, float, float, float]:
+    """Return length, friction that locks, force and its angle; infinite for what a design lacks."""
+    try:
+        sizes = rack_sizes(machine)
+    except GenevaError:  # the check of the horn reports the error
+        return (math.inf,) * 4
+    force = guide_force(machine) if machine.spec.is_loaded else (math.inf, math.inf)
+    return 2.0 * sizes.guide.half, locks_at_friction(machine), *force
+
+
+def rack_horns(of: Designs) -> Horns:
+    """Return the horns of racks; sizes are NaN for one without a lock, or that cannot be cut."""
+    return Horns(of, batched([_horn(machine) for machine in of.each], as_numbers))
+
+
+def _horn(machine: Mechanism) -> tuple[float, float] | None:
+    try:
+        sizes = rack_sizes(machine)
+    except GenevaError:  # the check of the parts reports the error
+        return None
+    return (sizes.half_width, sizes.recess) if sizes.lock else None

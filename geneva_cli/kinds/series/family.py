@@ -1,0 +1,39 @@
+"""First wheels that turn the crank of an external wheel, in a cycle of several turns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from geneva_cli.kinds.series.geneva_pair import GenevaPair
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.wheels.gearing import Gearing
+from geneva_cli.study.synth.families.family import (
+    BARE,
+    Family,
+    allowed_motions,
+    allows,
+    is_compatible,
+    machine,
+    natural_deg,
+    only,
+)
+from geneva_cli.study.target import Target
+
+
+def pairs(target: Target, wheel: Gearing) -> Iterator[Family]:
+    """First wheels of any number of slots, which turn the crank once in ``first_z`` turns.
+
+    Their step must be as long as the crank's own motion.
+    """
+    for first_z in range(3, int(360.0 / natural_deg(wheel)) + 1):
+        spec = BARE.replace(wheel=wheel, drive=GenevaPair(first_z=first_z))
+        if not is_compatible(spec):
+            return
+        natural = build(spec).engagements[0].motion_deg
+        m = 1.0 / first_z  # motions in a turn of the input
+        if allows(allowed_motions(target, m, natural), natural):
+
+            def drive(n: float, first_z: int = first_z) -> GenevaPair:
+                return GenevaPair(first_z=first_z, n_rpm=n)
+
+            yield only(machine(target, wheel, drive, m, natural))

@@ -1,0 +1,24 @@
+"""The stops of a crank on a page."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geneva_cli.kinds.stop.parts import wheel_stop
+from geneva_cli.study.animation.turn import MachineTurn
+from geneva_cli.study.animation.wheels import WheelScene
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.outlines.outlines import Outlines
+
+
+class StopScene(WheelScene):
+    """What a page shows of a wheel that may have a stop."""
+
+    def stops(self, outlines: Outlines | None, turn: MachineTurn) -> tuple[float, float] | None:
+        """Return both stops of the crank, degrees from the turn's start; None without."""
+        stop = outlines and wheel_stop(outlines)
+        if not stop:
+            return None
+        drawn_deg = stop.drawn_deg
+        return stop.first_deg - drawn_deg - turn.start, stop.last_deg - drawn_deg - turn.start

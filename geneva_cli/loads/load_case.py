@@ -1,0 +1,84 @@
+"""The load case of a machine, from its spec."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from geneva_cli.loads.carried import MM, inertia_kgm2, resisting_torque_Nm, unbalance_kgm
+from geneva_cli.loads.forces import LoadCase, contact_modulus_GPa
+from geneva_cli.loads.strength.pin import pin_diameter_mm
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.records import thing
+from geneva_cli.numerics.angles import omega
+from geneva_cli.numerics.arrays import all_true, choose, library
+from geneva_cli.spec.materials import roller_material, wheel_material
+
+
+def load_case(mechanism: Mechanism) -> LoadCase:
+    """The load case of a machine's spec."""
+    spec = mechanism.spec
+    load, size = spec.load, spec.size
+    w = omega(spec.drive.n_rpm)
+    hertz = None
+    if size.face_width_mm is not None:
+        # p0² = N E* / (pi b R_e)
+        modulus = contact_modulus_GPa(wheel_material(spec), roller_material(spec)) * 1e3
+        hertz = modulus / (math.pi * size.face_width_mm * mechanism.roller_radius_mm)
+    case = LoadCase(
+        w,
+        inertia_kgm2(spec) * w * w,
+        resisting_torque_Nm(spec),
+        mechanism.center_distance_mm / 1000.0,
+        mechanism.roller_radius_mm / mechanism.center_distance_mm,
+        rubbing(mechanism),
+        load.efficiency,
+        hertz,
+        mechanism.frame,
+        *unbalance_Nm(mechanism),
+        design=mechanism.design,
+    )
+    complete: Callable[[Mechanism, LoadCase], LoadCase] | None
+    complete = thing(spec.wheel.NAME, "load_case")
+    return complete(mechanism, case) if complete else case
+
+
+def unbalance_Nm(mechanism: Mechanism) -> tuple[float, float]:
+    """The centrifugal moment of bodies off the axis of a wheel on a carrier, as a vector, N m.
+
+    Its parts are along the first slot, which points at the carrier's axis at mid-motion, and ahead
+    of it. On the ground it is 0.
+    """
+    spec = mechanism.spec
+    w = omega(spec.drive.n_rpm)
+    factor = abs(mechanism.frame) * mechanism.center_distance_mm * MM * w * w
+    along, across = unbalance_kgm(spec)
+    return along * factor, across * factor
+
+
+def rubbing(mechanism: Mechanism) -> float:
+    """Ratio of the force along the wall to the force on it, for a roller that moves along it.
+
+    A roller fixed to its pin rubs in the slot, with the coefficient itself. A roller that turns on
+    its pin rolls, held back by the pin. The load passes a circle with the pin's radius times sin
+    rho, tan rho being the coefficient (the friction circle of a journal). So its angle to the
+    wall's normal has the sine: sin rho times pin over roller. The sliding speed on the pin is
+    smaller in the same ratio. In either case the friction work is N times the speed along the wall
+    times the value returned here.
+
+    >>> from geneva_cli import External, Load
+    >>> from geneva_cli.motion.mechanism import build
+    >>> from geneva_cli.motion.machine_spec import Spec
+    >>> turning = Load(torque_Nm=1.0, friction=0.1, friction_at="pin")  # on a pin half as thick
+    >>> round(rubbing(build(Spec(External(6), load=turning))), 6)
+    0.049814
+    """
+    load = mechanism.spec.load
+    if all_true(load.friction == 0.0) or load.rubs_in_slot:
+        return load.friction
+    thickness = 0.5 * pin_diameter_mm(mechanism) / mechanism.roller_radius_mm
+    m = library(thickness, load.friction)
+    sine = thickness * load.friction / m.hypot(1.0, load.friction)
+    turning = sine / m.sqrt((1.0 - sine) * (1.0 + sine))
+    coefficient: float = choose(thickness == 1.0, load.friction, turning)
+    return coefficient

@@ -1,0 +1,120 @@
+"""The records of all kinds of wheels and drives, and what they name.
+
+A new wheel or drive of the core is one file and one line here. A kind that only some users need is
+a folder of ``kinds`` and a line there.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from geneva_cli.kinds import FOLDERS
+from geneva_cli.motion.kind import Kind
+from geneva_cli.spec.load_named import load_named
+
+CRANK = "drives.crank:Crank"  # the drive of a spec without one
+_CRANK, _PIN_PATH = "drives.refuses:of_transmission", "drives.refuses:of_pin_path"
+# Of flat parts, and of links and gears in front of a crank.
+_DRAWINGS = {
+    "slot": "drawings.part_drawings:slot",
+    "wheel": "drawings.part_drawings:wheel",
+    "crank": "drawings.part_drawings:crank",
+    "arm": "drawings.part_drawings:arm",
+    "links": "drawings.part_drawings:links",
+    "first-wheel": "drawings.part_drawings:wheel",
+    "first-crank": "drawings.part_drawings:crank",
+    "frame": "drawings.part_drawings:frame",
+    "assembly": "drawings.machine_drawing:machine",
+    "gears": "drawings.part_drawings:gears",
+    "groove": "drawings.part_drawings:groove",
+    "groove-plate": "drawings.part_drawings:groove_plate",
+    "coupon": "drawings.coupon:coupon",
+    "plate": "drawings.print_plate:plate",
+    "sheet": "drawings.sheet.sheet:sheet",
+}
+_TABLES = {
+    "slot": "parts.slots.slot_sampling:profile_table",
+    "gears": "parts.gears.gear_curves:gears_table",
+    "groove": "parts.slots.groove:groove_table",
+}
+_FRONT = "parts.front_parts:FrontParts"
+# The kinds of the core; those in ``kinds`` follow.
+_CORE = (
+    Kind(
+        "external",
+        wheel="motion.wheels.external:External",
+        parts="parts.flat_parts:FlatParts",
+        drawings=_DRAWINGS,
+        tables=_TABLES,
+    ),
+    Kind(
+        "internal",
+        wheel="motion.wheels.internal:Internal",
+        parts="parts.flat_parts:FlatParts",
+        drawings=_DRAWINGS,
+        tables=_TABLES,
+    ),
+    Kind(
+        "spherical",
+        wheel="motion.wheels.spherical:Spherical",
+        front=_FRONT,
+        drawings=_DRAWINGS,
+        tables=_TABLES,
+    ),
+    Kind("crank", drive=CRANK, refuses="drives.refuses:of_crank"),
+    Kind("side-crank", drive="drives.side_crank:SideCrank", refuses=_CRANK),
+    Kind("elliptical-gears", drive="drives.elliptical_gears:EllipticalGears", refuses=_CRANK),
+    Kind(
+        "noncircular-gears",
+        drive="drives.noncircular_gears:NoncircularGears",
+        refuses=_CRANK,
+    ),
+    Kind(
+        "epicyclic",
+        drive="drives.epicyclic:Epicyclic",
+        gearings=("external",),
+        refuses=_PIN_PATH,
+    ),
+    Kind(
+        "cam",
+        drive="drives.cam:Cam",
+        gearings=("external", "internal"),
+        refuses="drives.refuses:of_cam",
+    ),
+)
+KINDS: tuple[Kind, ...] = (
+    *_CORE,
+    *(kind for folder in FOLDERS for kind in load_named(f"kinds.{folder}:KINDS")),
+)
+# function that puts a drive in front of another, which few machines need
+IN_FRONT = "drives.retimed:retimed"
+
+
+def of_wheel(name: str) -> list[Kind]:
+    """The records of a kind of wheel: its own, then those that add to it.
+
+    >>> [kind.name for kind in of_wheel("external")]
+    ['external', 'stop']
+    """
+    return [kind for kind in KINDS if name in (kind.adds_to, kind.name if kind.wheel else "")]
+
+
+def thing(wheel: str, field: str) -> Any:
+    """Function or class of a kind of wheel in a field of its record; None without one.
+
+    That of a kind that adds to the wheel replaces the wheel's own.
+
+    >>> thing("external", "load_case")
+    """
+    paths = [path for kind in of_wheel(wheel) if (path := kind._asdict()[field])]
+    return load_named(paths[-1]) if paths else None
+
+
+def parts_class(wheel: str) -> Any:
+    """Class of the parts of a kind of wheel; without its own, of the links and gears in front."""
+    return thing(wheel, "parts") or load_named(_FRONT)
+
+
+def families_of_kinds(where: str) -> list[Any]:
+    """Functions that return families of synth, of the kinds that are searched there."""
+    return [load_named(kind.families[where]) for kind in KINDS if where in kind.families]

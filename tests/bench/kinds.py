@@ -1,0 +1,204 @@
+"""The machines of the bench, their varied designs, and tasks for batches of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from bench.formulas import Proportions, rates, textbook
+from bench.method import Method, Task
+from geneva_cli.drives.crank import Crank
+from geneva_cli.drives.elliptical_gears import EllipticalGears
+from geneva_cli.drives.epicyclic import Epicyclic
+from geneva_cli.drives.side_crank import SideCrank
+from geneva_cli.kinds.linkages.four_bar import FourBar
+from geneva_cli.kinds.series.geneva_pair import GenevaPair
+from geneva_cli.motion.laws.standard import ModifiedSine, SineGroup
+from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.many import many
+from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.motion.motion import Motion
+from geneva_cli.motion.wheels.external import External
+from geneva_cli.motion.wheels.internal import Internal
+from geneva_cli.motion.wheels.spherical import Spherical
+from geneva_cli.spec.tables import Size
+
+QUICK = 100  # designs of a quick run
+CHECKED, QUICK_CHECKED = 20, 4  # designs whose error is measured
+
+
+def peaks_on_grid(d: Proportions, formula: Callable[[Proportions, Any], Any]) -> Any:
+    """Greatest velocity and acceleration of a batch of cranks at 101 even angles."""
+
+    def of_block(d: Proportions) -> Any:
+        best = np.zeros((2, len(d.half)))
+        for i in range(101):
+            for most, rate in zip(best, formula(d, d.half * (i / 100)), strict=True):
+                np.maximum(most, np.abs(rate), out=most)
+        return best.T
+
+    return d.blocks(of_block)
+
+
+def plain_cranks(z: Any) -> Any:
+    """Peaks of plain cranks at even angles, by NumPy."""
+    designs = Proportions.of(1.0, z, 0.0, np)
+    return peaks_on_grid(designs, lambda d, x: textbook(d.l, x, (1, 2)))
+
+
+def side_cranks(sign: float, A: Any) -> Any:
+    """Peaks of side-cranks of six slots at even angles, by NumPy."""
+    return peaks_on_grid(Proportions.of(sign, 6, A, np), partial(rates, np))
+
+
+def modified_sine_peaks(z: int, alpha0: Any) -> Any:
+    """Greatest velocity and acceleration of curved slots for a modified sine, in closed form."""
+    step, motion = 2.0 * np.pi / z, np.pi - 2.0 * np.pi / z - np.radians(alpha0)
+    times = 4.0 * np.pi / (4.0 + np.pi) * step / motion
+    return np.column_stack((times, times * np.pi / motion))
+
+
+class VariedMachine(NamedTuple):
+    """A machine, and a key that varies between two values."""
+
+    name: str
+    spec: Spec
+    key: str
+    low: float
+    high: float
+    designs: int = 50_000  # of a whole run
+    # a handbook's formulas for the peaks of velocity and acceleration, from the varied values
+    script: Callable[[Any], Any] | None = None
+    # and for velocity and acceleration of one design at angles in radians
+    formula: Callable[[Any, Any], Any] | None = None
+
+
+KINDS = (
+    VariedMachine(
+        "plain crank",
+        Spec(External(6), Crank()),
+        "wheel.z",
+        3.0,
+        24.0,
+        script=plain_cranks,
+        formula=lambda z, x: textbook(np.sin(np.pi / z), x, (1, 2)),
+    ),
+    VariedMachine(
+        "side-crank",
+        Spec(External(6), SideCrank(A=0.0)),
+        "drive.A",
+        -0.9,
+        0.9,
+        script=partial(side_cranks, 1.0),
+        formula=lambda A, x: rates(np, Proportions.of(1.0, 6, A), x),
+    ),
+    VariedMachine(
+        "side-crank inside",
+        Spec(Internal(6), SideCrank(A=0.0)),
+        "drive.A",
+        -0.9,
+        0.9,
+        script=partial(side_cranks, -1.0),
+        formula=lambda A, x: np.negative(rates(np, Proportions.of(-1.0, 6, A), x)),
+    ),
+    VariedMachine(
+        "offset slots",
+        Spec(External(6), size=Size(center_distance_mm=100.0)),
+        "wheel.offset_mm",
+        -40.0,
+        40.0,
+    ),
+    VariedMachine("spherical", Spec(Spherical(6)), "wheel.axes_deg", 20.0, 160.0),
+    VariedMachine(
+        "elliptical gears",
+        Spec(External(6), EllipticalGears(eccentricity=0.1)),
+        "drive.eccentricity",
+        0.0,
+        0.6,
+    ),
+    VariedMachine(
+        "epicyclic",
+        Spec(External(4), Epicyclic(planet_ratio=0.01)),
+        "drive.planet_ratio",
+        -0.05,
+        0.02,
+    ),
+    VariedMachine(
+        "curved slots",
+        Spec(External(6), motion=Motion(ModifiedSine())),
+        "motion.alpha0_deg",
+        -60.0,
+        60.0,
+        script=partial(modified_sine_peaks, 6),
+    ),
+    VariedMachine(
+        "curved slots of a tilted law",
+        Spec(External(6), motion=Motion(SineGroup(0.01))),
+        "motion.lambda",
+        -0.12,
+        0.12,
+    ),
+    VariedMachine("geneva pair", Spec(External(4), GenevaPair(first_z=4)), "wheel.z", 3.0, 5.0),
+    VariedMachine(
+        "four-bar",
+        Spec(
+            External(4),
+            FourBar(
+                ground_mm=100.0,
+                crank_mm=40.0,
+                coupler_mm=90.0,
+                rocker_mm=80.0,
+                point_mm=60.0,
+                point_deg=-40.0,
+            ),
+        ),
+        "drive.point_deg",
+        -50.0,
+        -35.0,
+        4_096,
+    ),
+)
+
+
+def drawn(kind: VariedMachine, spec: Spec, count: int) -> tuple[Mechanism, int, list[Mechanism]]:
+    """Machine of a batch of designs, the number built, and the first of them one by one."""
+    values = values_of(kind, count)
+    batch = many(spec, {kind.key: values})
+    assert batch.machine is not None, kind.name
+    few = CHECKED if count > QUICK else QUICK_CHECKED
+    some = values[batch.which[:few]].tolist()
+    alone = [build(spec.with_(kind.key, value)) for value in some]
+    return batch.machine, len(batch.which), alone
+
+
+def values_of(kind: VariedMachine, count: int) -> Any:
+    """Random values of the varied key, always equal."""
+    values = np.random.default_rng(12).uniform(kind.low, kind.high, count)
+    return np.floor(values).astype(int) if kind.key == "wheel.z" else values
+
+
+def one_by_one(
+    alone: Sequence[Mechanism], count: int, one: Callable[[Mechanism], Any], most: int
+) -> Method:
+    """Method that computes at most ``most`` designs one by one, in place of all."""
+    few = alone[:most]
+    name = f"one by one (extrapolated from {len(few)})"
+    return Method(name, None, lambda: [one(m) for m in few], True, times=count / len(few))
+
+
+def task_of_many(
+    name: str, count: int, error: Callable[[Any], float], methods: Sequence[Method]
+) -> Task:
+    """A task for a batch of designs, with sine and cosine of as many numbers as baseline."""
+    angles = np.linspace(0.0, 1.0, count)
+    return Task(
+        name,
+        f"one np.sin + np.cos over {count} numbers",
+        lambda: (np.sin(angles), np.cos(angles)),
+        error,
+        methods,
+        count,
+    )

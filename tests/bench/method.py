@@ -1,0 +1,106 @@
+"""A method, a task and a subject of the bench; and the frontier of methods."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+from bench.timing_pairs import processor_s
+
+
+class Method(NamedTuple):
+    """One way to do a task. ``size`` is its parameter: points, pieces or tolerance."""
+
+    name: str
+    size: float | None
+    run: Callable[[], Any]
+    ours: bool = False
+    times: float = 1.0  # the run is that part of the task: a loop over a sample of the designs
+    pieces: Callable[[Any], int] | None = None  # number of pieces in the answer
+    memory: Callable[[], float] | None = None  # peak of a run, MB
+
+
+class Task(NamedTuple):
+    """A task for competing methods: one answer, one baseline, one measure of error.
+
+    The error of the baseline's result is None if the baseline is not a method.
+    """
+
+    name: str
+    baseline: str
+    baseline_run: Callable[[], Any]
+    error: Callable[[Any], float]
+    methods: Sequence[Method]
+    designs: int | None = None  # designs per run, for their rate per second
+
+
+class Subject(NamedTuple):
+    """A subject of the bench: its tasks, and the texts of its plot."""
+
+    title: str
+    error: str  # kind of error, and its reference
+    tasks: Sequence[Task]
+    slack: float = 0.1  # a method is faster if it takes less than 1 - slack of another's time
+    floor: float = 1e-15  # relative errors below this count as equal
+    seconds: float = 1.0  # run time of each method, at least one run
+    absent: Sequence[str] = ()  # libraries with methods that are not installed
+    grows: bool = False  # methods of a task are one run of growing size
+    clock: Callable[[], float] = processor_s
+
+
+def missing(*distributions: str) -> tuple[str, ...]:
+    """Libraries, by their names in pip, that are not installed."""
+    from importlib import metadata
+
+    def is_here(name: str) -> bool:
+        try:
+            metadata.version(name)
+        except metadata.PackageNotFoundError:
+            return False
+        return True
+
+    return tuple(name for name in distributions if not is_here(name))
+
+
+class BenchRow(NamedTuple):
+    """A line of the table."""
+
+    subject: str
+    task: str
+    method: str
+    size: float | None
+    pieces: int | None
+    error: float | None
+    time_ratio: float
+    memory_MB: float | None
+    ours: bool
+    frontier: bool | None = None
+    designs_per_s: float | None = None  # of one core
+    time_exponent: float | None = None  # of the growth with size, on the row of the largest
+    memory_exponent: float | None = None
+
+
+def beats(one: BenchRow, other: BenchRow, slack: float, floor: float) -> bool:
+    """Return True if ``one`` is faster and as accurate, with as few pieces if pieces count."""
+    if one.error is None or other.error is None:
+        return False
+    faster = one.time_ratio < (1.0 - slack) * other.time_ratio
+    fewer = one.pieces is None or other.pieces is None or one.pieces <= other.pieces
+    return faster and fewer and max(one.error, floor) <= max(other.error, floor)
+
+
+def with_frontier(rows: Sequence[BenchRow], slack: float, floor: float) -> list[BenchRow]:
+    """Rows of a task, each marked as on the frontier unless another method beats it.
+
+    Ours are different functions or inputs, and do not compete with each other.
+    """
+    return [
+        row
+        if row.error is None
+        else row._replace(
+            frontier=not any(
+                beats(other, row, slack, floor) for other in rows if not (other.ours and row.ours)
+            )
+        )
+        for row in rows
+    ]

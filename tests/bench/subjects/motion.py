@@ -1,0 +1,227 @@
+"""The motion of one design at very many angles: the plain wheel, then every machine."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from functools import cache, partial
+from typing import Any
+
+import numpy as np
+
+from bench.formulas import textbook
+from bench.kinds import KINDS, VariedMachine, values_of
+from bench.method import Method, Subject, Task, missing
+from bench.scalar_loop import by_numba, motion_loop
+from bench.truth import digits
+from bench.truth import motion as exact_motion
+from geneva_cli.motion.engagement import WheelMotion
+from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.wheels.external import External
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.jet import Array
+
+Z = 3  # the wheel that is hardest for a formula
+ORDERS = (1, 2)  # velocity and acceleration, the derivatives of every machine
+
+
+def stable(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
+    """Derivatives with the half angle, over whole arrays."""
+    half = 0.5 * x
+    h, g = np.sin(half), np.cos(half)
+    v, sine, rest = 2.0 * h * h, 2.0 * h * g, 1.0 - l
+    D = rest * rest + 2.0 * l * v
+    k = l * rest * (1.0 + l)
+    out = []
+    if 0 in orders:
+        out.append(np.arctan2(l * sine, rest + l * v))
+    if 1 in orders:
+        out.append(l * (rest - v) / D)
+    if 2 in orders:
+        out.append(-k * sine / (D * D))
+    if 3 in orders:
+        out.append(k * (v * (1.0 + 4.0 * l + l * l - 2.0 * l * v) - rest * rest) / (D * D * D))
+    return out
+
+
+def differences(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
+    """Position, and repeated np.gradient of it, as scripts do."""
+    values = [np.arctan2(l * np.sin(x), 1.0 - l * np.cos(x))]
+    for _ in range(max(orders)):
+        values.append(np.gradient(values[-1], x))
+    return [values[k] for k in orders]
+
+
+def blocks(l: float, x: Array, orders: Sequence[int], size: int = 8192) -> list[Array]:
+    """The stable formula in blocks of ``size`` angles, which stay in the cache."""
+    out = [np.empty(len(x)) for _ in orders]
+    for i in range(0, len(x), size):
+        for whole, part in zip(out, stable(l, x[i : i + size], orders), strict=True):
+            whole[i : i + size] = part
+    return out
+
+
+def stable_texts() -> list[str]:
+    """The stable formula of each order as text, for numexpr."""
+    versine = "2 * sin(x / 2)**2"
+    distance = f"((1 - l)**2 + 2 * l * {versine})"
+    return [
+        f"arctan2(l * sin(x), (1 - l) + l * {versine})",
+        f"l * ((1 - l) - {versine}) / {distance}",
+        f"-l * (1 - l) * (1 + l) * sin(x) / {distance}**2",
+        f"l * (1 - l) * (1 + l) * ({versine} * (1 + 4 * l + l * l - 2 * l * {versine})"
+        f" - (1 - l)**2) / {distance}**3",
+    ]
+
+
+def expressions(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
+    """The stable formula compiled by numexpr, on one core as for all methods."""
+    import numexpr
+
+    numexpr.set_num_threads(1)
+    texts = stable_texts()
+    return [numexpr.evaluate(texts[k], {"l": l, "x": x}) for k in orders]
+
+
+def compiled(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
+    """Velocity and acceleration by the stable formula in a loop that Numba has compiled."""
+    out = [np.empty(len(x)) for _ in orders]
+    by_numba(motion_loop)(l, x, *out)
+    return out
+
+
+def subject(quick: bool) -> Subject:
+    """Every formula for velocity and acceleration, and for position to jerk."""
+    wanted = {"velocity and acceleration": (1, 2), "position to jerk": (0, 1, 2, 3)}
+    tasks = [
+        _task(count, what, orders)
+        for count in ((1_000,) if quick else (1_000, 1_000_000))
+        for what, orders in wanted.items()
+    ]
+    return Subject(
+        f"Motion of a wheel of {Z} slots, and of every machine, at N angles",
+        "greatest error, in units of each quantity's peak; of every machine against single angles",
+        [*tasks, *(_kind_task(kind, 1_000 if quick else 1_000_000) for kind in KINDS)],
+        absent=missing("numexpr", "numba"),
+    )
+
+
+def _task(count: int, what: str, orders: tuple[int, ...]) -> Task:
+    mechanism = build(Spec(External(Z)))
+    engagement, l = mechanism.engagements[0], mechanism.ratio
+    half = np.linspace(engagement.entry_deg, 0.0, count // 2 + 1)[: count // 2]
+    mirrored = np.concatenate((half, -half[::-1]))
+    skew = mirrored.copy()
+    skew[1] = math.nextafter(skew[1], 0.0)  # no longer its own mirror image
+    x = np.radians(skew)
+
+    formulas: list[tuple[str, Callable[[float, Array, Sequence[int]], list[Array]]]] = [
+        ("textbook formula", textbook),
+        ("stable formula, whole arrays", stable),
+        ("stable formula, in blocks", blocks),
+        ("numerical differentiation of the position", differences),
+    ]
+    if not missing("numexpr"):
+        formulas.append(("stable formula, numexpr", expressions))
+    if not missing("numba") and orders == (1, 2):
+        formulas.append(("stable formula, numba", compiled))
+    methods = [Method(name, count, partial(formula, l, x, orders)) for name, formula in formulas]
+    methods += [
+        Method(
+            "jets, whole arrays",
+            count,
+            lambda: [engagement.motion(skew, max(orders)).derivatives()[k] for k in orders],
+        ),
+        Method("ours", count, lambda: engagement.motion.derivatives(skew, orders), True),
+        Method(
+            "ours, mirrored", count, lambda: engagement.motion.derivatives(mirrored, orders), True
+        ),
+    ]
+    return angle_task(what, skew, lambda results: _error(results, mirrored, orders), methods)
+
+
+def _error(results: Any, input_deg: Array, orders: Sequence[int]) -> float:
+    """Greatest error at an even sample of the angles, with the ends and the two middle ones."""
+    n = len(input_deg)
+    sample = np.unique(
+        np.concatenate((np.linspace(0, n - 1, 200).astype(int), [n // 2 - 1, n // 2]))
+    )
+    exact = [_exact(float(input_deg[i])) for i in sample]
+    worst = 0.0
+    for values, k in zip(results, orders, strict=True):
+        peak = _peak(k)
+        for i, derivatives in zip(sample, exact, strict=True):
+            error = abs(digits().mpf(float(values[i])) - derivatives[k]) / peak
+            worst = max(worst, float(error))
+    return worst
+
+
+@cache
+def _exact(degrees: float) -> tuple[Any, ...]:
+    mp = digits()
+    return exact_motion(Z, "external", 0.0, mp.mpf(degrees) * mp.pi / 180)
+
+
+@cache
+def _peak(k: int) -> float:
+    """Size of the peak of a derivative, to one per cent: the unit of its error."""
+    half = 90.0 - 180.0 / Z
+    scan = np.linspace(0.0, half, 1001) * DEGREE
+    return float(np.abs(stable(math.sin(math.pi / Z), scan, (k,))[0]).max())
+
+
+def _kind_task(kind: VariedMachine, count: int) -> Task:
+    value = values_of(kind, 1)[0].item()
+    motion = build(kind.spec.with_(kind.key, value)).engagements[0].motion
+    angles = np.linspace(motion.entry_deg, motion.exit_deg, count)
+    angles[1] = 0.5 * (angles[0] + angles[1])  # not its own mirror image: no half is copied
+    methods = []
+    if kind.formula:
+        script = partial(_in_blocks, partial(kind.formula, value), np.radians(angles))
+        methods.append(Method("a handbook's formulas, in blocks", count, script))
+    methods += [
+        Method("jets, whole arrays", count, lambda: _jet_rates(motion, angles)),
+        Method("ours", count, lambda: motion.derivatives(angles, ORDERS), True),
+    ]
+    what = f"{kind.name}: velocity and acceleration"
+    return angle_task(what, angles, lambda results: _kind_error(motion, angles, results), methods)
+
+
+def angle_task(
+    what: str, angles: Array, error: Callable[[Any], float], methods: Sequence[Method]
+) -> Task:
+    """A task over angles in degrees, whose baseline is their sine and cosine."""
+    radians = np.radians(angles)
+    return Task(
+        f"{what} at {len(angles)} angles",
+        f"one np.sin + np.cos over {len(angles)} angles",
+        lambda: (np.sin(radians), np.cos(radians)),
+        error,
+        methods,
+    )
+
+
+def _in_blocks(formula: Callable[[Array], Any], x: Array, size: int = 8192) -> Array:
+    """Velocity and acceleration by a formula in blocks of angles that stay in the cache."""
+    out = np.empty((len(ORDERS), len(x)))
+    for i in range(0, len(x), size):
+        out[:, i : i + size] = formula(x[i : i + size])
+    return out
+
+
+def _jet_rates(motion: WheelMotion, angles: Array) -> list[Any]:
+    """The derivatives from one jet; of a copy, as a motion keeps its latest jet."""
+    return list(motion(angles.copy(), ORDERS[-1]).derivatives()[1:])
+
+
+def _kind_error(motion: WheelMotion, angles: Array, results: Sequence[Any]) -> float:
+    """Greatest difference from the values of single angles, by ``math`` instead of NumPy."""
+    # the error is measured at 50 angles
+    some = np.linspace(0, len(angles) - 1, 50).astype(int)
+    exact = np.array([motion(x, ORDERS[-1]).scalars()[1:] for x in angles[some].tolist()]).T
+    errors = [
+        np.abs(values[some] - own).max() / np.abs(values).max()
+        for values, own in zip(results, exact, strict=True)
+    ]
+    return float(max(errors))
