@@ -44,7 +44,6 @@ from geneva_cli.spec.tables import (
 )
 
 if TYPE_CHECKING:
-    from geneva_cli.drawings.model import PartsModel
     from geneva_cli.extras.certify.certificate import Certificate
     from geneva_cli.figure import Figure
     from geneva_cli.geometry.drawing import Drawing
@@ -54,7 +53,7 @@ if TYPE_CHECKING:
     from geneva_cli.loads.load_summary import LoadSummary
     from geneva_cli.motion.peaks import Peaks
     from geneva_cli.motion.timing import Timing
-    from geneva_cli.parts.outlines.outlines import Outlines
+    from geneva_cli.parts.parts import Parts
     from geneva_cli.specfile.reader import Text
     from geneva_cli.table import Table
     from geneva_cli.verdict.checks import Check
@@ -593,24 +592,16 @@ class Design:
         return is_table(self.mechanism, part, drawn)
 
     @answer
-    def parts_model(self) -> PartsModel:
-        """Outlines and full turn of the parts, shared by all their results.
+    def parts(self) -> Parts:
+        """The parts, with their outlines and their full turn, shared by all their results.
 
-        >>> Design(External(6)).parts_model.turn.holds  # its lock, in the dwell
-        True
+        >>> parts = Design(External(6)).parts
+        >>> parts.outlines.relief, parts.turn.holds  # its lock, in the dwell
+        ('arc', True)
         """
-        from geneva_cli.drawings.model import PartsModel
+        from geneva_cli.parts.parts import parts_of
 
-        return PartsModel(self.mechanism)
-
-    @answer
-    def parts(self) -> Outlines:
-        """Wheel and crank as closed outlines. Raises GenevaError without flat parts.
-
-        >>> Design(External(6)).parts.relief
-        'arc'
-        """
-        return self.parts_model.outlines
+        return parts_of(self.mechanism)
 
     @question
     def drawing(
@@ -632,15 +623,15 @@ class Design:
         >>> Design(External(6)).drawing("wheel").layers
         ('WHEEL', 'BORE')
         """
-        from geneva_cli.drawings.catalogue import model_of, part_drawing
+        from geneva_cli.drawings.catalogue import part_drawing, parts_having
 
         if curves not in CURVES:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
-        picture = part_drawing(self.parts_model, part, tolerance_mm, CURVES[curves])
+        picture = part_drawing(self.parts, part, tolerance_mm, CURVES[curves])
         if dog_bones_mm is not None:
             from geneva_cli.drawings.milling import with_dog_bones
 
-            picture = with_dog_bones(picture, model_of(self.parts_model, part), dog_bones_mm)
+            picture = with_dog_bones(picture, parts_having(self.parts, part), dog_bones_mm)
         if centre_marks:
             from geneva_cli.drawings.centre_marks import with_centre_marks
 
@@ -695,7 +686,7 @@ class Design:
         if curves not in CURVES:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
         with writing_in(units):
-            return part_sheet(self.parts_model, part, tolerance_mm, CURVES[curves])
+            return part_sheet(self.parts, part, tolerance_mm, CURVES[curves])
 
     @question
     def save(
@@ -780,7 +771,7 @@ class Design:
         from geneva_cli.verdict.checks import proofs
 
         turned = self.spec.is_turned
-        return [*self._judged, *(proofs(self.parts_model, proof_mm) if turned else ())]
+        return [*self._judged, *(proofs(self.parts, proof_mm) if turned else ())]
 
     @answer
     def _judged(self) -> list[Check]:
@@ -788,7 +779,7 @@ class Design:
         from geneva_cli.verdict.advice import judged
 
         # a machine without parts is judged without NumPy
-        return judged(self.mechanism, self.parts_model if self.spec.is_turned else None)
+        return judged(self.mechanism, self.parts if self.spec.is_turned else None)
 
     @property
     def passes(self) -> bool:
@@ -810,15 +801,15 @@ class Design:
         >>> Design(External(6)).judge()
         ('', [])
         """
-        from geneva_cli.drawings.catalogue import model_of
+        from geneva_cli.drawings.catalogue import parts_having
         from geneva_cli.verdict.advice import judged
         from geneva_cli.verdict.failures import failures
 
-        model = model_of(self.parts_model, part)
-        if model.mechanism.spec.is_flat:
-            _ = model.outlines  # their error comes before all checks
-        is_own = model is self.parts_model
-        return failures(self._judged if is_own else judged(model.mechanism, model), model)
+        parts = parts_having(self.parts, part)
+        if parts.mechanism.spec.is_flat:
+            _ = parts.outlines  # their error comes before all checks
+        is_own = parts is self.parts
+        return failures(self._judged if is_own else judged(parts.mechanism, parts), parts)
 
     @question
     def tolerance(
@@ -833,7 +824,7 @@ class Design:
         """
         from geneva_cli.verdict.tolerance.tables import tolerance_table
 
-        return tolerance_table(self.mechanism, self.parts_model, samples, seed, radius_mm)
+        return tolerance_table(self.mechanism, self.parts, samples, seed, radius_mm)
 
     @question
     def tolerance_histogram(self, samples: int = 65536, seed: int = 0) -> Table:
@@ -847,7 +838,7 @@ class Design:
         """
         from geneva_cli.verdict.tolerance.tables import histogram_table
 
-        return histogram_table(self.mechanism, self.parts_model, samples, seed)
+        return histogram_table(self.mechanism, self.parts, samples, seed)
 
     @answer
     def motion_warnings(self) -> list[Notice]:
@@ -872,7 +863,7 @@ class Design:
         from geneva_cli.verdict.warnings import warnings
 
         # the other direction's would be called backwards, which this one is
-        return (warnings if self.is_backwards else all_warnings)(self.parts_model)
+        return (warnings if self.is_backwards else all_warnings)(self.parts)
 
     @answer
     def report(self) -> Report:
@@ -884,4 +875,4 @@ class Design:
         """
         from geneva_cli.verdict.report import report
 
-        return report(self.parts_model, self.checks, self.warnings)
+        return report(self.parts, self.checks, self.warnings)

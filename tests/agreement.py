@@ -5,9 +5,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.summary import summaries
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.study.fields import values
 from geneva_cli.verdict.quantities.groups import GROUPS
 
@@ -26,7 +26,7 @@ def quantities(mechanism):
     bounded = {load: one for load, one in every if None not in (one.max, one.min)}
     sizes = {f"loads.{load}.size": max(one.max, -one.min) for load, one in bounded.items()}
     groups = [group for group in GROUPS if group.batched or not group.makes_parts]
-    return sizes | values(PartsModel(mechanism), groups)
+    return sizes | values(parts_of(mechanism), groups)
 
 
 def agrees(name, value, single, spec):

@@ -130,7 +130,7 @@ def test_the_same_parts_and_verdicts():
     assert list(made.slot(0.1).rows()) == list(read.slot(0.1).rows())
     assert len(made.slot(samples=7)) == 7
     assert made.drawing("wheel", 0.01).shapes == read.drawing("wheel", 0.01).shapes
-    assert made.parts.wheel == read.parts.wheel
+    assert made.parts.outlines.wheel == read.parts.outlines.wheel
     assert made.report.passes == read.report.passes
 
 

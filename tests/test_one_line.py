@@ -263,6 +263,6 @@ def pins(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Tabl
 
 
 def test_a_part(add: Add, run: Callable[..., Any]) -> None:
-    add(PARTS, "pins", Part("drawings.added:pins"), "drawings")
+    add(PARTS, "pins", Part(table="drawings.added:pins"), "drawings")
     shown = run("profile", "[wheel]\nz = 6\n[drive]\nrollers = 2\n", "--part", "pins")
     assert json.loads(shown)["rows"] == [{"pins": 2}]

@@ -16,7 +16,7 @@ DENSE = some(20_000, 4_000)  # positions of a turn
 def least_gap(parts, at):
     """The smallest gap of all parts over some input angles, mm."""
     pose = parts.gaps.pose(at)
-    locking = parts.gaps.locking(pose).min() if parts.crank else math.inf
+    locking = parts.gaps.locking(pose).min() if parts.locked else math.inf
     return float(min(parts.gaps.rollers(pose).min(), locking))
 
 
@@ -40,7 +40,7 @@ def turn_of(parts, count=DENSE):
 def pairs(parts, window):
     """Yield each pair of parts in a motion or dwell: its interval, its bounds, and its gap."""
     every = parts.pairs(-TO_MM)
-    if parts.crank:
+    if parts.locked:
         ends = window.start, window.end
         yield ends, every.lock(window), lambda at: parts.gaps.locking(parts.gaps.pose(at))
     for roller in range(len(parts.assembly.rollers)):

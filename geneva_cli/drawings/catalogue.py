@@ -1,15 +1,16 @@
 """The parts that ``geneva profile`` writes: as tables of points, and as drawings to cut.
 
-A new part is one function, and one line here.
+A new part is one function, and one line here. A drawing has a line in the records of the kinds that
+have the part.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from geneva_cli.drawings.model import PartsKind, PartsModel, kind_of
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.records import of_wheel
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.rules import Range, require_mm
 from geneva_cli.table import Table
@@ -17,43 +18,38 @@ from geneva_cli.table import Table
 if TYPE_CHECKING:
     from geneva_cli.geometry.drawing import Drawing
     from geneva_cli.geometry.sheet import Sheet
-    from geneva_cli.parts.parts_of_machine import PartsOfMachine
+    from geneva_cli.parts.parts import Parts
 
 
 class Part(NamedTuple):
-    """The functions that make a part, each as ``module:function``."""
+    """How a part is written; the records of the kinds have the functions that draw it."""
 
-    table: str | None = None  # its points, if no drawing is requested
-    drawing: str | None = None
-    sheet: str | None = None  # as a drawing sheet with dimensions
     cut: bool = False  # True if it is cut out of a plate
     in_front: bool = False  # True if it belongs to a first wheel, in front of the crank
-    every: bool = False  # True if every machine has it
+    sheet: bool = False  # True if it is a drawing sheet with dimensions
+    table: str = ""  # function of a table that every machine has and no drawing
 
 
 PARTS = {
-    "slot": Part(
-        "parts.slots.slot_sampling:profile_table",
-        "drawings.part_drawings:slot",
-    ),
-    "wheel": Part(drawing="drawings.part_drawings:wheel", cut=True),
-    "crank": Part(drawing="drawings.part_drawings:crank", cut=True),
-    "arm": Part(drawing="drawings.part_drawings:arm", cut=True),
-    "links": Part(drawing="drawings.part_drawings:links", cut=True),
-    "first-wheel": Part(drawing="drawings.part_drawings:wheel", cut=True, in_front=True),
-    "first-crank": Part(drawing="drawings.part_drawings:crank", cut=True, in_front=True),
-    "frame": Part(drawing="drawings.part_drawings:frame", cut=True),
+    "slot": Part(),
+    "wheel": Part(cut=True),
+    "crank": Part(cut=True),
+    "arm": Part(cut=True),
+    "links": Part(cut=True),
+    "first-wheel": Part(cut=True, in_front=True),
+    "first-crank": Part(cut=True, in_front=True),
+    "frame": Part(cut=True),
     "guide": Part(cut=True),
-    "parts": Part("drawings.parts_list:parts_table", every=True),
-    "assembly": Part(drawing="drawings.machine_drawing:machine"),
-    "gears": Part("parts.gears.gear_curves:gears_table", "drawings.part_drawings:gears"),
-    "groove": Part("parts.slots.groove:groove_table", "drawings.part_drawings:groove"),
-    "groove-plate": Part(drawing="drawings.part_drawings:groove_plate", cut=True),
-    "coupon": Part(drawing="drawings.coupon:coupon", cut=True),
-    "plate": Part(drawing="drawings.print_plate:plate"),
-    "sheet": Part(sheet="drawings.sheet.sheet:sheet"),
+    "parts": Part(table="drawings.parts_list:parts_table"),
+    "assembly": Part(),
+    "gears": Part(),
+    "groove": Part(),
+    "groove-plate": Part(cut=True),
+    "coupon": Part(cut=True),
+    "plate": Part(),
+    "sheet": Part(sheet=True),
 }
-DRAWINGS = tuple(name for name, part in PARTS.items() if part.drawing or part.cut)
+DRAWINGS = tuple(name for name, part in PARTS.items() if not (part.sheet or part.table))
 CUT = tuple(name for name, part in PARTS.items() if part.cut)
 SHEETS = tuple(name for name, part in PARTS.items() if part.sheet)
 SAMPLES_MAX = 1_000_000
@@ -77,7 +73,7 @@ def is_table(mechanism: Mechanism, part: str, drawn: bool) -> bool:
             f"--part {part} is a table of points: write it as .csv or .json; these are drawings: "
             f"{', '.join(DRAWINGS)}"
         )
-    return not drawn and _table(mechanism, part) is not None
+    return not drawn and bool(_table(mechanism, part))
 
 
 def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: int | None) -> Table:
@@ -90,13 +86,15 @@ def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: in
     if part in SHEETS or not is_table(mechanism, part, drawn=False):
         raise GenevaError(f"--part {part} is a drawing: write it as .dxf or .svg")
     require_tolerance(mechanism, tolerance_mm)
-    return _loaded(_table(mechanism, part))(mechanism, tolerance_mm, samples)
+    table: Table = load_named(_table(mechanism, part))(mechanism, tolerance_mm, samples)
+    return table
 
 
 def require_drawn(mechanism: Mechanism, part: str) -> None:
     """Raise GenevaError for a part that no machine with such a wheel has."""
-    kind = kind_of(mechanism)
-    known = [name for name in PARTS if _is_of(kind, name)]
+    kinds = of_wheel(mechanism.spec.wheel.NAME)
+    drawn = {name for kind in kinds for name in (*kind.drawings, *kind.tables)}
+    known = [name for name, one in PARTS.items() if one.table or name in drawn]
     if part not in known:
         raise GenevaError(
             f"--part {part}: a machine of this kind has none; it may have {', '.join(known)}",
@@ -113,15 +111,15 @@ def require_tolerance(mechanism: Mechanism, tolerance_mm: float) -> None:
     require_mm("--tolerance", tolerance_mm, allowed, "the roller's radius")
 
 
-def model_of(model: PartsModel, part: str) -> PartsModel:
-    """Return the model of the machine that a part belongs to: itself, or the first of two wheels.
+def parts_having(parts: Parts, part: str) -> Parts:
+    """Return the parts of the machine that has a part: these, or those of the first of two wheels.
 
     Raises GenevaError for a part of a first wheel if there is none.
     """
-    return model.front if part in PARTS and PARTS[part].in_front else model
+    return parts.front if part in PARTS and PARTS[part].in_front else parts
 
 
-def part_drawing(model: PartsModel, part: str, tolerance_mm: float, curves: str) -> Drawing:
+def part_drawing(parts: Parts, part: str, tolerance_mm: float, curves: str) -> Drawing:
     """Return a part's drawing: lines and arcs, or with ``curves`` = "cubics" also cubics.
 
     Raises GenevaError for a part that is not drawn, or that the machine does not have.
@@ -129,39 +127,34 @@ def part_drawing(model: PartsModel, part: str, tolerance_mm: float, curves: str)
     _require_known(part)
     if part in SHEETS:
         raise GenevaError(f"--part {part} is a drawing sheet, not a drawing to cut")
-    model = model_of(model, part)
-    require_tolerance(model.mechanism, tolerance_mm)
-    is_table(model.mechanism, part, drawn=True)
-    by, built = _maker(model, part)
-    drawing: Drawing = _loaded(by)(built.within(tolerance_mm, curves))
+    parts = parts_having(parts, part)
+    require_tolerance(parts.mechanism, tolerance_mm)
+    is_table(parts.mechanism, part, drawn=True)
+    by, built = _maker(parts, part)
+    drawing: Drawing = load_named(by)(built.within(tolerance_mm, curves))
     return drawing._replace(tolerance=tolerance_mm)
 
 
-def part_sheet(model: PartsModel, part: str, tolerance_mm: float, curves: str) -> Sheet:
+def part_sheet(parts: Parts, part: str, tolerance_mm: float, curves: str) -> Sheet:
     """Return a part, or all of them, as a drawing sheet with dimensions.
 
     Raises GenevaError for a part without a sheet, or that does not fit on one.
     """
-    require_drawn(model.mechanism, part)
+    require_drawn(parts.mechanism, part)
     if not is_sheet(part):
         raise GenevaError(f"--part {part} is no drawing sheet; use {', '.join(SHEETS)}")
-    require_tolerance(model.mechanism, tolerance_mm)
-    by, built = _maker(model, part)
-    return _loaded(by)(built.within(tolerance_mm, curves))
+    require_tolerance(parts.mechanism, tolerance_mm)
+    by, built = _maker(parts, part)
+    sheet: Sheet = load_named(by)(built.within(tolerance_mm, curves))
+    return sheet
 
 
-def _maker(model: PartsModel, part: str) -> tuple[str | None, PartsOfMachine]:
+def _maker(parts: Parts, part: str) -> tuple[str, Parts]:
     """Return the function that draws a part, and the parts of the machine that it takes."""
-    by = model.kind.DRAWN.get(part)
-    # the links and gears in front of a sphere are those of a flat machine
-    return (by, model.built) if by else (PARTS[part].drawing or PARTS[part].sheet, model.flat)
-
-
-def _is_of(kind: PartsKind, name: str) -> bool:
-    """Return True if machines with parts of a kind have it: a sphere may have flat links."""
-    one = PARTS[name]
-    flat = kind.HAS_FLAT_PARTS and (one.drawing or one.sheet or one.table)
-    return bool(one.every or name in kind.DRAWN or flat)
+    kinds = of_wheel(parts.mechanism.spec.wheel.NAME)
+    kind = next(kind for kind in reversed(kinds) if part in kind.drawings)
+    # links and gears in front of a sphere are flat
+    return kind.drawings[part], parts.built if kind.parts else parts.flat
 
 
 def require_cut(part: str, option: str = "--kerf") -> None:
@@ -173,8 +166,10 @@ def require_cut(part: str, option: str = "--kerf") -> None:
         )
 
 
-def _table(mechanism: Mechanism, part: str) -> str | None:
-    return kind_of(mechanism).TABLES.get(part) or PARTS[part].table
+def _table(mechanism: Mechanism, part: str) -> str:
+    """Return the function that tabulates a part; empty without one."""
+    own = (kind.tables.get(part) for kind in reversed(of_wheel(mechanism.spec.wheel.NAME)))
+    return next(filter(None, own), PARTS[part].table)
 
 
 def _require_known(part: str) -> None:
@@ -182,8 +177,3 @@ def _require_known(part: str) -> None:
         raise GenevaError(
             f"--part {cut(part)}: it must be one of {few(part, PARTS)}{nearest(part, PARTS)}"
         )
-
-
-def _loaded(by: str | None) -> Any:
-    assert by is not None  # is_table tells tables and drawings apart
-    return load_named(by)

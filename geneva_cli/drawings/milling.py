@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from contextlib import suppress
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.corners import TooWide
 from geneva_cli.geometry.cutter import faults, freed
@@ -20,6 +19,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import rounded_radius
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.parts.parts import Parts
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.rules import TOOL_MM, require_mm
 
@@ -37,16 +37,16 @@ def judged(drawing: Drawing, cutter_mm: float) -> tuple[str, list[str]]:
     return refused, [f"--cutter {cutter_mm:g}: {f.text}" for f in all_faults if not f.stops]
 
 
-def with_dog_bones(drawing: Drawing, model: PartsModel, cutter_mm: float) -> Drawing:
+def with_dog_bones(drawing: Drawing, parts: Parts, cutter_mm: float) -> Drawing:
     """Return a drawing with dog bones for a cutter of a diameter in its inner corners.
 
     Raises GenevaError where one does not fit.
     """
-    mechanism, solid = model.mechanism, drawing.solid
+    mechanism, solid = parts.mechanism, drawing.solid
     if solid is None:
         return drawing
     wall = wall_min(mechanism.spec.size, mechanism.center_distance_mm)
-    lock = model.outlines.sizes.lock if mechanism.spec.is_flat else 0.0
+    lock = parts.outlines.sizes.lock if mechanism.spec.is_flat else 0.0
 
     def works(piece: Line | Arc, layer: Layer) -> bool:
         return layer == "WHEEL" or (layer == "CRANK" and _locks(piece, lock, mechanism))

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,14 +20,12 @@ from geneva_cli.geometry.shapes import Arc, Contour, Line, Segment, closed, join
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.crank_solids import arm_plate
+from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.projection import drawing_of, once, outlines_of, shapes, titled
 
-if TYPE_CHECKING:
-    from geneva_cli.kinds.linear.parts import RackParts
 
-
-def wheel(parts: FlatParts | RackParts) -> Drawing:
+def wheel(parts: EdgedParts) -> Drawing:
     """Return the wheel or rack; x is along the first slot.
 
     The origin is the wheel's axis, or the roller's at mid-motion of a rack.
@@ -36,7 +33,7 @@ def wheel(parts: FlatParts | RackParts) -> Drawing:
     return drawing_of(parts.mechanism, parts.mechanism.output.noun, parts.wheel.part)
 
 
-def crank(parts: FlatParts | RackParts) -> Drawing:
+def crank(parts: EdgedParts) -> Drawing:
     """Return the crank in the wheel's plane; its axis is the origin, x is to the first roller."""
     return drawing_of(parts.mechanism, "crank", parts.crank_without_arm.part)
 
@@ -95,12 +92,12 @@ def _side_by_side(plates: Iterable[Plate], between: float) -> Iterator[Member]:
         top += box.y1 - box.y0 + between
 
 
-def frame(parts: FlatParts | RackParts) -> Drawing:
+def frame(parts: EdgedParts) -> Drawing:
     """Return the frame as it is drilled."""
     return drawing_of(parts.mechanism, "frame", parts.frame.part)
 
 
-def gears(parts: FlatParts | RackParts) -> Drawing:
+def gears(parts: EdgedParts) -> Drawing:
     """Return all gears with bores and bolts, and the line of centres.
 
     The crank's axis is the origin. Raises GenevaError for a machine without gears.

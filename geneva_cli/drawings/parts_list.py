@@ -13,9 +13,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from functools import partial
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.mass import MM, solid_properties
 from geneva_cli.geometry.measure import bounds_of
@@ -23,18 +22,17 @@ from geneva_cli.geometry.plates import Part, Shell, Solid
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot
+from geneva_cli.motion.records import thing
 from geneva_cli.motion.rollers import places
 from geneva_cli.parts.alike import alike
 from geneva_cli.parts.missing import Missing, built_of, or_missing
+from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.projection import outlines_of
 from geneva_cli.parts.shafts.shaft import FIX
 from geneva_cli.spec.materials import roller_material, wheel_material
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.spec.tables import Size
 from geneva_cli.table import Reading, Table, rows_table
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.parts_of_machine import PartsOfMachine
 
 # columns of a row of each kind
 KINDS = {
@@ -65,32 +63,32 @@ NAMES = ("row", *dict.fromkeys(name for names in KINDS.values() for name in name
 
 def parts_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
     """Return a table with a row for each part, pivot, dimension, and part that cannot be built."""
-    return parts_list(PartsModel(mechanism))
+    return parts_list(parts_of(mechanism))
 
 
-def parts_list(model: PartsModel) -> Table:
+def parts_list(parts: Parts) -> Table:
     """Return the list of parts of a machine, whose outlines may already be computed."""
-    mechanism = model.mechanism
-    entries = [*_parts(model), *_pivots(mechanism), *_dimensions(model)]
+    mechanism = parts.mechanism
+    entries = [*_parts(parts), *_pivots(mechanism), *_dimensions(parts)]
     mappings = [{"row": "missing", **r._asdict()} if isinstance(r, Missing) else r for r in entries]
     rows = [[row.get(name) for name in NAMES] for row in mappings]
     table = rows_table(NAMES, rows, mechanism.spec.title, mixed=True)
     return table.replaced(reading=Reading(FIRST))
 
 
-def _parts(model: PartsModel) -> Iterator[Row | Missing]:
+def _parts(parts: Parts) -> Iterator[Row | Missing]:
     """Yield all parts, and then the reason for each that cannot be built."""
-    spec = model.mechanism.spec
+    spec = parts.mechanism.spec
     missing: list[Missing] = []
 
-    for name, build in model.all_built:
+    for name, build in parts.all_built:
 
-        def rows(build: Callable[[], PartsOfMachine] = build) -> Iterator[Row]:
-            parts = build()
-            kinds = alike(built_of(parts.by_name(), missing))
+        def rows(build: Callable[[], Parts] = build) -> Iterator[Row]:
+            own = build()
+            kinds = alike(built_of(own.by_name(), missing))
             # a part whose walls are too thin for its edges has no mass
             named = (
-                (kind[-1].name, partial(part_rows, spec, kind, parts.outside_mm)) for kind in kinds
+                (kind[-1].name, partial(part_rows, spec, kind, own.outside_mm)) for kind in kinds
             )
             yield from built_of(named, missing)
 
@@ -135,8 +133,7 @@ def _properties(solid: Solid, density: float, outside: float | None) -> Row:
             x, y = (at if abs(at) > near else 0.0 for at in body.centroid_mm)
             row = {"centroid_x_mm": x, "centroid_y_mm": y}
     else:
-        from geneva_cli.geometry.sphere import opposite
-        from geneva_cli.kinds.spherical.wheel import POLE
+        from geneva_cli.geometry.sphere import POLE, opposite
 
         low, high = solid.inner, solid.outer
         across = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)  # axes along which its size is measured
@@ -164,8 +161,8 @@ def _pivots(mechanism: Mechanism) -> Iterator[Row]:
         yield {"row": "pivot", **pivot._asdict()}
 
 
-def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
-    mechanism = model.mechanism
+def _dimensions(parts: Parts) -> Iterator[Row | Missing]:
+    mechanism = parts.mechanism
     spec, L = mechanism.spec, mechanism.center_distance_mm
     r, clear = mechanism.roller_radius_mm, spec.size.allowances.slot_clearance_mm
     entries: list[Dimension | Missing] = [
@@ -179,10 +176,11 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
     ]
     entries += _screws_and_edges(spec.size)
     with suppress(GenevaError):  # the rows of what cannot be built have the reason
-        entries += _screws(model)
-    entries += _to_fix(model)
+        entries += _screws(parts)
+    entries += _to_fix(parts)
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
-    entries += model.kind.dimensions(model)
+    own = thing(spec.wheel.NAME, "dimensions")
+    entries += own(parts) if own else ()
     if mechanism.law is None and spec.drive.crank:
         entries += _straight(mechanism)
     elif spec.drive.crank:
@@ -194,7 +192,7 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
     own = mechanism.layout
     entries += [d for d in own if isinstance(d, Dimension)]
     if spec.size.gear_module_mm is not None:
-        entries += or_missing("teeth of the gears", lambda: model.flat.tooth_dimensions)
+        entries += or_missing("teeth of the gears", lambda: parts.flat.tooth_dimensions)
     for entry in entries:
         yield entry if isinstance(entry, Missing) else {"row": "dimension", **entry._asdict()}
 
@@ -211,15 +209,15 @@ def _screws_and_edges(size: Size) -> Iterator[Dimension]:
         yield Dimension(f"{kind} of all edges", size.edge_mm, "mm")
 
 
-def _screws(model: PartsModel) -> Iterator[Dimension]:
+def _screws(parts: Parts) -> Iterator[Dimension]:
     """Yield the screws between the parts, with their threads and the parts that are tapped."""
-    screws = model.built.screws if model.mechanism.spec.has_parts else ()
+    screws = parts.built.screws if parts.mechanism.spec.has_parts else ()
     yield from (Dimension(one.name, one.text) for one in screws)
 
 
-def _to_fix(model: PartsModel) -> Iterator[Dimension]:
+def _to_fix(parts: Parts) -> Iterator[Dimension]:
     """Yield what to do with parts that turn with their shaft in a round bore, and each part."""
-    for _, build in model.all_built:
+    for _, build in parts.all_built:
         with suppress(GenevaError):  # the rows of what cannot be built have the reason
             yield from (Dimension(FIX, name) for name in build().to_fix)
 

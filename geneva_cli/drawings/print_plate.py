@@ -3,29 +3,24 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 from geneva_cli.drawings.sheet.pack import packed_apart
 from geneva_cli.drawings.sheet.view import Block
 from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.measure import bounds_of
 from geneva_cli.geometry.plates import Group, Member, Plate, Shell, Stack, lowered, solids
-from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.projection import outlines_of, titled
-
-if TYPE_CHECKING:
-    from geneva_cli.kinds.linear.parts import RackParts
 
 APART = 5.0  # mm between parts, and round them
 
 
-def plate(parts: FlatParts | RackParts) -> Drawing:
+def plate(parts: EdgedParts) -> Drawing:
     """Return all parts, each as often as the machine has it, in front of and right of the origin.
 
     Raises GenevaError for a part that cannot be built.
     """
-    parts.require_wheel()
-    every = (one for _, build in parts.by_name() for part in build() for one in solids(part))
+    every = (one for _, build in parts.turned.by_name() for part in build() for one in solids(part))
     whole = [one for one in every if not isinstance(one, Shell)]
     title = titled(parts.mechanism, "plate")
     solid = Group(title, tuple(_laid(whole)))

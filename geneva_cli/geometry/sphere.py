@@ -16,6 +16,8 @@ from geneva_cli.numerics.quadrature import rule
 
 Vector: TypeAlias = tuple[float, float, float]
 
+POLE: Vector = (0.0, 0.0, 1.0)  # of the wheel in its own frame
+
 
 class SphereArc(NamedTuple):
     """An arc counterclockwise about an axis, ``angle`` radians from it; the axis is on its left.

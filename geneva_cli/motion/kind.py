@@ -41,6 +41,11 @@ class Kind(NamedTuple):
     keys: tuple[str, ...] = ()
     parts: str = ""  # class of the parts of wheel and crank
     no_parts: str = ""  # function that returns the reason why a spec has no parts, or ""
+    front: str = ""  # class of links and gears in front of a crank that is not flat
+    drawings: Mapping[str, str] = _NONE  # or sheets, by the names of the parts that they show
+    tables: Mapping[str, str] = _NONE  # of points, by the names of the parts
+    dimensions: str = ""  # in the list of parts, of these parts
+    stressed: str = ""  # dimensions of stressed parts, where no layout of flat parts has them
     wheel_body: str = ""  # function that returns mass and inertia of a mechanism's wheel
     motion_checks: Mapping[str, str] = _NONE  # by their names
     parts_checks: Mapping[str, str] = _NONE  # of parts at rest, all or those that it adds

@@ -318,7 +318,7 @@ class Spec(Batchable):
     def is_turned(self) -> bool:
         """True if wheel and crank can be checked for collisions in a full turn of the crank.
 
-        >>> Spec(Linear(6)).is_turned, Spec(External(400)).is_turned
+        >>> Spec(External(6)).is_turned, Spec(External(400)).is_turned
         (True, False)
         """
         if not self._built:

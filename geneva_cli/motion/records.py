@@ -14,11 +14,53 @@ from geneva_cli.spec.load_named import load_named
 
 CRANK = "drives.crank:Crank"  # the drive of a spec without one
 _CRANK, _PIN_PATH = "drives.refuses:of_transmission", "drives.refuses:of_pin_path"
+# Of flat parts, and of links and gears in front of a crank.
+_DRAWINGS = {
+    "slot": "drawings.part_drawings:slot",
+    "wheel": "drawings.part_drawings:wheel",
+    "crank": "drawings.part_drawings:crank",
+    "arm": "drawings.part_drawings:arm",
+    "links": "drawings.part_drawings:links",
+    "first-wheel": "drawings.part_drawings:wheel",
+    "first-crank": "drawings.part_drawings:crank",
+    "frame": "drawings.part_drawings:frame",
+    "assembly": "drawings.machine_drawing:machine",
+    "gears": "drawings.part_drawings:gears",
+    "groove": "drawings.part_drawings:groove",
+    "groove-plate": "drawings.part_drawings:groove_plate",
+    "coupon": "drawings.coupon:coupon",
+    "plate": "drawings.print_plate:plate",
+    "sheet": "drawings.sheet.sheet:sheet",
+}
+_TABLES = {
+    "slot": "parts.slots.slot_sampling:profile_table",
+    "gears": "parts.gears.gear_curves:gears_table",
+    "groove": "parts.slots.groove:groove_table",
+}
+_FRONT = "parts.front_parts:FrontParts"
 # The kinds of the core; those in ``kinds`` follow.
 _CORE = (
-    Kind("external", wheel="motion.wheels.external:External", parts="drawings.model:Flat"),
-    Kind("internal", wheel="motion.wheels.internal:Internal", parts="drawings.model:Flat"),
-    Kind("spherical", wheel="motion.wheels.spherical:Spherical"),
+    Kind(
+        "external",
+        wheel="motion.wheels.external:External",
+        parts="parts.flat_parts:FlatParts",
+        drawings=_DRAWINGS,
+        tables=_TABLES,
+    ),
+    Kind(
+        "internal",
+        wheel="motion.wheels.internal:Internal",
+        parts="parts.flat_parts:FlatParts",
+        drawings=_DRAWINGS,
+        tables=_TABLES,
+    ),
+    Kind(
+        "spherical",
+        wheel="motion.wheels.spherical:Spherical",
+        front=_FRONT,
+        drawings=_DRAWINGS,
+        tables=_TABLES,
+    ),
     Kind("crank", drive=CRANK, refuses="drives.refuses:of_crank"),
     Kind("side-crank", drive="drives.side_crank:SideCrank", refuses=_CRANK),
     Kind("elliptical-gears", drive="drives.elliptical_gears:EllipticalGears", refuses=_CRANK),
@@ -66,6 +108,11 @@ def thing(wheel: str, field: str) -> Any:
     """
     paths = [path for kind in of_wheel(wheel) if (path := kind._asdict()[field])]
     return load_named(paths[-1]) if paths else None
+
+
+def parts_class(wheel: str) -> Any:
+    """Class of the parts of a kind of wheel; without its own, of the links and gears in front."""
+    return thing(wheel, "parts") or load_named(_FRONT)
 
 
 def families_of_kinds(where: str) -> list[Any]:

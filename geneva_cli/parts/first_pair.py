@@ -25,8 +25,8 @@ from geneva_cli.parts.wheel import wheel_plate
 from geneva_cli.spec.least_wall import wall_min
 
 
-def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:
-    """Return the first wheel and its crank as a machine; ``bars`` are the second's links if known.
+def first_pair(mechanism: Mechanism) -> Mechanism:
+    """Return the first wheel and its crank as a machine.
 
     Raises GenevaError for a machine without a first wheel.
     """
@@ -44,8 +44,7 @@ def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:
             f"{key}: the first wheel on the crank's shaft has a round bore; remove {key}",
             ("size", key),
         )
-    if bars is None:
-        bars = drawn_links(mechanism, outlines(mechanism) if spec.is_flat else None)
+    bars = drawn_links(mechanism, outlines(mechanism) if spec.is_flat else None)
     second, own = (L, 0.0), (L + first.distance_mm, 0.0)
     bore = 0.0 if bars.one_piece(own, L) else bars.shaft(own, L)
     alone = first_spec(mechanism, first)

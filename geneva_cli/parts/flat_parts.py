@@ -6,75 +6,98 @@ use. Drawing, solid, list of parts, sheet and the checks of shafts are projectio
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from geneva_cli.geometry.hole_walls import require_faces
+from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Group, Member, Plate, plates
 from geneva_cli.geometry.shapes import Contour, Point
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension
-from geneva_cli.parts.arm import CrankArm, bolts, crank_arm, has_arm
-from geneva_cli.parts.crank_solids import arm_plate, locking_plates, roller_plates
-from geneva_cli.parts.edged_parts import EdgedParts, FrameAndShafts
-from geneva_cli.parts.frame import framed
-from geneva_cli.parts.links.link_shafts import links_to_fix
-from geneva_cli.parts.links.link_sizes import roller_pins
-from geneva_cli.parts.links.links import Links, drawn_links
-from geneva_cli.parts.outlines.outline_sizes import outlines
+from geneva_cli.numerics.arrays import Array
+from geneva_cli.parts.edged_parts import EdgedParts
+from geneva_cli.parts.outlines.outline_sizes import machine_sizes, outlines
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.reliefs import is_whole
 from geneva_cli.parts.outlines.wheel_outline import dial_bolts, slot_walls, wheel_contour
-from geneva_cli.parts.shafts.bolt_holes import Screws
-from geneva_cli.parts.shafts.hub_and_shafts import crank_hub
-from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses, pin_radius
+from geneva_cli.parts.sizes.plain_sizes import Sizes, drawn_thicknesses, pin_radius
 from geneva_cli.parts.slots.roller_paths import roller_centres
-from geneva_cli.parts.wheel import wheel_part
 
 if TYPE_CHECKING:
+    from geneva_cli.parts.arm import CrankArm
+    from geneva_cli.parts.framed import FrameAndShafts
     from geneva_cli.parts.gears.gear_blanks import Gear
+    from geneva_cli.parts.links.links import Links
     from geneva_cli.parts.missing import NamedParts
+    from geneva_cli.parts.shafts.bolt_holes import Screws
+    from geneva_cli.parts.turn.bounds import FlatPairs
 
 
 class FlatParts(EdgedParts):
-    """The parts of a machine in the wheel's frame.
+    """The parts of a flat machine in the wheel's frame.
 
-    A part that the sizes leave no place for raises GenevaError, naming the key. ``known`` are the
-    outlines of wheel and crank, if they are computed already. A wheel with too many slots is not
-    drawn: then there are links and gears, with shafts and frame, and the rollers on links.
+    A part that the sizes leave no place for raises GenevaError, naming the key. A wheel with too
+    many slots is not drawn: then there are links and gears, with shafts and frame, and the rollers
+    on links.
     """
 
-    def __init__(
-        self,
-        mechanism: Mechanism,
-        known: Outlines | None = None,
-        tolerance: float | None = None,
-        curves: str = "arcs",
-    ) -> None:
-        super().__init__(mechanism, tolerance, curves)
-        self._known = known
-
-    def within(self, tolerance: float, curves: str) -> Self:
-        """Return these parts with curves of a kind within a tolerance, mm."""
-        return type(self)(self.mechanism, self.drawn, tolerance, curves)
-
     @cached_property
+    def _shape(self) -> Outlines:
+        return outlines(self.mechanism)
+
+    @property
     def outlines(self) -> Outlines:
         """The outlines of wheel and crank; raises GenevaError for a wheel that is not drawn."""
-        return self._known or outlines(self.mechanism)
+        return self._shape
+
+    @property
+    def sizes(self) -> Sizes:
+        """The lengths of the parts."""
+        return self._shape.sizes
+
+    @property
+    def close(self) -> float:
+        """The overlap, mm, that counts as rounding or as the walls' tolerance."""
+        return self._shape.close
 
     @property
     def drawn(self) -> Outlines | None:
         """The outlines of wheel and crank; None for a wheel that is not drawn."""
         return self.outlines if self.mechanism.spec.is_flat else None
 
-    def require_wheel(self) -> None:
-        """Raise GenevaError for a wheel that is not drawn."""
-        _ = self.outlines
+    @property
+    def built(self) -> Self:
+        """These parts. Raises GenevaError where the sizes leave no wheel or no crank."""
+        _ = self.drawn
+        return self
+
+    def past_mouth(self, motion: int, at: Array) -> Array:
+        """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
+        # the corners are on the rim, half a slot's width from the slot's middle
+        level = math.sqrt(max(self.sizes.rim**2 - self.sizes.half_width**2, 0.0))
+        far = np.hypot(*self.assembly.driving(motion, at).T)
+        return self.assembly.sign * (level - far)
+
+    def pairs(self, target: float) -> FlatPairs:
+        """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
+        from geneva_cli.geometry.extents import farthest
+        from geneva_cli.parts.turn.bounds import FlatPairs
+
+        gaps, axis = self.outlines.gaps, np.zeros((1, 2))
+        outside = self.assembly.sign > 0.0
+        rim = float(farthest(gaps.wheel, 0.0, 0.0).max() if outside else gaps.wheel.signed(axis)[0])
+        return FlatPairs(gaps, self.outlines.crank, target, rim)
+
+    def _has_sizes_of(self, mechanism: Mechanism) -> bool:
+        try:
+            return machine_sizes(mechanism)[1] == self.sizes
+        except GenevaError:
+            return False
 
     def walls(self, slot: Engagement) -> Contour:
         """Return the walls of a slot in the wheel's frame, with that slot ahead."""
@@ -86,6 +109,8 @@ class FlatParts(EdgedParts):
     @cached_property
     def wheel(self) -> Member:
         """The wheel, with its hub below it if the spec has one."""
+        from geneva_cli.parts.wheel import wheel_part
+
         parts = self.outlines
         walls = {slot: self.walls(slot) for slot in parts.slots}
         contour = parts.wheel
@@ -105,22 +130,30 @@ class FlatParts(EdgedParts):
     @cached_property
     def links(self) -> Links:
         """The links of the drive, with the pins and rollers between them, and round gears."""
+        from geneva_cli.parts.links.links import drawn_links
+
         links = drawn_links(self.mechanism, self.drawn)
         return links._replace(cut=self._edged(links.cut), joined=self._edged(links.joined))
 
     @cached_property
     def arm(self) -> CrankArm | None:
         """The crank arm; None without a crank, or without pins for the rollers."""
+        from geneva_cli.parts.arm import crank_arm, has_arm
+
         return crank_arm(self.outlines) if has_arm(self.outlines) else None
 
     @cached_property
     def arm_plate(self) -> Plate | None:
         """The crank arm as a plate."""
+        from geneva_cli.parts.crank_solids import arm_plate
+
         return self._plate(arm_plate(self.outlines, self.arm)) if self.arm else None
 
     @cached_property
     def locking(self) -> tuple[Plate, ...]:
         """The locking disc, or its sectors."""
+        from geneva_cli.parts.crank_solids import locking_plates
+
         return tuple(map(self._plate, locking_plates(self.outlines)))
 
     @cached_property
@@ -129,6 +162,9 @@ class FlatParts(EdgedParts):
 
         They are in the crank's frame. Of a wheel that is not drawn, they are those on links.
         """
+        from geneva_cli.parts.arm import has_arm
+        from geneva_cli.parts.crank_solids import roller_plates
+
         mechanism, low = self.mechanism, self.links.pin_low
         size, r = mechanism.spec.size, mechanism.roller_radius_mm
         sizes = self.drawn.sizes if self.drawn else None
@@ -145,11 +181,15 @@ class FlatParts(EdgedParts):
 
     def _on_links(self) -> tuple[Point, ...]:
         """Return the centres of rollers on links in the plane below the wheel."""
+        from geneva_cli.parts.links.link_sizes import roller_pins
+
         return tuple(at for link, at in roller_pins(self.mechanism) if link.plane == 1)
 
     @cached_property
     def crank_hub(self) -> Plate | None:
         """The crank's hub above the disc or the arm, if the spec has one."""
+        from geneva_cli.parts.shafts.hub_and_shafts import crank_hub
+
         hub = crank_hub(self.outlines)
         return self._plate(hub) if hub else None
 
@@ -206,18 +246,21 @@ class FlatParts(EdgedParts):
         return Member(group, (assembly.L, 0.0), float(assembly.crank(np.zeros(1))[0]))
 
     @cached_property
-    def front(self) -> FlatParts | None:
-        """The first wheel and its crank, of two wheels in series, as a machine of their own."""
-        if not (self.drawn and self.mechanism.first_wheel):
-            return None
+    def front(self) -> FlatParts:
+        """The parts of the first of two wheels in series. Raises GenevaError without a second."""
         from geneva_cli.parts.first_pair import first_pair
 
-        return FlatParts(first_pair(self.mechanism, self.links))
+        return FlatParts(first_pair(self.mechanism))
+
+    @property
+    def in_front(self) -> tuple[FlatParts, ...]:
+        """Those parts; none without a second wheel, or for a wheel that is not drawn."""
+        return (self.front,) if self.drawn and self.mechanism.first_wheel else ()
 
     @cached_property
     def first(self) -> tuple[Member, ...]:
         """Of two wheels in series, the first and its locking disc."""
-        if self.front is None:
+        if not self.in_front:
             return ()
         from geneva_cli.parts.first_pair import in_front
 
@@ -279,6 +322,8 @@ class FlatParts(EdgedParts):
 
     @cached_property
     def _framed(self) -> FrameAndShafts:
+        from geneva_cli.parts.frame import framed
+
         return framed(self.mechanism, self.drawn, self.links, self._base, self.first)
 
     @cached_property
@@ -299,9 +344,12 @@ class FlatParts(EdgedParts):
     @property
     def screws(self) -> tuple[Screws, ...]:
         """The screws of dial, locking disc, and what is fixed to the frame."""
-        framed = self.frame_screws if self.mechanism.spec.wheel.FLAT else ()
+        framed = self.frame_screws
         if not self.drawn:
             return framed
+        from geneva_cli.parts.arm import bolts
+        from geneva_cli.parts.shafts.bolt_holes import Screws
+
         own = []
         for fixed, holes, thread in (
             ("dial", dial_bolts(self.drawn.assembly, self.drawn.sizes), "the dial"),
@@ -313,6 +361,8 @@ class FlatParts(EdgedParts):
 
     def require(self) -> None:
         """Raise GenevaError for a part that cannot be built, without fitting curves for it."""
+        from geneva_cli.geometry.hole_walls import require_faces
+
         turning = (self.wheel, self.crank) if self.drawn else ()
         for member in (*turning, *self.links.cut, self.frame):
             for plate in plates(member.part):
@@ -325,8 +375,6 @@ class FlatParts(EdgedParts):
     @property
     def to_fix(self) -> tuple[str, ...]:
         """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
-        if not self.mechanism.spec.wheel.FLAT:
-            return tuple(links_to_fix(self.links, self.mechanism))
         links = {plate.name: [plate.name] for plate in self.links.plates}
         named = {**links, "crank": [*links.get("crank", []), *self._on_crank_shaft()]}
         return tuple(one for name in self._framed.to_fix for one in named.get(name, [name]))
@@ -350,11 +398,9 @@ class FlatParts(EdgedParts):
 
     @property
     def members(self) -> tuple[Member, ...]:
-        """All parts; before a spherical wheel only links and gears."""
+        """All parts."""
         turning = (self.wheel, *self.orbiting, *self.cranks) if self.drawn else ()
         moved = *turning, *self.linked, *self.round_gears, *self.gear_pair, *self.first
-        if not self.mechanism.spec.wheel.FLAT:
-            return moved
         return (*moved, *self.shafts, *self.standing)
 
     def by_name(self) -> Iterator[NamedParts]:
@@ -368,8 +414,6 @@ class FlatParts(EdgedParts):
             yield "crank's hub", lambda: each * [self.crank_hub] if self.crank_hub else []
         yield "links", lambda: [one.part for one in self.linked]
         yield "gears", lambda: [one.part for one in (*self.round_gears, *self.gear_pair)]
-        if not self.mechanism.spec.wheel.FLAT:
-            return
         yield "first wheel", lambda: [one.part for one in self.first]
         yield "shafts", lambda: [one.part for one in self.shafts]
         yield "groove plate", lambda: [one.part for one in self.groove_plate]

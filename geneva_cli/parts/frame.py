@@ -14,7 +14,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TypeAlias
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.hull import convex_hull
 from geneva_cli.geometry.plates import Member, Plate, Stack
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Point
@@ -22,7 +21,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.bearing_bridge import bearing_bridge
-from geneva_cli.parts.edged_parts import FrameAndShafts, Screwed
+from geneva_cli.parts.framed import FrameAndShafts, Screwed
 from geneva_cli.parts.links.link_positions import same
 from geneva_cli.parts.links.link_shafts import outside_links
 from geneva_cli.parts.links.links import Links, placed_holes
@@ -35,7 +34,7 @@ from geneva_cli.parts.mounted_plate import (
 )
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_hub import wheel_hub
-from geneva_cli.parts.parts_of_machine import Unborne
+from geneva_cli.parts.parts import Unborne
 from geneva_cli.parts.shafts.all_shafts import all_shafts, passing, passing_arm
 from geneva_cli.parts.shafts.bearings import shoulder_length
 from geneva_cli.parts.shafts.bolt_holes import tapped
@@ -58,14 +57,9 @@ def framed(
     """Return the frame and the shafts of a machine with its ``outlines``, if it has any.
 
     ``bars`` are the links, ``base`` is the lowest plate with a cam's groove, ``first`` are the
-    first wheel and its locking disc of two in series. Raises GenevaError where wheel and crank do
-    not stand in one plane, and where a shaft's lower end is not below its upper one.
+    first wheel and its locking disc of two in series. Raises GenevaError where a shaft's lower end
+    is not below its upper one.
     """
-    if not mechanism.spec.wheel.FLAT:
-        raise GenevaError(
-            f'--part frame: the shafts of gearing = "{mechanism.spec.wheel.NAME}" are not '
-            "parallel, so one plate cannot hold them"
-        )
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     others = (*first, *([Member(base)] if base else []))
     adjacent = list(passing(mechanism, outlines, bars, others))

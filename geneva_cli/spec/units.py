@@ -166,8 +166,8 @@ def _hint(text: str, own: str | None) -> str:
 
 def _units_like(own: str) -> str:
     """A key's unit and others of the same kind, for a message."""
-    of_kind = UNITS.get(_unit(own).powers, {})
-    others = [name for name in of_kind if name != own]
+    thing = UNITS.get(_unit(own).powers, {})
+    others = [name for name in thing if name != own]
     return f"{own} or {', '.join(others[:5])}" if others else f"{own}, or units of that kind"
 
 

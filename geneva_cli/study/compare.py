@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.tolerances import same
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.spec.tables import PLAIN
 from geneva_cli.specfile.writer import keys_in, values_of
 from geneva_cli.study.fields import Cell, pick, values
@@ -43,7 +43,7 @@ def compare(
         each = [dict(zip(picked.names, picked.of(m), strict=True)) for m in machines]
     else:
         first = dict.fromkeys(MACHINE.names)
-        each = [{**first, **_shape(m.spec), **values(PartsModel(m))} for m in machines]
+        each = [{**first, **_shape(m.spec), **values(parts_of(m))} for m in machines]
     rows = []
     for quantity in dict.fromkeys(name for own in each for name in own):
         if quantity.startswith(INPUTS) and not picks:  # the spec or the columns' names show these

@@ -72,20 +72,18 @@ def export_files(design: Design, trade: Trade) -> tuple[list[ExportFile], list[M
     >>> [file.name for file in files][:3]
     ['wheel-1x-10mm.dxf', 'locking-disc-1x-10mm.dxf', 'arm-1x-10mm.dxf']
     """
-    model = design.parts_model
     files: list[ExportFile] = []
     missing: list[Missing] = []
     for format in trade.single:
         curves = CURVES[usual_curves("", format)]
         fine = curve_tolerance(None, "", format)
-        parts, missing = single_parts(model, fine, curves)
+        parts, missing = single_parts(design.parts, fine, curves)
         if format == "dxf":
             files += _laid_flat(design, fine)
         files += _single(parts, format)
     # shells do not lie on a bed
-    names = [
-        name for name in trade.whole if not (model.kind.LAID_FLAT and name.startswith("plate."))
-    ]
+    bent = design.parts.LAID_FLAT
+    names = [name for name in trade.whole if not (bent and name.startswith("plate."))]
     files += [ExportFile(name, CONTENTS[name], _writer(design, name)) for name in names]
     files.append(
         ExportFile("parts.csv", "list of parts", partial(show, design.part_table("parts")))
@@ -123,7 +121,7 @@ def _slug(name: str) -> str:
 
 def _laid_flat(design: Design, tolerance_mm: float) -> Iterator[ExportFile]:
     """Yield the outlines of a spherical machine's cones."""
-    for part in design.parts_model.kind.LAID_FLAT:
+    for part in design.parts.LAID_FLAT:
         try:
             drawing = design.drawing(part, tolerance_mm)
         except GenevaError:  # a machine without an arm; the list of parts has the reason

@@ -9,8 +9,8 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.table import Table
 from geneva_cli.verdict.quantities.groups import MACHINE, REPORT, QuantityGroup
 from geneva_cli.verdict.quantities.groups import values as values_of
@@ -19,7 +19,7 @@ from geneva_cli.verdict.quantities.names import group_of, in_batch, whole_name
 Cell: TypeAlias = float | int | str | bool | None
 
 
-def values(model: PartsModel, groups: Iterable[QuantityGroup] | None = None) -> dict[str, Cell]:
+def values(parts: Parts, groups: Iterable[QuantityGroup] | None = None) -> dict[str, Cell]:
     """The quantities of some groups, without tables and multi-line texts.
 
     Without ``groups`` they are all that need no parts. An unbounded quantity is None, as in the
@@ -28,7 +28,7 @@ def values(model: PartsModel, groups: Iterable[QuantityGroup] | None = None) -> 
     if groups is None:
         groups = (MACHINE, *(group for group in REPORT if not group.makes_parts))
     out: dict[str, Cell] = {}
-    for name, value in values_of(groups, model).items():
+    for name, value in values_of(groups, parts).items():
         if not isinstance(value, (tuple, Table)):
             is_unbounded = isinstance(value, float) and math.isinf(value)
             out[name] = None if is_unbounded else value
@@ -57,15 +57,15 @@ class Pick(NamedTuple):
 
     def of(self, mechanism: Mechanism) -> list[Cell]:
         """The values of the quantities for a machine; None if one does not apply."""
-        return self.of_model(PartsModel(mechanism))
+        return self.of_parts(parts_of(mechanism))
 
-    def of_model(self, model: PartsModel, known: Sequence[Cell] | None = None) -> list[Cell]:
-        """The values of the quantities for a machine's model; None if one does not apply.
+    def of_parts(self, parts: Parts, known: Sequence[Cell] | None = None) -> list[Cell]:
+        """The values of the quantities for a machine's parts; None if one does not apply.
 
         ``known`` are those of ``batched``, if a batch has computed them.
         """
         groups = self.groups if known is None else self.rest.groups
-        cells = values(model, groups)
+        cells = values(parts, groups)
         cells |= zip(self.batched, known or (), strict=False)
         return [cells.get(name) for name in self.names]
 

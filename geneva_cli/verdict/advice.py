@@ -19,13 +19,13 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.numerics.latest import counted
 from geneva_cli.numerics.roots import Falsi
-from geneva_cli.verdict.both_ways import models, worst_checks
+from geneva_cli.verdict.both_ways import parts_of_ways, worst_checks
 from geneva_cli.verdict.checks import checks_at_rest, single_check
 from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
 from geneva_cli.verdict.checks.registry import STANDING, checks_of_turn, turn_checks
 
 if TYPE_CHECKING:
-    from geneva_cli.drawings.model import PartsModel
+    from geneva_cli.parts.parts import Parts
     from geneva_cli.verdict.changes import Change, Value
 
 # Work of all searches of a design: evaluations of a motion at an array of angles, of about 0.3 ms.
@@ -62,14 +62,12 @@ class OutOfWork(Exception):
     """The adviser has no work left: not a fault of the spec, so not a GenevaError."""
 
 
-def judged(
-    mechanism: Mechanism, model: PartsModel | None = None, parts: bool = True
-) -> list[Check]:
+def judged(mechanism: Mechanism, machine: Parts | None = None, parts: bool = True) -> list[Check]:
     """Every check of a design; failing ones have one change with which all checks pass.
 
     Without such a change they say why, and name a change with which they pass themselves.
     """
-    rows = worst_checks(mechanism, model, parts)
+    rows = worst_checks(mechanism, machine, parts)
     failing = [c for c in rows if c.passes is False]
     if not failing:
         return rows
@@ -274,12 +272,12 @@ class _Search:
 
     def _margins(self, machine: Mechanism) -> Iterator[float]:
         """The margin of each wanted check; parts are built for the first that needs them."""
-        each, built = models(machine), False
+        each, built = parts_of_ways(machine), False
         for check in self.wanted:
             if _needs_parts(check) and not built:
                 self._spend(PARTS * len(each))
                 built = True
-            yield min(_left(model, check) for model in each)
+            yield min(_left(parts, check) for parts in each)
 
     def _holds(self, change: Change, value: Value) -> bool:
         """Return True if the wanted checks pass with a value, and no other check begins to fail."""
@@ -293,24 +291,24 @@ class _Search:
 
         try:
             with self._trial():
-                return all(self._holds_one_way(model, turn) for model in models(build(spec)))
+                return all(self._holds_one_way(parts, turn) for parts in parts_of_ways(build(spec)))
         except WorkLimit:
             raise OutOfWork from None  # a trial of some seconds, which is not repeated
         except GenevaError:
             return False
 
-    def _holds_one_way(self, model: PartsModel, turn: bool) -> bool:
+    def _holds_one_way(self, parts: Parts, turn: bool) -> bool:
         # parts that cannot be built, and need not be, hide no check of the motion
-        built = self.parts and model.mechanism.spec.is_turned and "parts" not in self.may_fail
+        built = self.parts and parts.mechanism.spec.is_turned and "parts" not in self.may_fail
         self._spend(PARTS if built else 0)
         if built and any(check.name == "parts" for check in self.wanted):
-            _ = model.built  # most trials end here, before the checks of the motion
-        if not self._pass(checks_at_rest(model.mechanism, model if built else None)):
+            _ = parts.built  # most trials end here, before the checks of the motion
+        if not self._pass(checks_at_rest(parts.mechanism, parts if built else None)):
             return False
         if not (built and turn):
             return True
         self._spend(TURN)
-        return self._pass(turn_checks(model.parts, model.turn))
+        return self._pass(turn_checks(parts, parts.turned.turn))
 
     def _pass(self, rows: Iterable[Check]) -> bool:
         return all(c.passes is not False or c.name in self.may_fail for c in rows)
@@ -322,7 +320,7 @@ def _needs_parts(check: Check) -> bool:
     return near or check.name in STANDING
 
 
-def _left(model: PartsModel, check: Check) -> float:
+def _left(parts: Parts, check: Check) -> float:
     """The margin of a machine to the limit of a check that fails now, negative outside.
 
     A check of the turn is made near the input angle where it fails. If only a whole turn can decide
@@ -333,14 +331,14 @@ def _left(model: PartsModel, check: Check) -> float:
             from geneva_cli.parts.turn.glance import gap_about, play_about
             from geneva_cli.verdict.checks.play import finds_slot
 
-            parts = model.parts
+            _ = parts.turned
             if check.name in GAPS:
                 return gap_about(parts, check.at_deg) + parts.contact
             output = parts.assembly.full.output
             return output.from_deg(finds_slot(parts) - play_about(parts, check.at_deg))
         if check.name in checks_of_turn():
             return math.inf
-        row = single_check(model.mechanism, check.name, model)
+        row = single_check(parts.mechanism, check.name, parts)
         return row.spare if row else math.inf
     except GenevaError:
         return -math.inf

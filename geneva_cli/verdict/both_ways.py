@@ -20,58 +20,56 @@ from geneva_cli.verdict import checks
 from geneva_cli.verdict.checks.check import Check
 
 if TYPE_CHECKING:
-    from geneva_cli.drawings.model import PartsModel
+    from geneva_cli.parts.parts import Parts
     from geneva_cli.verdict.quantities.designs import Values
 
 
-def models(mechanism: Mechanism) -> list[PartsModel]:
+def parts_of_ways(mechanism: Mechanism) -> list[Parts]:
     """The parts of a machine in every direction in which it must serve, for trials."""
-    from geneva_cli.drawings.model import PartsModel
+    from geneva_cli.parts.parts import parts_of
 
-    return [PartsModel(way, advice=False) for way in every_way(mechanism)]
+    return [parts_of(way, advice=False) for way in every_way(mechanism)]
 
 
 def worst_checks(
-    mechanism: Mechanism, model: PartsModel | None = None, parts: bool = True, turned: bool = True
+    mechanism: Mechanism, machine: Parts | None = None, parts: bool = True, turned: bool = True
 ) -> list[Check]:
     """Every check of one design, as ``checks``, each in its worse direction."""
-    rows = checks.checks(mechanism, model, parts, turned)
+    rows = checks.checks(mechanism, machine, parts, turned)
     for other in _others(mechanism):
         rows = worse_of(rows, checks.checks(other, None, parts, turned))
     return rows
 
 
-def all_warnings(model: PartsModel) -> list[Notice]:
+def all_warnings(parts: Parts) -> list[Notice]:
     """Warnings about a machine, and those that appear backwards only."""
-    from geneva_cli.drawings.model import PartsModel
+    from geneva_cli.parts.parts import parts_of
     from geneva_cli.verdict.warnings import warnings
 
-    out = warnings(model)
-    for other in _others(model.mechanism):
+    out = warnings(parts)
+    for other in _others(parts.mechanism):
         own = set(map(str, out))
         # the law's name alone makes no other warning
         more = [
-            text
-            for text in warnings(PartsModel(other))
-            if text.replace(", backwards", "") not in own
+            text for text in warnings(parts_of(other)) if text.replace(", backwards", "") not in own
         ]
         out += [Notice(text.name, f"backwards, {text}") for text in more]
-    return [*_own_warnings(model.mechanism), *out]
+    return [*_own_warnings(parts.mechanism), *out]
 
 
-def differences(model: PartsModel) -> Values:
+def differences(parts: Parts) -> Values:
     """Each number of the report that differs by direction; None if there are no such numbers.
 
     Places are left out, and what needs the parts: they are the same parts.
     """
-    from geneva_cli.drawings.model import PartsModel
+    from geneva_cli.parts.parts import parts_of
     from geneva_cli.verdict.quantities.groups import REPORT, values
 
     groups = [group for group in REPORT if not group.makes_parts and group.own]
     rows: list[tuple[str, float, float]] = []
-    for backwards in _others(model.mechanism):
-        back = values(groups, PartsModel(backwards))
-        for name, one in values(groups, model).items():
+    for backwards in _others(parts.mechanism):
+        back = values(groups, parts_of(backwards))
+        for name, one in values(groups, parts).items():
             other = back[name]
             if name.endswith("_deg") or not (isinstance(one, float) and isinstance(other, float)):
                 continue

@@ -9,10 +9,10 @@ from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.checks.registry import JAMS
 
 if TYPE_CHECKING:
-    from geneva_cli.drawings.model import PartsModel
+    from geneva_cli.parts.parts import Parts
 
 
-def failures(rows: list[Check], model: PartsModel) -> tuple[str, list[str]]:
+def failures(rows: list[Check], parts: Parts) -> tuple[str, list[str]]:
     """The reason why the parts jam or cannot be cut, and a sentence on each other failing check.
 
     The first text is empty if the parts can be written.
@@ -34,7 +34,7 @@ def failures(rows: list[Check], model: PartsModel) -> tuple[str, list[str]]:
             and c.name.endswith("_mm")
             and (c.value or 0.0) < 0.0
         ):
-            refused.append(in_words(c, model.turn.smallest.parts if c.name == "gap_mm" else ""))
+            refused.append(in_words(c, parts.turn.smallest.parts if c.name == "gap_mm" else ""))
             advice = advice or c.nearest
         else:
             more = f"{c.nearest} would pass" if c.nearest else c.why

@@ -11,12 +11,12 @@ from typing import NamedTuple, cast
 
 import numpy as np
 
-from geneva_cli.drawings.model import kind_of
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.batch import alone, designs_in
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Record, parameter, record_of
 from geneva_cli.numerics.jet import Array
 from geneva_cli.parts.outlines.cut_lock import cut_lock
@@ -78,6 +78,7 @@ def stressed_parts(machine: Mechanism, layout: Layout | None) -> Stressed | None
     if layout or machine.spec.is_flat or not machine.spec.has_parts:
         return stressed(*layout) if layout else None
     try:
-        return kind_of(machine).stressed(machine)
+        own = thing(machine.spec.wheel.NAME, "stressed")
+        return own(machine) if own else None
     except GenevaError:  # the check of the parts reports the error
         return None

@@ -6,13 +6,13 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.geometry.measure import bounds
 from geneva_cli.motion.compatible import is_geared
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import keeps
+from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.sizes.plain_sizes import Sizes
 from geneva_cli.parts.turn.full_turn import SAME, FullTurn
 from geneva_cli.spec.workshops import workshop
@@ -21,23 +21,22 @@ from geneva_cli.verdict.checks.play import motion_play_max, slips_deg
 if TYPE_CHECKING:
     from geneva_cli.geometry.plates import Solid
     from geneva_cli.parts.missing import Missing, NamedParts
-    from geneva_cli.parts.turn.machine_parts import MachineParts
 
 STEEP_DEG = 60.0  # a pressure angle that friction of 0.58 would hold, more than a dry pair has
 
 
-def process_warnings(model: PartsModel) -> Iterator[Notice]:
+def process_warnings(parts: Parts) -> Iterator[Notice]:
     """Warnings about holes, clearances, and shells to be cut from a plate."""
-    spec = model.mechanism.spec
+    spec = parts.mechanism.spec
     if not (spec.has_parts and spec.size.process):
         return
     yield from gears_without_teeth(spec)
     shop = workshop(spec.size.process)
     try:
-        named = list(model.built.by_name())
+        named = list(parts.built.by_name())
     except GenevaError:  # the check of the parts has the reason
         return
-    if model.kind.LAID_FLAT and math.isfinite(shop.plate_mm):
+    if parts.LAID_FLAT and math.isfinite(shop.plate_mm):
         yield Notice(
             "bent-parts",
             f"a {spec.size.process} cuts flat plates, but these parts are shells of a sphere: cut "
@@ -46,15 +45,15 @@ def process_warnings(model: PartsModel) -> Iterator[Notice]:
         )
     yield from _small_holes(named, shop.hole)
     if spec.is_flat and shop.cut_mm:
-        yield from _narrow(model.mechanism, model.outlines.sizes)
+        yield from _narrow(parts.mechanism, parts.outlines.sizes)
 
 
-def bearing_warnings(model: PartsModel) -> Iterator[Notice]:
+def bearing_warnings(parts: Parts) -> Iterator[Notice]:
     """A warning for each shaft that turns and has no bearing."""
-    if not model.mechanism.spec.has_parts:
+    if not parts.mechanism.spec.has_parts:
         return
     try:
-        unborne = model.built.unborne
+        unborne = parts.built.unborne
     except GenevaError:  # the check of the parts has the reason
         return
     for one in unborne:
@@ -139,22 +138,22 @@ def _narrow(mechanism: Mechanism, sizes: Sizes) -> Iterator[Notice]:
         yield Notice("narrow-for-process", f"{key} = {own:g} {why}: set {key} to {needed:g}")
 
 
-def turn_warnings(model: PartsModel) -> Iterator[Notice]:
+def turn_warnings(parts: Parts) -> Iterator[Notice]:
     """Warnings about the parts' whole turn; none without such a turn."""
-    if not model.mechanism.spec.is_turned:
+    if not parts.mechanism.spec.is_turned:
         return
     try:
-        parts, turn = model.parts, model.turn
+        turn = parts.turned.turn
     except GenevaError:
         return
     yield from _steep(parts, turn)
     yield from _one_wall(parts, turn)
 
 
-def _steep(parts: MachineParts, turn: FullTurn) -> Iterator[Notice]:
+def _steep(parts: Parts, turn: FullTurn) -> Iterator[Notice]:
     """A warning for a wheel that the roller pushes into line at a steep angle."""
     most = slips_deg(parts.assembly.full.spec.load.friction)
-    if parts.crank and turn.push.deg > STEEP_DEG and keeps(turn.push.deg, "at most", most):
+    if parts.locked and turn.push.deg > STEEP_DEG and keeps(turn.push.deg, "at most", most):
         yield Notice(
             "steep-hand-over",
             f"the roller meets a wheel that is off by its play at a pressure angle of "
@@ -164,7 +163,7 @@ def _steep(parts: MachineParts, turn: FullTurn) -> Iterator[Notice]:
         )
 
 
-def _one_wall(parts: MachineParts, turn: FullTurn) -> Iterator[Notice]:
+def _one_wall(parts: Parts, turn: FullTurn) -> Iterator[Notice]:
     """A warning for a wheel that one wall of its slot alone drives."""
     ahead, behind, limit = turn.ahead, turn.behind, motion_play_max(parts)
     # Play to both sides has a limit of its own.

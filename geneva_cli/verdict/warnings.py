@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import Notice
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.wheel_body import known_wheel_body
 from geneva_cli.verdict.carried_warnings import carried_warnings, unlikely_warnings
 from geneva_cli.verdict.motion_warnings import motion_warnings
 from geneva_cli.verdict.parts_warnings import bearing_warnings, process_warnings, turn_warnings
 
 
-def warnings(model: PartsModel) -> list[Notice]:
+def warnings(parts: Parts) -> list[Notice]:
     """Warnings about the motion, the loads and the parts of a machine, in this order."""
-    mechanism = model.mechanism
+    mechanism = parts.mechanism
     is_loaded = mechanism.spec.is_loaded
     return [
         *motion_warnings(mechanism),
@@ -21,9 +21,9 @@ def warnings(model: PartsModel) -> list[Notice]:
         *unlikely_warnings(mechanism),
         *carried_warnings(mechanism, known_wheel_body(mechanism)),
         *(_of_strength(mechanism) if is_loaded else ()),
-        *turn_warnings(model),
-        *bearing_warnings(model),
-        *process_warnings(model),
+        *turn_warnings(parts),
+        *bearing_warnings(parts),
+        *process_warnings(parts),
     ]
 
 

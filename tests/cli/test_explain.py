@@ -106,7 +106,7 @@ def test_every_part_has_an_entry_and_no_entry_names_none():
 @pytest.fixture(scope="module")
 def quantities() -> set[str]:
     """The fields and columns of all commands, as whole as the program has them."""
-    model = load(str(repo.DESIGNS / "turret.toml")).parts_model
+    model = load(str(repo.DESIGNS / "turret.toml")).parts
     quick = [group for group in groups.GROUPS if not group.makes_parts]
     out = {*groups.values(quick, model)}
     parts = [group for group in groups.GROUPS if group.makes_parts and group.table != "checks"]

@@ -141,7 +141,7 @@ STRAIGHT, CURVED = "[wheel]\nz = 6\n", '[wheel]\nz = 6\n[motion]\nlaw = "modifie
 MOST = {
     "peaks -": (83, 103),
     "motion -": (85, 104),
-    "loads - --set load.inertia_kgm2=0.05": (225, 244),
+    "loads - --set load.inertia_kgm2=0.05": (254, 273),
     "vibration - --period-ratio 5": (114, 119),
     "check -": (208, 286),
     "report -": (283, 334),

@@ -153,7 +153,7 @@ def by_hand(z, places, j, input_deg, L=100.0):
 @built
 def test_parts_are_drawn_where_the_cranks_stand(z, places):
     design = with_cranks(z, places)
-    parts = design.parts_model.flat
+    parts = design.parts.flat
     for j, crank in enumerate(parts.cranks):
         at, turn = by_hand(z, places, j, 0.0)
         assert complex(*crank.at) == pytest.approx(at, abs=1e-11)
@@ -163,7 +163,7 @@ def test_parts_are_drawn_where_the_cranks_stand(z, places):
     holes = [complex(*hole.centre) for hole in parts.frame.part.holes]
     for j in range(len(places)):
         assert min(abs(at - by_hand(z, places, j, 0.0)[0]) for at in holes) < 1e-11
-    listed = parts_list(design.parts_model).to_dict()
+    listed = parts_list(design.parts).to_dict()
     counts = dict(zip(listed["name"], listed["count"], strict=True))
     for name in ("locking disc", "arm", "roller", "pin", "crank's shaft"):
         assert counts[name] == len(places)
@@ -183,7 +183,7 @@ def test_no_crank_meets_the_wheel_or_another_one(design):
     Chords miss arcs by 1e-3 mm, and the curves touch by design: overlaps are below 0.02 mm² there.
     """
     z, places = design.spec.wheel.z, design.spec.drive.crank_steps
-    parts, mechanism = design.parts_model.flat, design.mechanism
+    parts, mechanism = design.parts.flat, design.mechanism
     (engagement,) = mechanism.engagements
     plates, wheel = polygons(parts.crank.part), polygon(parts.wheel.part.outline, 1e-3)
     hull = unary_union([shape for shape, _, _ in plates]).convex_hull

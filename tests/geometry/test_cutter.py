@@ -131,7 +131,7 @@ def test_a_bone_that_has_no_room_is_refused():
 def two_pins():
     """A locking disc whose sector reliefs have corners, and its dog bones."""
     design = load(str(repo.DESIGNS / "two-pins-z4.toml"))
-    model = design.parts_model
+    model = design.parts
     return design, model, design.drawing("crank", dog_bones_mm=6.0)
 
 

@@ -10,10 +10,10 @@ from plane_stress import horn as in_plane_stress
 from words import Spec, Wheel
 
 from geneva_cli import Design, Internal, load
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.loads.strength.lock import LockUnderTorque, bending, loaded_locks
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.mechanism import build
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.spec.tables import Load, Size
 from geneva_cli.verdict.strength import strength
 
@@ -23,7 +23,7 @@ SPEC = Spec(Wheel(8), size=SIZES, load=Load(torque_Nm=20.0))
 
 def answer(spec):
     mechanism = build(spec)
-    s = PartsModel(mechanism).outlines.sizes
+    s = parts_of(mechanism).outlines.sizes
     found = loaded_locks(mechanism, s.half_width, by(s, mechanism.spec), s.wheel_thickness)
     if found is None:
         return None, s, mechanism
@@ -85,7 +85,7 @@ def plays_as_its_parts(design, on="disc's end"):
     design = design.with_("size.face_width_mm", 20.0).with_("load.dwell_torque_Nm", 5.0)
     found = strength(design.mechanism).load.lock
     assert found.on == on
-    assert PartsModel(design.mechanism).turn.dwell.deg == pytest.approx(found.play_deg, rel=3e-6)
+    assert parts_of(design.mechanism).turn.dwell.deg == pytest.approx(found.play_deg, rel=3e-6)
 
 
 def test_force_and_pressure_hold_the_torque():

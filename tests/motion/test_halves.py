@@ -114,6 +114,6 @@ def test_a_curved_slot_behind_such_a_ratio_has_two_branches_of_its_own():
         assert 0.0 in x
     even = Design(External(6), NoncircularGears(A=0.2), law, size=size)
     for one, half in ((design, False), (even, True)):
-        (table,) = tables(one.parts, 0.01)
+        (table,) = tables(one.parts.outlines, 0.01)
         words = " ".join(label.text for label in table.labels)
         assert ("mirror image" in words) is half

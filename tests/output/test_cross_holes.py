@@ -27,7 +27,7 @@ BORES = [{}, {"wheel_bore": "D"}, {"wheel_bore": "hex"}, {"wheel_keyway": "DIN 6
 def hub_with(**size):
     """The wheel's hub of 30 mm and 10 mm long, on a bore of 16 mm, with an M4 set screw."""
     keys = {"wheel_hub_mm": 30.0, "wheel_bore_mm": 16.0, "wheel_screw_mm": 4.0} | size
-    parts = Design(External(6), size=Size(**keys)).parts
+    parts = Design(External(6), size=Size(**keys)).parts.outlines
     return wheel_hub(parts.assembly, parts.sizes)
 
 

@@ -336,7 +336,7 @@ def test_a_machine_with_stops_goes_back_and_forth_between_them():
     assert (seen <= high).all()
     assert seen.min() < low + 100.0
     assert seen.max() > high - 100.0
-    outlines = design_of("geneva-stop").parts
+    outlines = design_of("geneva-stop").parts.outlines
     gaps = Gaps(outlines.assembly, outlines.sizes, outlines.wheel, outlines.crank)
     for end in (low, high):
         turns = math.floor(end / data["turn"])

@@ -121,7 +121,7 @@ def test_a_fill_is_what_the_plates_are(assembly):
 def test_steps_of_one_diameter_are_filled_once():
     """A turned shaft has steps of one diameter one above the other, at several heights."""
     turned = load(str(repo.DESIGNS / "turret.toml"), ['size.shafts="turned"'])
-    shafts = turned.parts_model.flat.shafts
+    shafts = turned.parts.flat.shafts
     steps = [(shaft.at, step.outline) for shaft in shafts for step in shaft.part.plates]
     fills = [path.get("class") for path in groups(root(turned.drawing("assembly", 0.01)))["FILL"]]
     assert fills.count("SHAFT") == len({*steps}) < len(steps)

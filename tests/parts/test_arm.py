@@ -69,7 +69,7 @@ def crews():
 @pytest.mark.parametrize(("z", "gearing", "rollers"), [*crews()])
 def test_defaults_work(z, gearing, rollers):
     """Walls all round, and clear of the wheel's hub, below the wheel."""
-    found = of(Wheel(z, gearing), drive=Drive(rollers=rollers)).parts
+    found = of(Wheel(z, gearing), drive=Drive(rollers=rollers)).parts.outlines
     made = crank_arm(found)
     outline, holes = polygon(made.outline), [polygon(h) for h in (made.bore, *made.pins)]
     wall = found.sizes.wall_min
@@ -131,7 +131,7 @@ def test_sectors_away_from_the_axis_have_no_wall_about_the_bore():
     outline, *holes = (polygon(s) for s in arm.shapes)
     expected = min(h.distance(outline.exterior) for h in holes)
     apart = min(a.distance(b) for a in holes for b in holes if a is not b)
-    assert walls(crank_arm(design.parts), design.parts) == pytest.approx(
+    assert walls(crank_arm(design.parts.outlines), design.parts.outlines) == pytest.approx(
         min(expected, apart), abs=1e-3
     )
 
@@ -143,7 +143,7 @@ def test_bolts_join_disc_and_arm_by_default(z, gearing, rollers):
 
     From 28 slots on, the disc is too small for bolts with their walls.
     """
-    found = of(Wheel(z, gearing), drive=Drive(rollers=rollers)).parts
+    found = of(Wheel(z, gearing), drive=Drive(rollers=rollers)).parts.outlines
     made, wall = crank_arm(found), found.sizes.wall_min
     if z < 28:
         assert len(made.bolts) in (rollers, 2 * rollers)
@@ -164,7 +164,7 @@ def test_bolts_join_disc_and_arm_by_default(z, gearing, rollers):
 @pytest.mark.parametrize("edge", ["edge_chamfer_mm", "edge_fillet_mm"])
 def test_bolts_leave_walls_between_their_edges(edge):
     """By shapely: two edges of 1 mm and the least wall stay around each bolt, in both parts."""
-    parts = of(Wheel(6), **{edge: 1.0}).parts
+    parts = of(Wheel(6), **{edge: 1.0}).parts.outlines
     arm, (disc,) = crank_arm(parts), parts.crank
     assert len(arm.bolts) == 2
     for bolt in map(polygon, arm.bolts):
@@ -176,14 +176,14 @@ def test_bolts_leave_walls_between_their_edges(edge):
 def test_a_key_needs_no_bolts():
     """A key, a flat or a hexagon in both bores holds the disc; sectors have no bore."""
     for size in ({"crank_keyway": "DIN 6885-1"}, {"crank_bore": "D"}, {"crank_bore": "hex"}):
-        assert not crank_arm(of(Wheel(4), **size).parts).bolts
-        assert crank_arm(of(Wheel(6, "internal"), **size).parts).bolts
-    assert not crank_arm(of(Wheel(4), lock_bolts=0).parts).bolts
+        assert not crank_arm(of(Wheel(4), **size).parts.outlines).bolts
+        assert crank_arm(of(Wheel(6, "internal"), **size).parts.outlines).bolts
+    assert not crank_arm(of(Wheel(4), lock_bolts=0).parts.outlines).bolts
 
 
 def test_sectors_stand_on_the_hub():
     """Inside the locking sectors hang together by the arm alone, which is below them all."""
-    found = of(Wheel(6, "internal"), lock_bolts=2).parts
+    found = of(Wheel(6, "internal"), lock_bolts=2).parts.outlines
     made = crank_arm(found)
     plate = polygon(made.outline, 1e-6).buffer(1e-5)
     assert not found.sizes.crank_bore  # overhung: no shaft goes through the wheel's plane
@@ -246,7 +246,7 @@ def test_machines_without_a_crank_have_no_arm():
 def test_an_arm_that_meets_the_hub_is_told():
     design = of(Wheel(6), arm_eye_mm=90.0)
     (check,) = [c for c in design.checks if c.name == "arm_to_hub_mm"]
-    found = design.parts
+    found = design.parts.outlines
     free = found.assembly.L * (1.0 - 0.5) - 45.0 - found.sizes.wheel_bore  # without a hub
     assert check.value == pytest.approx(free) and not check.passes
     name, value = check.nearest.split(" = ")

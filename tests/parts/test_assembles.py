@@ -21,7 +21,6 @@ from geneva_cli.geometry.plates import Group, Stack
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.motion import registry
 from geneva_cli.motion.pivots import Joint
-from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.spec.processes import PROCESSES
@@ -256,7 +255,7 @@ def test_the_machine_assembles(kind, tmp_path):
     whole = 0
     for given, design in samples(tmp_path, kind):
         try:
-            parts = FlatParts(design.mechanism, design.parts)
+            parts = design.parts
             _ = parts.members
         except GenevaError:
             continue
@@ -317,7 +316,7 @@ def test_mountings_leave_space(shape, shafts, process, tmp_path):
 def require_space(design):
     """Nothing overlaps but pins in their press fits, by half the fit; wheel and arm are apart."""
     allowed = design.spec.size.allowances
-    parts = FlatParts(design.mechanism, design.parts)
+    parts = design.parts
     every = list(solids(parts))
     if design.spec.size.shafts == "plain":  # turned ones have bearings and grooves
         assert not list(misfits(every, design.mechanism.center_distance_mm, allowed.shaft_fit_mm))
@@ -340,12 +339,12 @@ def require_space(design):
 
 def spans(design, *names):
     """Radius, if it is round, and lower and upper end of the parts of some names."""
-    every = solids(FlatParts(design.mechanism, design.parts))
+    every = solids(design.parts)
     return [(one.radius, one.low, one.high) for one in every if one.name in names]
 
 
 def bores(design, name):
-    (one,) = (one for one in solids(FlatParts(design.mechanism, design.parts)) if one.name == name)
+    (one,) = (one for one in solids(design.parts) if one.name == name)
     return [2.0 * radius for _, radius in one.bores]
 
 

@@ -10,13 +10,13 @@ from shapely.geometry import Point
 from step_witness import File, Solid
 
 from geneva_cli import Design, External, Size, Spherical, load
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.moments import area
 from geneva_cli.geometry.placed import in_place
 from geneva_cli.geometry.plates import plates
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.output.step import chunks
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.shafts.bores import bore_of, radius_of
 from geneva_cli.spec.tables import Shaft
 from geneva_cli.verdict.checks.registry import check_named, standing
@@ -97,7 +97,7 @@ def test_all_that_turns_with_a_shaft_is_held_by_it(design, axis, names, bore, sh
     """
     key = f"size.{axis}_keyway={bore}" if bore.startswith("DIN") else f"size.{axis}_bore={bore}"
     made = load(str(DESIGNS / f"{design}.toml"), (key, f"size.shafts={shafts}"))
-    flat = made.parts_model.flat
+    flat = made.parts.flat
     at = (0.0, 0.0) if axis == "wheel" else (made.mechanism.center_distance_mm, 0.0)
     placed_plates = [plate for _, plate in in_place(flat.members)]
     steps = [plate for plate in placed_plates if plate.layer == "SHAFT"]
@@ -164,11 +164,10 @@ def test_solids_have_the_bores_of_drawings(shape):
 
 def test_a_shaft_fits_a_spherical_hub():
     """Its bore is in the hub alone, whose round outside is in the shell."""
-    from geneva_cli.kinds.spherical.parts import SphereParts
 
     size = Size(80.0, 5.0, wheel_bore="hex", wheel_bore_mm=10.0, wheel_hub_mm=16.0, crank_bore="D")
     design = Design(Spherical(6), size=size)
-    members = SphereParts(PartsModel(design.mechanism).shells).members
+    members = parts_of(design.mechanism).members
     every = [one for member in members for one in plates(member.part)]
     hubs = {one.name: one for one in every if one.holes}
     assert len(hubs["wheel's hub"].holes[0].segments) == 6
@@ -184,7 +183,7 @@ TILTED = Spherical(5, axes_deg=75.0)
 def standing_check(name, **size):
     """A check of a spherical machine's parts at rest."""
     design = Design(TILTED, size=Size(100.0, 5.0, **size))
-    return check_named(standing(design.mechanism), name, PartsModel(design.mechanism).built)
+    return check_named(standing(design.mechanism), name, parts_of(design.mechanism).built)
 
 
 @pytest.mark.parametrize(
@@ -220,12 +219,11 @@ def test_without_a_spherical_hub_the_wall_is_that_to_the_slots():
 
 
 def test_a_spherical_crank_hub_that_its_keyway_cuts_is_refused():
-    from geneva_cli.kinds.spherical.parts import SphereParts
 
     size = {"crank_bore_mm": 8.0, "crank_hub_mm": 9.0, "crank_keyway": "DIN 6885-1"}
     design = Design(TILTED, size=Size(100.0, 5.0, **size))
     with pytest.raises(GenevaError, match="crank_hub_mm = 9: it must be above 10, the diam") as no:
-        assert SphereParts(PartsModel(design.mechanism).shells).crank
+        assert parts_of(design.mechanism).crank
     assert no.value.key == ("size", "crank_hub_mm")
     assert standing_check("crank_bore_wall_mm", **size).why == str(no.value)
 
@@ -236,10 +234,10 @@ def test_one_shaft_runs_through_arm_and_crank(wheel):
     design = Design(wheel, size=Size(100.0, 5.0, arm_bore_mm=10.0, crank_bore_mm=8.0))
     said = r"arm_bore_mm = 10: .* crank_bore_mm = 8 must be equal"
     with pytest.raises(GenevaError, match=said) as error:
-        assert PartsModel(design.mechanism).built.members
+        assert parts_of(design.mechanism).built.members
     assert error.value.key == ("size", "arm_bore_mm")
     for bore in (0.0, 10.0):
-        assert PartsModel(design.with_("size.crank_bore_mm", bore).mechanism).built.members
+        assert parts_of(design.with_("size.crank_bore_mm", bore).mechanism).built.members
 
 
 @pytest.mark.parametrize(
@@ -250,7 +248,7 @@ def test_one_shaft_runs_through_arm_and_crank(wheel):
 def test_a_roller_is_left_around_its_pin_and_their_fit(wheel, most):
     def members(pin):
         size = Size(100.0, 5.0, pin_mm=pin, shaft_fit_mm=0.5)
-        return PartsModel(Design(wheel, size=size).mechanism).built.members
+        return parts_of(Design(wheel, size=size).mechanism).built.members
 
     assert members(most - 1e-6)
     with pytest.raises(GenevaError, match="it must be below"):
@@ -260,7 +258,7 @@ def test_a_roller_is_left_around_its_pin_and_their_fit(wheel, most):
 @pytest.mark.parametrize("wheel", [External(6), Spherical(6)])
 def test_a_wheel_is_bored_for_its_shaft(wheel):
     design = Design(wheel, size=Size(80.0, 5.0), shaft=Shaft(wheel_diameter_mm=9.0))
-    bored, _ = PartsModel(design.mechanism).built.hub_radii("wheel")
+    bored, _ = parts_of(design.mechanism).built.hub_radii("wheel")
     assert bored == 4.5
 
 

@@ -10,10 +10,10 @@ import pytest
 from words import Spec, Wheel
 
 from geneva_cli import Design
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.outlines.outline_sizes import machine_sizes
 from geneva_cli.parts.outlines.wheel_outline import dial_bolts
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.spec.tables import Load, Size
 
 L = 100.0
@@ -59,14 +59,14 @@ def test_default_sizes_of_the_arm():
     The bolts' holes are at most L/40 wide, and at most half as wide as the ring that they are in:
     for M2 and M1.6, whose threads in the arm have a pitch of 0.4 and 0.35 mm.
     """
-    parts = of(arm_bore_mm=25.0, crank_bore_mm=0.0).parts
+    parts = of(arm_bore_mm=25.0, crank_bore_mm=0.0).parts.outlines
     arm = crank_arm(parts)
     assert (arm.hub, arm.eye) == (20.0, 6.0)
     assert [bolt.radius for bolt in arm.bolts] == [0.8, 0.8]
-    wide = crank_arm(of(wheel_hub_mm=90.0, pin_mm=6.0).parts)
+    wide = crank_arm(of(wheel_hub_mm=90.0, pin_mm=6.0).parts.outlines)
     # from the pin, at R = L/2, to the hub are 5 mm
     assert (wide.eye, wide.hub_gap) == (pytest.approx(5.0), pytest.approx(0.0, abs=1e-12))
-    ring = crank_arm(of(lock_bolts=1, lock_bolt_circle_mm=72.0, crank_bore_mm=8.0).parts)
+    ring = crank_arm(of(lock_bolts=1, lock_bolt_circle_mm=72.0, crank_bore_mm=8.0).parts.outlines)
     (bolt,) = ring.bolts
     # the disc's radius is R - 2 r, so that 2 mm are left outside of the bolts' circle
     assert (*bolt.centre, bolt.radius) == pytest.approx((-36.0, 0.0, 0.625))
@@ -146,7 +146,7 @@ def test_bores_of_the_arm():
 def test_a_keyway_leaves_the_least_wall_of_the_arms_hub():
     """A bore of 20 mm has a keyway 2.8 mm deep: with a wall of 5 mm that is more than 1.6 bores."""
     size = {"crank_keyway": "DIN 6885-1", "arm_bore_mm": 20.0, "crank_bore_mm": 0.0}
-    arm = crank_arm(of(**size, wall_min_mm=5.0, lock_bolts=0).parts)
+    arm = crank_arm(of(**size, wall_min_mm=5.0, lock_bolts=0).parts.outlines)
     assert arm.hub == pytest.approx(10.0 + 2.8 + 5.0)
 
 
@@ -159,7 +159,7 @@ def test_bores_of_a_sphere():
 
     for distance, bore in ((90.0, 7.5), (89.9, 6.0)):
         mechanism = Design.of(Spec(Wheel(6, "spherical"), size=Size(distance))).mechanism
-        assert PartsModel(mechanism).shells.ball.bore_mm == bore
+        assert parts_of(mechanism).shells.ball.bore_mm == bore
     assert inner_edge(1.0, 0.1, 0.5) == pytest.approx(0.9)
     assert inner_edge(1.0, 0.1, 0.95) == pytest.approx(0.975)
 
@@ -175,7 +175,7 @@ def test_bolts_of_a_dial():
     ):
         own = {"wheel_bore_mm": 20.0} if gearing == "external" else {}
         size = Size(L, 6.0, dial_bolts=3, **own)
-        parts = Design.of(Spec(Wheel(6, gearing), size=size)).parts
+        parts = Design.of(Spec(Wheel(6, gearing), size=size)).parts.outlines
         bolts = dial_bolts(parts.assembly, parts.sizes)
         assert {(round(math.hypot(*one.centre), 9), one.radius) for one in bolts} == {(far, 1.2)}
         first = math.degrees(math.atan2(*reversed(bolts[0].centre)))

@@ -71,7 +71,8 @@ def test_the_mass_is_without_them():
     whole = of(center_distance_mm=200.0, wheel_bore_mm=25.0, wheel_thickness_mm=10.0)
     holed = whole.with_("size.dial_bolts", 4).with_("size.dial_bolt_mm", 6.0)
     holed = holed.with_("size.wheel_keyway", DIN)
-    plates = [wheel_plate(d.parts.assembly, d.parts.sizes, d.parts.wheel) for d in (whole, holed)]
+    each = (whole.parts, holed.parts)
+    plates = [wheel_plate(own.assembly, own.sizes, own.outlines.wheel) for own in each]
     masses = [mass_properties(plate, 7850.0).mass_kg for plate in plates]
     # the keyway: 8 mm wide from its top down to the bore's circle
     half = math.asin(4.0 / 12.5)

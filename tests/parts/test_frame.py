@@ -40,7 +40,7 @@ MOUNTS = 4
 @cache
 def made(name):
     design = load(str(repo.DESIGNS / f"{name}.toml"))
-    proof = design.parts_model
+    proof = design.parts
     return design, proof, design.drawing("frame")
 
 
@@ -77,7 +77,7 @@ def test_forces_on_shafts_have_their_levers_to_the_bearings_as_built(name, size,
     design = load(str(repo.DESIGNS / f"{name}.toml"))
     for key, value in {**size, "shafts": shafts}.items():
         design = design.with_(f"size.{key}", value)
-    parts, own = design.parts_model.flat, stressed(*machine_sizes(design.mechanism))
+    parts, own = design.parts.flat, stressed(*machine_sizes(design.mechanism))
     middle, frame = 0.5 * parts.outlines.sizes.wheel_thickness, parts.frame.part
     bars = {one.part.name: one.part for one in parts.shafts if one.part.low <= frame.low}
     stressed_shafts = {"wheel's shaft": own.wheel_shaft, "crank's shaft": own.crank_shaft}
@@ -200,7 +200,7 @@ def test_a_bridge_bears_the_crank_of_a_side_crank(A):
     """
     design = made("side-crank-z6")[0]
     design = design.with_("drive.A", A) if A else design
-    flat, L = design.parts_model.flat, design.mechanism.center_distance_mm
+    flat, L = design.parts.flat, design.mechanism.center_distance_mm
     (bridge,), frame = flat.bridge, flat.frame.part
     (crank,) = [one for one in flat.shafts if one.part.name == "crank's shaft"]
     bore, *screws = bridge.part.holes

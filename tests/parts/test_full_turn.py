@@ -15,19 +15,19 @@ import shapely
 from drawing_witness import polygon
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from other_shape import with_shape
 from shapely import affinity
 from shapely.geometry import Point
 from test_outline import CURVED_SLOTS, STRAIGHT, L, disc, made, name, turned
 from words import LAWS, Motion, load
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import turned as turned_contour
 from geneva_cli.geometry.shapes import Arc, Contour, Line, Segment, about, closed
-from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.reliefs import reliefs
 from geneva_cli.parts.outlines.walls.straight import straight_walls
 from geneva_cli.parts.outlines.wheel_outline import wheel_contour
+from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.turn import gaps
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
 from geneva_cli.parts.turn.gaps import Gaps
@@ -35,20 +35,20 @@ from geneva_cli.parts.turn.machine_parts import WorkLimit
 from geneva_cli.parts.turn.smallest import positions
 
 
-def overlaps(found: Outlines, count: int = 60) -> Iterator[float]:
+def overlaps(found: Parts, count: int = 60) -> Iterator[float]:
     """Input angles at which polygons overlap by more than twice what they stray: the crank's parts
     are taken smaller by that, and must not even touch the wheel."""
     assembly, size = found.assembly, found.sizes
     flat = 1e-5 * assembly.L
     less = 2.0 * flat + found.close
-    wheel = polygon(found.wheel, flat)
+    wheel = polygon(found.outlines.wheel, flat)
     if assembly.sign < 0.0:
         wheel = disc(size.outer).difference(wheel)
     shapely.prepare(wheel)
     at = assembly.start_deg + np.linspace(0.0, assembly.turn_deg, count, endpoint=False)
     turns, poses = assembly.wheel(at), assembly.crank(at)
     roller = disc(size.roller - less)
-    cranks = [polygon(contour, flat).buffer(-less) for contour in found.crank]
+    cranks = [polygon(contour, flat).buffer(-less) for contour in found.outlines.crank]
     for i in range(count):
         pins = [assembly.pin(k, at[i : i + 1])[0] for k in range(len(assembly.rollers))]
         parts = [affinity.translate(roller, *pin) for pin in pins]
@@ -60,7 +60,7 @@ def overlaps(found: Outlines, count: int = 60) -> Iterator[float]:
 @pytest.mark.parametrize("file", ["press-curved", "internal-z6", "cam-geneva", "three-rollers-z4"])
 def test_the_crank_is_as_near_to_some_pieces_of_the_wheel_as_to_all(file, monkeypatch):
     """With the wheel in place, where most gaps are 0, and turned on, where parts overlap."""
-    parts = PartsModel(load(str(repo.DESIGNS / f"{file}.toml"))).outlines
+    parts = parts_of(load(str(repo.DESIGNS / f"{file}.toml")))
     pose = parts.gaps.pose(positions(parts)[::5])
     leads = (0.0, 0.003, 0.05)
     some = [parts.gaps.locking(pose, lead) for lead in leads]
@@ -71,13 +71,13 @@ def test_the_crank_is_as_near_to_some_pieces_of_the_wheel_as_to_all(file, monkey
     np.testing.assert_allclose(some, every, rtol=0.0, atol=1e-12 * parts.assembly.L)
 
 
-def finds_slot(found: Outlines) -> float:
+def finds_slot(found: Parts) -> float:
     """The play, degrees, up to which a roller still comes to the slot and not to the horn."""
     return math.degrees(math.asin(found.sizes.half_width / found.sizes.rim))
 
 
-def passes(found: Outlines, turn: FullTurn) -> bool:
-    held = not found.crank or turn.hand_over.deg <= finds_slot(found)
+def passes(found: Parts, turn: FullTurn) -> bool:
+    held = not found.outlines.crank or turn.hand_over.deg <= finds_slot(found)
     return turn.smallest.mm >= -found.close and held
 
 
@@ -147,8 +147,8 @@ FLAT = [path for path in DESIGNS if load(str(path)).spec.is_flat]
 @pytest.mark.parametrize("path", FLAT, ids=lambda p: p.stem)
 def test_every_flat_design_turns(path: Path) -> None:
     """As all commands have its parts and their turn."""
-    parts = PartsModel(load(str(path)))
-    found, turn = parts.outlines, parts.turn
+    parts = parts_of(load(str(path)))
+    found, turn = parts, parts.turn
     assert passes(found, turn)
     assert not list(overlaps(found, 20))
     mechanism = found.assembly.full
@@ -182,7 +182,7 @@ def test_play_in_the_dwell_of_an_internal_wheel() -> None:
     """There the recess reaches round the disc, and the locking sector's edge comes to it: to first
     order c / (L sin(half the sector)), which is 90 deg - b at the most."""
     found = made(6, "internal", lock_clearance_mm=0.1, roller_radius_mm=2.0)
-    half = 0.5 * found.crank[0].segments[0].sweep
+    half = 0.5 * found.outlines.crank[0].segments[0].sweep
     assert half <= math.radians(60.0) + 1e-12
     wanted = math.degrees(0.1 / (L * math.sin(half)))
     # the next order: the play's way over the sector's width
@@ -200,8 +200,8 @@ def test_play_against_polygons(case: dict) -> None:
     assembly, play = found.assembly, full_turn(found).play
     flat = 1e-7 * L
     less = found.close + 2.0 * flat
-    wheel = polygon(found.wheel, flat)
-    crank = polygon(found.crank[0], flat).buffer(-less)
+    wheel = polygon(found.outlines.wheel, flat)
+    crank = polygon(found.outlines.crank[0], flat).buffer(-less)
     roller = Point(0.0, 0.0).buffer(found.sizes.roller - less, quad_segs=2000)
     for i in np.flatnonzero(play.resting)[::5]:
         at = play.input_deg[i : i + 1]
@@ -251,7 +251,7 @@ def turns_as_polygons_do(case: dict) -> bool | None:
         found = made(**case)
     except GenevaError:
         return None
-    assert polygon(found.wheel, 1e-3).is_valid
+    assert polygon(found.outlines.wheel, 1e-3).is_valid
     turn = full_turn(found)
     assert turn.smallest.mm < -found.close or not list(overlaps(found, 40))
     if "motion" not in case and "offset" not in case:
@@ -281,13 +281,11 @@ def test_few_random_machines_are_refused() -> None:
 # --- spoilt machines
 
 
-def spoilt(
-    found: Outlines, wheel: Contour | None = None, crank: list[Contour] | None = None
-) -> Outlines:
+def spoilt(found: Parts, wheel: Contour | None = None, crank: list[Contour] | None = None) -> Parts:
     """The same machine with another wheel or crank."""
-    wheel, crank = wheel or found.wheel, crank or found.crank
+    wheel, crank = wheel or found.outlines.wheel, crank or found.outlines.crank
     gaps = Gaps(found.assembly, found.sizes, wheel, crank)
-    return found._replace(wheel=wheel, crank=crank, gaps=gaps)
+    return with_shape(found, wheel=wheel, crank=crank, gaps=gaps)
 
 
 @pytest.mark.parametrize(("z", "by"), [(4, 0.2), (6, 0.02), (6, 0.2), (6, 1.0), (9, 0.2)])
@@ -333,13 +331,14 @@ def test_a_relief_about_the_wheels_axis_collides(z: int) -> None:
     assert list(overlaps(wrong))
 
 
-def with_recesses(found: Outlines, rests: list[float], turned_by: float = 0.0) -> Contour:
+def with_recesses(found: Parts, rests: list[float], turned_by: float = 0.0) -> Contour:
     """The wheel with recesses only at some rests, all turned by an angle."""
     rests = [(at + turned_by) % math.tau for at in rests]
-    return wheel_contour(found.assembly._replace(rests=tuple(rests)), found.sizes, found.slots)
+    turned = found.assembly._replace(rests=tuple(rests))
+    return wheel_contour(turned, found.sizes, found.outlines.slots)
 
 
-def with_one_recess(found: Outlines, kept: int) -> Contour:
+def with_one_recess(found: Parts, kept: int) -> Contour:
     """The wheel with the rim closed over its recesses but one."""
     axes = [(L * math.cos(at), L * math.sin(at)) for at in found.assembly.rests]
     del axes[kept]
@@ -350,8 +349,10 @@ def with_one_recess(found: Outlines, kept: int) -> Contour:
             return about((0.0, 0.0), found.sizes.rim, first, (last - first) % math.tau)
         return piece
 
-    pieces = [filled(piece) for piece in found.wheel.segments]
-    assert sum(a != b for a, b in zip(pieces, found.wheel.segments, strict=True)) == len(axes)
+    pieces = [filled(piece) for piece in found.outlines.wheel.segments]
+    assert sum(a != b for a, b in zip(pieces, found.outlines.wheel.segments, strict=True)) == len(
+        axes
+    )
     return closed("WHEEL", pieces)
 
 
@@ -386,7 +387,7 @@ def test_a_slot_cut_one_degree_off(gearing: str) -> None:
     """At the mouth a roller without clearance meets the wall by L cos b sin(1 deg)."""
     found = made(6, gearing, roller_radius_mm=3.0)
     engagement = found.assembly.slots[0][0]
-    off = {engagement: turned_contour(found.slots[engagement], math.radians(1.0))}
+    off = {engagement: turned_contour(found.outlines.slots[engagement], math.radians(1.0))}
     wrong = spoilt(found, wheel_contour(found.assembly, found.sizes, off))
     turn = full_turn(wrong)
     assert turn.driving.mm < -0.9 * L * math.cos(math.pi / 6) * math.sin(math.radians(1.0))
@@ -412,7 +413,7 @@ def test_one_slot_askew_among_good_ones(k: int) -> None:
     """Three rollers use three of four slots in a turn: each is looked at by itself. Turned by 0.01
     about the wheel's axis, its end lies off by that share of its distance."""
     found = made(4, rollers=3, roller_radius_mm=7.0)
-    pieces = list(found.wheel.segments)
+    pieces = list(found.outlines.wheel.segments)
     first = k * len(pieces) // 4
     walls = Contour("WHEEL", tuple(pieces[first : first + 3]), closed=False)
     pieces[first : first + 3] = turned_contour(walls, 0.01).segments
@@ -430,7 +431,7 @@ def test_a_disc_without_relief() -> None:
     assert turn.lock.mm == pytest.approx(-deep, rel=1e-3)
 
 
-def sector_crank(found: Outlines, locked: float) -> Contour:
+def sector_crank(found: Parts, locked: float) -> Contour:
     """A disc that is left on ``locked`` radians opposite the roller only."""
     rk, floor = found.sizes.lock, L - found.sizes.rim - found.sizes.relief
     start, end = math.pi - 0.5 * locked, math.pi + 0.5 * locked
@@ -500,7 +501,7 @@ def test_a_turn_that_is_not_proved_is_not_tried_again(monkeypatch):
         raise WorkLimit("not within the budget")
 
     monkeypatch.setattr("geneva_cli.parts.turn.full_turn.full_turn", unproved)
-    one = PartsModel(made(6).assembly.mechanism)
+    one = parts_of(made(6).assembly.mechanism)
     for _ in range(2):
         with pytest.raises(WorkLimit):
             _ = one.turn

@@ -104,7 +104,7 @@ def test_gear_sectors_are_hub_and_sectors():
 
 def test_sectors_are_where_gears_mesh():
     """On the line of centres at mid-motion, each half its angle to both sides."""
-    bars = drawn_links(design("gear-sector").mechanism, design("gear-sector").parts)
+    bars = drawn_links(design("gear-sector").mechanism, design("gear-sector").parts.outlines)
     for gear, towards in zip(bars.gears, (math.pi, 0.0), strict=True):
         toothed = [
             piece
@@ -118,7 +118,7 @@ def test_sectors_are_where_gears_mesh():
 
 def test_a_ring_is_round_its_pitch_circle():
     of = Design(External(6), RING)
-    (_, ring) = drawn_links(of.mechanism, of.parts).gears
+    (_, ring) = drawn_links(of.mechanism, of.parts.outlines).gears
     (pitch, *bolts) = ring.plate.holes
     # c = 1 - 2z/(z - 2) = -2: the planet has R0/2 and the ring three times that, R0 = 0.52 L
     assert (ring.bore.bore.radius, pitch.radius) == (0.0, pytest.approx(78.0, rel=1e-14))
@@ -211,7 +211,7 @@ def test_a_bore_that_leaves_no_noncircular_gear_is_refused():
     for gear, key in (("driven", "arm_bore_mm"), ("driver", "link_bore_mm")):
         of = design("elliptical-gears").with_(f"size.{key}", 71.0)
         with pytest.raises(GenevaError, match=rf"no blank of the {gear} gear.*below 70,.*{key}"):
-            _ = of.parts_model.flat.gear_pair
+            _ = of.parts.flat.gear_pair
 
 
 def test_a_blank_has_one_closed_outline():

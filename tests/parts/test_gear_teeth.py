@@ -234,7 +234,7 @@ SOFT = Epicyclic(planet_ratio="shockless")
 def gears(drive, z, **keys):
     """Round gears of a machine as polygons about their axes, with what was drawn."""
     design = Design(External(z), drive, size=Size(center_distance_mm=120.0, **keys))
-    flat = design.parts_model.flat.within(1e-5, "arcs")
+    flat = design.parts.flat.within(1e-5, "arcs")
     drawn = []
     for gear in flat.toothed:
         ring = gear.teeth.inside
@@ -294,7 +294,7 @@ def test_planet_and_fixed_gear_mesh_with_their_backlash(drive, z, keys):
 @cache
 def pair(drive, **keys):
     design = Design(External(6), drive, size=Size(gear_module_mm=2.0, **keys))
-    flat = design.parts_model.flat.within(1e-4, "arcs")
+    flat = design.parts.flat.within(1e-4, "arcs")
     return design, [(polygon(m.part.outline.segments, 3), m.at) for m in flat.gear_pair]
 
 

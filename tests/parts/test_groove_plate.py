@@ -3,6 +3,7 @@
 import pytest
 import repo
 from drawing_witness import polygon, vertices
+from other_shape import with_shape
 from shapely.geometry import LineString
 
 from geneva_cli import Design, External, load
@@ -11,7 +12,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.mass import mass_properties
 from geneva_cli.geometry.plates import plates
 from geneva_cli.geometry.shapes import Circle
-from geneva_cli.parts.flat_parts import FlatParts
 
 SAGITTA = 1e-3  # mm, of the chords that shapely is given
 OFF = 5e-3  # mm: those, the walls' own tolerance of 0.001, and shapely's arcs
@@ -20,7 +20,7 @@ OFF = 5e-3  # mm: those, the walls' own tolerance of 0.001, and shapely's arcs
 @pytest.fixture(scope="module")
 def cam():
     design = load(str(repo.DESIGNS / "cam-geneva.toml"))
-    proof = design.parts_model
+    proof = design.parts
     return design, proof, design.drawing("groove-plate")
 
 
@@ -57,10 +57,10 @@ def test_it_lies_about_its_roller_and_below_the_crank(cam):
 
 
 def test_machines_without_such_a_plate(cam):
-    design, proof, _ = cam
+    _, proof, _ = cam
     wide = proof.outlines.sizes._replace(wheel_hub=200.0)
     with pytest.raises(GenevaError, match="up to the wheel's hub, less than four times wall_min"):
-        _ = FlatParts(design.mechanism, proof.outlines._replace(sizes=wide)).groove_plate
+        _ = with_shape(proof, sizes=wide).groove_plate
     with pytest.raises(GenevaError, match='kind = "crank" has no groove; "cam" has one'):
         Design(External(6)).drawing("groove-plate")
 

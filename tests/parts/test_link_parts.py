@@ -42,7 +42,7 @@ NAMES = {
 @pytest.fixture(params=NAMES)
 def made(request):
     design = load(str(repo.DESIGNS / f"{request.param}.toml"))
-    found = design.parts if design.spec.is_flat else None
+    found = design.parts.outlines if design.spec.is_flat else None
     return request.param, design, drawn_links(design.mechanism, found)
 
 
@@ -175,7 +175,7 @@ def test_rows_of_the_list(made):
 def test_pins_are_turned_from_the_rollers_material(name):
     """Those between links as that of the roller: no plate is as thick as a pin is long."""
     design = load(str(repo.DESIGNS / f"{name}.toml"))
-    parts, _ = single_parts(design.parts_model, 0.1, "arcs")
+    parts, _ = single_parts(design.parts, 0.1, "arcs")
     pins = {one.name for one in parts if one.name.startswith("pin")}
     assert pins > {"pin"}
     assert not pins & {one.name for one in parts if one.is_cut}
@@ -199,7 +199,7 @@ def test_sizes_as_given():
         link_thickness_mm=5.0,
         washer_mm=0.5,
     )
-    links = drawn_links(design.mechanism, design.parts)
+    links = drawn_links(design.mechanism, design.parts.outlines)
     crank = next(p for p in links.plates if p.name == "crank")
     assert sorted(2.0 * hole.radius for hole in crank.holes) == [8.0, 14.0]
     rocker = next(p for p in links.plates if p.name == "rocker")
@@ -221,13 +221,13 @@ def test_the_crank_is_bored_for_its_shaft():
     design = Design.of(
         Spec(Wheel(8), Drive("slider-crank"), keys, shaft=Shaft(crank_diameter_mm=15.0))
     )
-    links = drawn_links(design.mechanism, design.parts)
+    links = drawn_links(design.mechanism, design.parts.outlines)
     assert 7.5 in {hole.radius for hole in links.plates[0].holes if isinstance(hole, Circle)}
     # the side-crank's coulisse is on the arm's shaft
     side = load(str(repo.DESIGNS / "side-crank-z6.toml"))
     (bore,) = [
         h
-        for h in drawn_links(side.mechanism, side.parts).plates[1].holes
+        for h in drawn_links(side.mechanism, side.parts.outlines).plates[1].holes
         if h[0] == "BORE" and isinstance(h, Circle)
     ]
     arm = side.drawing("arm").shapes[1]

@@ -55,7 +55,7 @@ HUBS = ("wheel_hub_mm=40", "crank_hub_mm=14", "lock_thickness_mm=6", "pin_gap_mm
 def test_no_two_parts_are_in_one_place(name, given):
     design = load(str(repo.DESIGNS / f"{name}.toml"), [f"size.{key}" for key in given])
     L = design.mechanism.center_distance_mm
-    proof = design.parts_model
+    proof = design.parts
     every = list(faces(design.drawing("assembly", 0.01).solid))
     names = {plate.name for plate, _ in every}
     assert "frame" in names

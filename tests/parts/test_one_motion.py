@@ -5,7 +5,6 @@ import math
 import pytest
 from test_full_turn import spoilt
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.drives.cam import Cam
 from geneva_cli.drives.crank import Crank
 from geneva_cli.geometry.measure import turned
@@ -17,6 +16,7 @@ from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.motion.wheels.spherical import Spherical
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.one_motion import one_motion
 from geneva_cli.spec.tables import Size
@@ -38,7 +38,7 @@ SPECS = {
 @pytest.mark.parametrize("name", SPECS)
 def test_one_motion_stands_for_all(name):
     """The same gaps and plays, of a part of the turn; gaps to what their search leaves."""
-    parts = PartsModel(build(SPECS[name]), advice=False).parts
+    parts = parts_of(build(SPECS[name]), advice=False)
     once = one_motion(parts)
     rollers = SPECS[name].drive.rollers
     assert once.assembly.span_deg * rollers == pytest.approx(parts.assembly.turn_deg)
@@ -62,20 +62,20 @@ UNLIKE = {
 
 @pytest.mark.parametrize("name", UNLIKE)
 def test_rollers_that_do_not_move_alike_are_all_looked_at(name):
-    parts = PartsModel(build(UNLIKE[name]), advice=False).parts
+    parts = parts_of(build(UNLIKE[name]), advice=False)
     assert one_motion(parts) is parts
 
 
 def test_a_crank_or_wheel_that_is_not_alike_all_round_is_looked_at_all_round():
     """A disc with its relief turned by a degree on one side, and a slot askew."""
-    parts = PartsModel(build(SPECS["external"])).outlines
+    parts = parts_of(build(SPECS["external"]))
     assert one_motion(parts) is not parts
-    (disc,) = parts.crank
+    (disc,) = parts.outlines.crank
     half = len(disc.segments) // 2
     off = turned(disc, math.radians(1.0)).segments[half:]
     crank = spoilt(parts, crank=[closed("CRANK", [*disc.segments[:half], *off])])
     assert one_motion(crank) is crank
-    pieces = list(parts.wheel.segments)
+    pieces = list(parts.outlines.wheel.segments)
     first = len(pieces) // 8
     pieces[:first] = turned(closed("WHEEL", pieces[:first]), 0.01).segments
     wheel = spoilt(parts, closed("WHEEL", pieces))
@@ -84,9 +84,9 @@ def test_a_crank_or_wheel_that_is_not_alike_all_round_is_looked_at_all_round():
 
 def test_sectors_that_are_not_alike_are_all_looked_at():
     """On a sphere: one of two sectors narrower."""
-    parts = PartsModel(build(SPECS["spherical"])).shells
+    parts = parts_of(build(SPECS["spherical"]))
     assert parts.gaps.repeats(2)
     assert not parts.gaps.repeats(3)
-    narrow = PartsModel(build(SPECS["spherical"].with_("size.lock_clearance_mm", 0.3))).shells
+    narrow = parts_of(build(SPECS["spherical"].with_("size.lock_clearance_mm", 0.3)))
     parts.gaps.sectors[1] = narrow.gaps.sectors[1]
     assert one_motion(parts) is parts

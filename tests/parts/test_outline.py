@@ -1,4 +1,4 @@
-"""Outlines against the textbook's closed forms, and against shapes cut out of each other.
+"""Parts against the textbook's closed forms, and against shapes cut out of each other.
 
 The witnesses know nothing of the program's contours: a blank less slots, recesses and every place
 of the roller, by shapely; areas and lengths of sectors and segments, in 30 digits by mpmath.
@@ -26,11 +26,12 @@ from geneva_cli.geometry.shapes import Arc, Contour
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion as Given
 from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.outlines.outline_sizes import outlines, sizes
-from geneva_cli.parts.outlines.outlines import CURVED, Outlines
+from geneva_cli.parts.outlines.outline_sizes import sizes
+from geneva_cli.parts.outlines.outlines import CURVED
 from geneva_cli.parts.outlines.walls.path_walls import _free
 from geneva_cli.parts.outlines.walls.straight import straight_walls
 from geneva_cli.parts.outlines.wheel_outline import wheel_contour
+from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.checks.registry import turn_checks
@@ -51,14 +52,14 @@ def made(
     steps: tuple[float, ...] | None = None,
     motion: Given | None = None,
     **size: float | str,
-) -> Outlines:
-    """Outlines of a machine at L = 100 mm."""
+) -> Parts:
+    """Parts of a machine at L = 100 mm."""
     own = {"offset_mm": offset} if offset else {"steps_deg": steps} if steps else {}
     given = motion or Motion(law, ratio="matched" if kind == "crank" else None)
     rollers = len(steps) if steps else rollers
     wheel, drive = Wheel(z, gearing, **own), Drive(kind, rollers=rollers)
     spec = Spec(wheel, drive, motion=given, size=Size(L, **size))
-    return outlines(build(spec))
+    return parts_of(build(spec)).turned
 
 
 def disc(radius: float, x: float = 0.0, y: float = 0.0) -> Polygon:
@@ -74,9 +75,9 @@ def ends_meet(contour: Contour) -> bool:
     return contour.closed and all(p.end == q.start for p, q in around)
 
 
-def apart(found: Outlines, wanted: Polygon) -> float:
+def apart(found: Parts, wanted: Polygon) -> float:
     """The area by which wheel and witness differ over the outline's length: a mean distance."""
-    contour = polygon(found.wheel, FLAT)
+    contour = polygon(found.outlines.wheel, FLAT)
     return contour.symmetric_difference(wanted).area / contour.length
 
 
@@ -121,7 +122,7 @@ def sector(radius: float, start: float, end: float) -> Polygon:
     return Polygon([(0.0, 0.0), *np.column_stack((radius * np.cos(t), radius * np.sin(t)))])
 
 
-def cut(found: Outlines, slots: list[Slot], rests: list[float]) -> Polygon:
+def cut(found: Parts, slots: list[Slot], rests: list[float]) -> Polygon:
     """The wheel's material (inside: its opening) by cutting."""
     size, sign = found.sizes, found.assembly.sign
     w, z = size.half_width, len(slots)
@@ -185,7 +186,7 @@ STRAIGHT = [
 ]
 
 
-def theory(found: Outlines) -> tuple[list[Slot], list[float]]:
+def theory(found: Parts) -> tuple[list[Slot], list[float]]:
     mechanism = found.assembly.mechanism
     wheel, size, r = mechanism.spec.wheel, mechanism.spec.size, mechanism.roller_radius_mm
     bottom = size.slot_bottom_clearance_mm
@@ -260,8 +261,8 @@ def test_straight_slots_against_cutting(case: dict) -> None:
     """The witness strays by chords of its circles and of the flattened contour; both lie within,
     so a mean distance of their larger error is allowed. A wall 1e-4 mm off would show."""
     found = made(**case)
-    assert ends_meet(found.wheel)
-    shape = polygon(found.wheel, FLAT)
+    assert ends_meet(found.outlines.wheel)
+    shape = polygon(found.outlines.wheel, FLAT)
     assert shape.is_valid
     assert shape.exterior.is_ccw
     assert apart(found, cut(found, *theory(found))) < FLAT
@@ -308,8 +309,8 @@ def test_areas_lengths_and_walls_of_radial_slots(case: dict) -> None:
         walls = 2 * abs(mpmath.sqrt(rim**2 - w**2) - bottom) + mpmath.pi * w
         round_ = z * (walls + arc + 2 * rim * (b - seen - mouth))
         assert float(rim) == pytest.approx(size.rim, rel=1e-15)
-        assert area(found.wheel) == pytest.approx(float(wanted), rel=1e-13)
-        assert length(found.wheel) == pytest.approx(float(round_), rel=1e-13)
+        assert area(found.outlines.wheel) == pytest.approx(float(wanted), rel=1e-13)
+        assert length(found.outlines.wheel) == pytest.approx(float(round_), rel=1e-13)
         assert size.recess == pytest.approx(float(recess), rel=1e-15)
         assert size.slot_end == pytest.approx(float(bottom - sign * w), rel=1e-13)
         # The horn is thinnest at the mouth: from the foot of O1's perpendicular, R - w - recess.
@@ -317,11 +318,11 @@ def test_areas_lengths_and_walls_of_radial_slots(case: dict) -> None:
     assert horn(found) == pytest.approx(size.horn, abs=2.0 * FLAT)
 
 
-def horn(found: Outlines) -> float:
+def horn(found: Parts) -> float:
     """The least distance of the walls of both slots beside it from a recess, by shapely."""
     axis = Point(L * math.cos(found.assembly.rests[0]), L * math.sin(found.assembly.rests[0]))
     beside = [found.assembly.slots[k] for k in (0, -1, 1)]
-    walls = [LineString(vertices(turn(found.slots[s], at), FLAT)) for s, at in beside]
+    walls = [LineString(vertices(turn(found.outlines.slots[s], at), FLAT)) for s, at in beside]
     return min(wall.distance(axis) for wall in walls) - found.sizes.recess
 
 
@@ -330,22 +331,22 @@ def test_every_part_of_the_wheel_comes_again(case: dict) -> None:
     """After a period of slots every corner stands again: to some units in the last place of L."""
     found = made(**case)
     z, steps = case["z"], case.get("steps", (0.0,))
-    per = len(found.wheel.segments) * len(steps) // z
+    per = len(found.outlines.wheel.segments) * len(steps) // z
     turn = math.tau * len(steps) / z
-    corners = np.array([s.start for s in found.wheel.segments]) @ [1.0, 1j]
+    corners = np.array([s.start for s in found.outlines.wheel.segments]) @ [1.0, 1j]
     assert np.abs(np.roll(corners, -per) - corners * np.exp(1j * turn)).max() < 1e-13 * L
-    bulges = [getattr(s, "bulge", 0.0) for s in found.wheel.segments]
+    bulges = [getattr(s, "bulge", 0.0) for s in found.outlines.wheel.segments]
     assert np.roll(bulges, -per) == pytest.approx(bulges, rel=1e-11)
 
 
 # --- the crank
 
 
-def lock_sweep(found: Outlines) -> float:
+def lock_sweep(found: Parts) -> float:
     """The angle of the crank's outline that lies on the locking circle about its axis."""
     return math.fsum(
         s.sweep
-        for contour in found.crank
+        for contour in found.outlines.crank
         for s in contour.segments
         if isinstance(s, Arc)
         and math.hypot(*s.centre) < 1e-9 * L
@@ -356,8 +357,8 @@ def lock_sweep(found: Outlines) -> float:
 @pytest.mark.parametrize("case", [c for c in STRAIGHT if c.get("gearing") != "internal"], ids=name)
 def test_the_disc_locks_all_but_the_motion(case: dict) -> None:
     found = made(**case)
-    assert all(ends_meet(c) and polygon(c, FLAT).is_valid for c in found.crank)
-    assert all(polygon(c, FLAT).exterior.is_ccw for c in found.crank)
+    assert all(ends_meet(c) and polygon(c, FLAT).is_valid for c in found.outlines.crank)
+    assert all(polygon(c, FLAT).exterior.is_ccw for c in found.outlines.crank)
     steps = case.get("steps") or (360.0 / case["z"],) * case.get("rollers", 1)
     motions = sum(180.0 - step for step in steps)
     # Offset slots and low mouths may need a wider relief than the motion, never less.
@@ -402,14 +403,14 @@ def test_from_which_disc_on_the_relief_arc_clears(z: int, least: float) -> None:
         low, high = (middle, high) if arc_clears(z, r, middle) < 0.0 else (low, middle)
     assert low == pytest.approx(least, abs=0.02)
     for share, kind in ((low - 0.002, "sector"), (high + 0.002, "arc")):
-        assert made(z, roller_radius_mm=r, lock_radius_mm=share * R).relief == kind
+        assert made(z, roller_radius_mm=r, lock_radius_mm=share * R).outlines.relief == kind
 
 
 def test_of_many_slots_the_relief_arc_never_clears() -> None:
     for share in (0.3, 0.4, 0.5, 0.6):
         found = made(24, roller_radius_mm=5.0, lock_radius_mm=share * L * math.sin(math.pi / 24))
         assert arc_clears(24, 5.0, share) < 0.0
-        assert found.relief == "sector"
+        assert found.outlines.relief == "sector"
 
 
 RELIEF = [(3, 0.7), (4, 0.45), (4, 0.7), (5, 0.4), (6, 0.31), (6, 0.6), (7, 0.27), (7, 0.8)]
@@ -422,8 +423,10 @@ def test_the_relief_is_the_triangle_of_entry(z: int, share: float) -> None:
     b = math.pi / z
     R = L * math.sin(b)
     found = made(z, roller_radius_mm=2.0, lock_radius_mm=share * R)
-    assert found.relief == "arc"
-    (relief,) = [s for s in found.crank[0].segments if isinstance(s, Arc) and s.bulge < 0.0]
+    assert found.outlines.relief == "arc"
+    (relief,) = [
+        s for s in found.outlines.crank[0].segments if isinstance(s, Arc) and s.bulge < 0.0
+    ]
     assert relief.centre == pytest.approx((L * share, 0.0), abs=1e-12 * L)
     assert relief.radius == pytest.approx(L * math.cos(b) * share, rel=1e-12)
     for end in (relief.start, relief.end):
@@ -436,11 +439,11 @@ def test_a_small_disc_is_cut_down_to_a_sector(z: int, share: float) -> None:
     """Down to L - Rw less a clearance, and as wide as the motion or, of the smallest discs, wider:
     the recess's corners come within them beyond the motion's own angle."""
     found = made(z, roller_radius_mm=5.0, lock_radius_mm=share * L * math.sin(math.pi / z))
-    assert found.relief == "sector"
+    assert found.outlines.relief == "sector"
     size = found.sizes
     (relief,) = [
         s
-        for s in found.crank[0].segments
+        for s in found.outlines.crank[0].segments
         if isinstance(s, Arc) and abs(s.radius - size.lock) > 1e-9
     ]
     assert relief.centre == pytest.approx((0.0, 0.0), abs=1e-12 * L)
@@ -457,7 +460,7 @@ def test_a_small_disc_is_cut_down_to_a_sector(z: int, share: float) -> None:
 def test_the_locking_sector_of_an_internal_wheel(z: int) -> None:
     """Half width 90 deg - b opposite the roller, as far as the wheel's horns leave room."""
     found = made(z, "internal", roller_radius_mm=1.0)
-    (contour,) = found.crank
+    (contour,) = found.outlines.crank
     assert ends_meet(contour)
     assert polygon(contour, FLAT).is_valid
     (lock,) = [
@@ -476,7 +479,7 @@ def test_the_locking_sector_of_an_internal_wheel(z: int) -> None:
 # --- curved slots
 
 
-def passed(found: Outlines) -> Polygon:
+def passed(found: Parts) -> Polygon:
     """Everything a roller, as wide as the slot, passes over in one cycle around the first slot, in
     the wheel's frame: M = L e^(-i psi) - R e^(-i (psi + phi)), and its circle in the dwell."""
     mechanism = found.assembly.mechanism
@@ -501,7 +504,7 @@ def passed(found: Outlines) -> Polygon:
     return line.buffer(found.sizes.half_width, quad_segs=QUARTER)
 
 
-def milled(found: Outlines) -> Polygon:
+def milled(found: Parts) -> Polygon:
     """The wheel (inside: its opening) less all places of the roller and the locking disc; of what
     is left the piece about the axis."""
     z, sign, size = found.assembly.mechanism.spec.wheel.z, found.assembly.sign, found.sizes
@@ -559,9 +562,9 @@ CURVED_SLOTS = [
 ]
 
 
-def worst(found: Outlines, wanted: Polygon) -> float:
+def worst(found: Parts, wanted: Polygon) -> float:
     """The greatest distance between both outlines, over one slot and its neighbours' halves."""
-    shape, far = polygon(found.wheel, FLAT), 0.0
+    shape, far = polygon(found.outlines.wheel, FLAT), 0.0
     for one, other in ((shape, wanted), (wanted, shape)):
         corners = shapely.get_coordinates(one.exterior)
         half = math.pi / len(found.assembly.slots)
@@ -577,8 +580,8 @@ def test_curved_slots_against_every_place_of_the_roller(case: dict) -> None:
     """On the mean, and at the worst place: there the flattened arcs of both polygons may differ by
     twice what each strays, and where two walls meet at a small angle by some times more."""
     found = made(**case)
-    assert ends_meet(found.wheel)
-    shape, wanted = polygon(found.wheel, FLAT), milled(found)
+    assert ends_meet(found.outlines.wheel)
+    shape, wanted = polygon(found.outlines.wheel, FLAT), milled(found)
     assert shape.is_valid
     assert apart(found, wanted) < FLAT + CURVED * L
     assert worst(found, wanted) < 2.0 * (FLAT + CURVED * L)

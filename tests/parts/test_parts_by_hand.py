@@ -15,7 +15,6 @@ from words import Drive, Keys, Motion, Spec, Wheel
 
 import geneva_cli
 from geneva_cli import Design, EllipticalGears, External, Internal, load
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.drawings.sheet.bores import bored
 from geneva_cli.drawings.sheet.crank import draw_arm, draw_disc, draw_roller
 from geneva_cli.drawings.sheet.links import draw_link
@@ -35,6 +34,7 @@ from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.outlines.cut_lock import cut_arcs
 from geneva_cli.parts.outlines.outline_sizes import machine_sizes, outlines
 from geneva_cli.parts.outlines.reliefs import arc_floor, reliefs, widened
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.shafts.all_shafts import passing_arm
 from geneva_cli.parts.shafts.bores import RoundBore, bore_of
 from geneva_cli.parts.shafts.hub_and_shafts import crank_hub
@@ -75,7 +75,7 @@ def test_the_arm_is_the_hull_of_hub_and_eyes():
     (2.9 mm, ISO 273). In the arm is its thread, of a pitch of 0.45 mm.
     """
     design = of(**ARM, **BOLTS, crank_bore_mm=12.0)
-    arm = crank_arm(design.parts)
+    arm = crank_arm(design.parts.outlines)
     x, y = 15.0 * math.cos(math.radians(120.0)), 15.0 * math.sin(math.radians(120.0))
     eyes = [(x, -y, 3.0), (x, y, 3.0), (0.0, 0.0, 13.0), (50.0, 0.0, 8.0)]
     assert rounds(arm.outline) == [pytest.approx(one) for one in eyes]
@@ -91,7 +91,7 @@ def test_the_arm_is_the_hull_of_hub_and_eyes():
 def test_the_arm_is_drawn_whole_with_its_centre_lines():
     """They are as much longer than the hub as than the eye, and all that is cut is a full line."""
     design, view = of(**ARM, crank_bore_mm=12.0), View("", 1.0)
-    draw_arm(view, design.mechanism, crank_arm(design.parts))
+    draw_arm(view, design.mechanism, crank_arm(design.parts.outlines))
     lines = [
         one.segments[0] for one in view.shapes if one.layer == CENTRE if hasattr(one, "segments")
     ]
@@ -144,7 +144,7 @@ def test_a_guide_is_as_long_as_its_block_needs():
     keys = Keys("slider-crank", 40.0, 100.0, 80.0, 90.0)
     size = Size(roller_radius_mm=6.0, link_pin_mm=10.0)
     design = Design.of(Spec(Wheel(8), Drive("slider-crank"), keys, size=size))
-    links = drawn_links(design.mechanism, design.parts)
+    links = drawn_links(design.mechanism, design.parts.outlines)
     cut = {plate.name: plate for plate in links.plates}
     near = 2e-4  # the path is sampled each quarter of a degree, and 40 (1 - cos 0.125°) is less
     slot, *screws = cut["guide"].holes
@@ -183,13 +183,13 @@ def test_pins_and_rollers_run_with_the_fit():
     shown = {"Ø 8 g6 (-0.005/-0.014)", "Ø 4.2 H7 (+0.012/0)"}
     assert dimensions(draw_roller, plain.mechanism) == shown
     bores = [one for one in plates(plain.drawing("crank").solid) if one.name == "roller"]
-    links = drawn_links(cam.mechanism, cam.parts)
+    links = drawn_links(cam.mechanism, cam.parts.outlines)
     bores += [one.part for one in links.joined if one.part.name == "roller in the groove"]
     assert [hole.radius for one in bores for hole in one.holes] == [2.1, 2.1]
     keys = Keys("slider-crank", 40.0, 100.0, 80.0, 90.0)
     size = Size(roller_radius_mm=6.0, link_pin_mm=10.0, shaft_fit_mm=0.2)
     sliding = Design.of(Spec(Wheel(8), Drive("slider-crank"), keys, size=size))
-    links = drawn_links(sliding.mechanism, sliding.parts)
+    links = drawn_links(sliding.mechanism, sliding.parts.outlines)
     pins = {one.part.outline.radius for one in links.joined if one.part.name.startswith("pin")}
     assert pins == {5.0}
     (rod,) = (plate for plate in links.plates if plate.name == "rod")
@@ -258,7 +258,7 @@ def test_a_fixed_gear_is_screwed_to_the_frame_below_the_hub():
     sizes |= {"gear_bolt_circle_mm": 66, "gear_bolt_mm": 4}
     own = [f"size.{key}={value}" for key, value in sizes.items()]
     design = load(str(repo.DESIGNS / "epicyclic-soft-z6.toml"), own)
-    parts = design.parts_model.flat
+    parts = design.parts.flat
     turns = [math.radians(45.0 + 120.0 * k) for k in range(3)]
     screws = [(160.0 + 33.0 * math.cos(turn), 33.0 * math.sin(turn)) for turn in turns]
     assert [ring.at for ring in parts.spacers] == [pytest.approx(at) for at in screws]
@@ -268,7 +268,7 @@ def test_a_fixed_gear_is_screwed_to_the_frame_below_the_hub():
         (bore,) = ring.holes
         assert (ring.outline.radius, bore.radius) == (4.0, 2.0)
         assert (ring.low, ring.high) == (parts.frame.part.high, -48.0) == (-60.0, -48.0)
-    gap = planes(design.parts, parts.links).nearest
+    gap = planes(design.parts.outlines, parts.links).nearest
     assert gap.gap == pytest.approx(160.0 - 58.5 - 2.0 * 19.5 - 20.0)
 
 
@@ -304,7 +304,7 @@ def test_the_relief_of_the_disc():
     }
     for relief, own in reliefs.items():
         keys = {"relief": relief, "crank_bore_mm": 8.0, "lock_bolts": 0}
-        parts = of(**keys, lock_clearance_mm=0.1).parts_model.flat
+        parts = of(**keys, lock_clearance_mm=0.1).parts.flat
         assert dimensions(draw_disc, parts) == shown | own
     assert arc_floor(parts.outlines.assembly, lock) == pytest.approx(away - radius)
 
@@ -316,7 +316,7 @@ def test_the_dimensions_of_a_wheel():
     sqrt(L² cos² 30° + r²), meets its wall, half a slot off its axis.
     """
     clearances = {"slot_clearance_mm": 0.1, "lock_clearance_mm": 0.1}
-    parts = of(**clearances, wheel_bore_mm=16.0).parts_model.flat
+    parts = of(**clearances, wheel_bore_mm=16.0).parts.flat
     rim, end = math.hypot(50.0 * math.sqrt(3.0), 6.0), L - 50.0 - 0.3 - 6.1
     long = math.sqrt(rim**2 - 6.1**2) - end
     shown = {f"Ø {2.0 * rim:.2f}", f"{end:g}", f"6× {long:.3f}", "100", "6× 30°", "6× 60°"}
@@ -349,14 +349,14 @@ def test_a_coupon_has_its_slots_side_by_side():
 def test_set_screws_are_amid_their_hubs():
     """A quarter of a turn after the keyway, which points away from the crank's roller."""
     keys = {"crank_bore_mm": 10.0, "crank_hub_mm": 20.0, "crank_hub_length_mm": 22.0}
-    parts = of(**keys, crank_keyway="DIN 6885-1", crank_screw_mm=3.0, lock_bolts=0).parts
+    parts = of(**keys, crank_keyway="DIN 6885-1", crank_screw_mm=3.0, lock_bolts=0).parts.outlines
     hub = crank_hub(parts)
     (hole,) = hub.cross
     # amid the hub's wall, from the keyway's corner at 5 + 1.4 mm and 1.5 mm aside, to 10 mm
     assert hole.at == pytest.approx((0.0, -0.5 * (10.0 + math.hypot(6.4, 1.5))), abs=1e-9)
     assert (hole.height, hole.radius) == (pytest.approx(16.0), 1.25)
     keys |= {"crank_hub_mm": 30.0}
-    holes = crank_hub(of(**keys, crank_clamp_mm=3.0, lock_bolts=0).parts).cross
+    holes = crank_hub(of(**keys, crank_clamp_mm=3.0, lock_bolts=0).parts.outlines).cross
     assert [one.height for one in holes] == pytest.approx([16.0, 16.0])
 
 
@@ -365,7 +365,7 @@ def test_a_frame_leaves_three_corners_about_its_holes():
 
     The shafts of 16 and 8 mm are at 0 and L: the frame is L + 8 + 4 + 8 (L/20) long.
     """
-    parts = of(wheel_bore_mm=16.0, crank_bore_mm=8.0).parts_model.flat
+    parts = of(wheel_bore_mm=16.0, crank_bore_mm=8.0).parts.flat
     shown = {f"{L + 12.0 + 40.0:g}", "56", "28", "100", "23", "119", "4× R 5"}
     shown |= {"Ø 16 H7 (+0.018/0)", "Ø 8 H7 (+0.015/0)", "4× Ø 3.4 for M3"}
     assert dimensions(draw_frame, parts.frame.part) == shown
@@ -378,7 +378,7 @@ def test_holes_of_a_frame_are_bores_for_its_shafts():
     """
     fit = {"shaft_fit_mm": 0.2, "wall_min_mm": 2.0}
     for bore, hole in ((16.0, 8.1), (0.0, 5.0)):
-        parts = of(wheel_bore_mm=bore, crank_bore_mm=8.0, **fit).parts_model.flat
+        parts = of(wheel_bore_mm=bore, crank_bore_mm=8.0, **fit).parts.flat
         wheel, crank, *mounts = parts.frame.part.holes
         assert (wheel.radius, crank.radius) == (pytest.approx(hole), pytest.approx(4.1))
         assert {one.radius for one in mounts} == {2.25}
@@ -391,7 +391,7 @@ def test_a_ring_gear_is_as_wide_as_two_eyes():
     """A link's pin is L/20 wide, and an eye twice that; M2 for L/40 is amid the rim, at 45°."""
     keys = Keys("epicyclic", "shockless", fixed="ring")
     design = Design.of(Spec(Wheel(4), Drive("epicyclic"), keys, size=Size(L)))
-    (ring,) = (one for one in design.parts_model.flat.links.gears if one.teeth.inside)
+    (ring,) = (one for one in design.parts.flat.links.gears if one.teeth.inside)
     assert ring.plate.outline.radius == pytest.approx(ring.radius + 10.0)
     at = (ring.radius + 5.0) * math.sqrt(0.5)
     assert [one.centre for one in ring.bolts] == [
@@ -406,7 +406,6 @@ def test_the_crank_of_a_sphere():
     Their circle's diameter is across the sphere of the machine, whose radius is L. Half of the
     wheel's thickness is inside of that sphere.
     """
-    from geneva_cli.kinds.spherical.parts import SphereParts
 
     bolts = {"lock_bolts": 2, "lock_bolt_circle_mm": 60.0, "lock_bolt_mm": 2.0}
     size = Size(
@@ -420,7 +419,7 @@ def test_the_crank_of_a_sphere():
         **bolts,
     )
     mechanism = Design.of(Spec(Wheel(6, "spherical"), size=size)).mechanism
-    parts = SphereParts(PartsModel(mechanism).shells)
+    parts = parts_of(mechanism)
     far, height = 30.0 * math.sqrt(0.5), math.sqrt(L**2 - 30.0**2)
     places = [(hole.axis[0] * L, hole.axis[1] * L, hole.axis[2] * L) for hole in parts.arm.bolts]
     assert places == [pytest.approx((-far, side * far, height)) for side in (1.0, -1.0)]
@@ -449,7 +448,7 @@ def test_cones_that_shells_are_laid_flat_on():
 
     size = Size(L, 6.0, pin_gap_mm=0.5, wheel_thickness_mm=8.0, arm_thickness_mm=5.0)
     mechanism = Design.of(Spec(Wheel(6, "spherical"), size=size)).mechanism
-    ball = PartsModel(mechanism).shells.ball
+    ball = parts_of(mechanism).shells.ball
     assert arm_cone(ball) == pytest.approx((L + 4.0 + 0.5 + 2.5, math.pi / 6.0))
     slot = math.pi / 3.0 - 0.003, math.pi / 2.0
     assert wheel_cone(ball) == pytest.approx((L, 0.5 * sum(slot)))
@@ -458,7 +457,7 @@ def test_cones_that_shells_are_laid_flat_on():
 def test_a_first_crank_is_as_wide_as_its_link():
     """The first of two wheels has a machine of its own, whose arm is the drawn link."""
     design = load(str(repo.DESIGNS / "geneva-pair.toml"))
-    (link,) = drawn_links(design.mechanism, design.parts).plates
+    (link,) = drawn_links(design.mechanism, design.parts.outlines).plates
     (_, _, eye), (_, _, hub) = sorted(rounds(link.outline), key=lambda one: one[2])
     size = first_pair(design.mechanism).spec.size
     assert (size.arm_eye_mm, size.arm_hub_mm) == pytest.approx((2.0 * eye, 2.0 * hub))
@@ -482,7 +481,7 @@ def test_an_eye_about_a_rollers_pin_passes_the_wheels_hub():
     keys = Keys("epicyclic", "shockless")
     size = Size(L, 8.0, pin_mm=15.0)
     design = Design.of(Spec(Wheel(4), Drive("epicyclic"), keys, size=size))
-    links = design.parts_model.flat.links
+    links = design.parts.flat.links
     arms = (max(abs(hole.centre[0]) for hole in plate.holes) for plate in links.plates)
     near = L - sum(arms)
     eye = near - 0.75 * (near - 1.05 * 8.0)
@@ -493,7 +492,7 @@ def test_the_end_of_an_arm_passes_a_shoulder():
     """Its end is R + eye from the crank's axis; a shoulder is 1.25 bores wide."""
     shaft = Shaft("wheel's shaft", "wheel", RoundBore(8.0), (), -20.0, 10.0, (0.0, 0.0))
     for eye, near in ((40.1, [("arm", -10.0, 0.0)]), (39.9, [])):
-        parts = of(arm_eye_mm=2.0 * eye).parts
+        parts = of(arm_eye_mm=2.0 * eye).parts.outlines
         assert [seat[:3] for seat in passing_arm(parts, [shaft])] == near
 
 
@@ -516,7 +515,7 @@ def test_teeth_leave_the_backlash_between_them():
     """Along the pitch circles at work both teeth and the backlash fill the pitch."""
     keys = ["size.gear_module_mm=2", "size.gear_backlash_mm=0.2"]
     design = load(str(repo.DESIGNS / "gear-sector.toml"), keys)
-    gears = design.parts_model.flat.links.gears
+    gears = design.parts.flat.links.gears
     thick = sum(one.cut.teeth.thickness(one.radius) for one in gears)
     for one in gears:
         assert thick == pytest.approx(one.radius * one.cut.teeth.step - 0.2, rel=1e-9)
@@ -529,7 +528,7 @@ def test_a_low_mouth_is_raised_by_a_fifth():
     wheel's axis, and the lower mouths are raised to a fifth of the way from there to the rim.
     """
     spec = Spec(Wheel(6, steps_deg=(90.0, 30.0)), size=Size(L, 4.0, wheel_bore_mm=6.0))
-    arcs = [one for one in Design.of(spec).parts.wheel.segments if isinstance(one, Arc)]
+    arcs = [one for one in Design.of(spec).parts.outlines.wheel.segments if isinstance(one, Arc)]
     about_axis = {one.radius for one in arcs if math.hypot(*one.centre) < 1e-9}
     short = math.radians(15.0)
     rim, reach = math.hypot(L * math.cos(short), 4.0), L - (L * math.sin(short) - 8.0)

@@ -23,7 +23,7 @@ def of(name, *given):
 
 def least_gap(design, name, where, radius, turn):
     """The least distance of a circle from a link's polygon as it moves, negative inside."""
-    links = drawn_links(design.mechanism, design.parts)
+    links = drawn_links(design.mechanism, design.parts.outlines)
     outline = polygon(next(p for p in links.plates if p.name == name).outline)
     link = next(one for one in links_at(design.mechanism, turn) if one.name == name)
     (x, y), (u, v) = link.joints[:2]
@@ -42,7 +42,7 @@ def least_gap(design, name, where, radius, turn):
 @pytest.mark.parametrize("hub", [2.0, 4.0])
 def test_a_coupler_over_the_wheels_hub(hub):
     design = of("four-bar-z4", f"size.wheel_hub_mm={hub}")
-    found = planes(design.parts, design.parts_model.flat.links).nearest
+    found = planes(design.parts.outlines, design.parts.flat.links).nearest
     turn = np.linspace(-180.0, 180.0, 721)
     least = least_gap(design, "coupler", lambda _: (0.0, 0.0), 0.5 * hub, turn)
     # 721 angles and chords of arcs, against twice as many angles and the arcs themselves
@@ -67,9 +67,9 @@ def test_a_crank_past_the_guides_pin():
     turn = np.linspace(-180.0, 180.0, 721)
     guide = next(one for one in links_at(design.mechanism, turn) if one.name == "guide")
     x, y = guide.joints[2]
-    sizes = drawn_links(design.mechanism, design.parts).sizes
+    sizes = drawn_links(design.mechanism, design.parts.outlines).sizes
     least = least_gap(design, "crank", lambda i: (x[i], y[i]), sizes.ring, turn)
-    found = planes(design.parts, design.parts_model.flat.links).nearest
+    found = planes(design.parts.outlines, design.parts.flat.links).nearest
     assert found.gap == pytest.approx(least, abs=0.02)
     assert found.passing == "the pin of rod and guide"
     # a long slider crank comes no nearer than rod less crank, less the eyes
@@ -85,14 +85,14 @@ def test_a_shaft_that_cannot_get_out():
     outside = Design.of(Spec(Wheel(6), Drive("side-crank"), keys))
     (row,) = [c for c in outside.checks if c.name == "link_gap_mm"]
     assert (
-        row.passes and planes(outside.parts, outside.parts_model.flat.links).blocked is None
+        row.passes and planes(outside.parts.outlines, outside.parts.flat.links).blocked is None
     )  # through the locking disc
 
 
 @pytest.mark.parametrize("name", ["cam-geneva", "epicyclic-z4", "epicyclic-soft-z6"])
 def test_designs_are_clear(name):
     design = of(name)
-    found = planes(design.parts, design.parts_model.flat.links)
+    found = planes(design.parts.outlines, design.parts.flat.links)
     assert found.blocked is None and found.nearest.gap > 0.0
 
 
@@ -116,7 +116,7 @@ def test_no_two_links_lie_in_one_plane(name):
     design = of(name)
     bars = [link for link in links_at(design.mechanism, np.zeros(3)) if not link.radius_mm]
     assert len({link.plane for link in bars}) == len(bars)
-    plates = {p.name: p for p in drawn_links(design.mechanism, design.parts).plates}
+    plates = {p.name: p for p in drawn_links(design.mechanism, design.parts.outlines).plates}
     stacked = sorted((plates[link.name].low, plates[link.name].high) for link in bars)
     for (_, high), (low, _) in zip(stacked, stacked[1:], strict=False):
         # planes are summed up from the top, one from another

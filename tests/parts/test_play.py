@@ -18,8 +18,7 @@ from shapely.geometry import Point
 from test_outline import disc, made, turned
 from words import Motion, load
 
-from geneva_cli.parts.outlines.outline_sizes import outlines
-from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.turn.free_angles import free_angles
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.gaps import Gaps
@@ -37,7 +36,7 @@ class HandOver:
     Everything here is circles and points about the two axes, taken from the sizes alone.
     """
 
-    def __init__(self, found: Outlines) -> None:
+    def __init__(self, found: Parts) -> None:
         size, self.L = found.sizes, found.assembly.L
         self.b = math.pi / len(found.assembly.slots)
         self.R = self.L * math.sin(self.b)
@@ -123,17 +122,17 @@ def test_hand_over_is_refined_to_its_kink(
     assert check.passes == (push < 73.30)
 
 
-def machine(tmp_path: Path, text: str) -> Outlines:
+def machine(tmp_path: Path, text: str) -> Parts:
     spec = tmp_path / "spec.toml"
     spec.write_text(text)
-    return outlines(load(str(spec)))
+    return parts_of(load(str(spec))).turned
 
 
-def free(found: Outlines, at_deg: float, lead_deg: float) -> bool:
+def free(found: Parts, at_deg: float, lead_deg: float) -> bool:
     """Whether parts of fine chords are apart, the wheel being turned on from its place."""
     assembly, flat = found.assembly, 1e-6 * found.assembly.L
     less = 2.0 * flat + found.close
-    wheel = polygon(found.wheel, flat)
+    wheel = polygon(found.outlines.wheel, flat)
     if assembly.sign < 0.0:
         wheel = disc(found.sizes.outer).difference(wheel)
     at = np.array([at_deg])
@@ -142,7 +141,7 @@ def free(found: Outlines, at_deg: float, lead_deg: float) -> bool:
         affinity.translate(
             turned(polygon(crank, flat).buffer(-less), float(assembly.crank(at)[0])), assembly.L
         )
-        for crank in found.crank
+        for crank in found.outlines.crank
     ]
     for number in range(len(assembly.rollers)):
         parts.append(affinity.translate(roller, *assembly.pin(number, at)[0]))
@@ -224,7 +223,7 @@ def test_play_where_the_roller_changes_walls(name: str) -> None:
     parts = (
         made(8, motion=motion, slot_clearance_mm=0.02)
         if motion
-        else outlines(load(str(DESIGNS / f"{name}.toml")))
+        else parts_of(load(str(DESIGNS / f"{name}.toml"))).turned
     )
     window = next(w for w in windows(parts) if not w.rests)
     at_deg = np.linspace(window.start, window.end, 20_000)
@@ -261,13 +260,13 @@ def test_angles_are_the_inputs(name: str, entry: float) -> None:
     mechanism = load(str(DESIGNS / f"{name}.toml"))
     engagement = mechanism.engagements[0]
     assert engagement.entry_deg == pytest.approx(entry, abs=1e-3)
-    turn = full_turn(outlines(mechanism))
+    turn = full_turn(parts_of(mechanism))
     assert turn.driving.at_deg == pytest.approx(engagement.entry_deg, abs=1e-6)
 
 
 def test_angles_of_a_longer_period_begin_at_its_entry() -> None:
     mechanism = load(str(DESIGNS / "geneva-pair.toml"))
-    assembly = outlines(mechanism).assembly
+    assembly = parts_of(mechanism).assembly
     entry = mechanism.engagements[0].entry_deg
     assert assembly.shown_deg(assembly.start_deg) == pytest.approx(entry, abs=1e-9)
     turns = [assembly.shown_deg(assembly.start_deg + x) for x in np.linspace(0.0, 359.0, 60)]

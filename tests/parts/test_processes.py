@@ -13,7 +13,6 @@ from typer.testing import CliRunner
 
 from geneva_cli import Design, External, Load, Size, load
 from geneva_cli.cli.app import app
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Group, Member, Plate
 from geneva_cli.geometry.shapes import Circle, Point
@@ -22,6 +21,7 @@ from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.outlines.outline_sizes import sizes
+from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.shafts.fits import limits
 from geneva_cli.spec.processes import PROCESSES
 from geneva_cli.spec.workshops import deviation_mm, workshop
@@ -334,7 +334,7 @@ def test_a_process_is_its_keys(process: str) -> None:
     assert named.spec.size.allowances[:5] == spelled.allowances[:5]
     where = assembly(named.mechanism)
     assert sizes(where) == sizes(assembly(Design(External(6), size=spelled).mechanism))
-    page = report_sizes(named.parts_model) | inputs(named.parts_model)
+    page = report_sizes(named.parts) | inputs(named.parts)
     assert page["clearances_from"] == source
     keys.pop("gear_backlash_mm")  # on which no number of a report depends
     assert {key: page[f"size.{key}"] for key in keys} == keys
@@ -378,7 +378,7 @@ def test_rods_stay_and_bores_widen(path: Path) -> None:
     The shafts are those of the design without a process.
     """
     plain, printed = (
-        load(str(path), [*keys, *SAME_REST]).parts_model for keys in ((), ("size.process=print",))
+        load(str(path), [*keys, *SAME_REST]).parts for keys in ((), ("size.process=print",))
     )
     shafts = [sorted(one[0] for one in _rods(model, "SHAFT")) for model in (plain, printed)]
     assert shafts[1] == pytest.approx(shafts[0], abs=1e-9)  # mm, of sums of lengths
@@ -391,7 +391,7 @@ def test_rods_stay_and_bores_widen(path: Path) -> None:
     assert loose in ({0.4}, {0.0, 0.4})
 
 
-def _rods(model: PartsModel, *layers: str) -> Iterator[tuple[float, Point]]:
+def _rods(model: Parts, *layers: str) -> Iterator[tuple[float, Point]]:
     """Yield radius and place of all plain shafts and pins of a flat machine."""
     for one in placed(model.built.members):
         plate = one.part
@@ -401,7 +401,7 @@ def _rods(model: PartsModel, *layers: str) -> Iterator[tuple[float, Point]]:
             yield plate.outline.radius, one.at
 
 
-def _holes(model: PartsModel) -> Iterator[tuple[Circle, Point]]:
+def _holes(model: Parts) -> Iterator[tuple[Circle, Point]]:
     """Yield the round holes of all plates of a flat machine, with their places."""
     for one in placed(model.built.members):
         for hole in one.part.holes if isinstance(one.part, Plate) else ():

@@ -100,9 +100,9 @@ def test_small_machines_have_no_screws() -> None:
     """At L = 40 a hole of L/40 is 1 mm; a dial that needs some is told so."""
     small = Design(External(6), size=Size(40.0))
     assert not listed(small)
-    assert not small.parts_model.flat.arm.bolts
+    assert not small.parts.flat.arm.bolts
     for key in ("dial_bolts", "lock_bolts"):
-        parts = Design(External(6), size=Size(40.0, **{key: 2})).parts_model.flat
+        parts = Design(External(6), size=Size(40.0, **{key: 2})).parts.flat
         with pytest.raises(GenevaError, match=f"{key} = 2: .* too small for a screw of M1.6") as no:
             parts.require()
         assert no.value.key == ("size", key)

@@ -9,7 +9,6 @@ from geneva_cli import Design, External, Internal, SideCrank, Size, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import plates
 from geneva_cli.parts.arm import crank_arm
-from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.verdict.shaft_gap import ring_gap, shaft_gap
 
 STEEL = 7850e-9  # kg/mm³
@@ -74,7 +73,7 @@ def test_where_they_end():
 
 
 def gap_of(design):
-    return shaft_gap(FlatParts(design.mechanism, design.parts))
+    return shaft_gap(design.parts)
 
 
 def test_a_hub_is_a_ring():
@@ -101,7 +100,7 @@ def test_a_hub_is_a_ring():
 def test_an_arm_beside_the_wheels_hub():
     """With a hub as wide as that it is the arm that comes nearest, not the wheel to the crank."""
     design = with_(wheel_hub_mm=82.0)
-    room = crank_arm(design.parts).hub_gap
+    room = crank_arm(design.parts.outlines).hub_gap
     found = row(design, "beside_shafts_mm")
     assert found.value == pytest.approx(room, abs=1e-9) and found.value > 0.0
     wide = with_(wheel_hub_mm=88.0, arm_eye_mm=16.0)

@@ -220,7 +220,7 @@ def test_each_item_of_the_list_has_one_balloon(path, sheets):
 @pytest.mark.parametrize("name", ["turret", "internal-z6", "cam-geneva", "side-crank-z6"])
 def test_the_section_shows_what_the_plane_of_the_axes_cuts(name, sheets):
     """Against the polygons of the plates at their places, cut by a line in shapely."""
-    parts = sheets(name)[0].parts_model.flat.within(TOLERANCE, "arcs")
+    parts = sheets(name)[0].parts.flat.within(TOLERANCE, "arcs")
     cut = faces(parts.members, 1.0)
     for own, plate in in_place(parts.members):
         rings = [vertices(shape, 0.01) for shape in (plate.outline, *plate.holes)]
@@ -276,7 +276,7 @@ def test_links_have_their_views(name, sheets):
     design, found = sheets(name)
     rows = design.part_table("parts").to_rows()
     titles = [re.sub(r", t = .*", "", label.text) for label in found.labels]
-    bars = drawn_links(design.mechanism, design.parts)
+    bars = drawn_links(design.mechanism, design.parts.outlines)
     for i, row in enumerate((row for row in rows if row["row"] == "part"), 1):
         if row["name"] in {plate.name for plate in bars.plates}:
             assert f"{i} {row['name']}" in titles
@@ -327,7 +327,7 @@ def test_small_machines_are_enlarged_and_large_ones_fill_their_paper(sheets):
 def test_points_of_a_curved_slot_are_on_it():
     """The table as it is printed: chords within what it says, of the points that `slot` gives."""
     design = load(str(repo.DESIGNS / "press-curved.toml"))
-    (block,) = tables(design.parts_model.outlines, 0.01)
+    (block,) = tables(design.parts.outlines, 0.01)
     downwards = sorted(block.labels, key=lambda label: (-label.at[1], label.at[0]))
     texts = [label.text for label in downwards]
     numbers = [float(text) for text in texts if re.fullmatch(r"-?\d+\.\d{3}", text)]
@@ -356,7 +356,7 @@ def test_points_of_a_slot_laid_flat_are_on_the_sphere():
     from geneva_cli.kinds.spherical.drawings import wheel_cone
     from geneva_cli.kinds.spherical.sheet import flat_slot
 
-    ball = load(str(repo.DESIGNS / "spherical-z6.toml")).parts_model.shells.ball
+    ball = load(str(repo.DESIGNS / "spherical-z6.toml")).parts.shells.ball
     cone, R, b = wheel_cone(ball), ball.radius_mm, math.pi / ball.z
     points = printed(flat_slot(ball, TOLERANCE))
     assert points[-1][1] == 0.0 > max(y for _, y in points[:-1])

@@ -5,13 +5,14 @@ import math
 import numpy as np
 import pytest
 import repo
+from other_shape import with_shape
 from test_outline import made
 from words import Motion, load
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.geometry.measure import at
 from geneva_cli.geometry.shapes import Arc, Line
 from geneva_cli.motion.mechanism import build
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.free_angles import free_angles, search_deg
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.gaps import Gaps
@@ -32,12 +33,12 @@ PAST = 1e-5  # radians: what grazes at 100 mm overlaps by some 1e-7 mm more, as 
 ROUNDING = 1e-10  # mm: of gaps of some hundred mm
 
 
-def parts_of(name):
+def named(name):
     machine = load(str(repo.DESIGNS / f"{name}.toml"))
     if name in LOOSE:
         spec = machine.spec.with_("size.slot_clearance_mm", 0.05)
         machine = build(spec.with_("size.lock_clearance_mm", 0.04))
-    return PartsModel(machine).parts
+    return parts_of(machine)
 
 
 def places(parts):
@@ -51,7 +52,7 @@ def places(parts):
 @pytest.mark.parametrize("name", [*BARE, *LOOSE])
 def test_a_stop_is_the_first_place_where_parts_overlap(name):
     """By gaps that are distances of points, not contacts: none before the stop, one behind it."""
-    parts = parts_of(name)
+    parts = named(name)
     at = places(parts)
     pose, most = parts.gaps.pose(at), math.radians(search_deg(parts))
     apart = (
@@ -92,13 +93,15 @@ def bent(contour, sagitta):
 def test_nearly_straight_walls_stop_like_straight_ones(sagitta):
     """Fitted arcs may have a radius of kilometres: stops were missed."""
     parts = made(6, roller_radius_mm=5.0, slot_clearance_mm=0.1, lock_clearance_mm=0.05)
-    gaps = Gaps(parts.assembly, parts.sizes, bent(parts.wheel, sagitta), parts.crank)
+    gaps = Gaps(
+        parts.assembly, parts.sizes, bent(parts.outlines.wheel, sagitta), parts.outlines.crank
+    )
     at_deg = parts.assembly.start_deg + np.linspace(0.0, 359.0, 360)
     pose, lead = parts.gaps.pose(at_deg), np.linspace(-0.1, 0.1, 360)
     for own, other in ((parts.gaps.rollers, gaps.rollers), (parts.gaps.locking, gaps.locking)):
         # the walls' own difference, and rounding of 100 mm
         assert np.abs(own(pose, lead) - other(pose, lead)).max() < sagitta + 1e-13
-    straight, curved = free_angles(parts, at_deg), free_angles(parts._replace(gaps=gaps), at_deg)
+    straight, curved = free_angles(parts, at_deg), free_angles(with_shape(parts, gaps=gaps), at_deg)
     # where the roller is 50 mm or more from the wheel's axis; contacts of corners graze
     assert np.abs(np.subtract(straight, curved)).max() < sagitta / 50.0 + 1e-7
 

@@ -13,11 +13,11 @@ import re
 import numpy as np
 import pytest
 import repo
+from other_shape import with_shape
 from sampling import some
 from turn_witness import ROUNDING, TO_MM, check_bounds, check_proof, least_gap, turn_of
 from words import load
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
@@ -30,7 +30,7 @@ from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.numerics.arrays import Undecided
-from geneva_cli.parts.outlines.outline_sizes import outlines
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn import turn_certificate as halving
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.travel import UNKNOWN, Travel, curve_rates, path_travel, slot_travel
@@ -43,8 +43,8 @@ FLAT = [path.name for path in sorted(repo.DESIGNS.glob("*.toml")) if load(path).
 
 
 @functools.cache
-def parts_of(name):
-    return outlines(load(repo.DESIGNS / name))
+def named(name):
+    return parts_of(load(repo.DESIGNS / name))
 
 
 def proved(parts):
@@ -73,7 +73,7 @@ def random_parts(seed):
         relief=rng.choice([None, None, "sector"]),
     )
     try:
-        return outlines(build(Spec(wheel, drive, motion=motion, size=size)))
+        return parts_of(build(Spec(wheel, drive, motion=motion, size=size))).turned
     except GenevaError:
         return None
 
@@ -88,11 +88,11 @@ def with_roller(parts, larger_mm):
     """The parts with larger rollers in the same slots."""
     gaps = copy.copy(parts.gaps)
     gaps.sizes = parts.sizes._replace(roller=parts.sizes.roller + larger_mm)
-    return parts._replace(sizes=gaps.sizes, gaps=gaps)
+    return with_shape(parts, sizes=gaps.sizes, gaps=gaps)
 
 
 def with_crank(parts, contours):
-    return parts._replace(crank=contours, gaps=parts.gaps.with_crank(contours))
+    return with_shape(parts, crank=contours, gaps=parts.gaps.with_crank(contours))
 
 
 def larger_crank(parts, larger_mm):
@@ -108,14 +108,14 @@ def larger_crank(parts, larger_mm):
             c._replace(
                 segments=tuple(s._replace(start=at(s.start), end=at(s.end)) for s in c.segments)
             )
-            for c in parts.crank
+            for c in parts.outlines.crank
         ],
     )
 
 
 def with_spike(parts, rng):
     """The crank with a thin spike on its outline, up to 3 mm high."""
-    [contour, *rest] = parts.crank
+    [contour, *rest] = parts.outlines.crank
     i = rng.randrange(len(contour.segments))
     segment = contour.segments[i]
     if isinstance(segment, Line):
@@ -137,7 +137,7 @@ def with_spike(parts, rng):
 def test_nearest_and_farthest_distances_against_dense_points(name):
     """Points lie at most 0.05 mm apart: they are that much farther, or nearer, at most."""
     rng = np.random.default_rng(1)
-    wheel = parts_of(name).gaps.wheel
+    wheel = named(name).gaps.wheel
     dense = wheel.samples(1e-4, 0.05)
     size = float(np.abs(dense).max())
     points = rng.uniform(-size, size, (40, 2))
@@ -161,7 +161,7 @@ def test_nearest_and_farthest_distances_against_dense_points(name):
 
 def test_short_pieces_are_the_same_outline():
     for name in ("turret.toml", "quick-index.toml", "offset-slots.toml"):
-        crank = parts_of(name).crank
+        crank = named(name).outlines.crank
         whole, short = Polyarc(crank), short_pieces(crank, math.radians(1.0))
         points = np.random.default_rng(2).uniform(-80.0, 80.0, (200, 2))
         apart = np.abs(whole.signed(points)) - np.abs(short.signed(points))
@@ -174,7 +174,7 @@ def test_short_pieces_are_the_same_outline():
 @pytest.mark.sampled(8)
 def test_a_roller_travels_no_farther_than_its_bound(name):
     """Neither from the middle of an interval nor from its chord, at 101 places of each."""
-    assembly = parts_of(name).assembly
+    assembly = named(name).assembly
     turn, L = assembly.turn_deg, assembly.L
     rng = np.random.default_rng(6)
     for number, (engagement, behind) in enumerate(assembly.rollers):
@@ -216,7 +216,7 @@ def test_a_path_that_is_unknown_closes_no_interval():
 @pytest.mark.parametrize("name", FLAT)
 @pytest.mark.sampled(8)
 def test_no_gap_within_an_interval_is_below_its_bound(name):
-    parts = parts_of(name)
+    parts = named(name)
     check_bounds(parts, np.random.default_rng(3))
 
 
@@ -228,7 +228,7 @@ def test_no_gap_of_a_random_machine_is_below_its_bound():
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", FLAT)
 def test_designs_are_proved_to_a_micrometre_of_their_smallest_gap(name):
-    parts = parts_of(name)
+    parts = named(name)
     gap = full_turn(parts).smallest.mm
     to_mm = max(TO_MM, 2.0 * parts.contact)
     assert check_proof(parts, gap, to_mm).proved
@@ -255,7 +255,7 @@ def test_a_collision_of_known_depth_is_proved_to_no_less(name, depth):
 
     Walls of a curved slot are up to CURVED from their true place.
     """
-    parts = parts_of(name)
+    parts = named(name)
     for worse in (with_roller(parts, depth), larger_crank(parts, depth)):
         found = proved(worse)
         assert found.proved == (depth < TO_MM)
@@ -272,7 +272,7 @@ def test_a_spike_that_collides_for_a_moment_is_never_proved_free():
     collides = free = 0
     for name in ("turret.toml", "three-slots.toml", "quick-index.toml"):
         for _ in range(some(100, 6)):
-            parts = with_spike(parts_of(name), rng)
+            parts = with_spike(named(name), rng)
             if parts is None:
                 continue
             gap = least_gap(parts, turn_of(parts, some(8_000, 2_000)))
@@ -287,7 +287,7 @@ def test_a_spike_that_collides_for_a_moment_is_never_proved_free():
 
 def test_an_interval_that_is_left_open_is_named(monkeypatch):
     monkeypatch.setattr(halving, "MOST", 100)
-    found = proved(parts_of("turret.toml"))
+    found = proved(named("turret.toml"))
     assert not found.proved
     assert found.between == "locking disc and wheel"
     start, end, gap, least = found.open
@@ -297,13 +297,13 @@ def test_an_interval_that_is_left_open_is_named(monkeypatch):
 
 def checked(parts, turn_of=None, to_mm=None):
     """The check of parts whose sampled turn may be that of other parts."""
-    model = PartsModel(parts.assembly.full)
-    vars(model).update(outlines=parts, _turn=full_turn(turn_of or parts))
-    return least_gap_check("gap_proved_mm", model, to_mm)
+    own = with_shape(parts)
+    vars(own)["_turn"] = full_turn(turn_of or parts)
+    return least_gap_check("gap_proved_mm", own, to_mm)
 
 
 def test_the_check_passes_with_its_proof_and_fails_where_samples_missed_a_collision():
-    parts = parts_of("turret.toml")
+    parts = named("turret.toml")
     check = checked(parts)
     assert check.passes
     assert re.fullmatch(r"collision-free, proved to 1 µm \([\d,]+ intervals\)", check.why)
@@ -319,7 +319,7 @@ def test_the_check_passes_with_its_proof_and_fails_where_samples_missed_a_collis
 def test_the_wheel_lies_within_the_circle_that_gaps_are_counted_from():
     """A roller beyond the rim is as far from the wheel as from the rim, or farther."""
     for name in FLAT:
-        parts = parts_of(name)
+        parts = named(name)
         rim = parts.pairs(0.0).rim
         # the corners of a mouth are rounded to 1e-7 mm, the ends of curved walls
         assert parts.assembly.sign * (parts.sizes.rim - rim) > -1e-7

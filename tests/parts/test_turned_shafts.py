@@ -10,7 +10,6 @@ from step_witness import File, Solid
 
 import geneva_cli
 from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, load
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.plates import Group, Plate, Stack, lowered, solids
@@ -18,9 +17,9 @@ from geneva_cli.geometry.shapes import Circle
 from geneva_cli.motion import registry
 from geneva_cli.output.mesh.solids import bodies
 from geneva_cli.output.step import chunks
-from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.links.links import placed_holes
 from geneva_cli.parts.outlines.outline_sizes import machine_sizes
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.shafts.bearings import DIN_471, SERIES_60, bearing_up_to, circlip_up_to
 from geneva_cli.parts.sizes.stressed import stressed
 from geneva_cli.specfile.template import template
@@ -227,10 +226,9 @@ def test_refused(design, said):
 
 def test_steps_on_a_sphere():
     """Seen from its axis each shaft is one of a plane: the sphere's outside is the height 0."""
-    from geneva_cli.kinds.spherical.parts import SphereParts
 
     size = Size(80.0, 5.0, shafts="turned", wheel_bore_mm=16.0, wheel_hub_mm=24.0, arm_bore_mm=10.0)
-    parts = SphereParts(PartsModel(Design(Spherical(6), size=size).mechanism).shells)
+    parts = parts_of(Design(Spherical(6), size=size).mechanism)
     wheel, crank = (m.part for m in parts.shafts)
     (inside, _), (under, over) = parts.ball.span_mm, parts.ball.arm_span_mm
     n, m = 1.5 * (15.0 - 14.3), 1.1
@@ -267,8 +265,8 @@ def test_shafts_of_every_kind(kind, tmp_path):
     if load(str(spec)).mechanism.center_distance_mm < 60.0:
         keys.append("size.link_bore_mm=5")  # the default is too thin for a bearing
     design = load(str(spec), keys)
-    parts = FlatParts(design.mechanism, design.parts)
-    plain = FlatParts(load(str(spec), keys[1:]).mechanism)
+    parts = design.parts
+    plain = parts_of(load(str(spec), keys[1:]).mechanism)
     frame, free = parts.frame.part, plain.frame.part.high
     assert free - frame.high == pytest.approx(design.mechanism.center_distance_mm / 50.0)
     for before, after in zip(plain.shafts, parts.shafts, strict=True):
@@ -345,10 +343,9 @@ def test_stress_in_the_bearing():
 
 @pytest.mark.parametrize("shape", ["round", "D", "hex"])
 def test_shafts_of_a_sphere_fit_too(shape):
-    from geneva_cli.kinds.spherical.parts import SphereParts
 
     size = Size(80.0, 5.0, wheel_bore=shape, wheel_bore_mm=10.0, wheel_hub_mm=16.0, process="print")
-    parts = SphereParts(PartsModel(Design(Spherical(6), size=size).mechanism).shells)
+    parts = parts_of(Design(Spherical(6), size=size).mechanism)
     (bar,) = [m.part for m in parts.shafts if m.part.name == "wheel's shaft"]
     hub = next(s for s in solids(parts.wheel.part) if s.name == "wheel's hub")
     body, bore = (polygon(s, 1e-6) for s in (bar.outline, hub.holes[0]))

@@ -50,7 +50,7 @@ def test_the_plate_of_a_wheel_by_its_polygon(name):
     design = load(str(repo.DESIGNS / f"{name}.toml")).with_("size.face_width_mm", 20.0)
     design = design.with_("material.wheel.density_kgm3", 2700.0)
     sizes = design.parts.sizes
-    area, polar = polygon(vertices(design.parts.wheel, 1e-5))
+    area, polar = polygon(vertices(design.parts.outlines.wheel, 1e-5))
     discs = [(sizes.outer, 1.0 if sizes.outer else 0.0), (sizes.wheel_bore, -1.0)]
     if sizes.outer:
         area, polar = -area, -polar  # the contour is the opening

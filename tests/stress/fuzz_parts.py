@@ -15,9 +15,9 @@ from fuzzing import campaign, strictly
 
 from geneva_cli.design import Design
 from geneva_cli.drawings.catalogue import DRAWINGS, PARTS, is_table, part_drawing, part_table
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.pieces import pieces_table
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.study.verdicts import Verdict, checks_table
 from geneva_cli.table import flat
 from geneva_cli.verdict.advice import judged
@@ -58,9 +58,9 @@ def one(text):
                 continue
             for samples in (None, 33, 50) if listed else ():
                 tried(part_table, machine, part, tolerance, samples)
-        drawn = PartsModel(machine)
+        drawn = parts_of(machine)
         try:
-            drawn.parts  # noqa: B018 - made here, once for all parts
+            drawn.turned  # noqa: B018 - made here, once for all parts
         except GenevaError as error:
             assert error.key, f"no place: {error}"
             return "parts refused"

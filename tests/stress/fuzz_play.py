@@ -11,6 +11,7 @@ import sys
 
 import numpy as np
 from fuzzing import campaign, in_time
+from other_shape import with_shape
 from test_full_turn import random_case
 from test_outline import made
 
@@ -32,7 +33,7 @@ def wider(found, more_slot):
     size = found.sizes._replace(half_width=found.sizes.half_width + more_slot)
     fine = 1e-6 * found.assembly.L  # as ``outlines`` draws them
     walls = {e: slot_walls(found.assembly, size, e, fine) for e in found.assembly.kinds}
-    return found._replace(sizes=size, slots=walls)
+    return with_shape(found, sizes=size, slots=walls)
 
 
 def deeper(found, more_lock):
@@ -43,9 +44,9 @@ def deeper(found, more_lock):
     size = found.sizes._replace(recess=found.sizes.recess + more_lock)
     if size.horn <= 0.0:
         raise GenevaError("the recess breaks into the slot")  # as the check of the horn says
-    wheel = wheel_contour(found.assembly, size, found.slots)
-    gaps = Gaps(found.assembly, size, wheel, found.crank)
-    return found._replace(sizes=size, wheel=wheel, gaps=gaps)
+    wheel = wheel_contour(found.assembly, size, found.outlines.slots)
+    gaps = Gaps(found.assembly, size, wheel, found.outlines.crank)
+    return with_shape(found, sizes=size, wheel=wheel, gaps=gaps)
 
 
 def places(found, rng):
@@ -70,7 +71,7 @@ def require_no_less_play(found, rng, widths, recesses):
     for width in range(widths):
         found = wider(found, rng.choice(MORE)) if width else found
         before = None
-        for depth in depths if found.crank else depths[:1]:
+        for depth in depths if found.locked else depths[:1]:
             try:
                 one = deeper(found, depth)
             except GenevaError:
@@ -79,7 +80,7 @@ def require_no_less_play(found, rng, widths, recesses):
             count += 1
             require_no_less(play, before, one, at)
             if depth in narrower and depth in eased:
-                more = free_angles(one._replace(close=one.close + spare), at) if curved else play
+                more = free_angles(with_shape(one, close=one.close + spare), at) if curved else play
                 require_no_less(np.stack(more), narrower[depth], one, at)
             before = narrower[depth] = play
     return count

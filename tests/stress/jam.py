@@ -181,8 +181,8 @@ def cranked(design, folder, larger=0.0):
     Returns its play as well.
     """
     turns = design.spec.output.turns
-    proof = design.parts_model
-    assembly, L = proof.parts.assembly, proof.parts.assembly.L
+    proof = design.parts
+    assembly, L = proof.assembly, proof.assembly.L
     for part in ("wheel", "crank"):
         draw(design.drawing(part), str(folder / f"{part}.dxf"))
     wheel, _ = outlines(folder / "wheel.dxf", "WHEEL", SAGITTA * L)
@@ -194,8 +194,8 @@ def cranked(design, folder, larger=0.0):
     at = assembly.start_deg + assembly.turn_deg * np.arange(STEPS + 1) / STEPS
     out = Simulation(L, Turning() if turns else Sliding(L), at, assembly.wheel(at))
     out.outline(out.wheel, wheel)
-    for window in windows(proof.parts):
-        if window.rests and not proof.parts.crank:
+    for window in windows(proof):
+        if window.rests and not proof.locked:
             out.held |= (at[:-1] > window.start) & (at[1:] < window.end)
     meshed = assembly.geared(at)
     out.geared = meshed[:-1] | meshed[1:]
@@ -243,7 +243,7 @@ def widened(path):
 def turned(path, folder):
     """Return the faults of a design's files as a list of texts, and a line with the results."""
     design = widened(path)
-    spare = design.parts_model.parts.sizes.half_width - design.mechanism.roller_radius_mm
+    spare = design.parts.sizes.half_width - design.mechanism.roller_radius_mm
     machine, play = cranked(design, folder)
     angles, deepest = machine.run()
     out, at = beyond_play(machine, play, angles)

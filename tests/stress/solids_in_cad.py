@@ -242,7 +242,7 @@ def main():
         name = Path(path).stem
         try:
             design = load(path, options.set)
-            parts = design.parts_model.built
+            parts = design.parts.built
         except GenevaError as error:
             print(f"{name:24} {str(error).partition(': ')[2][:70]}")
             continue

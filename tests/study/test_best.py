@@ -11,7 +11,7 @@ import tomli
 from scipy.optimize import brentq
 
 from geneva_cli import GenevaError, load
-from geneva_cli.drawings.model import PartsModel
+from geneva_cli.parts.parts import Parts
 from geneva_cli.study.sweep import best_search
 from geneva_cli.study.sweep.best import best_spec
 from geneva_cli.study.sweep.best_search import SweepSearch
@@ -63,10 +63,8 @@ def test_a_bound_that_rounding_breaks_is_said_to_be_met_to_rounding(tmp_path):
 def test_of_the_best_alone_is_told_what_is_asked_for_beside(tmp_path, monkeypatch):
     """Its gaps take a full turn of the parts, which need not be made of a thousand designs."""
     turned = []
-    plain = PartsModel.turn.fget
-    monkeypatch.setattr(
-        PartsModel, "turn", property(lambda model: turned.append(model) or plain(model))
-    )
+    plain = Parts.turn.fget
+    monkeypatch.setattr(Parts, "turn", property(lambda model: turned.append(model) or plain(model)))
     asked = {"pick": "smallest_gap_mm,drive.kind", "check": True, "best": "max:dwell_s"}
     lines, design = best(tmp_path, "drive.A=-0.2..0.5", **asked)
     assert len({*map(id, turned)}) == 1

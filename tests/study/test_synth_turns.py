@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import geneva_cli
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.drives.cam import Cam
 from geneva_cli.drives.crank import Crank
 from geneva_cli.motion.laws.standard import ModifiedSine
@@ -13,6 +12,7 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.internal import Internal
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.glance import gap_about, play_about
 from geneva_cli.spec.tables import Size
 from geneva_cli.study.synth.built import built
@@ -40,7 +40,7 @@ def test_a_gap_that_fails_is_found_where_it_failed_before(four_bar):
     seen = Turn(build(large)).failing
     assert [one.name for one in seen] == ["gap_mm"]
     assert [one.name for one in Turn(build(large)).first_failing] == ["gap_mm"]
-    parts = PartsModel(build(next_)).parts
+    parts = parts_of(build(next_))
     assert gap_about(parts, seen[0].at_deg) < -parts.contact
     assert Turn(build(next_)).some_failing(seen) == seen
     assert [c.name for c in checks(build(next_)) if c.passes is False] == ["gap_mm"]
@@ -54,10 +54,10 @@ def test_a_play_that_fails_is_found_where_it_failed_before():
     """
     rows = search(read_target(motion_deg="180", z="6", external=True, rollers=1)).rows
     (spec,) = [row.spec for row in rows if row.candidate.drive == "cam"]
-    whole = PartsModel(build(spec))
+    whole = parts_of(build(spec))
     largest = whole.turn.hand_over
-    assert largest.deg > finds_slot(whole.parts)
-    assert 0.9 < play_about(whole.parts, largest.at_deg) / largest.deg <= 1.0 + 1e-6
+    assert largest.deg > finds_slot(whole)
+    assert 0.9 < play_about(whole, largest.at_deg) / largest.deg <= 1.0 + 1e-6
     seen = [Check("hand_over_play_deg", None, "at most", None, False, at_deg=largest.at_deg)]
     assert Turn(build(with_roller(spec, 4.0))).some_failing(seen) == seen
 
@@ -65,14 +65,14 @@ def test_a_play_that_fails_is_found_where_it_failed_before():
 def test_play_in_a_slot_is_none_between_lock_and_slot():
     """Amid a motion the roller is in its slot, however loose that is."""
     loose = Spec(External(6), size=Size(slot_clearance_mm=0.5))
-    assert play_about(PartsModel(build(loose)).parts, 0.0) == 0.0
+    assert play_about(parts_of(build(loose)), 0.0) == 0.0
 
 
 @pytest.mark.parametrize("share", [0.05, 0.03, 0.02])
 def test_the_gap_of_a_wheel_at_rest(four_bar, share):
     """Against the drawn wheel, at the same places of the roller."""
     L = build(four_bar).center_distance_mm
-    parts = PartsModel(build(with_roller(four_bar, share * L))).parts
+    parts = parts_of(build(with_roller(four_bar, share * L)))
     (engagement,) = parts.assembly.kinds
     rest = engagement.exit_deg + (360.0 - engagement.motion_deg) * np.arange(720) / 720
     at = parts.assembly.start_deg + (rest - parts.assembly.start_deg) % 360.0

@@ -11,12 +11,11 @@ from words import Drive, Keys, Motion, Spec, Wheel, law, load
 
 from geneva_cli import Design, External
 from geneva_cli.cli.app import app
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion import machine_spec as machine_spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.tolerances import keeps
-from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.full_turn import Most
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.verdict.checks import Check, checks
@@ -143,7 +142,7 @@ def test_the_gap_is_known_as_nearly_as_its_outlines() -> None:
 def test_walls_beside_bores(keys: str, row: str, value: float, tmp_path: Path) -> None:
     path = tmp_path / "bore.toml"
     path.write_text(f"[wheel]\nz = 6\n[size]\n{keys}\nlock_radius_mm = 40\n")
-    rows = {c.name: c for c in standing_checks(FlatParts(load(str(path))))}
+    rows = {c.name: c for c in standing_checks(parts_of(load(str(path))))}
     assert rows[row].value == pytest.approx(value, abs=1e-5)
     assert rows[row].limit == 0.5
     assert rows[row].passes == (value >= 0.5)
@@ -153,7 +152,7 @@ def test_the_wall_outside_an_internal_wheel(tmp_path: Path) -> None:
     path = tmp_path / "ring.toml"
     size = "[size]\nwheel_outer_radius_mm = 155.5\n"
     path.write_text(f'[wheel]\nz = 6\ngearing = "internal"\n{size}')
-    rows = {c.name: c for c in standing_checks(FlatParts(load(str(path))))}
+    rows = {c.name: c for c in standing_checks(parts_of(load(str(path))))}
     # L + R + r + r/20 is 155.25 mm
     assert rows["outer_wall_mm"].value == pytest.approx(0.25, abs=1e-9)
     assert not rows["outer_wall_mm"].passes
@@ -248,7 +247,7 @@ def test_a_roller_that_meets_the_rim_is_not_written(tmp_path: Path) -> None:
 
 def test_a_lock_that_lets_the_wheel_turn_holds_nothing() -> None:
     """What counts is what the turn shows, not that a lock is drawn: see test_full_turn."""
-    model = PartsModel(build(Spec(Wheel(6))))
+    model = parts_of(build(Spec(Wheel(6))))
     model.__dict__["_turn"] = model.turn._replace(dwell=Most(30.0, 180.0))
     found = {c.name: c.passes for c in checks(model.mechanism, model)}
     assert found["dwell_hold"] is False
@@ -256,6 +255,6 @@ def test_a_lock_that_lets_the_wheel_turn_holds_nothing() -> None:
 
 def test_a_slot_that_drives_from_one_wall_leaves_the_wheel_free() -> None:
     """Just inside an offset slot's mouth there is no wall yet on the roller's other side."""
-    (said,) = turn_warnings(PartsModel(load(str(DESIGNS / "offset-slots.toml"))))
+    (said,) = turn_warnings(parts_of(load(str(DESIGNS / "offset-slots.toml"))))
     assert re.match(r"in its slot the wheel is free ahead by 6\.49\d*° at -61\.\d+°", said)
-    assert not list(turn_warnings(PartsModel(load(str(DESIGNS / "limits.toml")))))
+    assert not list(turn_warnings(parts_of(load(str(DESIGNS / "limits.toml")))))

@@ -7,9 +7,9 @@ import repo
 from drawing_witness import vertices
 from words import load
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.parts.outlines.wheel_outline import wheel_circles
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.projection import outlines_of
 from geneva_cli.verdict.report.parts import cut_sizes
 from geneva_cli.verdict.report.sizes import sizes
@@ -43,7 +43,7 @@ def model(name, tmp_path):
     if name in GIVEN:
         file = tmp_path / "spec.toml"
         file.write_text(GIVEN[name])
-    return PartsModel(load(str(file)))
+    return parts_of(load(str(file)))
 
 
 @pytest.mark.sampled(8)

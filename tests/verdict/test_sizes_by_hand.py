@@ -10,7 +10,7 @@ from words import Motion, Spec, Wheel
 
 from geneva_cli.motion import registry
 from geneva_cli.motion.mechanism import build
-from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.spec.tables import Limits, Size
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.registry import standing_checks
@@ -26,7 +26,7 @@ def test_walls_and_shafts_of_a_plain_wheel(z: int) -> None:
     R = L * math.sin(b)
     lock = rk * R / 50.0
     size = Size(L, r, lock_radius_mm=lock, **HUBS)
-    parts = FlatParts(build(Spec(Wheel(z), size=size)))
+    parts = parts_of(build(Spec(Wheel(z), size=size)))
     found = parts.outlines
     assert found.relief == "arc"
     rows = {c.name: c.value for c in standing_checks(parts)}
@@ -45,7 +45,7 @@ def test_walls_and_shafts_of_a_plain_wheel(z: int) -> None:
 
 def values(z: int, **keys: float | str) -> dict[str, float]:
     """All checks of a plain wheel that have to do with its parts."""
-    parts = FlatParts(build(Spec(Wheel(z), size=Size(**keys))))
+    parts = parts_of(build(Spec(Wheel(z), size=Size(**keys))))
     return {c.name: c.value for c in standing_checks(parts) if c.value is not None}
 
 
@@ -86,7 +86,7 @@ def test_the_default_relief_clears_bore_and_hub(keys: dict[str, float], relief: 
     A sector is L - sqrt(L² cos² 30° + r²) - L/200 = 25.51 mm deep.
     """
     size = Size(center_distance_mm=200.0, roller_radius_mm=10.0, **keys)
-    parts = FlatParts(build(Spec(Wheel(6), size=size)))
+    parts = parts_of(build(Spec(Wheel(6), size=size)))
     assert parts.outlines.relief == relief
     rows = {c.name: c.passes for c in standing_checks(parts)}
     assert rows["crank_bore_wall_mm"]
@@ -105,7 +105,7 @@ def krasniqi(x: np.ndarray) -> np.ndarray:
 
 def test_branches_of_a_curved_slot() -> None:
     """2 rho sin(theta - psi) at most, of a slot whose way in leads its way out."""
-    parts = FlatParts(build(curved("sine-group", 0.5)))
+    parts = parts_of(build(curved("sine-group", 0.5)))
     rows = {c.name: c for c in standing_checks(parts)}
     phi = np.linspace(-math.pi / 3.0, 0.0, 400_001)
     psi = (krasniqi(math.pi * (phi / (2.0 * math.pi / 3.0) + 0.5)) - 0.5) * math.pi / 3.0
@@ -125,7 +125,7 @@ def test_branches_behind_gears_have_the_angle_of_the_input() -> None:
     gears = registry.drive("elliptical-gears")(eccentricity=0.3)
     behind = spec.replace(drive_before=gears)
     own, geared = (
-        {c.name: c for c in standing_checks(FlatParts(build(one)))} for one in (spec, behind)
+        {c.name: c for c in standing_checks(parts_of(build(one)))} for one in (spec, behind)
     )
     for side in ("apart", "crossed"):
         one, other = own[f"branches_{side}_mm"], geared[f"branches_{side}_mm"]
@@ -146,7 +146,7 @@ def test_branches_of_a_crank_that_turns_unevenly() -> None:
     points = tuple(zip(degrees.tolist(), ratio.tolist(), strict=True))
     drive = registry.drive("noncircular-gears")(ratio=points)
     spec = Spec(Wheel(6), drive, motion=Motion(law, ratio=0.5), size=Size(L, r))
-    rows = {c.name: c.value for c in standing_checks(FlatParts(build(spec)))}
+    rows = {c.name: c.value for c in standing_checks(parts_of(build(spec)))}
 
     def branch(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Radius over L and polar angle in the wheel."""

@@ -11,7 +11,6 @@ import pytest
 import geneva_cli
 from geneva_cli import Crank, Design, External, Internal, SideCrank, Size, Spherical, Tolerance
 from geneva_cli.design import load
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.tolerance import random_machines
 from geneva_cli.loads.tolerance.dimensions import Deviations, deviations, slope_of
@@ -22,6 +21,7 @@ from geneva_cli.loads.tolerance.worst_effects import motion_plays
 from geneva_cli.motion.laws.standard import Cycloidal
 from geneva_cli.motion.many import many
 from geneva_cli.motion.motion import Motion
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.verdict.checks.registry import turn_checks
 from geneva_cli.verdict.tolerance.locks import flat_locks
 from tests.repo import ROOT
@@ -63,9 +63,9 @@ def told(design, samples=4096, **more):
 def test_play_of_the_lock_is_that_of_a_whole_turn(name):
     """Found there from the outlines, in steps, without knowing what stops the wheel."""
     design = load(str(ROOT / "designs" / f"{name}.toml")).with_("size.lock_clearance_mm", 0.05)
-    found = [lock(at()).angle.c[0] for lock in flat_locks(design.parts)]
+    found = [lock(at()).angle.c[0] for lock in flat_locks(design.parts.outlines)]
     # parts that overlap by rounding, 1e-9 L, still touch there: as much more clearance
-    assert math.degrees(max(found)) == pytest.approx(design.parts_model.turn.dwell.deg, rel=1e-5)
+    assert math.degrees(max(found)) == pytest.approx(design.parts.turn.dwell.deg, rel=1e-5)
 
 
 def by_points(lock, dL, dk, dr):
@@ -150,7 +150,7 @@ def on_sphere(axes_deg, rollers):
     size = Size(slot_clearance_mm=0.1, lock_clearance_mm=0.1)
     drive = Crank(rollers=rollers)
     design = Design(Spherical(6, axes_deg=axes_deg), drive, size=size)
-    [lock] = sphere_locks(design.parts_model.shells)
+    [lock] = sphere_locks(design.parts.shells)
     return design, lock
 
 
@@ -161,9 +161,7 @@ def test_play_of_a_lock_on_a_sphere_is_that_of_a_whole_turn(axes_deg, rollers):
     assert (lock.reach <= lock.half + 1e-9) == ((axes_deg, rollers) in ROUND[0:3:2])
     play = lock(at())
     assert not play.jams
-    assert math.degrees(play.angle.c[0]) == pytest.approx(
-        design.parts_model.turn.dwell.deg, rel=2e-6
-    )
+    assert math.degrees(play.angle.c[0]) == pytest.approx(design.parts.turn.dwell.deg, rel=2e-6)
 
 
 @pytest.mark.parametrize("axes_deg, rollers", ROUND)
@@ -286,7 +284,7 @@ def test_worst_case_by_corners(design):
 
 def test_worst_and_squares_in_the_dwell():
     found = told(MACHINES[0])
-    [lock] = flat_locks(MACHINES[0].parts)
+    [lock] = flat_locks(MACHINES[0].parts.outlines)
     worst = lock(at(center_distance_mm=0.02, lock_radius_mm=-0.015, recess_radius_mm=0.01)).angle
     assert found["dwell_position.worst_deg"] == pytest.approx(math.degrees(worst.c[0]) + 0.02)
     play = lock(at()).angle.c[0]
@@ -416,7 +414,7 @@ def test_machines_that_do_not_go_together_are_counted():
 
 def test_clearances_that_still_turn():
     found = told(MACHINES[0])
-    [lock] = flat_locks(MACHINES[0].parts)
+    [lock] = flat_locks(MACHINES[0].parts.outlines)
     # the tightest lock gives way by so much at the mouth, cos 30 deg of 100 mm off
     yields = lock(at(center_distance_mm=-0.02, lock_radius_mm=0.015, recess_radius_mm=-0.01)).angle
     mouth = 100.0 * math.cos(math.pi / 6)
@@ -436,12 +434,11 @@ def test_the_parts_of_the_tightest_and_the_loosest_are_turned(monkeypatch):
 
     turned = []
 
-    class Seen(PartsModel):
-        def __init__(self, mechanism):
-            turned.append(mechanism.spec.size)
-            super().__init__(mechanism)
+    def seen(mechanism):
+        turned.append(mechanism.spec.size)
+        return parts_of(mechanism)
 
-    monkeypatch.setattr(needed, "PartsModel", Seen)
+    monkeypatch.setattr(needed, "parts_of", seen)
     design = MACHINES[0].with_("size.slot_clearance_mm", 0.1)
     assert told(design)["clearances.turns"] is True
     tight, loose = turned
@@ -639,8 +636,8 @@ def test_clearances_too_small_for_the_tolerances_fail():
 
     def rows(slot_mm, lock_mm, **more):
         play = size.replace(slot_clearance_mm=slot_mm, lock_clearance_mm=lock_mm)
-        model = PartsModel(Design(External(6), size=play, **more).mechanism)
-        checks = {one.name: one for one in turn_checks(model.parts, model.turn)}
+        model = parts_of(Design(External(6), size=play, **more).mechanism)
+        checks = {one.name: one for one in turn_checks(model, model.turn)}
         return {name: checks[name] for name in every if name in checks}
 
     tight = rows(0.01, 0.01, tolerance=allowed)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from geneva_cli.drawings.sheet.crank import draw_roller
 from geneva_cli.drawings.sheet.links import draw_link
@@ -11,19 +11,17 @@ from geneva_cli.drawings.sheet.standing import draw_shaft
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.geometry.plates import Group, Member, Plate, Shell
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.parts_of_machine import PartsOfMachine
+from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.shafts.fits import Fits
 from geneva_cli.parts.shafts.shaft import FIX
 from geneva_cli.parts.written import length
 
-if TYPE_CHECKING:
-    from geneva_cli.kinds.linear.parts import RackParts
-
 Begin: TypeAlias = Callable[..., View]
 
 
-def titled(rows: Sequence[Mapping[str, object]], scale: float, parts: PartsOfMachine) -> Begin:
+def titled(rows: Sequence[Mapping[str, object]], scale: float, parts: Parts) -> Begin:
     """Return a function that begins a view, titled with its parts' numbers and thicknesses.
 
     Its fits are those of the process, for the thickness of the first part.
@@ -65,7 +63,7 @@ def linked(begin: Begin, parts: FlatParts) -> Iterator[View]:
         yield view
 
 
-def geared(begin: Begin, parts: FlatParts | RackParts) -> Iterator[View]:
+def geared(begin: Begin, parts: EdgedParts) -> Iterator[View]:
     """Yield the view of noncircular gears in mesh, if there are any."""
     if parts.gear_pair:
         from geneva_cli.drawings.sheet.gears import draw_gears

@@ -70,9 +70,7 @@ def _views(shown: SheetContent, parts: FlatParts, scale: float) -> Iterator[View
 
 def _wheels(parts: FlatParts, begin: Begin) -> Iterator[View]:
     """Yield the views of wheels and locking discs; of two wheels in series, of both."""
-    for front, of in (("", parts), ("first ", parts.front)):
-        if of is None:
-            continue
+    for front, of in zip(("", "first "), (parts, *parts.in_front), strict=False):
         view = begin(f"{front}wheel", f"{front}wheel's hub")
         draw_wheel(view, of)
         yield view

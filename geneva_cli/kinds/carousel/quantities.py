@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.carried import carried_kg
 from geneva_cli.loads.unbalance import centrifugal_N, held_unbalance_Nm
 from geneva_cli.motion.many import worst_peaks
+from geneva_cli.parts.parts import Parts
 from geneva_cli.verdict.checks.cranks import reach_mm
 from geneva_cli.verdict.quantities.designs import Columns, Designs, Values
 
@@ -32,12 +32,12 @@ def motion(of: Designs) -> Columns:
     }
 
 
-def envelope(model: PartsModel) -> Values:
+def envelope(parts: Parts) -> Values:
     """Return the radius about the fixed axis that the wheels sweep, on a carrier."""
-    if not model.mechanism.spec.is_flat:
+    if not parts.mechanism.spec.is_flat:
         return {}
     try:
-        outlines = model.outlines
+        outlines = parts.outlines
     except GenevaError:  # ``parts.none`` gives the reason
         return {}
-    return {"envelope_mm": model.mechanism.center_distance_mm + reach_mm(outlines)}
+    return {"envelope_mm": parts.mechanism.center_distance_mm + reach_mm(outlines)}

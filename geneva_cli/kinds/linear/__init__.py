@@ -6,10 +6,25 @@ KINDS = (
     Kind(
         "linear",
         wheel="kinds.linear.motion:Linear",
+        parts="kinds.linear.parts:RackParts",
+        front="parts.front_parts:FrontParts",
+        drawings={
+            "slot": "kinds.linear.drawings:slot",
+            "wheel": "drawings.part_drawings:wheel",
+            "crank": "drawings.part_drawings:crank",
+            "arm": "kinds.linear.drawings:arm",
+            "frame": "drawings.part_drawings:frame",
+            "guide": "kinds.linear.drawings:guide",
+            "assembly": "kinds.linear.drawings:assembly",
+            "plate": "drawings.print_plate:plate",
+            "sheet": "kinds.linear.sheet:sheet",
+        },
+        tables={"slot": "parts.slots.slot_sampling:profile_table"},
+        dimensions="kinds.linear.drawings:dimensions",
+        stressed="kinds.linear.stressed:rack_stressed",
         refuses="kinds.linear.refuses:refuses",
         no_parts="kinds.linear.motion:no_parts",
         keys=("load.mass_kg", "load.force_N", "load.guide_friction"),
-        parts="kinds.linear.drawn:Rack",
         quantities=(
             Quantities(
                 "guide",

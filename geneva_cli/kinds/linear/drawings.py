@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from geneva_cli.geometry.drawing import Annotations, Drawing, LevelDistance
 from geneva_cli.geometry.plates import Group
 from geneva_cli.geometry.shapes import Contour, Line, closed
 from geneva_cli.kinds.linear.arm import rack_arm
+from geneva_cli.kinds.linear.frame import rack_dimensions
 from geneva_cli.kinds.linear.parts import RackParts
 from geneva_cli.kinds.linear.rack import slot_walls
+from geneva_cli.motion.pivots import Dimension
+from geneva_cli.parts.missing import Missing, or_missing
 from geneva_cli.parts.projection import drawing_of, outlines_of, titled, with_frame
 
 
@@ -43,3 +48,8 @@ def assembly(parts: RackParts) -> Drawing:
     title, drawn = titled(parts.mechanism), with_frame(moving, parts.standing)
     look = Annotations((LevelDistance((0.0, 0.0), parts.axis, "R"),))
     return Drawing(title, drawn, look, Group(title, parts.members))
+
+
+def dimensions(parts: RackParts) -> Iterator[Dimension | Missing]:
+    """Yield the dimensions of the rack, or the reason why there are none."""
+    return or_missing("dimensions of the rack", lambda: rack_dimensions(parts.sizes))

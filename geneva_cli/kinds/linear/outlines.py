@@ -8,14 +8,11 @@ import numpy as np
 
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.kept import cached_property
-from geneva_cli.kinds.linear.rack import RackSizes, locking_sector, rack_contour, rack_sizes
+from geneva_cli.kinds.linear.rack import RackSizes, locking_sector, rack_contour
 from geneva_cli.kinds.linear.sliding_stops import SlidingStops
-from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.assembly import Assembly, assembled
-from geneva_cli.parts.outlines.outlines import CONTACT
-from geneva_cli.parts.turn.bounds import FlatPairs
+from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.pairs import Pose
 from geneva_cli.parts.turn.stops import Stops
@@ -88,40 +85,6 @@ class RackOutlines(NamedTuple):
     sizes: RackSizes
     crank: list[Contour]
     gaps: RackGaps
-
-    @property
-    def close(self) -> float:
-        """The overlap, mm, that counts as rounding."""
-        return SAME_LENGTH * self.assembly.L
-
-    @property
-    def contact(self) -> float:
-        """The overlap, mm, up to which parts count as touching."""
-        return CONTACT * self.assembly.L
-
-    def over(self, assembly: Assembly) -> RackOutlines:
-        """Return these parts with another assembly."""
-        return self._replace(assembly=assembly)
-
-    def in_wheel(self, motion: int, at: Array, lead: Array | float = 0.0) -> Array:
-        """Return the roller's centre in the rack's frame, mm, at input angles (n,): (n, 2).
-
-        The rack is pushed on by ``lead`` radians of its pinion.
-        """
-        return self.assembly.in_wheel(motion, at, lead)
-
-    def past_mouth(self, motion: int, at: Array) -> Array:
-        """Return how far the roller is in its slot, beyond the rack's edge, mm, (n,)."""
-        return self.sizes.edge - self.assembly.driving(motion, at)[:, 0]
-
-    def pairs(self, target: float) -> FlatPairs:
-        """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
-        return FlatPairs(self.gaps, self.crank, target, self.sizes.edge)
-
-
-def rack_outlines(mechanism: Mechanism) -> RackOutlines:
-    """Return rack and crank of a machine. Raises GenevaError, naming the key, if no sizes fit."""
-    return turned_rack(assembled(mechanism), rack_sizes(mechanism))
 
 
 def turned_rack(assembly: Assembly, sizes: RackSizes) -> RackOutlines:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import TYPE_CHECKING, Self
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.hole_walls import require_faces
@@ -25,12 +26,20 @@ from geneva_cli.kinds.linear.frame import (
     shaft_radius,
     shafts_and_frame,
 )
+from geneva_cli.kinds.linear.outlines import RackOutlines, turned_rack
 from geneva_cli.kinds.linear.rack import RackSizes, rack_contour, rack_sizes
-from geneva_cli.parts.edged_parts import EdgedParts, FrameAndShafts
+from geneva_cli.numerics.arrays import Array
+from geneva_cli.parts.assembly import assembled
+from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.gears.gear_pair import gear_pair
 from geneva_cli.parts.missing import NamedParts
+from geneva_cli.parts.parts import NamedBuilds
 from geneva_cli.parts.shafts.bolt_holes import Screws
 from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses
+from geneva_cli.parts.turn.bounds import FlatPairs
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.framed import FrameAndShafts
 
 
 class RackParts(EdgedParts):
@@ -40,9 +49,32 @@ class RackParts(EdgedParts):
     """
 
     @cached_property
+    def _shape(self) -> RackOutlines:
+        return turned_rack(assembled(self.mechanism), self.sizes)
+
+    @cached_property
     def sizes(self) -> RackSizes:
         """The sizes of rack and locking sector."""
         return rack_sizes(self.mechanism)
+
+    @property
+    def built(self) -> Self:
+        """These parts."""
+        return self
+
+    @property
+    def all_built(self) -> NamedBuilds:
+        """Names and functions of all parts; its frame holds its gears, but not links."""
+        framed = self.mechanism.spec.has_parts
+        return [("all parts", lambda: self)] if framed else super().all_built
+
+    def past_mouth(self, motion: int, at: Array) -> Array:
+        """Return how far the roller is in its slot, beyond the rack's edge, mm, (n,)."""
+        return self.sizes.edge - self.assembly.driving(motion, at)[:, 0]
+
+    def pairs(self, target: float) -> FlatPairs:
+        """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
+        return FlatPairs(self._shape.gaps, self._shape.crank, target, self.sizes.edge)
 
     @property
     def axis(self) -> Point:

@@ -6,7 +6,17 @@ KINDS = (
     Kind(
         "shells",
         adds_to="spherical",
-        parts="kinds.spherical.drawn:Ball",
+        parts="kinds.spherical.parts:SphereParts",
+        drawings={
+            "wheel": "kinds.spherical.drawings:wheel",
+            "crank": "kinds.spherical.drawings:crank",
+            "arm": "kinds.spherical.arm_drawing:arm",
+            "assembly": "kinds.spherical.drawings:assembly",
+            "sheet": "kinds.spherical.sheet:sheet",
+        },
+        tables={"wheel": "kinds.spherical.meridians:meridians_table"},
+        dimensions="kinds.spherical.dimensions:dimensions",
+        stressed="kinds.spherical.sizes:stressed",
         wheel_body="kinds.spherical.parts:shell_body",
         cut_parts="kinds.spherical.cut_shells:CutShells",
         horns="kinds.spherical.horns:ball_horns",

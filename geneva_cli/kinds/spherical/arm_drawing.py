@@ -50,7 +50,7 @@ def arm_flat(parts: SphereParts, arm: CapArm) -> list[Contour]:
     edge: list[Segment] = []
     # each arc's azimuths are unwrapped around a value near them
     for arc, about in ((head, 0.5), *((arc, 1.0) for arc in between), (tail, 1.5)):
-        edge += cone.segments(arc, cut + about * math.pi, parts.tolerance, parts.curves)
+        edge += cone.segments(arc, cut + about * math.pi, parts.tolerance or 0.0, parts.curves)
     angle = hub.angle(cone.radius_mm)
     far, near = (cone.point(angle, cut + turn) for turn in (math.tau, 0.0))
     back = cone.level(far, near, -math.tau)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 from geneva_cli.geometry.round_holes import RoundHole
+from geneva_cli.geometry.sphere import POLE
 from geneva_cli.kinds.spherical.dial import dial_wall
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.shaft_gap import shaft_gap
-from geneva_cli.kinds.spherical.wheel import POLE
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sizes.arm_sizes import refuse_thin_hub
 from geneva_cli.verdict.checks.check import Check, at_least, compared, gap

@@ -5,18 +5,19 @@ from __future__ import annotations
 import math
 
 from geneva_cli.kinds.spherical.locking import SphereLock
+from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.shells import Shells
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.parts.turn.machine_parts import MachineParts
+from geneva_cli.parts.parts import Parts
 from geneva_cli.verdict.tolerance.locks import SAME, Corners, CutParts
 
 
 class CutShells(CutParts):
     """Shells as they are cut."""
 
-    def __init__(self, parts: MachineParts) -> None:
-        assert isinstance(parts, Shells)
-        self.shells = parts
+    def __init__(self, parts: Parts) -> None:
+        assert isinstance(parts, SphereParts)
+        self.shells = parts.shells
 
     def locks(self) -> list[SphereLock]:
         """Return the locks, one for each shape; none without locking sectors."""

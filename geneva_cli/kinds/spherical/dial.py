@@ -6,10 +6,10 @@ import math
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.round_holes import RoundHole, least_wall
-from geneva_cli.geometry.sphere import place
+from geneva_cli.geometry.sphere import POLE, place
 from geneva_cli.geometry.sphere_hull import Cap
 from geneva_cli.kinds.spherical.ball import Ball
-from geneva_cli.kinds.spherical.wheel import POLE, web_angle
+from geneva_cli.kinds.spherical.wheel import web_angle
 from geneva_cli.parts.shafts.bolt_holes import bolt_circle
 from geneva_cli.spec.tables import Size
 

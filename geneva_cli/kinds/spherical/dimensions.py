@@ -17,7 +17,12 @@ from geneva_cli.parts.missing import Missing, or_missing
 
 
 def dimensions(parts: SphereParts) -> Iterator[Dimension | Missing]:
-    """Yield dimensions of shells, arm and cones; for parts that cannot be built, the reason."""
+    """Yield the dimensions of the parts; for those that cannot be built, the reason."""
+    return or_missing("dimensions of the shells", lambda: _dimensions(parts))
+
+
+def _dimensions(parts: SphereParts) -> Iterator[Dimension | Missing]:
+    """Yield dimensions of shells, arm and cones."""
     ball = parts.ball
     inner, outer = ball.span_mm
     yield Dimension("shells' inner radius", inner, "mm")

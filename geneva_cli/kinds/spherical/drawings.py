@@ -72,7 +72,7 @@ def wheel_flat(parts: SphereParts, cone: Cone) -> list[Shape]:
     """Return the wheel's outline on its flat cone, and the rollers' paths."""
     ball = parts.ball
     b = ball.half_step
-    slot = slot_flat(ball, cone, parts.tolerance, parts.curves)
+    slot = slot_flat(ball, cone, parts.tolerance or 0.0, parts.curves)
     mouth = math.acos(math.cos(ball.rim) / math.cos(ball.half_width))
     ends = [cone.point(polar, 0.0) for polar in (mouth, ball.bottom)]
     path = Contour("PITCH", (Line(*ends),), closed=False)
@@ -119,5 +119,5 @@ def flat_region(
     """Return a region laid flat, whose azimuths are within half a turn of ``about``."""
     segments: list[Segment] = []
     for arc in region.boundary:
-        segments += cone.segments(arc, about, parts.tolerance, parts.curves)
+        segments += cone.segments(arc, about, parts.tolerance or 0.0, parts.curves)
     return closed(layer, segments)

@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.geometry.sphere import Region
+from geneva_cli.geometry.sphere import POLE, Region
 from geneva_cli.geometry.sphere_arcs import SphereArcs
 from geneva_cli.geometry.sphere_extents import Circle, FromCircle, farthest, short_arcs
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.spherical.stops import about, polar
-from geneva_cli.kinds.spherical.wheel import POLE, QUARTER
+from geneva_cli.kinds.spherical.wheel import QUARTER
 from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.parts.turn.pairs import Bounds, Intervals, Pair, Pose, Window, raised
 

@@ -17,8 +17,7 @@ from geneva_cli.kinds.spherical.wheel import edge
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.turn.machine_parts import Stop
-from geneva_cli.parts.turn.pairs import Pose
+from geneva_cli.parts.turn.pairs import Pose, Stop
 from geneva_cli.parts.turn.touch import first_stops
 
 # Fractions of an arc at which it is sampled: its start and middle, and points next to its corners.

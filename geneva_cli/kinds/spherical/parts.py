@@ -8,14 +8,16 @@ are projections of them.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import ClassVar
+
+import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.mass import MM, MassProperties, added, mass_properties
 from geneva_cli.geometry.plates import Group, Member, Plate, Shell, inwards
 from geneva_cli.geometry.round_holes import RoundHole
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Shape
-from geneva_cli.geometry.sphere import Rotation, axis_frame, place
+from geneva_cli.geometry.sphere import POLE, Rotation, axis_frame, place
 from geneva_cli.geometry.sphere_hull import Cap
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.spherical.arm import CapArm, crank_arm, has_arm
@@ -23,11 +25,14 @@ from geneva_cli.kinds.spherical.axles import crank_hub, refuse_wide
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.crank import at_mid_motion
 from geneva_cli.kinds.spherical.dial import dial_holes
+from geneva_cli.kinds.spherical.gap_bounds import SpherePairs
+from geneva_cli.kinds.spherical.shells import BallLengths, Shells, shells
 from geneva_cli.kinds.spherical.sizes import ball
-from geneva_cli.kinds.spherical.wheel import POLE, web_angle, web_region, wheel_regions
+from geneva_cli.kinds.spherical.wheel import web_angle, web_region, wheel_regions
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.missing import NamedParts
-from geneva_cli.parts.parts_of_machine import PartsOfMachine
+from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.shafts.bearings import shoulder_length
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
 from geneva_cli.parts.shafts.held_hubs import held_hub
@@ -37,25 +42,49 @@ from geneva_cli.parts.sizes.arm_sizes import refuse_thin_hub
 from geneva_cli.spec.materials import wheel_material
 from geneva_cli.spec.tables import Size
 
-if TYPE_CHECKING:
-    from geneva_cli.kinds.spherical.shells import Shells
 
-
-class SphereParts(PartsOfMachine):
+class SphereParts(Parts):
     """The parts of a machine in the wheel's frame.
 
-    A part that the sizes leave no place for raises GenevaError, naming the key. Drawings of shells
-    laid flat have ``curves``, "arcs" or "cubics", within ``tolerance`` mm.
+    A part that the sizes leave no place for raises GenevaError, naming the key.
     """
 
-    def __init__(self, shells: Shells, tolerance: float = 0.0, curves: str = "arcs") -> None:
-        self.shells, self.ball = shells, shells.ball
-        self.mechanism = shells.assembly.full
-        self.tolerance, self.curves = tolerance, curves
+    LAID_FLAT: ClassVar[tuple[str, ...]] = ("wheel", "crank", "arm")
 
-    def within(self, tolerance: float, curves: str) -> SphereParts:
-        """Return these parts, laid flat with curves of a kind within a tolerance, mm."""
-        return SphereParts(self.shells, tolerance, curves)
+    @cached_property
+    def _shape(self) -> Shells:
+        return shells(self.mechanism, self.advice)
+
+    @property
+    def shells(self) -> Shells:
+        """Wheel and crank as they are turned. Raises GenevaError where the sizes leave none."""
+        return self._shape
+
+    @property
+    def ball(self) -> Ball:
+        """The sizes, as angles on the sphere and radii."""
+        return self._shape.ball
+
+    @property
+    def sizes(self) -> BallLengths:
+        """The lengths of the parts."""
+        return self._shape.sizes
+
+    def pairs(self, target: float) -> SpherePairs:
+        """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
+        return SpherePairs(self.shells.gaps, self.shells.crank, target)
+
+    def in_wheel(self, motion: int, at: Array, lead: Array | float = 0.0) -> Array:
+        """Return the centre of a motion's roller in the wheel's frame, mm, at input angles (n,).
+
+        It is an array (n, 3). The wheel is turned on by ``lead`` radians.
+        """
+        return self.ball.radius_mm * self.shells.gaps.in_wheel(motion, at, lead)
+
+    def past_mouth(self, motion: int, at: Array) -> Array:
+        """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
+        polar = np.arccos(np.clip(self.shells.gaps.in_wheel(motion, at)[:, 2], -1.0, 1.0))
+        return self.ball.radius_mm * (self.ball.mouth - polar)
 
     @cached_property
     def wheel(self) -> Member:

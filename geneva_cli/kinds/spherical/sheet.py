@@ -63,7 +63,7 @@ def sheet(parts: SphereParts) -> Sheet:
     wide = 80.0, 24.0, 14.0  # mm, of the table's columns
     fixed = [
         table(heading, [("dimension", "value", "unit"), *rows], wide),
-        flat_slot(ball, parts.tolerance),
+        flat_slot(ball, parts.tolerance or 0.0),
     ]
 
     def blocks(scale: float) -> tuple[list[Block], Callable[[], list[list[Block]]]]:

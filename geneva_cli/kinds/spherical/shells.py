@@ -5,22 +5,16 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
-
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.sphere import Region
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.crank import sectors
-from geneva_cli.kinds.spherical.gap_bounds import SpherePairs
 from geneva_cli.kinds.spherical.gaps import BallGaps
 from geneva_cli.kinds.spherical.sizes import PartDoesNotFit, ball
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly, assembled
-from geneva_cli.parts.outlines.outlines import CONTACT
 from geneva_cli.spec.least_wall import wall_min
 
 
@@ -77,36 +71,6 @@ class Shells(NamedTuple):
     sizes: BallLengths
     crank: list[Region]
     gaps: BallGaps
-
-    @property
-    def close(self) -> float:
-        """The overlap, mm, that counts as rounding."""
-        return SAME_LENGTH * self.ball.radius_mm
-
-    @property
-    def contact(self) -> float:
-        """The overlap, mm, up to which parts count as touching."""
-        return CONTACT * self.ball.radius_mm
-
-    def over(self, assembly: Assembly) -> Shells:
-        """Return these parts with another assembly."""
-        return self._replace(assembly=assembly)
-
-    def pairs(self, target: float) -> SpherePairs:
-        """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
-        return SpherePairs(self.gaps, self.crank, target)
-
-    def in_wheel(self, motion: int, at: Array, lead: Array | float = 0.0) -> Array:
-        """Return the centre of a motion's roller in the wheel's frame, mm, at input angles (n,).
-
-        It is an array (n, 3). The wheel is turned on by ``lead`` radians.
-        """
-        return self.ball.radius_mm * self.gaps.in_wheel(motion, at, lead)
-
-    def past_mouth(self, motion: int, at: Array) -> Array:
-        """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
-        polar = np.arccos(np.clip(self.gaps.in_wheel(motion, at)[:, 2], -1.0, 1.0))
-        return self.ball.radius_mm * (self.ball.mouth - polar)
 
 
 def shells(mechanism: Mechanism, advice: bool = True) -> Shells:

@@ -29,6 +29,7 @@ from geneva_cli.spec.tables import Z_DRAWN, Size
 
 if TYPE_CHECKING:
     from geneva_cli.kinds.spherical.ball import Ball
+    from geneva_cli.parts.sizes.stressed import Stressed
 
 
 class PartDoesNotFit(GenevaError):
@@ -63,6 +64,14 @@ def sized_ball(mechanism: Mechanism) -> Ball | None:
         return ball(mechanism)
     except GenevaError:
         return None  # the check of the parts reports the error
+
+
+def stressed(mechanism: Mechanism) -> Stressed | None:
+    """Return the sizes of stressed parts; None if the sizes leave no shells."""
+    from geneva_cli.kinds.spherical.stressed import sphere_stressed
+
+    sizes = sized_ball(mechanism)
+    return sphere_stressed(mechanism.spec, sizes) if sizes else None
 
 
 def _ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:

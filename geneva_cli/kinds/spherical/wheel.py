@@ -11,12 +11,11 @@ import math
 
 import numpy as np
 
-from geneva_cli.geometry.sphere import Region, SphereArc, Vector, combined, opposite, place
+from geneva_cli.geometry.sphere import POLE, Region, SphereArc, Vector, combined, opposite, place
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.numerics.arrays import Array
 
 QUARTER = 0.5 * math.pi
-POLE = (0.0, 0.0, 1.0)
 
 
 def wheel_regions(ball: Ball, inner: float) -> list[Region]:

@@ -17,9 +17,9 @@ def turns(name: str, parts: FlatParts) -> Check | None:
     beyond = float(clearances_before(outlines, stop, past_deg=1.0)[:, -1].max())
     if stop.face_mm < 0.0:
         text = "the disc meets the mouth of a slot, not the face"
-    elif before < -outlines.contact:
+    elif before < -parts.contact:
         text = f"disc and wheel overlap by {-before:.4g} mm before the stop"
-    elif beyond > -outlines.contact:
+    elif beyond > -parts.contact:
         text = "the disc slips past the face: a degree beyond the stop they do not overlap"
     else:
         text = (

@@ -4,26 +4,26 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.stop.parts import wheel_stop
 from geneva_cli.loads.forces import contact_modulus_GPa, hertz_MPa
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.parts.parts import Parts
 from geneva_cli.spec.materials import wheel_material
 from geneva_cli.verdict.quantities.designs import Values
 
 
-def stop(model: PartsModel) -> Values:
+def stop(parts: Parts) -> Values:
     """Return the stops of a crank, where the wheel has a convex face."""
-    if not (model.mechanism.spec.wheel.stopped and model.mechanism.spec.is_flat):
+    if not (parts.mechanism.spec.wheel.stopped and parts.mechanism.spec.is_flat):
         return {}
     try:
-        outlines = model.outlines
+        outlines = parts.outlines
     except GenevaError:  # ``parts.none`` gives the reason
         return {}
     stops = wheel_stop(outlines)
     assert stops is not None  # the wheel has a convex face
-    contact = stop_contact(model.mechanism, stops.lever_mm, outlines.sizes.rim)
+    contact = stop_contact(parts.mechanism, stops.lever_mm, outlines.sizes.rim)
     return {
         "turns": stops.turns,
         "first_deg": stops.first_deg,

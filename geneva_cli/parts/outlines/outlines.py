@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from functools import cache, lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.latest import KEPT
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
@@ -22,12 +20,6 @@ from geneva_cli.parts.sizes.plain_sizes import Sizes
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.pairs import Pose
 
-if TYPE_CHECKING:
-    from geneva_cli.parts.turn.bounds import FlatPairs
-
-# Of the centre distance, 0.2 um in 100 mm: parts that overlap by less count as touching. No cutter
-# and no roller is more accurate, nor are curved walls.
-CONTACT = CURVED
 SWEPT_DEG = 0.2  # of the input, between the positions of the wheel that a relief must clear
 
 
@@ -47,38 +39,6 @@ class Outlines(NamedTuple):
     relief: str
     gaps: Gaps
     close: float
-
-    @property
-    def contact(self) -> float:
-        """The overlap, mm, up to which parts count as touching."""
-        return CONTACT * self.assembly.L
-
-    def over(self, assembly: Assembly) -> Outlines:
-        """Return these parts with another assembly."""
-        return self._replace(assembly=assembly)
-
-    def in_wheel(self, motion: int, at: Array, lead: Array | float = 0.0) -> Array:
-        """Return the centre of a motion's roller in the wheel's frame, mm, at input angles.
-
-        It is an array (n, 2). The wheel is turned on by ``lead`` radians.
-        """
-        return self.assembly.in_wheel(motion, at, lead)
-
-    def past_mouth(self, motion: int, at: Array) -> Array:
-        """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
-        # the corners are on the rim, half a slot's width from the slot's middle
-        level = math.sqrt(max(self.sizes.rim**2 - self.sizes.half_width**2, 0.0))
-        far = np.hypot(*self.assembly.driving(motion, at).T)
-        return self.assembly.sign * (level - far)
-
-    def pairs(self, target: float) -> FlatPairs:
-        """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
-        from geneva_cli.geometry.extents import farthest
-        from geneva_cli.parts.turn.bounds import FlatPairs
-
-        outside, wheel, axis = self.assembly.sign > 0.0, self.gaps.wheel, np.zeros((1, 2))
-        rim = float(farthest(wheel, 0.0, 0.0).max() if outside else wheel.signed(axis)[0])
-        return FlatPairs(self.gaps, self.crank, target, rim)
 
     @property
     def relief_depth(self) -> float:

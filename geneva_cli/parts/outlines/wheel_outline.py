@@ -16,8 +16,9 @@ from geneva_cli.parts.outlines.walls.straight import straight_walls
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
 from geneva_cli.parts.sizes.plain_sizes import Sizes
 from geneva_cli.parts.slots.roller_paths import least_mouth
+from geneva_cli.parts.turn.machine_parts import CONTACT
 
-CURVED = 2e-6  # of the centre distance: accuracy of curved walls for the full turn
+CURVED = CONTACT  # of the centre distance: accuracy of curved walls for the full turn
 
 
 @lru_cache(maxsize=16)  # drawings, sheet and solids of one machine have the same walls

@@ -7,7 +7,8 @@ import math
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.parts.turn.machine_parts import MachineParts, Stop, rim_lever, smallest_clearance
+from geneva_cli.parts.turn.machine_parts import MachineParts, rim_lever, smallest_clearance
+from geneva_cli.parts.turn.pairs import Stop
 
 EXACT = 1e-10  # radians: smaller angles are rounding
 

@@ -92,7 +92,7 @@ def full_turn(parts: MachineParts) -> FullTurn:
     return FullTurn(
         _shown(parts, driving),
         _shown(parts, idle) if idle else None,
-        _shown(parts, lock) if parts.crank else None,
+        _shown(parts, lock) if parts.locked else None,
         _shown(parts, dwell),
         most_of(play.either, ~play.guided),
         most_of(play.both, play.guided),

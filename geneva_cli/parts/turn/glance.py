@@ -22,7 +22,7 @@ def gap_about(parts: MachineParts, shown_deg: float) -> float:
     """
     pose = parts.gaps.pose(_about(parts, shown_deg))
     gap = float(parts.gaps.rollers(pose).min())
-    return min(gap, float(parts.gaps.locking(pose).min())) if parts.crank else gap
+    return min(gap, float(parts.gaps.locking(pose).min())) if parts.locked else gap
 
 
 def play_about(parts: MachineParts, shown_deg: float) -> float:

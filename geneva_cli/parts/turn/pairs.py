@@ -31,6 +31,13 @@ class Pose(NamedTuple):
         return Pose(*(each[which] for each in self))
 
 
+class Stop(NamedTuple):
+    """The stop of the wheel in one direction, from n poses."""
+
+    lead: Array  # (n,) radians: angle that the wheel turns until it stops
+    pressure: Array  # (n,) radians: pressure angle of a roller that stops it, 0 for anything else
+
+
 class Intervals(NamedTuple):
     """Intervals of the input angle, and how far crank and wheel are at most from their middles.
 

@@ -17,8 +17,7 @@ import numpy as np
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.parts.turn.contact_pieces import Lines, Rounds, lines, rounds
-from geneva_cli.parts.turn.machine_parts import Stop
-from geneva_cli.parts.turn.pairs import Pose
+from geneva_cli.parts.turn.pairs import Pose, Stop
 from geneva_cli.parts.turn.touch import Touch, first_stops
 
 

@@ -134,7 +134,7 @@ def _gaps(parts: MachineParts, target: float) -> Iterator[tuple[str, Settled]]:
     pairs = parts.pairs(target)
     for window in windows(parts):
         ends = window.start, window.end
-        if len(parts.crank):
+        if parts.locked:
             yield "locking disc and wheel", settled(parts.gaps, pairs.lock(window), ends, target)
         for span, driver in spans(parts, window):
             for roller in range(len(parts.assembly.rollers)):

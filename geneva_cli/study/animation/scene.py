@@ -59,7 +59,7 @@ def scene(design: Design) -> Scene:
     parts = tuple(body for body in bodies(design, turn, teeth) if body.shapes)
     outlines = None
     with suppress(GenevaError):  # no flat parts
-        outlines = design.parts
+        outlines = design.parts.outlines
     bars, rollers = _bars(turn, outlines, teeth), turn.rollers()
     spec, title = design.spec, title_of(design)
     frame = _frame_rotation(mechanism, turn.start, turn.turn_deg)

@@ -36,7 +36,7 @@ def drawn_teeth(design: Design) -> DrawnTeeth:
         return DrawnTeeth((), {})
     try:
         # a hundredth of a millimetre is less than a screen shows
-        *_, (_, built) = design.parts_model.all_built
+        *_, (_, built) = design.parts.all_built
         parts = built().within(0.01, "arcs")
         pair = tuple(map(_shapes, parts.gear_pair))
         return DrawnTeeth(pair, {one.name: _shapes(one.member) for one in parts.toothed if one.cut})

@@ -11,11 +11,11 @@ from functools import partial
 from typing import NamedTuple
 
 from geneva_cli import __version__
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.numerics.latest import KEPT
+from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.specfile.reader import Text
 from geneva_cli.specfile.settings import Setting, setting
 from geneva_cli.study.batches import batch_rows, cells_of, number_rows
@@ -69,12 +69,12 @@ class Sweep(NamedTuple):
         out: list[list[Cell]] = []
         for start in range(0, len(designs), KEPT):
             part = designs[start : start + KEPT]
-            last: PartsModel | None = None
+            last: Parts | None = None
             for i, machine in enumerate(self._machines(part)):
                 if isinstance(machine, GenevaError):
                     out.append(self._row(part[i], machine))
                     continue
-                last = last.following(machine) if last else PartsModel(machine)
+                last = last.following(machine) if last else parts_of(machine)
                 out.append(self._row(part[i], last, known.get(start + i)))
         return out
 
@@ -142,19 +142,19 @@ class Sweep(NamedTuple):
     def row(self, values: Sequence[Value]) -> list[Cell]:
         """The row of the design with these values of the keys, computed alone."""
         machine = self._machine_or_error(values)
-        return self._row(values, PartsModel(machine) if isinstance(machine, Mechanism) else machine)
+        return self._row(values, parts_of(machine) if isinstance(machine, Mechanism) else machine)
 
     def _row(
         self,
         values: Sequence[Value],
-        model: PartsModel | GenevaError,
+        parts: Parts | GenevaError,
         known: Sequence[Cell] | None = None,
     ) -> list[Cell]:
         """The row of a machine; ``known`` are the quantities of ``pick.batched`` from a batch."""
         try:
-            if isinstance(model, GenevaError):
-                raise model
-            return [*values, *self.pick.of_model(model, known), None]
+            if isinstance(parts, GenevaError):
+                raise parts
+            return [*values, *self.pick.of_parts(parts, known), None]
         except GenevaError as error:
             return [*values, *[None] * len(self.pick.names), str(error)]
 

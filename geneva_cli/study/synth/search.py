@@ -133,11 +133,11 @@ def _all_kinds(
 def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) -> _KindRows:
     kind, target = task
     errors: list[str] = []
-    of_kind = [*families(kind, target)]
+    thing = [*families(kind, target)]
     if not in_batch(target.quantities):
         # the search cannot see them: they are computed for the best of several pieces of a family
-        of_kind = pieces(of_kind, 120)
-    one_each, near = best(of_kind, target, how_near)
+        thing = pieces(thing, 120)
+    one_each, near = best(thing, target, how_near)
     of = {one.spec: one.family for one in reversed([*one_each, *near])}
     keeps, kept, broken = _divided(
         target.known_bounds, [*dict.fromkeys(one.spec for one in one_each)]

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import CLEARLY
+from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.glance import gap_about, play_about
-from geneva_cli.parts.turn.machine_parts import MachineParts, WorkLimit
+from geneva_cli.parts.turn.machine_parts import WorkLimit
 from geneva_cli.parts.turn.one_motion import one_motion
 from geneva_cli.verdict.checks.check import Check, refused
 from geneva_cli.verdict.checks.play import finds_slot
@@ -28,7 +28,7 @@ class Turn:
     """The parts of a machine and their full turn, as far as it is checked."""
 
     def __init__(self, machine: Mechanism) -> None:
-        self._machine, self._model = machine, PartsModel(machine, advice=False)
+        self._machine, self._own = machine, parts_of(machine, advice=False)
 
     @property
     def failing(self) -> list[Check]:
@@ -45,10 +45,10 @@ class Turn:
         return self._still_failing(known) or self.first_failing
 
     @cached_property
-    def _parts(self) -> MachineParts | Check:
+    def _parts(self) -> Parts | Check:
         """The parts, or a failing check that names the key that prevents them."""
         try:
-            return self._model.parts
+            return self._own.turned
         except GenevaError as error:
             return refused(str(error.key[-1]) if error.key else "outline", error)
 
@@ -70,7 +70,7 @@ class Turn:
             return [self._parts]
         if not self._machine.spec.has_parts:
             return []
-        return failing_of(standing_checks(self._model.built))
+        return failing_of(standing_checks(self._own.built))
 
     def _still_failing(self, known: Iterable[Check]) -> list[Check]:
         """The first check of ``known`` at rest that fails, or else those of the turn.
@@ -80,7 +80,7 @@ class Turn:
         parts = self._parts
         if isinstance(parts, Check) or not self._machine.spec.has_parts:
             return []
-        built, among = self._model.built, standing(self._machine)
+        built, among = self._own.built, standing(self._machine)
         at_rest = (check_named(among, one.name, built) for one in known)
         first = next((check for check in at_rest if check and check.passes is False), None)
         if first:
@@ -98,7 +98,7 @@ def failing_of(checks: Iterable[Check]) -> list[Check]:
     return [check for check in checks if check.passes is False]
 
 
-def _fails_at_the_same_place(parts: MachineParts, one: Check) -> bool:
+def _fails_at_the_same_place(parts: Parts, one: Check) -> bool:
     """Return True if a check that failed with other sizes fails with these at the same place."""
     if one.at_deg is None:
         return False

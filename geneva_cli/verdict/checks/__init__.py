@@ -25,44 +25,44 @@ from geneva_cli.verdict.checks.registry import (
 )
 
 if TYPE_CHECKING:
-    from geneva_cli.drawings.model import PartsModel
+    from geneva_cli.parts.parts import Parts
 
 
 def checks(
-    mechanism: Mechanism, model: PartsModel | None = None, parts: bool = True, turned: bool = True
+    mechanism: Mechanism, machine: Parts | None = None, parts: bool = True, turned: bool = True
 ) -> list[Check]:
     """Every check of one design: its motion, its parts unless left out, its own ``[limits]``.
 
     Without ``turned`` those of the whole turn are left out, which take the longest.
     """
     motion = list(applicable(MOTION, mechanism))
-    shown = list(_parts(mechanism, model, turned)) if parts else []
+    shown = list(_parts(mechanism, machine, turned)) if parts else []
     return [*motion, *shown, *applicable(LIMITS, mechanism)]
 
 
-def checks_at_rest(mechanism: Mechanism, model: PartsModel | None) -> Iterator[Check]:
-    """The checks of the motion and of the limits, then those of ``model``'s parts at rest.
+def checks_at_rest(mechanism: Mechanism, parts: Parts | None) -> Iterator[Check]:
+    """The checks of the motion and of the limits, then those of ``parts`` at rest.
 
     Raises GenevaError if wheel or crank cannot be built.
     """
     yield from applicable(MOTION, mechanism)
     yield from applicable(LIMITS, mechanism)
-    if model is not None and mechanism.spec.has_parts:
-        yield from standing_checks(model.built)
+    if parts is not None and mechanism.spec.has_parts:
+        yield from standing_checks(parts.built)
 
 
-def proofs(model: PartsModel, to_mm: float | None = None) -> list[Check]:
+def proofs(parts: Parts, to_mm: float | None = None) -> list[Check]:
     """The proof that no parts collide in a whole turn; none if they cannot be made or turned.
 
     ``to_mm`` is the tolerance of the proof, by default ``certificate.tolerance_mm``.
     """
     try:
-        return list(applicable(PROOFS, model, to_mm))
+        return list(applicable(PROOFS, parts, to_mm))
     except GenevaError:
         return []  # the checks of the parts report the error
 
 
-def single_check(mechanism: Mechanism, name: str, model: PartsModel | None = None) -> Check | None:
+def single_check(mechanism: Mechanism, name: str, parts: Parts | None = None) -> Check | None:
     """The check with this name, without the others and the turn; None if there is no such check.
 
     Raises GenevaError if its parts cannot be built.
@@ -74,16 +74,12 @@ def single_check(mechanism: Mechanism, name: str, model: PartsModel | None = Non
     among = standing(mechanism)
     if not mechanism.spec.has_parts or name not in among:
         return None
-    return check_named(among, name, (model or _model(mechanism)).built)
+    from geneva_cli.parts.parts import parts_of
+
+    return check_named(among, name, (parts or parts_of(mechanism)).built)
 
 
-def _model(mechanism: Mechanism) -> PartsModel:
-    from geneva_cli.drawings.model import PartsModel
-
-    return PartsModel(mechanism)
-
-
-def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iterator[Check]:
+def _parts(mechanism: Mechanism, machine: Parts | None, turned: bool) -> Iterator[Check]:
     """Walls, shafts and, if ``turned``, the full turn of a machine whose parts are drawn.
 
     If wheel or crank cannot be built, or turned, a single check says so instead. A rack can be
@@ -95,10 +91,12 @@ def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iter
     if not spec.is_turned:
         yield from none
         return
-    model = model or _model(mechanism)
+    from geneva_cli.parts.parts import parts_of
+
+    machine = machine or parts_of(mechanism)
     try:
-        rows = none or list(standing_checks(model.built))
-        parts = model.parts
+        rows = none or list(standing_checks(machine.built))
+        _ = machine.turned
     except GenevaError as error:
         yield refused("parts", error)
         return
@@ -108,8 +106,8 @@ def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iter
     from geneva_cli.parts.turn.machine_parts import WorkLimit
 
     try:
-        turn = model.turn
+        turn = machine.turn
     except WorkLimit as error:
         yield refused("full_turn", error)
         return
-    yield from turn_checks(parts, turn)
+    yield from turn_checks(machine, turn)

@@ -7,21 +7,21 @@ from __future__ import annotations
 
 import math
 
+from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.turn.full_turn import FullTurn, Most
-from geneva_cli.parts.turn.machine_parts import MachineParts
 from geneva_cli.verdict.checks.check import Check, compared
 
 DRY_FRICTION = 0.3  # of a sliding pair that nobody greases: steel on steel or PLA on PLA
 
 
-def smallest_gap(name: str, parts: MachineParts, turn: FullTurn) -> Check:
+def smallest_gap(name: str, parts: Parts, turn: FullTurn) -> Check:
     """The smallest gap between wheel and crank, mm, negative where they overlap."""
     smallest, touch = turn.smallest, parts.contact
     value = 0.0 if abs(smallest.mm) <= touch else smallest.mm
     return compared(name, value, "at least", 0.0, smallest.at_deg, touch)
 
 
-def idle_roller(name: str, parts: MachineParts, turn: FullTurn) -> Check | None:
+def idle_roller(name: str, parts: Parts, turn: FullTurn) -> Check | None:
     """The smallest gap between the wheel and a roller that does not drive it."""
     idle, touch = turn.idle, parts.contact
     if idle is None:
@@ -30,26 +30,26 @@ def idle_roller(name: str, parts: MachineParts, turn: FullTurn) -> Check | None:
     return compared(name, gap, "at least", 0.0, idle.at_deg, touch)
 
 
-def dwell_hold(name: str, parts: MachineParts, turn: FullTurn) -> Check:
+def dwell_hold(name: str, parts: Parts, turn: FullTurn) -> Check:
     """Check that something holds the wheel: its lock, or ``held_by`` of the spec."""
     holds = parts.assembly.full.spec.wheel.held_by is not None or turn.holds
     return Check(name, float(holds), "at least", 1.0, holds)
 
 
-def dwell(name: str, parts: MachineParts, turn: FullTurn) -> Check | None:
+def dwell(name: str, parts: Parts, turn: FullTurn) -> Check | None:
     """The play in the dwell, with which the next roller must still enter its slot."""
-    return _play(name, turn.dwell, finds_slot(parts), parts) if parts.crank else None
+    return _play(name, turn.dwell, finds_slot(parts), parts) if parts.locked else None
 
 
-def hand_over(name: str, parts: MachineParts, turn: FullTurn) -> Check | None:
+def hand_over(name: str, parts: Parts, turn: FullTurn) -> Check | None:
     """The play between lock and slot."""
-    return _play(name, turn.hand_over, finds_slot(parts), parts) if parts.crank else None
+    return _play(name, turn.hand_over, finds_slot(parts), parts) if parts.locked else None
 
 
-def hand_over_pressure(name: str, parts: MachineParts, turn: FullTurn) -> Check | None:
+def hand_over_pressure(name: str, parts: Parts, turn: FullTurn) -> Check | None:
     """The pressure angle at which the roller meets a wheel that has turned through that play."""
     limit = slips_deg(parts.assembly.full.spec.load.friction)
-    return _at_most(name, turn.push, limit) if parts.crank else None
+    return _at_most(name, turn.push, limit) if parts.locked else None
 
 
 def slips_deg(friction: float) -> float:
@@ -63,7 +63,7 @@ def slips_deg(friction: float) -> float:
     return 90.0 - math.degrees(math.atan(friction or DRY_FRICTION))
 
 
-def hand_over_offset(name: str, parts: MachineParts, turn: FullTurn) -> Check:
+def hand_over_offset(name: str, parts: Parts, turn: FullTurn) -> Check:
     """The offset from the slot's middle, beyond its clearance, of a roller that first touches.
 
     It is not 0 where the rim does not reach the roller at entry or exit.
@@ -72,12 +72,12 @@ def hand_over_offset(name: str, parts: MachineParts, turn: FullTurn) -> Check:
     return compared(name, offset, "at most", 0.0, at_deg if offset else None)
 
 
-def motion(name: str, parts: MachineParts, turn: FullTurn) -> Check | None:
+def motion(name: str, parts: Parts, turn: FullTurn) -> Check | None:
     """The play of the roller in its slot."""
     return _play(name, turn.motion, motion_play_max(parts), parts)
 
 
-def motion_play_max(parts: MachineParts) -> float:
+def motion_play_max(parts: Parts) -> float:
     """The play, degrees to either side, up to which a slot determines the wheel's motion."""
     step = min(2.0 * math.degrees(engagement.half_step) for engagement in parts.assembly.kinds)
     # Where the driving wall changes, the wheel falls behind by twice the play, a tenth of its step,
@@ -85,7 +85,7 @@ def motion_play_max(parts: MachineParts) -> float:
     return 0.05 * step
 
 
-def _play(name: str, play: Most, limit_deg: float, parts: MachineParts) -> Check | None:
+def _play(name: str, play: Most, limit_deg: float, parts: Parts) -> Check | None:
     """Return the check of a play; None if its name is of another unit than the machine's output."""
     output = parts.assembly.full.output
     if not name.endswith(f"_{output.unit}"):
@@ -97,7 +97,7 @@ def _at_most(name: str, play: Most, limit: float) -> Check:
     return compared(name, play.deg, "at most", limit, play.at_deg if play.deg else None)
 
 
-def finds_slot(parts: MachineParts) -> float:
+def finds_slot(parts: Parts) -> float:
     """The play, degrees, with which the roller would just meet the mouth of its slot."""
     sizes, moves = parts.sizes, parts.assembly.plane_motion
     return math.degrees(moves.half_span(sizes.half_width, sizes.rim))

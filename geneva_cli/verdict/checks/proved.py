@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from geneva_cli.drawings.model import PartsModel
+from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.turn.machine_parts import WorkLimit
 from geneva_cli.parts.turn.travel import UNKNOWN
 from geneva_cli.parts.turn.turn_certificate import Certificate, certificate, tolerance_mm
 from geneva_cli.verdict.checks.check import Check, compared
 
 
-def least_gap(name: str, model: PartsModel, to_mm: float | None) -> Check | None:
+def least_gap(name: str, parts: Parts, to_mm: float | None) -> Check | None:
     """The proved lower bound of the gap, mm; None where parts are known to overlap.
 
     ``to_mm`` is how far below the smallest gap the bound may be, by default ``tolerance_mm``.
     """
-    parts, gap = model.parts, model.turn.smallest.mm
+    gap = parts.turned.turn.smallest.mm
     if gap < -parts.contact:
         return None
     to_mm = to_mm or tolerance_mm(parts)

@@ -15,9 +15,8 @@ from geneva_cli.verdict.checks.check import Check
 
 if TYPE_CHECKING:
     from geneva_cli.motion.mechanism import Mechanism
-    from geneva_cli.parts.parts_of_machine import PartsOfMachine
+    from geneva_cli.parts.parts import Parts
     from geneva_cli.parts.turn.full_turn import FullTurn
-    from geneva_cli.parts.turn.machine_parts import MachineParts
 
 Checks: TypeAlias = dict[str, str]  # name -> module:function
 
@@ -157,12 +156,12 @@ def standing(mechanism: Mechanism) -> Checks:
     return {**own, **some} if own else {**STATIC, **some, **PROCESS}
 
 
-def standing_checks(parts: PartsOfMachine) -> Iterator[Check]:
+def standing_checks(parts: Parts) -> Iterator[Check]:
     """The checks of parts at rest: walls, shafts, branches of a slot."""
     yield from applicable(standing(parts.mechanism), parts)
 
 
-def turn_checks(parts: MachineParts, turn: FullTurn) -> Iterator[Check]:
+def turn_checks(parts: Parts, turn: FullTurn) -> Iterator[Check]:
     """The checks of a whole turn: no parts overlap, and lock and slots leave little play."""
     yield from applicable(TURNING, parts, turn)
 

@@ -147,10 +147,9 @@ def first_stress(name: str, parts: FlatParts) -> Check | None:
 
     It is the check of a machine of one wheel, made of that first pair.
     """
-    front = parts.front if parts.mechanism.spec.is_loaded else None
-    if front is None:
+    if not (parts.mechanism.spec.is_loaded and parts.in_front):
         return None
-    check = check_named(LIMITS, name.removeprefix("first_"), front.mechanism)
+    check = check_named(LIMITS, name.removeprefix("first_"), parts.front.mechanism)
     if check is None:
         return None
     # its sizes are those of links; its angles are counted from another motion of the first wheel

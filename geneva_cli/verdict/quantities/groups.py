@@ -16,9 +16,9 @@ from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, WheelMat
 from geneva_cli.verdict.checks.registry import PROOFS, checks_before_turn, checks_of_turn
 
 if TYPE_CHECKING:
-    from geneva_cli.drawings.model import PartsModel
     from geneva_cli.motion.machine_spec import Spec
     from geneva_cli.numerics.arrays import Number
+    from geneva_cli.parts.parts import Parts
     from geneva_cli.verdict.quantities.designs import Columns, Designs, Values
 
 INPUTS, CHECKS = "inputs.", "checks."  # beginnings of the names of a spec's keys, and of checks
@@ -64,7 +64,7 @@ SIGNED = (
 class QuantityGroup(NamedTuple):
     """Quantities that are computed together.
 
-    ``alone`` computes them for the machine of a PartsModel and ``batch`` for Designs, each as
+    ``alone`` computes them for the machine of a Parts and ``batch`` for Designs, each as
     module:function, imported at its first use. Both return values by the names in
     ``own``, and no design has those that they leave out. Without ``alone`` a single design is a
     batch of one. Groups may have one function for batches. ``alone`` may also return lists and
@@ -90,18 +90,18 @@ class QuantityGroup(NamedTuple):
         names = [name for name in self.own if self.batch and name not in self.one_by_one]
         return tuple(map(self._whole, names))
 
-    def values(self, model: PartsModel) -> Values:
+    def values(self, parts: Parts) -> Values:
         """The values of a single design; None for those that it lacks."""
         every: Values = {self._whole(name): None for name in self.own}
-        if not self._is_of(model.mechanism.spec):
+        if not self._is_of(parts.mechanism.spec):
             return every
         computed: Values
         if self.alone:
-            computed = load_named(self.alone)(model)
+            computed = load_named(self.alone)(parts)
         else:
             from geneva_cli.verdict.quantities.designs import single
 
-            columns = self.columns(single(model.mechanism))
+            columns = self.columns(single(parts.mechanism))
             computed = {name: only(columns[name]) for name in self.own}
         return every | {self._whole(name): value for name, value in computed.items()}
 
@@ -140,11 +140,11 @@ def own_names(table: str) -> tuple[str, ...]:
     return tuple(name for group in GROUPS if group.table == table for name in group.own)
 
 
-def values(groups: Iterable[QuantityGroup], model: PartsModel) -> Values:
+def values(groups: Iterable[QuantityGroup], parts: Parts) -> Values:
     """The values of several groups of a single design, in order."""
     out: Values = {}
     for group in groups:
-        out |= group.values(model)
+        out |= group.values(parts)
     return out
 
 

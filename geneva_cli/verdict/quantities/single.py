@@ -14,13 +14,13 @@ from geneva_cli.verdict.checks.registry import checks_before_turn, checks_of_tur
 from geneva_cli.verdict.quantities.loads import summary_ends
 
 if TYPE_CHECKING:
-    from geneva_cli.drawings.model import PartsModel
+    from geneva_cli.parts.parts import Parts
     from geneva_cli.verdict.quantities.designs import Values
 
 
-def machine(model: PartsModel) -> Values:
+def machine(parts: Parts) -> Values:
     """The kind of machine."""
-    spec = model.mechanism.spec
+    spec = parts.mechanism.spec
     return {
         "wheel.z": spec.wheel.z,
         "wheel.gearing": spec.wheel.NAME,
@@ -31,14 +31,14 @@ def machine(model: PartsModel) -> Values:
     }
 
 
-def values_before_turn(model: PartsModel) -> Values:
+def values_before_turn(parts: Parts) -> Values:
     """The value of each check but those of the turn."""
-    return _values(checks_before_turn(), worst_checks(model.mechanism, model, turned=False))
+    return _values(checks_before_turn(), worst_checks(parts.mechanism, parts, turned=False))
 
 
-def check_values(model: PartsModel) -> Values:
+def check_values(parts: Parts) -> Values:
     """The value of each check of the turn, and whether all checks pass."""
-    rows = worst_checks(model.mechanism, model)
+    rows = worst_checks(parts.mechanism, parts)
     values = _values(checks_of_turn(), rows)
     failed = [c.name for c in rows if c.passes is False]
     return values | {"passes": not failed, "failed": " ".join(failed) or None}
@@ -48,20 +48,20 @@ def _values(names: Sequence[str], rows: Sequence[Check]) -> Values:
     return {c.name: c.value for c in rows if c.name in names}
 
 
-def proved(model: PartsModel) -> Values:
+def proved(parts: Parts) -> Values:
     """The gap that is proved."""
-    return {c.name: c.value for c in proofs(model)}
+    return {c.name: c.value for c in proofs(parts)}
 
 
-def cycle(model: PartsModel) -> Values:
+def cycle(parts: Parts) -> Values:
     """Greatest and least values of the loads with their signs, means and root mean squares."""
     values: Values = {}
-    for load, one in summaries(cycle_of(model.mechanism)).items():
+    for load, one in summaries(cycle_of(parts.mechanism)).items():
         values |= {f"{load}.{end}": getattr(one, end) for end in summary_ends(load)}
     return values
 
 
-def motor_sizing(model: PartsModel) -> Values:
+def motor_sizing(parts: Parts) -> Values:
     """Motor, flywheel and the cam-indexer formula, without the wheel's own inertia."""
-    values, _ = sizing(cycle_of(model.mechanism))
+    values, _ = sizing(cycle_of(parts.mechanism))
     return {name: value for name, value in values.items() if name != WHEEL_INERTIA}

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import Notice
+from geneva_cli.parts.parts import Parts
 from geneva_cli.table import Table, in_digits, record_table
 from geneva_cli.verdict.checks.check import Check, all_pass
 from geneva_cli.verdict.quantities.designs import Values
@@ -24,13 +24,13 @@ class Report(NamedTuple):
     passes: bool
 
 
-def report(model: PartsModel, rows: Sequence[Check], warnings: Sequence[Notice]) -> Report:
+def report(parts: Parts, rows: Sequence[Check], warnings: Sequence[Notice]) -> Report:
     """Everything about one design, as a tree of named values under a paragraph of words.
 
     The names are equal for every machine; a value is None if it does not apply. ``rows`` and
-    ``warnings`` are the checks and the warnings of the machine of ``model``.
+    ``warnings`` are the checks and the warnings of the machine of ``parts``.
     """
-    mechanism = model.mechanism
+    mechanism = parts.mechanism
     passes = all_pass(rows)
     title = mechanism.spec.title
     values: Values = {
@@ -42,7 +42,7 @@ def report(model: PartsModel, rows: Sequence[Check], warnings: Sequence[Notice])
     }
     from geneva_cli.verdict.report.words import words  # the loads take their values without it
 
-    values |= values_of(REPORT, model) | {"warnings": tuple(warnings)}
+    values |= values_of(REPORT, parts) | {"warnings": tuple(warnings)}
     return Report(record_table(values, title, words(mechanism)), passes)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads import loads
 from geneva_cli.loads.carried import inertia_kgm2
@@ -12,6 +11,7 @@ from geneva_cli.loads.cycle import cycle_of, greatest
 from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS, sources
 from geneva_cli.loads.summary import reversals_deg
 from geneva_cli.motion.peaks import worst
+from geneva_cli.parts.parts import Parts
 from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.quantities.designs import Values
 from geneva_cli.verdict.quantities.groups import own_names
@@ -20,9 +20,9 @@ from geneva_cli.verdict.strength import REASONS, strength
 SAMPLES = 65536  # random machines, as ``geneva tolerance`` draws by default
 
 
-def greatest_loads(model: PartsModel) -> Values:
+def greatest_loads(parts: Parts) -> Values:
     """The greatest loads and their input angles; None without a load, and for an unbounded one."""
-    mechanism = model.mechanism
+    mechanism = parts.mechanism
     loaded, known = mechanism.spec.is_loaded, sources(mechanism)
     values: Values = {}
     for name, source in REPORTED_PEAKS.items():
@@ -35,9 +35,9 @@ def greatest_loads(model: PartsModel) -> Values:
     return values | {"kinetic_power_W": kinetic}
 
 
-def cycle(model: PartsModel) -> Values:
+def cycle(parts: Parts) -> Values:
     """Greatest and least over the motions, mean and rms over the period; None without a load."""
-    of = cycle_of(model.mechanism)
+    of = cycle_of(parts.mechanism)
     values: Values = {}
     for name in ("input_torque_Nm", "power_W", "crank_bearing_N"):
         one = of.extremes.get(name)
@@ -50,26 +50,26 @@ def cycle(model: PartsModel) -> Values:
     return values
 
 
-def needs(model: PartsModel) -> Values:
+def needs(parts: Parts) -> Values:
     """The keys that unknown values of strength and life need: a line for each set of keys."""
-    return {"needs": tuple(strength(model.mechanism).missing(tuple(REASONS)))}
+    return {"needs": tuple(strength(parts.mechanism).missing(tuple(REASONS)))}
 
 
-def slot(model: PartsModel) -> Values:
+def slot(parts: Parts) -> Values:
     """Whether a wall pushes throughout, which may be cut away; None for straight slots."""
     from geneva_cli.loads.positive_drive import positive_drives
 
-    drive = positive_drives(model.mechanism)
+    drive = positive_drives(parts.mechanism)
     return {"positively_driven": not drive.loose_deg if drive else None}
 
 
-def vibration(model: PartsModel) -> Values:
+def vibration(parts: Parts) -> Values:
     """The load on its elastic shaft: what an index leaves swinging, and the speeds to avoid.
 
     None without a stiffness, and why where inertia is missing or its period is out of range.
     Bands, stations and warnings are those of ``geneva vibration``.
     """
-    mechanism = model.mechanism
+    mechanism = parts.mechanism
     none: Values = {"speeds_to_avoid_rpm": None}
     if mechanism.spec.shaft.stiffness_Nm_rad is None:
         return none
@@ -84,14 +84,14 @@ def vibration(model: PartsModel) -> Values:
     return {name: results[name] for name in results if name in (*own_names("vibration"), *none)}
 
 
-def tolerances(model: PartsModel) -> Values:
+def tolerances(parts: Parts) -> Values:
     """The first lines of ``geneva tolerance``, and its warnings; None without tolerances."""
-    mechanism, tolerance = model.mechanism, model.mechanism.spec.tolerance
+    mechanism, tolerance = parts.mechanism, parts.mechanism.spec.tolerance
     if tolerance == Tolerance(distribution=tolerance.distribution):
         return {"warnings": None}
     from geneva_cli.verdict.tolerance.tables import tolerance_table
 
     # micrometres need a radius
     L = mechanism.center_distance_mm
-    answers = tolerance_table(mechanism, model, SAMPLES, 0, L).to_dict()
+    answers = tolerance_table(mechanism, parts, SAMPLES, 0, L).to_dict()
     return {name: answers[name] for name in (*own_names("tolerance"), "warnings")}

@@ -5,27 +5,27 @@ from __future__ import annotations
 import math
 from contextlib import suppress
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import scalar
+from geneva_cli.parts.parts import Parts
 from geneva_cli.verdict.quantities.designs import Values, single
 from geneva_cli.verdict.quantities.groups import ECHOED, only
 from geneva_cli.verdict.quantities.loads import pressure
 
 
-def sizes(model: PartsModel) -> Values:
+def sizes(parts: Parts) -> Values:
     """Sizes of a flat wheel as cut, or of a spherical wheel as turned.
 
     The rim is None if the spec's sizes leave no wheel; the slots too if no wheel is drawn.
     """
-    if not model.mechanism.axes:
-        return _sphere_sizes(model.mechanism)
-    return _flat_sizes(model)
+    if not parts.mechanism.axes:
+        return _sphere_sizes(parts.mechanism)
+    return _flat_sizes(parts)
 
 
-def _flat_sizes(model: PartsModel) -> Values:
-    mechanism = model.mechanism
+def _flat_sizes(parts: Parts) -> Values:
+    mechanism = parts.mechanism
     spec = mechanism.spec
     L, r = mechanism.center_distance_mm, mechanism.roller_radius_mm
     return {
@@ -35,7 +35,7 @@ def _flat_sizes(model: PartsModel) -> Values:
         "roller_radius_mm": r,
         "slot_width_mm": 2.0 * (r + spec.size.allowances.slot_clearance_mm),
         "clearances_from": spec.size.allowances.source,
-        **_cut_radii(model),
+        **_cut_radii(parts),
         "pressure_angle_max_deg": (
             only(single(mechanism).columns(pressure)["max_deg"])
             if mechanism.engagements[0].slot.curved
@@ -45,22 +45,22 @@ def _flat_sizes(model: PartsModel) -> Values:
     }
 
 
-def _cut_radii(model: PartsModel) -> Values:
+def _cut_radii(parts: Parts) -> Values:
     """Radii of slots and rim as cut, mm."""
     mouth = bottom = rim = None
-    spec = model.mechanism.spec
+    spec = parts.mechanism.spec
     inside = spec.wheel.SIGN < 0.0
     if spec.is_flat:
         from geneva_cli.parts.assembly import assembly
         from geneva_cli.parts.outlines.outline_sizes import machine_sizes
         from geneva_cli.parts.slots.roller_paths import roller_paths
 
-        where = assembly(model.mechanism)
+        where = assembly(parts.mechanism)
         ends = roller_paths(where).ends
         mouth = max(where.L * scalar(s.entry_reach) for s in where.kinds)
         bottom = max(ends) if inside else min(ends)
         with suppress(GenevaError):  # ``parts.none`` gives the reason
-            rim = machine_sizes(model.mechanism)[1].rim
+            rim = machine_sizes(parts.mechanism)[1].rim
     return {
         "slot_mouth_radius_mm": mouth,
         "slot_bottom_radius_mm": bottom,
@@ -85,9 +85,9 @@ def _sphere_sizes(mechanism: Mechanism) -> Values:
     }
 
 
-def inputs(model: PartsModel) -> Values:
+def inputs(parts: Parts) -> Values:
     """The values of the keys that the numbers of a report depend on."""
-    spec = model.mechanism.spec
+    spec = parts.mechanism.spec
     known = {  # if a key is left out
         "wheel": {"held_by": spec.wheel.held_by},
         "size": spec.size.allowances._asdict(),

@@ -4,24 +4,24 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.loads import loads
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import Peaks, placed_peaks, worst
 from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.angles import omega
+from geneva_cli.parts.parts import Parts
 from geneva_cli.table import rows_table
 from geneva_cli.verdict.quantities.designs import Numbers, Values
 from geneva_cli.verdict.quantities.motion import peak_values
 
 
-def shortest_motion(model: PartsModel) -> Values:
+def shortest_motion(parts: Parts) -> Values:
     """The time of the fastest motion, if it is equal in all engagements."""
-    each = [engagement.motion_deg for engagement in model.mechanism.engagements]
+    each = [engagement.motion_deg for engagement in parts.mechanism.engagements]
     # Rounding makes a motion differ between engagements by up to 1e-12 of it.
     if not math.isclose(min(each), max(each), rel_tol=1e-12):
         return {}
-    return {"shortest_motion_s": _shortest_s(model.mechanism, each[0])}
+    return {"shortest_motion_s": _shortest_s(parts.mechanism, each[0])}
 
 
 def _shortest_s(mechanism: Mechanism, motion_deg: float) -> float | None:
@@ -35,14 +35,14 @@ def _shortest_s(mechanism: Mechanism, motion_deg: float) -> float | None:
     return motion_deg / (6.0 * fastest) if fastest else None
 
 
-def peaks(model: PartsModel) -> Values:
+def peaks(parts: Parts) -> Values:
     """The greatest peaks over all engagements."""
-    return {**_peaks(model.mechanism, worst(model.mechanism))}
+    return {**_peaks(parts.mechanism, worst(parts.mechanism))}
 
 
-def stations(model: PartsModel) -> Values:
+def stations(parts: Parts) -> Values:
     """A row for each engagement, if they differ."""
-    mechanism = model.mechanism
+    mechanism = parts.mechanism
     if len(mechanism.engagements) == 1:
         return {"stations": None}
     each = [
@@ -72,12 +72,12 @@ def _peaks(mechanism: Mechanism, peaks: Peaks) -> Numbers:
     }
 
 
-def wheels(model: PartsModel) -> Values:
+def wheels(parts: Parts) -> Values:
     """A row for each of several wheels: where it stands, and when it moves.
 
     Angles are those of the carrier from the middle of the first wheel's motion.
     """
-    mechanism = model.mechanism
+    mechanism = parts.mechanism
     places = mechanism.wheel_places
     if len(places) < 2:
         return {"wheels": None}
@@ -91,13 +91,13 @@ def wheels(model: PartsModel) -> Values:
     return {"wheels": rows_table(names, rows)}
 
 
-def cranks(model: PartsModel) -> Values:
+def cranks(parts: Parts) -> Values:
     """A row for each of several cranks; None for a single one.
 
     Input angles are from the middle of the first crank's motion. Slots count counterclockwise from
     that which the first crank then enters. In step n a crank enters slot k - n from place k.
     """
-    mechanism = model.mechanism
+    mechanism = parts.mechanism
     places = mechanism.crank_places
     if len(places) < 2:
         return {"cranks": None}

@@ -11,7 +11,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.records import thing
 from geneva_cli.parts.outlines.cut_lock import cut_arcs
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.turn.machine_parts import MachineParts
+from geneva_cli.parts.parts import Parts
 
 SAME = 1e-6  # fraction of the centre distance, or radians: nearer radii and angles are equal
 # The lock's need, None for none, and the spec of the tightest machine (-1) or the loosest (+1)
@@ -21,9 +21,8 @@ Corners: TypeAlias = tuple[float | None, Callable[[float], Spec]]
 class CutParts:
     """Flat parts as they are cut."""
 
-    def __init__(self, parts: MachineParts) -> None:
-        assert isinstance(parts, Outlines)  # of no other parts of the core are there tolerances
-        self.outlines = parts
+    def __init__(self, parts: Parts) -> None:
+        self.outlines = parts.outlines
 
     def locks(self) -> Sequence[CutLock]:
         """The locks, one for each shape; none without a locking disc."""
@@ -36,9 +35,9 @@ class CutParts:
         return lock, lambda sign: corner(spec, self.outlines, sizes, sign, slot, lock or 0.0)
 
 
-def cut_parts(parts: MachineParts) -> CutParts:
+def cut_parts(parts: Parts) -> CutParts:
     """The parts as they are cut, which a kind of wheel may have in its own way."""
-    wheel = parts.assembly.full.spec.wheel.NAME
+    wheel = parts.mechanism.spec.wheel.NAME
     cut: CutParts = (thing(wheel, "cut_parts") or CutParts)(parts)
     return cut
 

@@ -16,14 +16,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.impacts.impacts import arm_mm
 from geneva_cli.loads.tolerance.dimensions import corners
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.parts.turn.machine_parts import MachineParts
+from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.checks.registry import turn_checks
 from geneva_cli.verdict.tolerance.locks import cut_parts
@@ -71,7 +70,7 @@ class LeastClearances(NamedTuple):
 
 
 def required_clearances(
-    mechanism: Mechanism, model: PartsModel, sizes: dict[str, float]
+    mechanism: Mechanism, parts: Parts, sizes: dict[str, float]
 ) -> RequiredClearances:
     """The clearances that the tolerances need, and a whole turn of the tightest and the loosest.
 
@@ -79,7 +78,7 @@ def required_clearances(
     """
     spec, why = mechanism.spec, "there are no drawn parts to turn"
     try:
-        least = least_clearances(mechanism, model.parts, sizes) if spec.is_turned else None
+        least = least_clearances(mechanism, parts.turned, sizes) if spec.is_turned else None
     except GenevaError as error:
         least, why = None, str(error)
     if least is None:
@@ -90,7 +89,7 @@ def required_clearances(
 
 
 def least_clearances(
-    mechanism: Mechanism, parts: MachineParts, sizes: dict[str, float]
+    mechanism: Mechanism, parts: Parts, sizes: dict[str, float]
 ) -> LeastClearances:
     """The clearances with which machines within the tolerances enter their slots and locks."""
     ends = corners(list(sizes.values()))
@@ -133,8 +132,8 @@ def _slot_offset_mm(
 def _failing_check(spec: Spec) -> tuple[bool | None, str] | None:
     """The check of a whole turn that fails; None if all pass."""
     try:
-        model = PartsModel(build(spec.replace(tolerance=Tolerance())))
-        rows = list(turn_checks(model.parts, model.turn))
+        parts = parts_of(build(spec.replace(tolerance=Tolerance())))
+        rows = list(turn_checks(parts, parts.turned.turn))
     except GenevaError as error:
         return None, str(error)
     for row in rows:

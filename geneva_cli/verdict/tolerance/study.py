@@ -7,7 +7,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.loads.impacts.impacts import mouth_jumps_worst
 from geneva_cli.loads.tolerance.dimensions import Deviations, corners, tolerances, without_effect
@@ -25,6 +24,7 @@ from geneva_cli.loads.tolerance.random_machines import (
 from geneva_cli.loads.tolerance.worst_effects import entry_jumps_worst
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
+from geneva_cli.parts.parts import Parts
 from geneva_cli.verdict.tolerance.locks import cut_parts
 from geneva_cli.verdict.tolerance.needed import RequiredClearances, required_clearances
 
@@ -51,7 +51,7 @@ class Study(NamedTuple):
     warnings: tuple[Notice, ...]
 
 
-def study(mechanism: Mechanism, model: PartsModel, samples: int, seed: int) -> Study:
+def study(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Study:
     """The study of a machine by its ``[tolerance]``.
 
     Raises GenevaError without tolerances, and for numbers of samples and seeds out of range.
@@ -61,7 +61,7 @@ def study(mechanism: Mechanism, model: PartsModel, samples: int, seed: int) -> S
     _refuse_large(mechanism, use)
     sizes = list(use.values())
     ends = corners(sizes)
-    every_lock = _locks(mechanism, model, warnings)
+    every_lock = _locks(mechanism, parts, warnings)
     lock = max(every_lock, key=lambda one: _greatest(one(ends).angle.arrays()[0]), default=None)
     motions = motion_errors(mechanism)
     errors = [(one, *_single_design(one.greatest(ends))) for one in motions]
@@ -103,7 +103,7 @@ def study(mechanism: Mechanism, model: PartsModel, samples: int, seed: int) -> S
                 "entry_jump is not known: the law, not the path, sets how the roller enters",
             )
         )
-    clearances = required_clearances(mechanism, model, use)
+    clearances = required_clearances(mechanism, parts, use)
     if clearances.turns is not True:
         what = "not every machine turns" if clearances.turns is False else "no turn was computed"
         warnings.append(Notice("not-every-machine-turns", f"{what}: {clearances.why}"))
@@ -165,11 +165,11 @@ def _applicable(mechanism: Mechanism) -> tuple[dict[str, float], list[Notice]]:
     return use, warnings
 
 
-def _locks(mechanism: Mechanism, model: PartsModel, warnings: list[Notice]) -> Sequence[CutLock]:
+def _locks(mechanism: Mechanism, parts: Parts, warnings: list[Notice]) -> Sequence[CutLock]:
     if not mechanism.spec.is_turned:
         return []
     try:
-        return cut_parts(model.parts).locks()
+        return cut_parts(parts.turned).locks()
     except GenevaError as error:
         warnings.append(Notice("not-known", f"no parts: {error}"))
         return []

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.loads.tolerance.dimensions import Deviations, tolerances
 from geneva_cli.loads.tolerance.random_machines import Spread
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.parts.parts import Parts
 from geneva_cli.spec.rules import POSITIVE, require_mm
 from geneva_cli.table import Table, record_table, rows_table
 from geneva_cli.verdict.tolerance.study import Study, study
@@ -18,12 +18,12 @@ ANGLES = ("worst", "rss", "mean", "std", "p997")
 
 
 def tolerance_table(
-    mechanism: Mechanism, model: PartsModel, samples: int, seed: int, radius_mm: float | None = None
+    mechanism: Mechanism, parts: Parts, samples: int, seed: int, radius_mm: float | None = None
 ) -> Table:
     """The study as a record, with micrometres at ``radius_mm``, if not None."""
     if radius_mm is not None:
         require_mm("--radius", radius_mm, POSITIVE)
-    results = study(mechanism, model, samples, seed)
+    results = study(mechanism, parts, samples, seed)
     spec, size, entry = mechanism.spec, mechanism.spec.size, results.entry
     locked = results.clearances.lock_mm is not None
     values: dict[str, Any] = {"spec": spec.path, "title": spec.title}
@@ -50,12 +50,12 @@ def tolerance_table(
     return record_table(values, spec.title)
 
 
-def histogram_table(mechanism: Mechanism, model: PartsModel, samples: int, seed: int) -> Table:
+def histogram_table(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Table:
     """Histograms of the machines: for each angle the middles of bins, and the fraction in each.
 
     Raises GenevaError if neither angle is known.
     """
-    results = study(mechanism, model, samples, seed)
+    results = study(mechanism, parts, samples, seed)
     known = {"dwell_position": results.dwell, "motion_play": results.motion}
     columns: dict[str, list[float]] = {}
     for name, spread in known.items():

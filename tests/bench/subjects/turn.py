@@ -16,7 +16,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.external import External
-from geneva_cli.parts.outlines.outline_sizes import outlines
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.turn_certificate import certificate, tolerance_mm
 from geneva_cli.spec.tables import Size
@@ -55,11 +55,11 @@ def _task(name: str, machine: Mechanism, count: int) -> Task:
 
 
 def _turned(machine: Mechanism) -> float:
-    return full_turn(outlines(machine)).driving.mm
+    return full_turn(parts_of(machine)).driving.mm
 
 
 def _proved(machine: Mechanism) -> float:
-    parts = outlines(machine)
+    parts = parts_of(machine)
     turn = full_turn(parts)
     found = certificate(parts, turn.smallest.mm, tolerance_mm(parts))
     assert found.proved

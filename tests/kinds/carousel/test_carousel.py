@@ -280,7 +280,7 @@ def values_of(design):
         f"{group.table}.{name}": value
         for group in GROUPS
         if group.table == "carousel"
-        for name, value in zip(group.own, group.values(design.parts_model).values(), strict=True)
+        for name, value in zip(group.own, group.values(design.parts).values(), strict=True)
     }
 
 

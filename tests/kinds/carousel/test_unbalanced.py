@@ -26,7 +26,7 @@ def values_of(design):
     (group,) = [one for one in GROUPS if one.table == "carousel" and "held_Nm" in one.own]
     return {
         f"carousel.{name}": value
-        for name, value in zip(group.own, group.values(design.parts_model).values(), strict=True)
+        for name, value in zip(group.own, group.values(design.parts).values(), strict=True)
     }
 
 

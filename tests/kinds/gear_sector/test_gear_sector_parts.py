@@ -90,7 +90,7 @@ def test_no_roller_touches_what_is_not_its_wall(name):
     """At 4000 places: on its wall while it drives, to rounding of some 100 mm, else off it."""
     z, sector, size = MACHINES[name]
     design = made(z, sector, **size)
-    contour, L = design.parts.wheel, design.mechanism.center_distance_mm
+    contour, L = design.parts.outlines.wheel, design.mechanism.center_distance_mm
     r, inside = design.mechanism.roller_radius_mm, polygon(contour, 1e-3)
     shapely.prepare(inside)
     close = design.spec.size.allowances.slot_clearance_mm
@@ -160,7 +160,7 @@ def test_the_wheels_mass_is_what_its_outline_holds(name):
     """By a polygon, whose chords of an arc miss 2/3 of their height: some 1e-5 of the area."""
     z, sector, size = MACHINES[name]
     design = made(z, sector, **size, wheel_thickness_mm=10.0, wheel_bore_mm=0.0)
-    x, y = np.array(polygon(design.parts.wheel, 1e-5).exterior.coords).T
+    x, y = np.array(polygon(design.parts.outlines.wheel, 1e-5).exterior.coords).T
     cross = x[:-1] * y[1:] - x[1:] * y[:-1]
     square = sum(v[:-1] ** 2 + v[:-1] * v[1:] + v[1:] ** 2 for v in (x, y))
     rows = design.part_table("parts").to_dict()
@@ -192,7 +192,7 @@ def test_a_roller_that_overtakes_the_wheel_jams(z, sector, ratio):
         float(rho * mp.sin(ahead))
         for ahead, rho in (lead(b, u, a_t, a_t + k * mp.mpf("0.002")) for k in range(250))
     ]
-    found = design.parts_model.turn.driving
+    found = design.parts.turn.driving
     L = design.mechanism.center_distance_mm
     assert found.mm == pytest.approx(-L * max(depths), rel=1e-5)  # 0.002 off a flat top
     (said,) = [c for c in design.warnings if c.name == "roller-overtakes"]
@@ -326,7 +326,7 @@ def test_the_forces_that_are_shown_act_on_the_walls():
     pushed = np.abs(force) > 1e-9
     assert not pushed[np.abs(local) < 29.9].any() and pushed[np.abs(local) > 30.1].all()
     places = (arm * np.exp(-1j * motion(local, 0).c[0]))[pushed]
-    near = np.min([away(piece, places) for piece in design.parts.wheel.segments], axis=0)
+    near = np.min([away(piece, places) for piece in design.parts.outlines.wheel.segments], axis=0)
     assert near.max() < 1e-11
     moment = (arm.conjugate() * force).imag[pushed]
     assert (np.sign(moment) == -np.sign(local[pushed])).all()
@@ -336,9 +336,9 @@ def test_the_forces_that_are_shown_act_on_the_walls():
 
 def test_refusals():
     with pytest.raises(GenevaError, match=r'180 deg of the crank.*set relief = "sector"'):
-        made(3, 60.0, relief="arc").parts  # noqa: B018
+        made(3, 60.0, relief="arc").parts.outlines  # noqa: B018
     with pytest.raises(GenevaError, match=r"cross by 16.08 deg"):
-        made(24, 0.0155, 0.3, roller_radius_mm=1.0).parts  # noqa: B018
+        made(24, 0.0155, 0.3, roller_radius_mm=1.0).parts.outlines  # noqa: B018
 
 
 def test_the_drawings_of_the_design():
@@ -353,9 +353,9 @@ def test_the_drawings_of_the_design():
     z = dict(zip(bare["name"], bare["z_low_mm"], strict=True))
     assert z["wheel's shaft"] < z["wheel gear"]  # which it carries
     long = made(3, 60.0, wheel_hub_length_mm=40.0)
-    deep = planes(long.parts, long.parts_model.flat.links).nearest
+    deep = planes(long.parts.outlines, long.parts.flat.links).nearest
     assert deep.gap == pytest.approx(7.5 - 11.0)  # a hub of 1.6 times the bore, rounded, in it
-    gears = drawn_links(design.mechanism, design.parts).gears
+    gears = drawn_links(design.mechanism, design.parts.outlines).gears
     assert sum(gear.outer for gear in gears) == pytest.approx(120.0, rel=1e-14)  # and never meet
     holes = [s for s in design.drawing("arm").shapes if isinstance(s, Circle)]
     assert len(holes) == 5

@@ -8,6 +8,7 @@ import math
 import numpy as np
 import pytest
 import repo
+from other_shape import with_shape
 
 from geneva_cli import Design, EllipticalGears, External, Linear, Load, SideCrank, Size
 from geneva_cli.design import load
@@ -20,7 +21,6 @@ from geneva_cli.kinds.linear.quantities import guide
 from geneva_cli.kinds.linear.rack import locking_sector, rack_contour, rack_sizes
 from geneva_cli.kinds.linear.stressed import rack_stressed
 from geneva_cli.motion.many import many
-from geneva_cli.parts.assembly import assembled
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.verdict.quantities.designs import Designs
 
@@ -36,7 +36,8 @@ def sizes_of(**sizes: float):
 
 
 def smallest_gap(sizes) -> float:
-    return full_turn(turned_rack(assembled(design().mechanism), sizes)).smallest.mm
+    parts = design().parts
+    return full_turn(with_shape(parts, turned_rack(parts.assembly, sizes))).smallest.mm
 
 
 @pytest.mark.parametrize("count", [3, 4, 7])
@@ -325,7 +326,7 @@ def test_a_shaft_that_ends_in_the_racks_plane_fails():
     assert "beside_shafts_mm" not in {check.name for check in design().checks}
     long = design(crank_shaft_high_mm=2.0)
     (check,) = (check for check in long.checks if check.name == "beside_shafts_mm")
-    radius = long.parts_model.built.shafts[0].part.outline.radius
+    radius = long.parts.built.shafts[0].part.outline.radius
     assert check.value == pytest.approx(-radius, rel=1e-12) and not check.passes
     assert check.nearest == "leaving out crank_shaft_high_mm"
     # up to the rack's lower face it is free
@@ -343,7 +344,7 @@ def test_a_rack_behind_gears_has_a_lower_frame():
     """Heights by hand: arm, gears and frame of R/10. Focal gears reach C (1 + e)/2."""
     gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=60.0)
     geared = design().spec.replace(drive=gears)
-    parts = Design.of(geared).parts_model.built
+    parts = Design.of(geared).parts.built
     assert [(one.part.low, one.part.high) for one in parts.gear_pair] == [(-10.0, -5.0)] * 2
     assert (parts.frame.part.low, parts.frame.part.high) == (-15.0, -10.0)
     crank, driver = parts.shafts
@@ -368,14 +369,14 @@ def test_a_frame_is_as_thick_as_its_widest_bearing():
     gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=60.0)
     size = {"shafts": "turned", "arm_bore_mm": 5.0, "link_bore_mm": 20.0}
     geared = design(**size).spec.replace(drive=gears)
-    parts = Design.of(geared).parts_model.built
+    parts = Design.of(geared).parts.built
     assert parts.frame.part.high - parts.frame.part.low == pytest.approx(12.0)
     radii = {hole.centre: hole.radius for hole in parts.frame.part.holes}
     assert (radii[R, 0.0], radii[R + 60.0, 0.0]) == (7.0, 21.0)
     # 26 mm between axes and 28 mm of bearings
     near = Design.of(geared.replace(drive=gears.replace(gear_distance_mm=26.0)))
     with pytest.raises(GenevaError, match="crank's shaft and driver gear's shaft leave a wall of"):
-        _ = near.parts_model.built.frame
+        _ = near.parts.built.frame
 
 
 def test_a_gear_that_reaches_the_guide_fails():
@@ -383,7 +384,7 @@ def test_a_gear_that_reaches_the_guide_fails():
     gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=110.0)
     wide = Design.of(design().spec.replace(drive=gears))
     (check,) = (check for check in wide.checks if check.name == "gear_gap_mm")
-    rail = next(p for p in wide.parts_model.built.guide if p.part.name == "guide rail").part
+    rail = next(p for p in wide.parts.built.guide if p.part.name == "guide rail").part
     gap = R - bounds(rail.outline).x1 - 0.5 * 110.0 * 1.2
     assert gap < 0.0 and not check.passes
     assert check.value == pytest.approx(gap, rel=1e-9)

@@ -10,6 +10,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from other_shape import with_shape
 from sampling import some
 from scipy.spatial import cKDTree
 from turn_witness import TO_MM, check_bounds, check_proof, least_gap, turn_of
@@ -17,8 +18,9 @@ from turn_witness import TO_MM, check_bounds, check_proof, least_gap, turn_of
 from geneva_cli import Design, Linear, Size
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.kinds.linear.outlines import rack_outlines, turned_rack
+from geneva_cli.kinds.linear.outlines import turned_rack
 from geneva_cli.kinds.linear.rack import locking_sector, rack_contour
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.turn_certificate import certificate
 
@@ -26,9 +28,9 @@ R, r = 50.0, 6.0
 MACHINES = some(60, 6)
 
 
-def parts_of(z: int = 6, **sizes: float):
+def rack_of(z: int = 6, **sizes: float):
     size = Size(**{"center_distance_mm": R, "roller_radius_mm": r, **sizes})
-    return rack_outlines(Design(Linear(z), size=size).mechanism)
+    return parts_of(Design(Linear(z), size=size).mechanism).turned
 
 
 def random_parts(seed: int):
@@ -44,7 +46,7 @@ def random_parts(seed: int):
     }
     if rng.random() < 0.2:
         sizes["lock_radius_mm"] = 0.0
-    return parts_of(**sizes)
+    return rack_of(**sizes)
 
 
 def rack_and_ring(parts):
@@ -115,9 +117,9 @@ def test_random_racks_keep_what_is_proved(seed):
 @pytest.mark.parametrize("by", [0.002, 0.01, 0.1])
 def test_an_overlap_of_a_known_depth_is_not_proved(by):
     """The ring is larger than its recess by so much, and so is the overlap, in every dwell."""
-    parts = parts_of()
+    parts = rack_of()
     s = parts.sizes
-    large = turned_rack(parts.assembly, s._replace(lock=s.recess + by))
+    large = with_shape(parts, turned_rack(parts.assembly, s._replace(lock=s.recess + by)))
     smallest = full_turn(large).smallest.mm
     assert smallest == pytest.approx(-by, rel=1e-9)
     proof = certificate(large, smallest, TO_MM)
@@ -129,7 +131,7 @@ def test_an_overlap_of_a_known_depth_is_not_proved(by):
 @pytest.mark.parametrize("lock", [0.01, 0.2])
 def test_play_is_the_clearance(slot, lock):
     """The ring's axis is on that of the recess, and the slot's walls are along x."""
-    parts = parts_of(slot_clearance_mm=slot, lock_clearance_mm=lock)
+    parts = rack_of(slot_clearance_mm=slot, lock_clearance_mm=lock)
     turn = full_turn(parts)
     assert R * math.radians(turn.dwell.deg) == pytest.approx(lock, rel=1e-5)
     assert R * math.radians(turn.motion.deg) == pytest.approx(slot, rel=1e-5)
@@ -137,7 +139,7 @@ def test_play_is_the_clearance(slot, lock):
 
 
 def test_without_a_lock_nothing_holds_the_rack():
-    turn = full_turn(parts_of(lock_radius_mm=0.0))
+    turn = full_turn(rack_of(lock_radius_mm=0.0))
     assert not turn.holds
     assert turn.free_deg == pytest.approx(math.degrees(1.0))
 
@@ -197,7 +199,7 @@ def test_an_overlap_is_as_deep_at_the_end_of_the_ring():
     The witness: points on the rack and on the ring, and the distances of those that lie in the
     other part. In the ring they are from its outside, its inside and its straight end.
     """
-    parts = parts_of(slot_clearance_mm=0.05, lock_clearance_mm=0.05)
+    parts = rack_of(slot_clearance_mm=0.05, lock_clearance_mm=0.05)
     sizes, shift = parts.sizes, math.radians(1.0)
     outline = Polyarc([rack_contour(sizes, 5)])
     rack, ring = outline.samples(1e-6, 1e-3), Polyarc([locking_sector(sizes)]).samples(1e-6, 0.02)

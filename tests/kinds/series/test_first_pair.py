@@ -17,7 +17,7 @@ from geneva_cli.geometry.shapes import Circle
 @pytest.fixture(scope="module")
 def pair():
     design = load(str(repo.DESIGNS / "geneva-pair.toml"))
-    return design, design.parts_model.front
+    return design, design.parts.front
 
 
 def bore(drawing):
@@ -99,7 +99,7 @@ def test_the_first_pair_by_hand(first):
     assert b == rows["first crank"]["thickness_mm"]
     bent = 32.0 * force * 0.5 * b / (math.pi * d**3)
     assert found["first_pin_stress_MPa"].value == pytest.approx(bent, rel=1e-12)
-    front = design.parts_model.flat.front
+    front = design.parts.flat.front
     own = front.outlines.sizes
     r, R = own.half_width, own.recess
     h = first * s - r - R

@@ -30,7 +30,6 @@ from geneva_cli import (
     SideCrank,
     Spherical,
 )
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.drives.retimed import retimed
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import bounds
@@ -44,6 +43,7 @@ from geneva_cli.motion.pivots import Joint
 from geneva_cli.parts.links.link_planes import planes
 from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.outlines.outline_sizes import outlines
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.specfile.tree import spec_of
 from geneva_cli.specfile.writer import spec_lines
 from geneva_cli.study.animation.bodies import bodies
@@ -326,7 +326,7 @@ def test_an_input_crank_passes_the_spacers_of_a_sun():
     """The coulisse below a sun sweeps a circle, and four spacers stand around it: by hand."""
     design = Design.of(SERIES[4])
     spec = design.spec
-    flat = design.parts_model.flat
+    flat = design.parts.flat
     away = min(
         math.dist(one.at, (design.mechanism.center_distance_mm, 0.0)) for one in flat.spacers
     )
@@ -344,7 +344,7 @@ def test_gears_before_stand_on_the_shaft_that_they_turn():
     """On the input crank's axis of a side-crank, and on the first crank's of two wheels."""
     for drive, x in ((SideCrank(A=0.4, input_crank_mm=40.0), 100.0 - 16.0), (PAIR, 100.0 + 80.0)):
         design = Design(External(4), drive, drive_before=GEARS)
-        driven, driver = design.parts_model.flat.gear_pair
+        driven, driver = design.parts.flat.gear_pair
         assert (driven.at, driver.at) == ((x, 0.0), (x + 50.0, 0.0))
         assert {"driver gear axis"} <= {one.name for one in design.mechanism.layout}
         assert all(check.passes for check in design.checks), drive.NAME
@@ -353,7 +353,7 @@ def test_gears_before_stand_on_the_shaft_that_they_turn():
 def test_gears_lie_below_all_links_and_inside_the_bolts():
     """A sun stands on bolts: gears between it and the frame turn inside them."""
     spec = load(str(repo.DESIGNS / "behind-gears.toml")).spec
-    flat = PartsModel(build(spec)).flat
+    flat = parts_of(build(spec)).flat
     lows = [link.part.low for link in flat.links.cut]
     assert all(gear.part.high <= min(lows) for gear in flat.gear_pair)
     assert flat.gear_pair[0].part.low == flat.gear_pair[1].part.low

@@ -10,6 +10,7 @@ import random
 import numpy as np
 import pytest
 import repo
+from other_shape import with_shape
 from sampling import some
 from scipy.spatial import cKDTree
 from turn_witness import ROUNDING, TO_MM, check_bounds, check_proof, least_gap, turn_of
@@ -21,7 +22,7 @@ from geneva_cli.geometry.sphere import Rotation, place
 from geneva_cli.geometry.sphere_arcs import SphereArcs
 from geneva_cli.geometry.sphere_extents import Circle, FromCircle, farthest, short_arcs
 from geneva_cli.kinds.spherical.gaps import BallGaps
-from geneva_cli.kinds.spherical.shells import shells
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.turn_certificate import certificate, tolerance_mm
 
@@ -29,8 +30,8 @@ MACHINES = some(300, 8)
 DESIGNS = sorted(path.name for path in repo.DESIGNS.glob("spherical-*.toml"))
 
 
-def parts_of(name):
-    return shells(load(repo.DESIGNS / name))
+def named(name):
+    return parts_of(load(repo.DESIGNS / name))
 
 
 def random_parts(seed):
@@ -47,7 +48,7 @@ def random_parts(seed):
     )
     drive = Crank(rollers=rng.choice((1, 1, 2)))
     try:
-        return shells(Design(Spherical(z, axes_deg=axes_deg), drive, size=size).mechanism)
+        return parts_of(Design(Spherical(z, axes_deg=axes_deg), drive, size=size).mechanism).turned
     except GenevaError:
         return None
 
@@ -61,15 +62,15 @@ def spoilt(parts, **larger_mm):
     """The parts, of which some angles are larger by lengths on the sphere."""
     L, ball = parts.ball.radius_mm, parts.ball
     ball = ball._replace(**{k: getattr(ball, k) + v / L for k, v in larger_mm.items()})
-    return parts._replace(ball=ball, gaps=BallGaps(parts.assembly, ball, parts.crank))
+    return with_shape(parts, ball=ball, gaps=BallGaps(parts.assembly, ball, parts.shells.crank))
 
 
 def with_sectors(parts, turn):
     """The parts with their locking sectors turned about the crank's axis by an angle."""
     c, s = math.cos(turn), math.sin(turn)
     about = Rotation((c, s, 0.0), (-s, c, 0.0), (0.0, 0.0, 1.0))
-    crank = [region.turned(about) for region in parts.crank]
-    return parts._replace(crank=crank, gaps=BallGaps(parts.assembly, parts.ball, crank))
+    crank = [region.turned(about) for region in parts.shells.crank]
+    return with_shape(parts, crank=crank, gaps=BallGaps(parts.assembly, parts.ball, crank))
 
 
 def dense_points(arcs, each):
@@ -87,7 +88,7 @@ def angles(points, tree):
 @pytest.mark.parametrize("name", DESIGNS)
 def test_nearest_and_farthest_distances_against_dense_points(name):
     """Points of the wheel's edge lie at most 1e-3 radians apart, and those of an arc 1e-4."""
-    wheel = parts_of(name).gaps.wheel
+    wheel = named(name).gaps.wheel
     edge = dense_points(wheel, 3000)
     tree = cKDTree(edge)
     rng = np.random.default_rng(1)
@@ -110,7 +111,7 @@ def test_nearest_and_farthest_distances_against_dense_points(name):
 
 
 def test_short_arcs_are_the_same_edges():
-    regions = parts_of("spherical-60deg.toml").crank
+    regions = named("spherical-60deg.toml").shells.crank
     short = short_arcs(regions, math.radians(1.0))
     points = np.array([place(a, b) for a in (0.1, 0.3, 0.5) for b in np.linspace(0.0, 6.0, 40)])
     edges = [SphereArcs(region.boundary) for region in regions]
@@ -121,7 +122,7 @@ def test_short_arcs_are_the_same_edges():
 
 @pytest.mark.parametrize("name", DESIGNS)
 def test_no_gap_within_an_interval_is_below_its_bound(name):
-    check_bounds(parts_of(name), np.random.default_rng(3))
+    check_bounds(named(name), np.random.default_rng(3))
 
 
 def test_no_gap_of_a_random_machine_is_below_its_bound():
@@ -131,7 +132,7 @@ def test_no_gap_of_a_random_machine_is_below_its_bound():
 
 @pytest.mark.parametrize("name", DESIGNS)
 def test_designs_are_proved_to_a_micrometre_of_their_smallest_gap(name):
-    parts = parts_of(name)
+    parts = named(name)
     gap, to_mm = full_turn(parts).smallest.mm, tolerance_mm(parts)
     found = check_proof(parts, gap, to_mm)
     assert found.proved
@@ -150,7 +151,7 @@ def test_random_machines_keep_what_is_proved():
 @pytest.mark.parametrize("name", DESIGNS)
 def test_a_collision_of_known_depth_is_proved_to_no_less(name, depth):
     """A roller larger than its slot, and a locking sector larger than its recess."""
-    parts = parts_of(name)
+    parts = named(name)
     for worse in (spoilt(parts, roller=depth), spoilt(parts, recess=-depth)):
         found = certificate(worse, 0.0, TO_MM)
         assert found.proved == (depth < TO_MM)
@@ -166,7 +167,7 @@ def test_sectors_out_of_their_place_are_never_proved_free():
     collides = free = 0
     for name in DESIGNS:
         for _ in range(some(60, 3)):
-            parts = with_sectors(parts_of(name), math.radians(10.0 ** rng.uniform(-4.0, 0.5)))
+            parts = with_sectors(named(name), math.radians(10.0 ** rng.uniform(-4.0, 0.5)))
             gap = least_gap(parts, turn_of(parts, some(8_000, 2_000)))
             found = certificate(parts, 0.0, TO_MM)
             collides += gap < -TO_MM

@@ -7,14 +7,12 @@ import pytest
 from scipy.spatial import cKDTree
 
 from geneva_cli import Crank, Design, External, Size, Spherical
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.spherical.crank import at_mid_motion, sectors
 from geneva_cli.kinds.spherical.gaps import BallGaps
-from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.shaft_gap import shaft_gap
-from geneva_cli.kinds.spherical.shells import shells
 from geneva_cli.kinds.spherical.sizes import ball
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.gaps import NEAR
 from geneva_cli.verdict.checks import all_pass, checks
 from geneva_cli.verdict.checks.registry import standing_checks
@@ -42,7 +40,7 @@ def angles(a, b):
 
 def test_distances_are_those_of_sampled_points():
     """Within half a step of the samples, squared, over twice the distance; nearest points too."""
-    found = shells(Design(Spherical(5, axes_deg=70), size=Size(80.0, 5.0, **CLEAR)).mechanism)
+    found = parts_of(Design(Spherical(5, axes_deg=70), size=Size(80.0, 5.0, **CLEAR)).mechanism)
     for arcs in (found.gaps.wheel, *found.gaps.sectors):
         edge = sampled(arcs)
         rng = np.random.default_rng(1)
@@ -61,9 +59,9 @@ def test_nearly_parallel_shafts_are_a_flat_machine():
     for curvature, and of the first order where the deepest roller is 3e-3 L farther in."""
     size = {**CLEAR, "slot_bottom_clearance_mm": 0.3}
     far = 100.0 / math.radians(0.2)
-    flat = PartsModel(Design(External(6), size=Size(100.0, 5.0, **size)).mechanism).turn
+    flat = parts_of(Design(External(6), size=Size(100.0, 5.0, **size)).mechanism).turn
     ball = Design(Spherical(6, axes_deg=0.2), size=Size(far, 5.0, wheel_bore_mm=10.0, **size))
-    found = PartsModel(ball.mechanism).turn
+    found = parts_of(ball.mechanism).turn
     for name in ("dwell", "hand_over", "motion", "push"):
         assert getattr(found, name).deg == pytest.approx(getattr(flat, name).deg, rel=2e-3)
     for name in ("driving", "lock"):
@@ -85,7 +83,7 @@ def least_gap(found, at):
 def test_gaps_are_those_of_sampled_edges(axes, z):
     """Through a turn: of points nearest to each other, each is half a step off at most."""
     size = Size(80.0, 4.0, lock_clearance_mm=0.5, slot_clearance_mm=0.1)
-    found = shells(Design(Spherical(z, axes_deg=axes), size=size).mechanism)
+    found = parts_of(Design(Spherical(z, axes_deg=axes), size=size).mechanism)
     at = found.assembly.start_deg + np.linspace(1.0, 350.0, 13)
     told = found.gaps.locking(found.gaps.pose(at))
     edges = (found.gaps.wheel, *found.gaps.sectors)
@@ -113,9 +111,9 @@ def test_machines_of_default_sizes_pass(design):
 
 def spoilt(**sizes):
     """The least gaps of rollers and lock in a turn, of which some angles are larger by so much."""
-    found = shells(Design(Spherical(6, axes_deg=100), size=Size(80.0, 5.0, **CLEAR)).mechanism)
+    found = parts_of(Design(Spherical(6, axes_deg=100), size=Size(80.0, 5.0, **CLEAR)).mechanism)
     ball = found.ball._replace(**{k: getattr(found.ball, k) + v / 80.0 for k, v in sizes.items()})
-    gaps = BallGaps(found.assembly, ball, found.crank)
+    gaps = BallGaps(found.assembly, ball, found.shells.crank)
     at = found.assembly.start_deg + np.linspace(0.0, 360.0, 721)[:-1]
     return gaps.rollers(gaps.pose(at)).min(), gaps.locking(gaps.pose(at)).min()
 
@@ -130,7 +128,7 @@ def test_spoilt_machines_overlap_by_as_much():
 def test_a_sector_is_narrower_where_the_wheel_sweeps_over_its_ends():
     """Shafts at 140 degrees and 16 slots: not all of the way between two rollers is free."""
     design = Design(Spherical(16, axes_deg=140), size=Size(100.0, 5.0))
-    (sector,) = shells(design.mechanism).crank
+    (sector,) = parts_of(design.mechanism).shells.crank
     whole = math.radians(360.0 - design.timing.motion_deg)
     assert 0.5 * whole < sector.boundary[0].sweep < 0.95 * whole
     rows = {c.name: c for c in checks(design.mechanism)}
@@ -141,9 +139,9 @@ def test_a_sector_is_narrower_where_the_wheel_sweeps_over_its_ends():
 def test_a_roller_that_leaves_room_is_named():
     design = Design(Spherical(6, axes_deg=170), size=Size(80.0, 5.0))
     with pytest.raises(GenevaError, match="whole locking sector") as error:
-        shells(design.mechanism)
+        _ = parts_of(design.mechanism).turned
     most = float(str(error.value).rpartition("a roller of ")[2].partition(" mm")[0])
-    assert shells(design.with_("size.roller_radius_mm", most).mechanism).crank
+    assert parts_of(design.with_("size.roller_radius_mm", most).mechanism).shells.crank
     with pytest.raises(GenevaError, match="whole locking sector"):
         sectors(ball(design.with_("size.roller_radius_mm", 1.2 * most).mechanism))
 
@@ -165,9 +163,9 @@ def test_shafts_and_arm_have_room_or_not():
     design = Design(Spherical(6, axes_deg=75), size=given)
 
     def row(name, of=design):
-        return next(c for c in standing_checks(SphereParts(shells(of.mechanism))) if c.name == name)
+        return next(c for c in standing_checks(parts_of(of.mechanism)) if c.name == name)
 
-    ball = shells(design.mechanism).ball
+    ball = parts_of(design.mechanism).ball
     # the arm is a shell from 84 mm on, and the wheel's one from 76
     eye = math.radians(75.0) - ball.arm - 10.0 / 80.0 - math.asin(15.0 / 84.0)
     assert row("beside_shafts_mm").value == pytest.approx(84.0 * eye, rel=1e-12)
@@ -177,7 +175,7 @@ def test_shafts_and_arm_have_room_or_not():
     assert row("wheel_bore_wall_mm", bare).value == pytest.approx(80.0 * deepest, rel=1e-12)
     assert row("beside_shafts_mm", design.with_("size.arm_eye_mm", 110.0)).passes is False
     # without an arm one check says why
-    thin = SphereParts(shells(design.with_("size.arm_hub_mm", 3.0).mechanism))
+    thin = parts_of(design.with_("size.arm_hub_mm", 3.0).mechanism)
     failing = [c for c in standing_checks(thin) if not c.passes]
     assert [c.name for c in failing] == ["arm_wall_mm"]
     assert failing[0].why.startswith("arm_hub_mm = 3: the hub must be above")
@@ -187,8 +185,8 @@ def test_shafts_and_arm_have_room_or_not():
 
 def least_beside(**given):
     axes = given.pop("axes")
-    found = shells(Design(Spherical(6, axes_deg=axes), size=Size(80.0, 3.0, **given)).mechanism)
-    return found.ball, shaft_gap(SphereParts(found))
+    found = parts_of(Design(Spherical(6, axes_deg=axes), size=Size(80.0, 3.0, **given)).mechanism)
+    return found.ball, shaft_gap(found)
 
 
 def test_a_shaft_through_the_centre_to_where_the_crank_comes_round():
@@ -218,6 +216,6 @@ def test_by_default_all_has_its_room():
     for z in (3, 12):
         for axes in (10.0, 60.0, 120.0, 165.0):
             design = Design(Spherical(z, axes_deg=axes), size=Size(100.0, 1.0))
-            rows = list(standing_checks(SphereParts(shells(design.mechanism))))
+            rows = list(standing_checks(parts_of(design.mechanism)))
             assert all(c.passes for c in rows), rows
             assert {"beside_shafts_mm", "arm_wall_mm"} <= {c.name for c in rows}

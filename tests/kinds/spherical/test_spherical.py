@@ -10,21 +10,22 @@ from drawing_witness import vertices
 from step_witness import File
 
 from geneva_cli import Crank, Design, Size, Spherical
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import segment_length
 from geneva_cli.geometry.moments import area
 from geneva_cli.geometry.plates import solids
 from geneva_cli.geometry.shapes import Contour
+from geneva_cli.geometry.sphere import POLE
 from geneva_cli.geometry.sphere_arcs import SphereArcs
 from geneva_cli.kinds.spherical.arm import crank_arm
 from geneva_cli.kinds.spherical.arm_drawing import arm_cone
 from geneva_cli.kinds.spherical.crank import at_mid_motion, rollers, sectors
 from geneva_cli.kinds.spherical.drawings import crank_cone, wheel_cone
-from geneva_cli.kinds.spherical.parts import SphereParts, wheel_shell
+from geneva_cli.kinds.spherical.parts import wheel_shell
 from geneva_cli.kinds.spherical.sizes import ball
-from geneva_cli.kinds.spherical.wheel import POLE, edge_points, wheel_regions
+from geneva_cli.kinds.spherical.wheel import edge_points, wheel_regions
 from geneva_cli.output.step import chunks
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.verdict.checks.registry import standing_checks
 
 CLEAR = Size(80.0, 5.0, slot_clearance_mm=0.05, lock_clearance_mm=0.04)
@@ -277,7 +278,7 @@ def test_the_arm_laid_flat(name):
     """Rolled up again its edge is the arm's, but for the cut and the hub; each hole of pins
     and bolts is a round about its place."""
     design = MACHINES[name].with_("size.press_fit_mm", 0.01)
-    drawn = PartsModel(design.mechanism)
+    drawn = parts_of(design.mechanism)
     made, found = crank_arm(drawn.shells), drawn.shells.ball
     outline, *holes = design.drawing("arm", 0.005).shapes
     cone = arm_cone(found)
@@ -314,8 +315,8 @@ def test_an_arm_with_bolts_keyway_and_hub_inside():
         100.0, 2.0, crank_bore_mm=8.0, crank_hub_mm=12.0, crank_keyway="DIN 6885-1", lock_bolts=2
     )
     design = Design(Spherical(4, axes_deg=40), size=size)
-    found = PartsModel(design.mechanism).shells
-    whole = SphereParts(found)
+    found = parts_of(design.mechanism).shells
+    whole = parts_of(design.mechanism)
     assert [hole.radius for hole in whole.arm.bolts] == [1.2, 1.2]  # M2
     names = Counter(one.name for one in solids(whole.crank.part))
     assert names["crank's hub"] == 1
@@ -354,15 +355,15 @@ def test_an_arm_with_bolts_keyway_and_hub_inside():
     ],
 )
 def test_no_arm_or_hub(size, said):
-    found = PartsModel(Design(Spherical(6), size=Size(80.0, 5.0, **size)).mechanism).shells
+    parts = parts_of(Design(Spherical(6), size=Size(80.0, 5.0, **size)).mechanism).turned
     with pytest.raises(GenevaError, match=said):
-        _ = SphereParts(found).members
+        _ = parts.members
 
 
 def test_bolts_for_a_dial():
     """Holes to the centre, half-way from the hub's hole to the cap's edge, evenly amid slots."""
     design = Design(Spherical(6), size=Size(80.0, 5.0, dial_bolts=3, dial_bolt_mm=4.0))
-    parts = PartsModel(design.mechanism).built
+    parts = parts_of(design.mechanism).built
     found = parts.shells
     _, *holes = wheel_shell(design.spec.size, found.ball).holes
     hub = math.asin(found.ball.hub_mm / 76.0)
@@ -380,7 +381,7 @@ def test_bolts_for_a_dial():
         ("dial_bolt_circle_mm", 20.0, "they must lie between circles of"),
         ("wheel_bore_mm", 0.0, "the wheel is open about its axis"),
     ):
-        rows = standing_checks(PartsModel(design.with_(f"size.{key}", value).mechanism).built)
+        rows = standing_checks(parts_of(design.with_(f"size.{key}", value).mechanism).built)
         (failing,) = (c for c in rows if not c.passes)
         assert failing.name == "dial_wall_mm"
         assert said in failing.why
@@ -462,21 +463,21 @@ def test_refused(size, z, said):
 
 def test_bolts_hold_the_sectors_by_default():
     """Two in each, in the middle of the sector, with the least wall round them."""
-    drawn = PartsModel(Design(Spherical(6)).mechanism)
+    drawn = parts_of(Design(Spherical(6)).mechanism)
     arm, (sector,) = crank_arm(drawn.shells), drawn.shells.crank
     low, high = math.pi - sector.boundary[2].angle, sector.boundary[0].angle
     polar_angles = [math.acos(bolt.axis[2]) for bolt in arm.bolts]
     assert polar_angles == pytest.approx([0.5 * (low + high)] * 2, abs=1e-12)
     assert arm.wall >= drawn.shells.sizes.wall_min
-    without = PartsModel(Design(Spherical(6), size=Size(lock_bolts=0)).mechanism)
+    without = parts_of(Design(Spherical(6), size=Size(lock_bolts=0)).mechanism)
     assert not crank_arm(without.shells).bolts
 
 
 def test_a_keyway_widens_the_default_hub():
     """DIN 6885-1: 2.8 mm above a bore of 20 mm; the hub keeps the least wall around it."""
     size = Size(200.0, 5.0, wheel_bore_mm=20.0, wheel_keyway="DIN 6885-1", wall_min_mm=6.0)
-    found = PartsModel(Design(Spherical(6), size=size).mechanism).shells.ball
+    found = parts_of(Design(Spherical(6), size=size).mechanism).shells.ball
     assert found.hub_mm == 10.0 + 2.8 + 6.0
     bored = Size(200.0, 5.0, wheel_hub_mm=24.0, wheel_keyway="DIN 6885-1")
-    found = PartsModel(Design(Spherical(6), size=bored).mechanism).shells.ball
+    found = parts_of(Design(Spherical(6), size=bored).mechanism).shells.ball
     assert found.hub_mm == 12.0 and found.bore_mm == 7.5  # up to 24/1.6, of a bearing

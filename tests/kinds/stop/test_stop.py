@@ -25,7 +25,7 @@ STOPPED = {z: Design(External(z, stop=True)) for z in (3, 4, 5, 6, 8, 12)}
 
 def stops_of(design):
     """The stops of a design whose parts can be built."""
-    stop = wheel_stop(design.parts)
+    stop = wheel_stop(design.parts.outlines)
     assert stop is not None
     return stop
 
@@ -33,7 +33,7 @@ def stops_of(design):
 @pytest.mark.parametrize("z", STOPPED)
 def test_the_collision_engine_touches_first_at_the_closed_form(z):
     """Bisection of the engine's gap between free and blocked, at both ends."""
-    outlines, stop = STOPPED[z].parts, stops_of(STOPPED[z])
+    outlines, stop = STOPPED[z].parts.outlines, stops_of(STOPPED[z])
     gaps = Gaps(outlines.assembly, outlines.sizes, outlines.wheel, outlines.crank)
     for sense, end in ((1.0, stop.last_deg), (-1.0, stop.first_deg)):
         low, high = end - 5.0 * sense, end + 1.0 * sense  # degrees
@@ -48,7 +48,7 @@ def test_the_collision_engine_touches_first_at_the_closed_form(z):
 @pytest.mark.parametrize("z", STOPPED)
 def test_polygons_are_apart_until_the_stop_and_overlap_beyond(z):
     """Dense polygons, placed by the wheel's and the crank's own formulas (psi = atan2)."""
-    outlines, stop = STOPPED[z].parts, stops_of(STOPPED[z])
+    outlines, stop = STOPPED[z].parts.outlines, stops_of(STOPPED[z])
     wheel = polygon(outlines.wheel, 1e-4)
     (crank,) = (polygon(one, 1e-4) for one in outlines.crank)
     l, steps = math.sin(math.pi / z), z - 1 - z // 2  # the last engagement of the drawings
@@ -71,7 +71,7 @@ def test_polygons_are_apart_until_the_stop_and_overlap_beyond(z):
 def test_the_lever_is_the_rate_at_which_the_gap_closes(z):
     """Virtual work: the gap falls by h per radian of the crank, wherever the wheel is."""
     stop, step = stops_of(STOPPED[z]), 0.5  # degrees, between positions of the way to a stop
-    way = clearances_before(STOPPED[z].parts, stop)
+    way = clearances_before(STOPPED[z].parts.outlines, stop)
     for closing in way:
         near, far = closing[-2], closing[-3]
         # the slope at the stop from two gaps: the curvature cancels, the third order is 1e-4
@@ -169,7 +169,7 @@ def test_check_shows_both_ends_and_the_page_goes_back_and_forth(tmp_path):
 def test_the_wheel_as_cut_has_one_convex_face():
     """Only the face reaches the rim between two mouths, opposite the slot ahead."""
     for z, design in STOPPED.items():
-        points = np.array(vertices(design.parts.wheel, 1e-3))
+        points = np.array(vertices(design.parts.outlines.wheel, 1e-3))
         ahead = np.mod(np.arctan2(points[:, 1], points[:, 0]), math.tau)
         rim = design.parts.sizes.rim
         for k in range(z):
