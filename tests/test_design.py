@@ -85,6 +85,8 @@ DESIGNS = {
         size=Size(140, 7),
     ),
 }
+FILES = {path.stem for path in repo.DESIGNS.glob("*.toml")}
+DESIGNS = {name: make for name, make in DESIGNS.items() if name in FILES}
 
 
 def file(text, tmp_path):
@@ -463,13 +465,14 @@ def test_every_kind_has_its_name_in_the_package():
 
 
 def test_a_design_shows_itself_as_python_writes_it():
-    for made in DESIGNS.values():
+    every = [make() for make in DESIGNS.values()]
+    for made in every:
         names = vars(geneva_cli) | {name: getattr(geneva_cli, name) for name in dir(geneva_cli)}
         shown = repr(made)
         if "..." not in shown:  # points of a table are cut
             assert eval(shown, names).spec == made.spec, shown
     assert repr(Design(External(6))) == "Design(External(z=6), Crank())"
-    assert max(len(repr(made)) for made in DESIGNS.values()) < 500
+    assert max(len(repr(made)) for made in every) < 500
 
 
 def test_a_table_shows_ten_rows_no_wider_than_a_page():

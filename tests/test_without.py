@@ -46,12 +46,13 @@ def designs(folder):
 def names(room, folder):
     """What names a kind in a test: its module or design, its name in any writing, its key."""
     yield rf"{room}\.{folder}"
-    if room == "kinds":
+    if room == "extras":
+        own = load_named(f"extras.{folder}:EXTRA").laws
+    else:
         yield from (rf"\b{path.stem}\b" for path in designs(folder))
         yield from keys(folder)
-        for kind in load_named(f"kinds.{folder}:KINDS"):
-            if not kind.adds_to:
-                yield re.sub("-", "[-_ ]?", kind.name)
+        own = [kind.name for kind in load_named(f"kinds.{folder}:KINDS") if not kind.adds_to]
+    yield from (name.replace("-", "[-_ ]?") for name in own)
 
 
 def copy_without(room, folder, to):

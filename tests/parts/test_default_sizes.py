@@ -13,7 +13,6 @@ from geneva_cli import Design
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.outlines.outline_sizes import machine_sizes
 from geneva_cli.parts.outlines.wheel_outline import dial_bolts
-from geneva_cli.parts.parts import parts_of
 from geneva_cli.spec.tables import Load, Size
 
 L = 100.0
@@ -148,20 +147,6 @@ def test_a_keyway_leaves_the_least_wall_of_the_arms_hub():
     size = {"crank_keyway": "DIN 6885-1", "arm_bore_mm": 20.0, "crank_bore_mm": 0.0}
     arm = crank_arm(of(**size, wall_min_mm=5.0, lock_bolts=0).parts.outlines)
     assert arm.hub == pytest.approx(10.0 + 2.8 + 5.0)
-
-
-def test_bores_of_a_sphere():
-    """Up to L/6, whose bearings have 15 or 12 mm; the slotted ring ends a roller inside its slots.
-
-    Where a hole is nearer than that, it ends midway between both.
-    """
-    from geneva_cli.kinds.spherical.ball import inner_edge
-
-    for distance, bore in ((90.0, 7.5), (89.9, 6.0)):
-        mechanism = Design.of(Spec(Wheel(6, "spherical"), size=Size(distance))).mechanism
-        assert parts_of(mechanism).shells.ball.bore_mm == bore
-    assert inner_edge(1.0, 0.1, 0.5) == pytest.approx(0.9)
-    assert inner_edge(1.0, 0.1, 0.95) == pytest.approx(0.975)
 
 
 def test_bolts_of_a_dial():

@@ -13,7 +13,6 @@ from drawing_witness import vertices
 from scipy.spatial import KDTree
 from words import Drive, Keys, Motion, Spec, Wheel
 
-import geneva_cli
 from geneva_cli import Design, EllipticalGears, External, Internal, load
 from geneva_cli.drawings.sheet.bores import bored
 from geneva_cli.drawings.sheet.crank import draw_arm, draw_disc, draw_roller
@@ -34,7 +33,6 @@ from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.outlines.cut_lock import cut_arcs
 from geneva_cli.parts.outlines.outline_sizes import machine_sizes, outlines
 from geneva_cli.parts.outlines.reliefs import arc_floor, reliefs, widened
-from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.shafts.all_shafts import passing_arm
 from geneva_cli.parts.shafts.bores import RoundBore, bore_of
 from geneva_cli.parts.shafts.hub_and_shafts import crank_hub
@@ -114,24 +112,6 @@ def test_each_sector_has_its_own_bolts():
     assert bolts == [[pytest.approx((0.0, side * 55.0))] for side in (1.0, -1.0)]
     heights = [disc.outline.segments[0].start[1] for disc in discs]
     assert heights[0] > 0.0 > heights[1]
-
-
-def test_the_bolts_of_a_racks_arm_are_amid_its_locking_sector():
-    """R = 50, r = 6: the sector reaches from R - rho + R/200 to rho = R - 2 r.
-
-    It lies over half a turn opposite the roller, so the bolts are at 135° and 225°. A hole of up to
-    2 R/40 = 2.5 mm is one of 2.4 mm for M2, whose pitch is 0.4 mm.
-    """
-    from geneva_cli.kinds.linear.arm import crank_arm as rack_arm
-
-    design = Design(geneva_cli.Linear(6), size=Size(center_distance_mm=50.0, roller_radius_mm=6.0))
-    far = 0.5 * (50.0 - 38.0 + 0.25 + 38.0)
-    arm, at = rack_arm(design.mechanism), far * math.sqrt(0.5)
-    holes = [(*bolt.centre, bolt.radius) for bolt in arm.bolts]
-    assert holes == [pytest.approx((-at, at, 0.8)), pytest.approx((-at, -at, 0.8))]
-    on_sheet = {"50", "Ø 6 P7 (-0.008/-0.02)", "R 38", "R 6", "Ø 10 H7 (+0.015/0)"}
-    on_sheet.add(f"2× Ø 1.6, tapped M2 on Ø {2.0 * far:g}")
-    assert dimensions(draw_arm, design.mechanism, arm) == on_sheet
 
 
 def test_a_guide_is_as_long_as_its_block_needs():
@@ -233,19 +213,6 @@ def test_a_groove_plate_has_its_screws_amid_its_rim():
     assert [one.centre for one in screws] == [pytest.approx(corner) for corner in corners]
     assert {one.radius for one in screws} == {1.45}
     assert (base.low, base.high, ring.high) == (-30.0, -20.0, -10.0)
-
-
-def test_screws_are_amid_the_guides_bars():
-    """R = 50, half a slot 6.1: bars of R/10, whose screws are half a bar from their ends."""
-    from geneva_cli.kinds.linear.frame import guide
-
-    keys = {"roller_radius_mm": 6.0, "slot_clearance_mm": 0.1}
-    design = Design(geneva_cli.Linear(6), size=Size(center_distance_mm=50.0, **keys))
-    for bar in guide(design.mechanism)[:2]:
-        box = bounds(bar.outline)
-        middle, far = 0.5 * (box.x0 + box.x1), 50.0 - 6.1 - 2.5
-        places = [pytest.approx((middle, y)) for y in (-far, 0.0, far)]
-        assert [one.centre for one in bar.holes] == places
 
 
 def test_a_fixed_gear_is_screwed_to_the_frame_below_the_hub():
@@ -398,60 +365,6 @@ def test_a_ring_gear_is_as_wide_as_two_eyes():
         pytest.approx(corner) for corner in ((at, at), (-at, at), (-at, -at), (at, -at))
     ]
     assert {one.radius for one in ring.bolts} == {1.2}
-
-
-def test_the_crank_of_a_sphere():
-    """Its arm is outside of the wheel, and locks over 180°: two bolts are at 135° and 225°.
-
-    Their circle's diameter is across the sphere of the machine, whose radius is L. Half of the
-    wheel's thickness is inside of that sphere.
-    """
-
-    bolts = {"lock_bolts": 2, "lock_bolt_circle_mm": 60.0, "lock_bolt_mm": 2.0}
-    size = Size(
-        L,
-        6.0,
-        shaft_fit_mm=0.2,
-        pin_mm=6.0,
-        press_fit_mm=0.1,
-        pin_gap_mm=0.5,
-        washer_mm=0.25,
-        **bolts,
-    )
-    mechanism = Design.of(Spec(Wheel(6, "spherical"), size=size)).mechanism
-    parts = parts_of(mechanism)
-    far, height = 30.0 * math.sqrt(0.5), math.sqrt(L**2 - 30.0**2)
-    places = [(hole.axis[0] * L, hole.axis[1] * L, hole.axis[2] * L) for hole in parts.arm.bolts]
-    assert places == [pytest.approx((-far, side * far, height)) for side in (1.0, -1.0)]
-    assert {hole.radius for hole in parts.arm.bolts} == {1.0}
-    # slots end R/L = 30° off the crank's axis, which is 90° off, less a roller and r/20
-    assert parts.ball.slot_end == pytest.approx(math.pi / 3.0 - 0.06 - 0.003)
-    every = {one.name: one for one in solids(parts.crank.part)}
-    assert (every["pin"].outline.radius, parts.arm.pins[0].radius) == (3.0, pytest.approx(2.95))
-    assert [hole.radius for hole in every["roller"].holes] == [pytest.approx(3.1)]
-    spans = {name: (one.inner, one.outer) for name, one in every.items() if hasattr(one, "inner")}
-    assert spans["roller"] == (95.0, 105.0)
-    assert spans["arm"] == (105.5, 115.5)
-    assert parts.ball.shafts_end_mm(size) == 115.75
-    # a cap about a hub leaves a wall as thick as the hub's, or the least one
-    for bore, edge in ((50.0, 70.0), (59.0, 62.0)):
-        assert parts.ball.cap(60.0, bore, 2.0) == pytest.approx(math.asin(edge / 105.5))
-
-
-def test_cones_that_shells_are_laid_flat_on():
-    """They touch the arm amid its thickness at the pin, and the wheel amid its slots.
-
-    The pin is 30° off the crank's axis. At entry the roller is 90° off the wheel's.
-    """
-    from geneva_cli.kinds.spherical.arm_drawing import arm_cone
-    from geneva_cli.kinds.spherical.laid_flat import wheel_cone
-
-    size = Size(L, 6.0, pin_gap_mm=0.5, wheel_thickness_mm=8.0, arm_thickness_mm=5.0)
-    mechanism = Design.of(Spec(Wheel(6, "spherical"), size=size)).mechanism
-    ball = parts_of(mechanism).shells.ball
-    assert arm_cone(ball) == pytest.approx((L + 4.0 + 0.5 + 2.5, math.pi / 6.0))
-    slot = math.pi / 3.0 - 0.003, math.pi / 2.0
-    assert wheel_cone(ball) == pytest.approx((L, 0.5 * sum(slot)))
 
 
 def test_a_first_crank_is_as_wide_as_its_link():

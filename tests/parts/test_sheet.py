@@ -37,7 +37,6 @@ from geneva_cli.geometry.measure import bounds, points
 from geneva_cli.geometry.placed import in_place
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line
 from geneva_cli.geometry.sheet import Label
-from geneva_cli.geometry.sphere import place
 from geneva_cli.output.sheets import dxf
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.spec.tables import RollerMaterial, Size, TitleBlock, Tolerance, WheelMaterial
@@ -346,38 +345,6 @@ def printed(block):
     downwards = sorted(block.labels, key=lambda label: (-label.at[1], label.at[0]))
     texts = [label.text for label in downwards if re.fullmatch(r"-?\d+\.\d{3}", label.text)]
     return [(float(x), float(y)) for x, y in zip(texts[::2], texts[1::2], strict=True)]
-
-
-def test_points_of_a_slot_laid_flat_are_on_the_sphere():
-    """Rolled up again, each is on a recess, the rim, a wall or the round end, seen from its centre.
-
-    Within the rounding to three decimals and a tenth of the table's tolerance.
-    """
-    from geneva_cli.kinds.spherical.laid_flat import wheel_cone
-    from geneva_cli.kinds.spherical.sheet import flat_slot
-
-    ball = load(str(repo.DESIGNS / "spherical-z6.toml")).parts.shells.ball
-    cone, R, b = wheel_cone(ball), ball.radius_mm, math.pi / ball.z
-    points = printed(flat_slot(ball, TOLERANCE))
-    assert points[-1][1] == 0.0 > max(y for _, y in points[:-1])
-    crank = place(ball.axes, -b)
-    seen = set()
-    for x, y in points:
-        polar = cone.polar + math.atan((math.hypot(x, y) - cone.apex_mm) / R)
-        azimuth = math.atan2(y, x) / math.cos(cone.polar)
-        at = np.array(place(polar, azimuth))
-        off = {
-            "recess": math.acos(at @ crank) - ball.recess,
-            "rim": polar - ball.rim,
-            "wall": math.asin(-at[1]) - ball.half_width,
-            "end": math.acos(at @ place(ball.bottom, 0.0)) - ball.half_width,
-        }
-        nearest = min(off, key=lambda name: abs(off[name]))
-        seen.add(nearest)
-        assert R * abs(off[nearest]) < 1e-3 + 0.1 * TOLERANCE
-    assert seen >= {"recess", "wall", "end"}
-    turns = [math.atan2(y, x) / math.cos(cone.polar) for x, y in points]
-    assert min(turns) == pytest.approx(-b, abs=1e-3 / R)  # begins amid two slots
 
 
 def test_a_polyline_is_as_near_as_asked():

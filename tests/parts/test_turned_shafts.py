@@ -3,13 +3,12 @@
 import math
 
 import pytest
-import shapely
 import trimesh
 from drawing_witness import polygon
 from step_witness import File, Solid
 
 import geneva_cli
-from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, load
+from geneva_cli import Design, External, Internal, SideCrank, Size, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.plates import Group, Plate, Stack, lowered, solids
@@ -224,30 +223,6 @@ def test_refused(design, said):
     assert caught.value.key == ("size", "shafts")
 
 
-def test_steps_on_a_sphere():
-    """Seen from its axis each shaft is one of a plane: the sphere's outside is the height 0."""
-
-    size = Size(80.0, 5.0, shafts="turned", wheel_bore_mm=16.0, wheel_hub_mm=24.0, arm_bore_mm=10.0)
-    parts = parts_of(Design(Spherical(6), size=size).mechanism)
-    wheel, crank = (m.part for m in parts.shafts)
-    (inside, _), (under, over) = parts.ball.span_mm, parts.ball.arm_span_mm
-    n, m = 1.5 * (15.0 - 14.3), 1.1
-    bearing = over + 80.0 / 50.0  # the hub ends at the arm's outside
-    wanted = [
-        ("end", 16.0, inside - 2.3, inside - 1.1),
-        ("circlip groove, DIN 471", 15.2, inside - 1.1, inside),
-        ("seat of wheel", 16.0, inside, over),
-        ("shoulder", 20.0, over, bearing),
-        ("seat of bearing 6002", 15.0, bearing, bearing + 9.0),
-        ("circlip groove, DIN 471", 14.3, bearing + 9.0, bearing + 9.0 + m),
-        ("end", 15.0, bearing + 9.0 + m, bearing + 9.0 + m + n),
-    ]
-    for step, (name, wide, low, high) in zip(steps(wheel), wanted, strict=True):
-        assert step == (name, wide, pytest.approx(low), pytest.approx(high))
-    # the wheel turns inside the arm: no circlip there
-    assert steps(crank)[0] == ("seat of crank", 10.0, pytest.approx(under), pytest.approx(over))
-
-
 KINDS = [kind for kind in registry.DRIVES if kind != "crank"]
 
 
@@ -339,19 +314,6 @@ def test_stress_in_the_bearing():
     # shoulder and half of the bearing 6002
     assert plain == (16.0, pytest.approx(5.0 + 10.0 + 5.0))
     assert turned == (15.0, pytest.approx(5.0 + 10.0 + 2.0 + 4.5))
-
-
-@pytest.mark.parametrize("shape", ["round", "D", "hex"])
-def test_shafts_of_a_sphere_fit_too(shape):
-
-    size = Size(80.0, 5.0, wheel_bore=shape, wheel_bore_mm=10.0, wheel_hub_mm=16.0, process="print")
-    parts = parts_of(Design(Spherical(6), size=size).mechanism)
-    (bar,) = [m.part for m in parts.shafts if m.part.name == "wheel's shaft"]
-    hub = next(s for s in solids(parts.wheel.part) if s.name == "wheel's hub")
-    body, bore = (polygon(s, 1e-6) for s in (bar.outline, hub.holes[0]))
-    assert bore.contains(body)
-    assert shapely.distance(body.exterior, bore.exterior) == pytest.approx(0.2, abs=1e-4)
-    assert math.isclose(body.centroid.y, bore.centroid.y, abs_tol=0.1)
 
 
 @pytest.mark.parametrize("crank", [{"crank_bore": "hex"}, {"crank_keyway": "DIN 6885-1"}])

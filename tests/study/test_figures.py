@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import repo
 
+import geneva_cli
 from geneva_cli import (
     Cycloidal,
     Design,
@@ -16,7 +17,6 @@ from geneva_cli import (
     Internal,
     Load,
     Motion,
-    SCurve,
     load,
 )
 from geneva_cli.errors import GenevaError
@@ -117,7 +117,7 @@ def test_each_piece_has_its_own_values_at_its_ends(gears, cruise, ramp):
 
     1e-6 of the greatest value: what acceleration and jerk change over 1e-7 degrees.
     """
-    law = Motion(SCurve(cruise=cruise, ramp=ramp), alpha0_deg=-4.6)
+    law = Motion(geneva_cli.SCurve(cruise=cruise, ramp=ramp), alpha0_deg=-4.6)
     spec = Spec(External(6), motion=law, load=Load(inertia_kgm2=0.1), drive_before=gears)
     machine = build(spec)
     for stage in motion_stages(machine, ["acceleration", "jerk"]):
