@@ -138,9 +138,9 @@ class FlatParts(EdgedParts):
     @cached_property
     def arm(self) -> CrankArm | None:
         """The crank arm; None without a crank, or without pins for the rollers."""
-        from geneva_cli.parts.arm import crank_arm, has_arm
+        from geneva_cli.parts.arm import crank_arm
 
-        return crank_arm(self.outlines) if has_arm(self.outlines) else None
+        return crank_arm(self.outlines) if self.outlines.has_arm else None
 
     @cached_property
     def arm_plate(self) -> Plate | None:
@@ -162,7 +162,6 @@ class FlatParts(EdgedParts):
 
         They are in the crank's frame. Of a wheel that is not drawn, they are those on links.
         """
-        from geneva_cli.parts.arm import has_arm
         from geneva_cli.parts.crank_solids import roller_plates
 
         mechanism, low = self.mechanism, self.links.pin_low
@@ -171,7 +170,7 @@ class FlatParts(EdgedParts):
         thick = drawn_thicknesses(size, mechanism.center_distance_mm, sizes)
         if low is None:
             low = -size.allowances.pin_gap_mm - (
-                thick.arm if self.drawn and has_arm(self.drawn) else 0.0
+                thick.arm if self.drawn and self.drawn.has_arm else 0.0
             )
         plates = roller_plates(
             r, pin_radius(size, r, sizes), low, thick.wheel, size.allowances.shaft_fit_mm
