@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Self, cast
 
 import numpy as np
 
@@ -24,7 +24,8 @@ from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.outlines.outline_sizes import machine_sizes, outlines
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.reliefs import is_whole
-from geneva_cli.parts.outlines.wheel_outline import dial_bolts, slot_walls, wheel_contour
+from geneva_cli.parts.outlines.wheel_circles import dial_bolts
+from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
 from geneva_cli.parts.sizes.plain_sizes import Sizes, drawn_thicknesses, pin_radius
 from geneva_cli.parts.slots.roller_paths import roller_centres
 
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
     from geneva_cli.parts.missing import NamedParts
     from geneva_cli.parts.shafts.bolt_holes import Screws
     from geneva_cli.parts.turn.bounds import FlatPairs
+    from geneva_cli.parts.turn.gaps import Gaps
 
 
 class FlatParts(EdgedParts):
@@ -88,7 +90,7 @@ class FlatParts(EdgedParts):
         from geneva_cli.geometry.extents import farthest
         from geneva_cli.parts.turn.bounds import FlatPairs
 
-        gaps, axis = self.outlines.gaps, np.zeros((1, 2))
+        gaps, axis = cast("Gaps", self.outlines.gaps), np.zeros((1, 2))
         outside = self.assembly.sign > 0.0
         rim = float(farthest(gaps.wheel, 0.0, 0.0).max() if outside else gaps.wheel.signed(axis)[0])
         return FlatPairs(gaps, self.outlines.crank, target, rim)

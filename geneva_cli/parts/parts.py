@@ -91,9 +91,7 @@ class Parts(ABC):
     @property
     def outlines(self) -> Outlines:
         """The outlines of wheel and crank. Raises GenevaError where they are not flat."""
-        from geneva_cli.parts.outlines.outline_sizes import outlines
-
-        return outlines(self.mechanism)
+        return self.flat.outlines
 
     @abstractmethod
     def pairs(self, target: float) -> Pairs:
