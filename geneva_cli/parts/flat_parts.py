@@ -24,7 +24,6 @@ from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.outlines.outline_sizes import machine_sizes, outlines
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.reliefs import is_whole
-from geneva_cli.parts.outlines.wheel_circles import dial_bolts
 from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
 from geneva_cli.parts.sizes.plain_sizes import Sizes, drawn_thicknesses, pin_radius
 from geneva_cli.parts.slots.roller_paths import roller_centres
@@ -349,6 +348,7 @@ class FlatParts(EdgedParts):
         if not self.drawn:
             return framed
         from geneva_cli.parts.arm import bolts
+        from geneva_cli.parts.outlines.wheel_circles import dial_bolts
         from geneva_cli.parts.shafts.bolt_holes import Screws
 
         own = []
