@@ -26,6 +26,7 @@ from geneva_cli.verdict import advice, motion_warnings
 from geneva_cli.verdict.checks import proved
 
 SHARING = {"made_once", "read_once"}  # fixtures of what costs seconds
+LONGEST = "test_without"  # some minutes: it begins before all others
 
 
 def pytest_configure(config):
@@ -64,7 +65,13 @@ def pytest_collection_modifyitems(config, items):
     if out := left_out(items):
         config.hook.pytest_deselected(items=list(out))
         items[:] = [item for item in items if item not in out]
-    items.sort(key=lambda item: (not SHARING.intersection(item.fixturenames), str(item.path)))
+    items.sort(
+        key=lambda item: (
+            item.path.stem != LONGEST,
+            not SHARING & {*item.fixturenames},
+            str(item.path),
+        )
+    )
 
 
 def pytest_collection_finish():

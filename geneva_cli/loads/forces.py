@@ -15,7 +15,7 @@ body, rubs along the wall:
 from __future__ import annotations
 
 import math
-from typing import Generic, NamedTuple
+from typing import Generic, NamedTuple, Protocol
 
 import numpy as np
 
@@ -55,6 +55,20 @@ def contact_values(at: Contact[Jet]) -> Contact[Array]:
     return Contact._make([*[jet.c[0] for jet in jets], reactions, turned])
 
 
+class Guide(Protocol):
+    """A guide in which the output slides."""
+
+    @property
+    def friction(self) -> float:
+        """Friction in it, (m, 1) for m designs."""
+
+    def drag(self, case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+        """Friction in it over the pin's force."""
+
+    def leaning(self, case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+        """A smooth value, at whose changes of sign the drag has a corner."""
+
+
 class LoadCase(NamedTuple):
     """The data that the loads depend on besides the motion; floats, or (m, 1) for m designs."""
 
@@ -73,11 +87,7 @@ class LoadCase(NamedTuple):
     # ahead of it
     along_Nm: float = 0.0
     across_Nm: float = 0.0
-    # of a rack: friction of its guide, 0 without one; x of the guide's middle from the deepest
-    # roller, and half its length, over L
-    guide_friction: float = 0.0
-    guide_middle: float = 0.0
-    guide_half: float = 1.0
+    guide: Guide | None = None  # in which the output slides
     design: int | Whole = 0  # the design's number in its batch: (m, 1) in a batch
 
     @property
@@ -102,12 +112,17 @@ class LoadCase(NamedTuple):
     @property
     def frictionless(self) -> LoadCase:
         """Return the case without friction."""
-        return self._replace(friction=0.0, guide_friction=0.0)
+        return self._replace(friction=0.0, guide=None)
 
     @property
     def guided(self) -> bool:
-        """Return True if there is friction in a rack's guide in any of the designs."""
+        """Return True if there is friction in the output's guide in any of the designs."""
         return not all_true(self.guide_friction == 0.0)
+
+    @property
+    def guide_friction(self) -> float:
+        """The friction in the output's guide; 0 without one."""
+        return self.guide.friction if self.guide else 0.0
 
     @property
     def all_friction(self) -> float:
@@ -205,7 +220,9 @@ def gain(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
 def wheel_grip(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
     """Torque on the wheel over L times the pin force."""
     grip = _slot_grip(case, at, drives, slides)
-    return grip - guide_drag(case, at, drives, slides) * drives if case.guided else grip
+    if not (case.guide and case.guided):
+        return grip
+    return grip - case.guide.drag(case, at, drives, slides) * drives
 
 
 def _slot_grip(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
@@ -214,37 +231,6 @@ def _slot_grip(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -
         return at.lever
     rub = at.touches * (case.friction * slides)
     return at.lever + rub * (at.offset * drives - at.arm * case.radius)
-
-
-def guide_lever(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
-    """Lever of the force on a rack about its guide's middle, over L, for a roller that drives.
-
-    The formula is that of ``kinds.linear.guide_forces``, over d. The crank turns against the rack,
-    at the rate ``spin``, so that cos a is -velocity/spin, and sin a -along/spin.
-    """
-    lever = at.velocity / at.spin + (1.0 - case.guide_middle)
-    if not case.rubs:
-        return lever
-    height = drives * case.radius - at.along / at.spin
-    return lever - height * (case.friction * slides * drives)
-
-
-def leaning(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
-    """A value above 0 where the rack bears on opposite sides of its guide's ends: smooth."""
-    lever = guide_lever(case, at, drives, slides)
-    return lever * lever - (case.friction * case.guide_half) ** 2
-
-
-def guide_drag(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
-    """Friction in a rack's guide over the pin's force: nu (|N1| + |N2|)/F.
-
-    The forces at both ends add up to mu F across the travel, and their moment about the guide's
-    middle is that of the roller. So |N1| + |N2| is the greater of |M|/h and mu F.
-    """
-    turns = guide_lever(case, at, drives, slides) * (1.0 / case.guide_half)
-    both = lesser(turns * -1.0, turns)  # less their size
-    least = turns * 0.0 - case.friction
-    return lesser(both, least) * (0.0 - case.guide_friction)
 
 
 def feeding(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:

@@ -18,7 +18,6 @@ from geneva_cli.loads.forces import (
     contact_values,
     feeding,
     frame_torque,
-    guide_drag,
     sliding,
     stress_margin,
     value,
@@ -137,9 +136,9 @@ class Instant(Generic[V]):
         """The part of the input's torque that friction takes, in the slot and in a guide, N m."""
         rub = self.at.touches * (self.case.friction * self.slides)
         torque = self.force_N * rub * self.slip * self.case.L
-        if not self.case.guided:
+        if not (self.case.guide and self.case.guided):
             return torque
-        drag = guide_drag(self.case, self.at, self.drives, self.slides)
+        drag = self.case.guide.drag(self.case, self.at, self.drives, self.slides)
         return torque + self.force_N * drag * self.at.velocity * self.case.L
 
     @cached_property

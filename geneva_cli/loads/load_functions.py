@@ -21,7 +21,6 @@ from geneva_cli.loads.forces import (
     LoadCase,
     QuantityValue,
     feeding,
-    leaning,
     sliding,
     wheel_torque,
 )
@@ -300,9 +299,10 @@ def signed_instant(
     instant.wheel_torque_Nm = torque  # known already
     if rubs is not None:
         instant.slip = rubs
+    guide = case.guide
     others: dict[str, Callable[[], Jet | None]] = {
         "grip": lambda: instant.grip,
-        "leans": lambda: leaning(case, at, drives, slides),
+        "leans": lambda: guide.leaning(case, at, drives, slides) if guide else None,
         "edge": lambda: instant.edge,
         "along": lambda: at.along,
         "wanted": lambda: wanted(instant).value if wanted else None,

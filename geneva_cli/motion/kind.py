@@ -40,6 +40,7 @@ class Kind(NamedTuple):
     # keys of other tables, as in "load.mass_kg", that it alone has: its rules apply if one is set
     keys: tuple[str, ...] = ()
     parts: str = ""  # class of the parts of wheel and crank
+    no_parts: str = ""  # function that returns the reason why a spec has no parts, or ""
     front: str = ""  # class of links and gears in front of a crank that is not flat
     drawings: Mapping[str, str] = _NONE  # or sheets, by the names of the parts that they show
     tables: Mapping[str, str] = _NONE  # of points, by the names of the parts

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, Self
@@ -9,7 +10,7 @@ from typing import Any, Self
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.drive import Drive, Gears
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.records import CRANK, of_wheel
+from geneva_cli.motion.records import CRANK, of_wheel, thing
 from geneva_cli.motion.wheels.gearing import Gearing, Output
 from geneva_cli.numerics.arrays import Batchable, all_true
 from geneva_cli.spec.load_named import load_named
@@ -314,19 +315,10 @@ class Spec(Batchable):
         return any(kind.parts for kind in of_wheel(self.wheel.NAME))
 
     @property
-    def guided(self) -> bool:
-        """True if a rack slides in a guide, which stands on the frame of its crank.
-
-        >>> Spec(Linear(6)).guided, Spec(External(6)).guided
-        (True, False)
-        """
-        return not self.output.turns and (self.drive.direct or self.drive.gears is not None)
-
-    @property
     def is_turned(self) -> bool:
         """True if wheel and crank can be checked for collisions in a full turn of the crank.
 
-        >>> Spec(Linear(6)).is_turned, Spec(External(400)).is_turned
+        >>> Spec(External(6)).is_turned, Spec(External(400)).is_turned
         (True, False)
         """
         if not self._built:
@@ -356,11 +348,9 @@ class Spec(Batchable):
                 f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '
                 "built: the shaft between them has no bearing, since the input crank turns below it"
             )
-        if not (self.output.turns or self.guided):
-            return (
-                f"frame and guide of a rack behind {self.drive.WORDS} are not built: the crank's "
-                "shaft has no bearing between the rack above it and the input crank below it"
-            )
+        own: Callable[[Spec], str] | None = thing(self.wheel.NAME, "no_parts")
+        if own and (reason := own(self)):
+            return reason
         if self.wheel.z > Z_DRAWN:
             return f"wheels of more than {Z_DRAWN} slots are not drawn"
         return ""

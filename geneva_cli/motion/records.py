@@ -93,8 +93,8 @@ IN_FRONT = "drives.retimed:retimed"
 def of_wheel(name: str) -> list[Kind]:
     """The records of a kind of wheel: its own, then those that add to it.
 
-    >>> [kind.name for kind in of_wheel("external")]
-    ['external', 'stop']
+    >>> [kind.name for kind in of_wheel("internal")]
+    ['internal']
     """
     return [kind for kind in KINDS if name in (kind.adds_to, kind.name if kind.wheel else "")]
 

@@ -9,14 +9,12 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from geneva_cli.answer import SummaryLine
 from geneva_cli.errors import Notice
 from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.machine_spec import BEFORE
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import worst
-from geneva_cli.names import spoken
 from geneva_cli.table import rows_table
 from geneva_cli.verdict import checks
 from geneva_cli.verdict.checks.check import Check
@@ -79,21 +77,6 @@ def differences(parts: Parts) -> Values:
             if not math.isclose(one, other, rel_tol=1e-6, abs_tol=1e-12):
                 rows.append((name, one, other))
     return {"both_ways": rows_table(("quantity", "forwards", "backwards"), rows) if rows else None}
-
-
-def both_ways_lines(checks: Sequence[Check]) -> Iterator[SummaryLine]:
-    """The line on a machine that must turn both ways: whether it may, and what is worse."""
-    worse = [spoken(check.name)[0] for check in checks if check.direction == "backwards"]
-    better = any(check.direction == "forwards" for check in checks)
-    shown = 3  # the table has them all
-    names = ", ".join(worse[:shown]) + (f" and {len(worse) - shown} more" * (len(worse) > shown))
-    text = "every check is the same in both directions"
-    if worse:
-        text = f"backwards is worse for {names}"
-    elif better:
-        text = "forwards is worse"
-    failing = any(check.passes is False for check in checks)
-    yield SummaryLine("both ways", f"{'no' if failing else 'yes'}: {text}")
 
 
 def worse_of(forwards: Sequence[Check], backwards: Sequence[Check]) -> list[Check]:

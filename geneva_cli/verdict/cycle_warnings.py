@@ -173,10 +173,11 @@ def _jammed(cycle: Cycle) -> Iterator[Notice]:
         f"friction of {case.friction:g} holds the wheel {when}: it takes as much torque as the "
         "wall gives. Use a smaller roller or less friction"
     )
-    if case.guided:  # the slot's friction is across the travel, and holds no rack
+    if case.guided:  # the slot's friction is across the travel, and holds nothing
+        held = cycle.mechanism.output.noun
         text = (
-            f"friction of {case.guide_friction:g} in the guide holds the rack {when}: it takes as "
-            "much force as the roller gives. Use a smaller roller or less guide_friction"
+            f"friction of {case.guide_friction:g} in the guide holds the {held} {when}: it takes "
+            "as much force as the roller gives. Use a smaller roller or less guide_friction"
         )
     yield Notice("friction-holds-the-wheel", text)
 

@@ -117,6 +117,21 @@ def proof_lines(checks: Iterable[Check]) -> Iterator[SummaryLine]:
             yield SummaryLine(labels.get(check.name, "turn"), check.why)
 
 
+def both_ways_lines(checks: Sequence[Check]) -> Iterator[SummaryLine]:
+    """The line on a machine that must turn both ways: whether it may, and what is worse."""
+    worse = [spoken(check.name)[0] for check in checks if check.direction == "backwards"]
+    better = any(check.direction == "forwards" for check in checks)
+    shown = 3  # the table has them all
+    names = ", ".join(worse[:shown]) + (f" and {len(worse) - shown} more" * (len(worse) > shown))
+    text = "every check is the same in both directions"
+    if worse:
+        text = f"backwards is worse for {names}"
+    elif better:
+        text = "forwards is worse"
+    failing = any(check.passes is False for check in checks)
+    yield SummaryLine("both ways", f"{'no' if failing else 'yes'}: {text}")
+
+
 def tightest(checks: Iterable[Check]) -> Iterator[SummaryLine]:
     """The line of the passing check with the least relative margin, or none."""
     used = [

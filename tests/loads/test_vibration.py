@@ -91,13 +91,13 @@ def test_half_a_natural_period_more_or_less_at_zeros():
     ],
 )
 def test_published_values_of_three_slots(ratio, damping, amplitude):
-    found = amplitudes(shape(build(Spec(External(3))).engagements[0]), [ratio], damping)[0]
+    found = amplitudes(shape(build(Spec(External(3))).engagements[0].motion), [ratio], damping)[0]
     assert found == pytest.approx(amplitude, rel=4e-16)  # 17 digits are given
 
 
 def test_half_integer_rule_of_six_slots():
     """theory-loads.md, section 5: 1.22e-3 of the step at 10, 6.1e-5 at 10.5."""
-    ten, half = amplitudes(shape(build(Spec(External(6))).engagements[0]), [10.0, 10.5])
+    ten, half = amplitudes(shape(build(Spec(External(6))).engagements[0].motion), [10.0, 10.5])
     assert (f"{ten:.2e}", f"{half:.1e}") == ("1.22e-03", "6.1e-05")
 
 
@@ -107,7 +107,7 @@ def test_large_ratios_of_straight_slots(z):
     engagement = build(Spec(External(z))).engagements[0]
     whole, b = math.radians(engagement.motion_deg), math.pi / z
     for ratio in (200.0, 200.3, 1000.1):
-        found = amplitudes(shape(engagement), [ratio])[0]
+        found = amplitudes(shape(engagement.motion), [ratio])[0]
         omega = 2.0 * math.pi * ratio
         limit = 2.0 * math.tan(b) * abs(math.cos(math.pi * ratio)) * (whole / omega) ** 2
         assert found == pytest.approx(limit / (2.0 * b), rel=60.0 / omega)

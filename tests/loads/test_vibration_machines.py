@@ -54,7 +54,7 @@ def test_every_machine(path):
     """Stretches this short leave Gauss's rule with its rounding alone."""
     for engagement in load(path).engagements:
         for ratio, damping in ((0.4, 0.0), (3.3, 0.05), (11.0, 0.0)):
-            found = residuals(shape(engagement), [ratio], damping)[0]
+            found = residuals(shape(engagement.motion), [ratio], damping)[0]
             assert found == pytest.approx(by_gauss(engagement, ratio, damping), abs=1e-13)
 
 
@@ -81,7 +81,7 @@ def test_straight_slots_to_the_last_digits(z, gearing, A, damping):
         mp.dps = 25
         exact = mp.quad(swing, cuts, maxdegree=5) * 2 * half / (2 * mp.pi / z) / p.imag
         mp.dps = 50
-        found = shares(shape(engagement), np.array([ratio]), damping)[0]
+        found = shares(shape(engagement.motion), np.array([ratio]), damping)[0]
         assert abs(found - abs(exact)) <= 1e-13 * abs(exact)
 
 
@@ -100,7 +100,9 @@ def test_straight_slots_at_large_ratios(z):
         mp.taylor(lambda x: truth.motion(z, "external", 0.0, x)[2], side, 7)
         for side in (-half, half)
     ]
-    ends = np.polynomial.legendre.legval(np.array([-1.0, 1.0]), shape(engagement).series[1].T)
+    ends = np.polynomial.legendre.legval(
+        np.array([-1.0, 1.0]), shape(engagement.motion).series[1].T
+    )
     for ratio in (1234.567, 5555.5, 9999.3):
         p = 2 * mp.pi * mp.mpf(ratio) * mp.mpc(0, 1) / (2 * half)
         total = sum(
@@ -108,7 +110,7 @@ def test_straight_slots_at_large_ratios(z):
             for k in range(8)
         )
         exact = abs(total / p) / (2 * mp.pi / z)
-        found = shares(shape(engagement), np.array([ratio]), 0.0)[0]
+        found = shares(shape(engagement.motion), np.array([ratio]), 0.0)[0]
         assert abs(found - exact) <= 2.0**-52 * abs(ends).sum() / (2.0 * math.pi * ratio) ** 2
 
 
@@ -128,7 +130,7 @@ def test_rounding_is_no_burden():
     (engagement,) = build(spec).engagements
     middle = math.degrees(engagement.reactions.middle)
     exact = on_path(spec, middle + engagement.entry_deg, middle + engagement.exit_deg)
-    panels = shape(engagement)
+    panels = shape(engagement.motion)
     assert len(panels.half) < 200
     mp, whole = exact_digits, exact.exit - exact.entry
     for ratio, damping in some(((0.7, 0.0), (8.0, 0.05), (40.0, 0.0)), ((8.0, 0.05),)):
@@ -166,7 +168,7 @@ def test_gears_by_points(tmp_path):
     path.write_text("\n".join(rows) + "\n")
     ratio = points(path, NoncircularGears, "ratio")
     engagement = build(Spec(External(6), NoncircularGears(ratio=ratio))).engagements[0]
-    found = residuals(shape(engagement), [3.3], 0.02)[0]
+    found = residuals(shape(engagement.motion), [3.3], 0.02)[0]
     assert found == pytest.approx(by_gauss(engagement, 3.3, 0.02, 360), abs=1e-10)
 
 
@@ -205,7 +207,7 @@ def test_dynamic_factor_against_a_solver(kind, ratio, damping):
         slope, (0, 1), [0, 0], "DOP853", np.linspace(0, 1, 20001), rtol=1e-9, atol=1e-12
     )
     greatest = np.abs(2.0 * damping * omega * run.y[1] + omega * omega * run.y[0]).max()
-    found = greatest_acceleration(shape(machine.engagements[0]), ratio, damping)
+    found = greatest_acceleration(shape(machine.engagements[0].motion), ratio, damping)
     assert found == pytest.approx(greatest, rel=2e-6)
 
 
@@ -215,7 +217,7 @@ def test_large_ratios_add_the_jump_to_the_wheels_acceleration():
     whole, step = math.radians(120.0), math.pi / 3.0
     wheel = 1.34963727590190292442655173495 * whole**2 / step  # theory.md, section 7
     jump = math.tan(math.pi / 6.0) * whole**2 / step
-    found = greatest_acceleration(shape(machine.engagements[0]), 1e4, 0.0)
+    found = greatest_acceleration(shape(machine.engagements[0].motion), 1e4, 0.0)
     assert found == pytest.approx(wheel + jump, rel=1e-4)
 
 
@@ -282,7 +284,7 @@ def test_a_lobe_next_to_an_end_is_found():
 
 def test_no_residual_is_above_its_bound():
     for machine in (build(Spec(External(4))), build(Spec(External(6), SideCrank(A=0.6)))):
-        form = shape(machine.engagements[0])
+        form = shape(machine.engagements[0].motion)
         for share, damping in ((1e-2, 0.0), (1e-4, 0.0), (1e-4, 0.5), (1e-4, 0.99)):
             high = highest_ratio(form, share, damping)
             assert shares(form, np.linspace(high, 3.0 * high, 2000), damping).max() <= share
@@ -295,7 +297,7 @@ def test_speeds_to_avoid_are_the_greatest_nearby():
     n = np.geomspace(30.0, 120.0, 20001)
     ratio = 4.0 * 60.0 / n
     every = [
-        shares(shape(e), ratio * e.motion_deg / machine.engagements[0].motion_deg, 0.0)
+        shares(shape(e.motion), ratio * e.motion_deg / machine.engagements[0].motion_deg, 0.0)
         for e in machine.engagements
     ]
     worst = np.max(every, axis=0)
@@ -309,7 +311,7 @@ def test_speeds_to_avoid_are_the_greatest_nearby():
 
 def test_the_worst_stiffness_within_a_fifth():
     machine = build(Spec(External(6)))
-    form = shape(machine.engagements[0])
+    form = shape(machine.engagements[0].motion)
     for ratio in (0.4, 2.9, 10.0, 10.5):
         fine = ratio * np.sqrt(np.linspace(0.8, 1.2, 4001))
         found = oscillators_of(machine, Oscillator(ratio, 0.0)).worst_share[0]

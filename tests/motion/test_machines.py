@@ -9,6 +9,7 @@ reaches, over the pin's least distance from the wheel's axis, counts as a condit
 """
 
 import math
+import re
 from functools import cache
 from itertools import pairwise
 
@@ -151,6 +152,9 @@ CASES = {
     ),
     "slider-crank-turned": text("z = 3", f"{SLIDER}point_mm = 60, point_deg = 30"),
 }
+KIND = re.compile('(?:kind|gearing) = "([^"]+)"')
+KNOWN = {*registry.DRIVES, *registry.GEARINGS}  # the kinds that there are
+CASES = {case: text for case, text in CASES.items() if {*KIND.findall(text)} <= KNOWN}
 # Machines on a linkage's path, with places near which their wheel's entry and exit are.
 ON_PATH = {
     "four-bar": (59.15, 289.43),
@@ -236,11 +240,12 @@ def test_every_kind_and_every_gearing_has_an_entry(machine):
     # a motion in pieces has its witness in test_gear_sector.py
     assert {s.drive.NAME for s in specs} | {"gear-sector"} == set(registry.DRIVES)
     assert {s.wheel.NAME for s in specs} == set(registry.GEARINGS)
+    gearings = {one.name: one.gearings for one in registry.KINDS}
     for kind in registry.DRIVES:  # and each transmission before each gearing and each kind of slot
         # a pair's first wheel turns its crank through less than half a turn, and back at once
         if issubclass(registry.drive(kind), Transmission) and kind != "geneva-pair":
             mine = [s for s in specs if kind == s.drive.NAME]
-            driven = set(registry.drive(kind).GEARINGS or registry.GEARINGS)
+            driven = set(gearings[kind] or registry.GEARINGS)
             assert {s.wheel.NAME for s in mine} == driven, kind
             assert any(s.wheel.as_dict().get("offset_mm") for s in mine), kind
             assert any(s.drive.rollers > 1 for s in mine), kind

@@ -444,7 +444,7 @@ def test_cones_that_shells_are_laid_flat_on():
     The pin is 30° off the crank's axis. At entry the roller is 90° off the wheel's.
     """
     from geneva_cli.kinds.spherical.arm_drawing import arm_cone
-    from geneva_cli.kinds.spherical.drawings import wheel_cone
+    from geneva_cli.kinds.spherical.laid_flat import wheel_cone
 
     size = Size(L, 6.0, pin_gap_mm=0.5, wheel_thickness_mm=8.0, arm_thickness_mm=5.0)
     mechanism = Design.of(Spec(Wheel(6, "spherical"), size=size)).mechanism

@@ -353,7 +353,7 @@ def test_points_of_a_slot_laid_flat_are_on_the_sphere():
 
     Within the rounding to three decimals and a tenth of the table's tolerance.
     """
-    from geneva_cli.kinds.spherical.drawings import wheel_cone
+    from geneva_cli.kinds.spherical.laid_flat import wheel_cone
     from geneva_cli.kinds.spherical.sheet import flat_slot
 
     ball = load(str(repo.DESIGNS / "spherical-z6.toml")).parts.shells.ball

@@ -83,20 +83,6 @@ def test_the_gap_of_a_wheel_at_rest(four_bar, share):
     assert seen == pytest.approx(drawn, abs=1e-9 * L)
 
 
-def test_a_sphere_too_small_for_the_usual_roller_gets_one_that_fits():
-    """Of shafts that nearly fall together; once it was never turned."""
-    (row,) = [
-        row
-        for row in search(read_target(motion_deg="120.7", z="6", spherical=True, rollers=1)).rows
-        if row.candidate.axes_deg not in (None, 90.0)
-    ]
-    assert row.candidate.parts == "maybe"
-    assert row.spec.size.roller_radius_mm < 5.0
-    made = built(row.spec)
-    assert made.trouble == ""
-    assert not [c for c in checks(build(made.spec)) if c.passes is False]
-
-
 @pytest.mark.parametrize(
     "wheel, alpha0_deg, end",
     [(Internal(8), -35.0, ("", 4.0)), (External(8), -65.0, ("lock_radius_mm", 5.0))],

@@ -23,6 +23,13 @@ from geneva_cli.verdict.checks.check import NONE, STOPPED
 from geneva_cli.verdict.remedies import remedies
 
 DESIGNS = repo.DESIGNS
+
+
+def written(name):
+    """The text of a design, empty without it."""
+    return "".join(path.read_text() for path in DESIGNS.glob(f"{name}.toml"))
+
+
 CURVED = "[wheel]\nz = 6\n[motion]\nlaw = 'cycloidal'\nratio = 'matched'\n"
 LOADED = (
     "[wheel]\nz = 6\n[size]\ncenter_distance_mm = 200\nroller_radius_mm = 8\nface_width_mm = 10\n"
@@ -52,7 +59,7 @@ MOTIONS = {
     "sine": "[wheel]\nz = 6\n[motion]\nlaw = 'sine-group'\nlambda = 0.2\nratio = 'matched'\n",
     "undercut": "[wheel]\nz = 8\ngearing = 'internal'\n[motion]\nlaw = 'cycloidal'\n"
     "ratio = 'matched'\n[size]\ncenter_distance_mm = 90\nroller_radius_mm = 5\n",
-    "slider": (DESIGNS / "slider-crank.toml").read_text() + "[limits]\nacceleration_max = 0.40\n",
+    "slider-crank": written("slider-crank") + "[limits]\nacceleration_max = 0.40\n",
     "offset": "[wheel]\nz = 6\noffset_mm = 10\n" + LIGHT + "pin_force_max_N = 20\n",
     "offset-2": "[wheel]\nz = 5\noffset_mm = -8\n" + LIGHT + "input_torque_max_Nm = 0.5\n",
     "two": CURVED + LIGHT + "pin_force_max_N = 20\ninput_torque_max_Nm = 0.3\n",
@@ -60,7 +67,7 @@ MOTIONS = {
     "epicyclic": "[wheel]\nz = 6\n[drive]\nkind = 'epicyclic'\nplanet_ratio = 'shockless'\n"
     "[limits]\nvelocity_max = 1.0\n",
 }
-FOUR_BAR = (DESIGNS / "four-bar-z4.toml").read_text() + LIGHT + "pin_force_max_N = 100\n"
+FOUR_BAR = written("four-bar-z4") + LIGHT + "pin_force_max_N = 100\n"
 PARTS = {
     "rim": "[wheel]\nz = 6\n[size]\nwheel_radius_mm = 120\n",
     "rim-inside": "[wheel]\nz = 6\ngearing = 'internal'\n[size]\nwheel_radius_mm = 85\n",
@@ -309,7 +316,7 @@ def test_a_hub_is_not_proposed_below_its_bore(tmp_path: Path) -> None:
 
 def test_a_linkage_gets_more_slots(tmp_path: Path) -> None:
     """The centre distance that a linkage gives itself is none of the spec's: z = 9 has 0.396."""
-    rows = judged(read(tmp_path, ALL["slider"]), parts=False)
+    rows = judged(read(tmp_path, ALL["slider-crank"]), parts=False)
     assert {c.name: c.nearest for c in rows}["acceleration_max"] == "z = 9"
 
 

@@ -23,6 +23,7 @@ KINDS = (
         dimensions="kinds.linear.drawings:dimensions",
         stressed="kinds.linear.stressed:rack_stressed",
         refuses="kinds.linear.refuses:refuses",
+        no_parts="kinds.linear.motion:no_parts",
         keys=("load.mass_kg", "load.force_N", "load.guide_friction"),
         quantities=(
             Quantities(
@@ -34,7 +35,7 @@ KINDS = (
         ),
         horns="kinds.linear.quantities:rack_horns",
         roller="kinds.linear.roller:rack_roller",
-        load_case="kinds.linear.guide_place:with_guide",
+        load_case="kinds.linear.guide_friction:with_guide",
         scene="kinds.linear.scene:RackScene",
         motion_checks={
             "rack_horn_mm": "kinds.linear.checks:rack_horn",

@@ -12,7 +12,7 @@ its two ends, with s mu F/2 + M/(2 h) and s mu F/2 - M/(2 h).
 
 Friction in the guide, nu times the sizes of both forces, holds the rack back by D = nu times the
 greater of |M|/h and mu F. The rack's balance along its travel is d F = T/R + D, and the input pays
-D y' on top. Both are in ``loads.forces``. The friction is taken to act in the bar's middle: half
+D y' on top. Both are in ``guide_friction``. The friction is taken to act in the bar's middle: half
 a bar's width moves M by nu mu F/2 of it.
 
 Where D is F, no force moves the rack: its guide locks. While the roller drives, friction in the
@@ -26,8 +26,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from geneva_cli.kinds.linear.guide_friction import RackGuide
 from geneva_cli.kinds.linear.guide_place import guide_place
-from geneva_cli.loads.forces import QuantityValue, guide_lever
+from geneva_cli.loads.forces import QuantityValue
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.motion.engagement import Peak
@@ -43,8 +44,10 @@ class EndForce(NamedTuple):
     def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
         """The square, and the grip that bounds it."""
         rub = i.slides * i.case.friction
-        lever = guide_lever(i.case, i.at, i.drives, i.slides) * i.drives
-        force = i.force_N * (lever * (0.5 * self.side / i.case.guide_half) + 0.5 * rub)
+        guide = i.case.guide
+        assert isinstance(guide, RackGuide)
+        lever = guide.lever(i.case, i.at, i.drives, i.slides) * i.drives
+        force = i.force_N * (lever * (0.5 * self.side / guide.half) + 0.5 * rub)
         return QuantityValue(force * force, i.grip)
 
 

@@ -15,7 +15,6 @@ from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.least_wall import eye_about, wall_min
 
 if TYPE_CHECKING:
-    from geneva_cli.loads.forces import LoadCase
     from geneva_cli.motion.mechanism import Mechanism
 
 
@@ -60,21 +59,3 @@ def _eye_mm(mechanism: Mechanism, wall: float) -> float:
     hole = 0.5 * (pin_diameter_mm(mechanism) - size.allowances.press_fit_mm)
     eye = eye_about(hole, wall) if size.arm_eye_mm is None else 0.5 * size.arm_eye_mm
     return eye if size.pin_mm is None else choose(size.pin_mm > 0.0, eye, 0.0 * eye)
-
-
-def with_guide(mechanism: Mechanism, case: LoadCase) -> LoadCase:
-    """Return a load case with the friction of a rack's guide, and its place over L.
-
-    A rack whose slots leave no space for a guide has none.
-    """
-    spec, L = mechanism.spec, mechanism.center_distance_mm
-    if not spec.guided:
-        return case
-    place = guide_place(mechanism)
-    friction = value_or(spec.load.guide_friction, spec.load.friction)
-    there = place.half > 0.0
-    return case._replace(
-        guide_friction=choose(there, friction, 0.0),
-        guide_middle=place.middle / L,
-        guide_half=choose(there, place.half / L, 1.0),
-    )

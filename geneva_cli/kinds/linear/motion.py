@@ -21,6 +21,7 @@ from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
+    from geneva_cli.motion.machine_spec import Spec
     from geneva_cli.motion.plane_motion import PlaneMotion
     from geneva_cli.numerics.arrays import Array
 
@@ -168,3 +169,22 @@ class ParallelSlotMotion(StraightSlotMotion):
     def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
         """Speed and its derivatives at arrays of angles, computed from the middle anchor only."""
         return self.path.from_middle(input_deg, order + 1)[1].derivative().arrays()
+
+
+def guided(spec: Spec) -> bool:
+    """True if a rack slides in a guide, which stands on the frame of its crank.
+
+    >>> guided(Spec(Linear(6))), guided(Spec(External(6)))
+    (True, False)
+    """
+    return not spec.output.turns and (spec.drive.direct or spec.drive.gears is not None)
+
+
+def no_parts(spec: Spec) -> str:
+    """The reason why frame and guide are not built; empty if they are."""
+    if guided(spec):
+        return ""
+    return (
+        f"frame and guide of a rack behind {spec.drive.WORDS} are not built: the crank's shaft has "
+        "no bearing between the rack above it and the input crank below it"
+    )

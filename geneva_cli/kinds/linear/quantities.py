@@ -8,6 +8,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.linear.guide_forces import guide_force, locks_at_friction
+from geneva_cli.kinds.linear.motion import guided
 from geneva_cli.kinds.linear.rack import rack_sizes
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.verdict.part_sizes import as_numbers, batched
@@ -17,7 +18,7 @@ from geneva_cli.verdict.quantities.horns import Horns
 
 def guide(of: Designs) -> Columns:
     """Return the guides of racks; none for a wheel, and for a rack that has no guide."""
-    if not of.spec.guided:
+    if not guided(of.spec):
         return {}
     names = "length_mm", "locks_at_friction", "force_N", "at_deg"
     rows = [_guide(one) for one in of.each]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from geneva_cli.kinds.linear.motion import guided
 from geneva_cli.motion.compatible import Conflict, is_set
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.spec.tables import Shaft
@@ -23,7 +24,7 @@ def refuses(spec: Spec) -> Iterator[Conflict]:
         "inertia_kgm2 and torque_Nm are of a wheel that turns; a rack has mass_kg and force_N",
     )
     yield Conflict(
-        not spec.guided and load.guide_friction is not None,
+        not guided(spec) and load.guide_friction is not None,
         ("load", "guide_friction"),
         "guide_friction is of the guide of a rack that a plain crank or gears drive: remove it",
     )

@@ -22,12 +22,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.forces import contact_modulus_GPa, hertz_MPa
-from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.spec.materials import wheel_material
 
 if TYPE_CHECKING:
     from geneva_cli.parts.outlines.outlines import Outlines
@@ -100,30 +97,3 @@ def _disc_begins(outlines: Outlines) -> float:
         if abs(math.hypot(x, y) - lock) < SAME_LENGTH * outlines.assembly.L
     ]
     return min(on_disc)
-
-
-class StopContact(NamedTuple):
-    """Force and Hertz stress at a stop; None where a key is missing."""
-
-    force_N: float | None
-    contact_stress_MPa: float | None
-
-
-def stop_contact(mechanism: Mechanism, lever_mm: float, face_radius_mm: float) -> StopContact:
-    """Return the contact under ``winding_torque_Nm``; a sharp end of the disc has no stress.
-
-    The face is an arc about the wheel's axis. So the force between the end of the disc and the face
-    passes through that axis, turns no wheel, and loads no roller. About the crank's axis its lever
-    is h = L sin delta, where delta is the contact's direction from the line of centres, seen from
-    the wheel's axis: F = T/h.
-    """
-    size, torque = mechanism.spec.size, mechanism.spec.load.winding_torque_Nm
-    if torque is None:
-        return StopContact(None, None)
-    force = 1e3 * torque / lever_mm
-    if size.face_width_mm is None or size.lock_edge_mm is None:
-        return StopContact(force, None)
-    material = wheel_material(mechanism.spec)
-    modulus = contact_modulus_GPa(material, material)
-    radius = 1.0 / (1.0 / size.lock_edge_mm + 1.0 / face_radius_mm)
-    return StopContact(force, hertz_MPa(modulus, force / size.face_width_mm, radius))

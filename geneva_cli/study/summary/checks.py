@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine
 from geneva_cli.study.verdicts import Verdict, checks_record, checks_table
-from geneva_cli.verdict.both_ways import both_ways_lines
 from geneva_cli.verdict.headline import (
+    both_ways_lines,
     failure_lines,
     headline,
     input_lines,

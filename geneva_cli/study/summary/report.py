@@ -9,9 +9,9 @@ from geneva_cli.answer import Answer, Summary, SummaryLine
 from geneva_cli.design import Design
 from geneva_cli.study.summary.loads import cycle_lines, motor_line
 from geneva_cli.study.summary.titles import title_of
-from geneva_cli.verdict.both_ways import both_ways_lines
 from geneva_cli.verdict.headline import (
     below_summary,
+    both_ways_lines,
     failure_lines,
     headline,
     input_lines,

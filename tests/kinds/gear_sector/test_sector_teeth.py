@@ -15,7 +15,7 @@ from geneva_cli import (
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.spec.tables import Size
-from geneva_cli.verdict.both_ways import both_ways_lines
+from geneva_cli.verdict.headline import both_ways_lines
 
 
 @pytest.mark.sampled(6)
