@@ -681,7 +681,7 @@ class Design:
         (2.0, 420.0, 297.0)
         """
         from geneva_cli.drawings.catalogue import part_sheet
-        from geneva_cli.parts.written import writing_in
+        from geneva_cli.spec.written import writing_in
 
         if curves not in CURVES:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")

@@ -21,6 +21,7 @@ from geneva_cli.parts.outlines import cut_outlines as outline
 from geneva_cli.parts.outlines import outline_sizes as own_sizes
 from geneva_cli.parts.outlines.walls import chain as walls_chain
 from geneva_cli.parts.outlines.walls import curved as curved_walls
+from geneva_cli.parts.outlines.walls import path_walls
 from geneva_cli.parts.turn import full_turn
 from geneva_cli.verdict import advice, motion_warnings
 from geneva_cli.verdict.checks import proved
@@ -135,14 +136,15 @@ def of_sizes(assembly, sizes, tolerance=0.0):
     return assembly.full.spec, sizes, tolerance
 
 
-def of_slot(assembly, sizes, engagement):
-    return id(assembly), sizes, id(engagement)
+def of_slot(assembly, sizes, of):
+    return id(assembly), sizes, id(of)
 
 
 OUTLINES = kept(outline.drawn, of_sizes)
 TURNED = kept(full_turn.full_turn, of_outlines)
 PROVED = kept(proved.certificate, of_certificate)
-CHAIN = kept(walls_chain.chain, of_slot)
+WALLS = kept(path_walls.walls, of_slot)
+CHAIN = kept(walls_chain.chain, of_slot)  # whose walls are kept too
 MOTION_WARNINGS = kept(motion_warnings.motion_warnings, lambda mechanism: mechanism.spec)
 
 
@@ -157,6 +159,7 @@ def made_once():
         patch.setattr(own_sizes, "drawn", OUTLINES)
         patch.setattr(full_turn, "full_turn", TURNED)
         patch.setattr(proved, "certificate", PROVED)
+        patch.setattr(curved_walls, "walls", WALLS)
         patch.setattr(curved_walls, "chain", CHAIN)
         patch.setattr(motion_warnings, "motion_warnings", MOTION_WARNINGS)
         yield

@@ -19,7 +19,7 @@ from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.hole_walls import least_wall
 from geneva_cli.geometry.hull import convex_hull
 from geneva_cli.geometry.shapes import Circle, Contour, Shape
-from geneva_cli.parts.outlines.crank_outline import crank_circles
+from geneva_cli.parts.outlines.crank_circles import crank_circles
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.reliefs import is_whole, keyway_direction, reliefs, sectors
 from geneva_cli.parts.shafts.bolt_holes import bolt_radius, refuse_no_screw, tapped

@@ -116,7 +116,7 @@ class Assembly(NamedTuple):
     def _path(self, engagement: Engagement, behind: float, input_deg: Array) -> Array:
         at = self.from_mid(input_deg, behind)
         if engagement.groove is not None:
-            from geneva_cli.parts.slots.groove import roller_in_groove
+            from geneva_cli.motion.groove_path import roller_in_groove
 
             return self.L * roller_in_groove(engagement.groove, engagement.own_deg(at))
         x, y = engagement.path(at, 0)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle
 from geneva_cli.parts.arm import CrankArm, bolts
-from geneva_cli.parts.outlines.crank_outline import crank_circles
+from geneva_cli.parts.outlines.crank_circles import crank_circles
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.reliefs import is_whole
 

@@ -19,7 +19,7 @@ from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Record, parameter, record_of
 from geneva_cli.numerics.jet import Array
-from geneva_cli.parts.outlines.cut_lock import cut_lock
+from geneva_cli.parts.outlines.cut_outlines import cut_lock
 from geneva_cli.parts.outlines.outline_sizes import Layout, sized
 from geneva_cli.parts.sizes.stressed import Stressed, stressed
 

@@ -17,11 +17,12 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import segment_length
 from geneva_cli.geometry.shapes import Circle, Contour, Cubic
 from geneva_cli.motion import registry
+from geneva_cli.motion.groove_path import distances
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.gears.gear_curves import convexity, gears_table
 from geneva_cli.parts.gears.gear_pair import driven_curve, driver_curve
-from geneva_cli.parts.slots.groove import _distances, groove_table
+from geneva_cli.parts.slots.groove import groove_table
 from geneva_cli.spec.tables import Limits
 from geneva_cli.verdict.checks import checks
 
@@ -254,7 +255,7 @@ def test_the_groove_keeps_close_in_the_dwell(z: int, alpha0: float) -> None:
     spec = Spec(Wheel(z), Drive("cam"), motion=Motion("cycloidal", alpha0_deg=alpha0))
     engagement = build(spec).engagements[0]
     x = engagement.exit_deg + np.linspace(-1.0, 361.0 - engagement.motion_deg, 20001)
-    R, slope, bend = _distances(engagement.groove, x)
+    R, slope, bend = distances(engagement.groove, x)
     end = float(engagement.groove.distances(engagement.exit_deg, 0)[1].c[0])
     assert np.abs(R - end).max() < 0.15 * end
     # Differences against the mean of both sides: their error is h times a bounded derivative.
@@ -276,7 +277,7 @@ def test_the_grooves_greatest_pressure_angle(z, law, alpha0):
     groove = mechanism.engagements[0].groove
     x = groove.motion.entry_deg + np.arange(0.0, 360.0, 0.01)
     h = 1e-4
-    ahead, behind = (np.log(_distances(groove, x + side * h)[0]) for side in (0.5, -0.5))
+    ahead, behind = (np.log(distances(groove, x + side * h)[0]) for side in (0.5, -0.5))
     angle = np.degrees(np.arctan(np.abs(ahead - behind) / np.radians(h)))
     row = next(c for c in checks(mechanism, parts=False) if c.name == "groove_pressure_deg")
     assert row.value == pytest.approx(angle.max(), abs=1e-6)

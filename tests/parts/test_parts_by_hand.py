@@ -30,7 +30,7 @@ from geneva_cli.parts.first_pair import first_pair
 from geneva_cli.parts.gears.gear_pair import gear_shafts
 from geneva_cli.parts.links.link_planes import planes
 from geneva_cli.parts.links.links import drawn_links
-from geneva_cli.parts.outlines.cut_lock import cut_arcs
+from geneva_cli.parts.outlines.cut_outlines import cut_arcs
 from geneva_cli.parts.outlines.outline_sizes import machine_sizes, outlines
 from geneva_cli.parts.outlines.reliefs import arc_floor, reliefs, widened
 from geneva_cli.parts.shafts.all_shafts import passing_arm

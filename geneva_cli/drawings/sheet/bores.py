@@ -14,8 +14,8 @@ from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Point, Shape
 from geneva_cli.geometry.sheet import CENTRE
 from geneva_cli.parts.outlines.wheel_hub import about_axis
 from geneva_cli.parts.shafts.bores import Bore, RoundBore, bore_in, radius_of
-from geneva_cli.parts.written import length, number
 from geneva_cli.spec.tables import Size
+from geneva_cli.spec.written import length, number
 
 
 class Holes(NamedTuple):

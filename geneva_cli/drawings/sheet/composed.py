@@ -27,10 +27,10 @@ from geneva_cli.drawings.sheet.view import Block
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.sheet import Sheet
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.parts.written import is_metric, length, number
 from geneva_cli.spec.materials import roller_material, wheel_material
 from geneva_cli.spec.tables import Material, TitleBlock
 from geneva_cli.spec.workshops import Stock, workshop
+from geneva_cli.spec.written import is_metric, length, number
 
 
 def on_paper(

@@ -20,7 +20,7 @@ from geneva_cli.parts.outlines.outline_sizes import drawn_pin_radius
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.reliefs import is_whole
 from geneva_cli.parts.shafts.held_hubs import hub_note
-from geneva_cli.parts.written import degrees, length
+from geneva_cli.spec.written import degrees, length
 
 
 def draw_disc(view: View, parts: FlatParts) -> None:

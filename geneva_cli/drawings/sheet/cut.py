@@ -17,7 +17,7 @@ from geneva_cli.geometry.placed import in_place
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import Circle, Point, Shape, two_arcs
 from geneva_cli.geometry.sheet import HATCH, OUTLINE, line, rectangle
-from geneva_cli.parts.written import length
+from geneva_cli.spec.written import length
 
 
 class Face(NamedTuple):

@@ -18,8 +18,8 @@ from geneva_cli.parts.gears.gear_mesh import ToothedGear
 from geneva_cli.parts.gears.pair_teeth import PairTeeth
 from geneva_cli.parts.projection import outlines_of
 from geneva_cli.parts.shafts.bores import radius_of
-from geneva_cli.parts.written import is_metric, length, number
 from geneva_cli.spec.tables import Size
+from geneva_cli.spec.written import is_metric, length, number
 
 
 def draw_gear(view: View, gear: Gear, size: Size) -> None:

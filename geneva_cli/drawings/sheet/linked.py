@@ -16,7 +16,7 @@ from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.shafts.fits import Fits
 from geneva_cli.parts.shafts.shaft import FIX
-from geneva_cli.parts.written import length
+from geneva_cli.spec.written import length
 
 Begin: TypeAlias = Callable[..., View]
 

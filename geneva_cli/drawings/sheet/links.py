@@ -19,7 +19,7 @@ from geneva_cli.parts.links.link_sizes import roller_pins
 from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.shafts.bores import radius_of
 from geneva_cli.parts.shafts.fits import Fits
-from geneva_cli.parts.written import degrees, length
+from geneva_cli.spec.written import degrees, length
 
 UP = 0.5 * math.pi
 

@@ -16,7 +16,7 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.fits import Fits
-from geneva_cli.parts.written import coordinate, is_metric, length, number
+from geneva_cli.spec.written import coordinate, is_metric, length, number
 
 COARSE = 1e-4  # finest tolerance of a table, as a fraction of the centre distance
 MIRRORED = "; the other half is its mirror image in the x axis"

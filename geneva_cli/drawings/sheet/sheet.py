@@ -36,7 +36,7 @@ from geneva_cli.geometry.sheet import Sheet
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.written import length, quantity
+from geneva_cli.spec.written import length, quantity
 
 
 def sheet(parts: FlatParts) -> Sheet:

@@ -10,9 +10,9 @@ from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.shafts.bolt_holes import screw_through
 from geneva_cli.parts.shafts.fits import Fits, toleranced
 from geneva_cli.parts.shafts.screws import SCREWS
-from geneva_cli.parts.written import deviation, length
 from geneva_cli.spec.tables import Size
 from geneva_cli.spec.workshops import workshop
+from geneva_cli.spec.written import deviation, length
 
 
 def plain(value: float, sign: str = "", off: float = 0.0, fine: bool = False) -> str:

@@ -15,7 +15,7 @@ from geneva_cli.geometry.sheet import CENTRE, OUTLINE
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.mounted_plate import mounts_of
 from geneva_cli.parts.shafts.bores import around, radius_of, section_note
-from geneva_cli.parts.written import length
+from geneva_cli.spec.written import length
 
 
 def draw_frame(

@@ -20,7 +20,7 @@ from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.projection import outlines_of
 from geneva_cli.parts.shafts.held_hubs import hub_note
-from geneva_cli.parts.written import degrees, length
+from geneva_cli.spec.written import degrees, length
 
 
 def draw_wheel(view: View, parts: FlatParts) -> None:

@@ -29,7 +29,7 @@ from geneva_cli.kinds.linear.drawings import assembly
 from geneva_cli.kinds.linear.parts import RackParts
 from geneva_cli.kinds.linear.rack import slot_places
 from geneva_cli.parts.shafts.bolt_holes import NO_SCREW
-from geneva_cli.parts.written import length
+from geneva_cli.spec.written import length
 
 
 def sheet(parts: RackParts) -> Sheet:

@@ -18,7 +18,7 @@ from geneva_cli.geometry.sphere import Region, SphereArc, Vector
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.parts.written import length, unit
+from geneva_cli.spec.written import length, unit
 
 
 class Cone(NamedTuple):

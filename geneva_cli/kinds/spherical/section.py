@@ -21,7 +21,7 @@ from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.wheel import QUARTER
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.shafts.bores import around, radius_of
-from geneva_cli.parts.written import degrees
+from geneva_cli.spec.written import degrees
 
 Side: TypeAlias = Callable[[float], float]  # an angle from the wheel's axis, on each sphere
 

@@ -38,7 +38,7 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_ON_SHEET
 from geneva_cli.parts.shafts.fits import Fits
 from geneva_cli.parts.shafts.held_hubs import hub_note
-from geneva_cli.parts.written import degrees, length, quantity
+from geneva_cli.spec.written import degrees, length, quantity
 
 
 def sheet(parts: SphereParts) -> Sheet:

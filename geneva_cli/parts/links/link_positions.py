@@ -38,7 +38,7 @@ def _own_links(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
     groove = mechanism.engagements[0].groove
     if groove is None:
         return own
-    from geneva_cli.parts.slots.groove import roller_in_groove
+    from geneva_cli.motion.groove_path import roller_in_groove
 
     L, m, still = mechanism.center_distance_mm, mechanism.spec.drive.rollers, 0.0 * input_deg
     joints = [(still + L, still)]

@@ -7,24 +7,23 @@ mid-motion. The disc is whole where it locks, and relieved where a roller moves 
 from __future__ import annotations
 
 import math
-from itertools import combinations
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.shapes import Circle, Contour, Line, Segment, Shape, about, closed
+from geneva_cli.geometry.shapes import Contour, Line, Segment, about, closed
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.outlines.locking_rings import Swept, rings
 from geneva_cli.parts.outlines.reliefs import (
     Relief,
+    arc_floor,
     followed,
     is_whole,
-    keyway_direction,
     reliefs,
     widened,
 )
-from geneva_cli.parts.shafts.bores import bore_of
+from geneva_cli.parts.sizes.arm_sizes import crank_reach_and_hub
 from geneva_cli.parts.sizes.plain_sizes import Sizes
-from geneva_cli.parts.slots.roller_paths import mouth_corners, roller_centres
+from geneva_cli.parts.slots.roller_paths import mouth_corners
 
 
 def crank_contours(
@@ -57,27 +56,18 @@ def crank_contours(
     return [closed("CRANK", segments)]
 
 
-def crank_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
-    """Return rollers, pins and bore in its shape."""
-    shapes: list[Shape] = []
-    for centre in roller_centres(assembly):
-        shapes += [Circle("ROLLER", centre, sizes.roller)]
-        shapes += [Circle("ROLLER", centre, sizes.pin)] if sizes.pin else []
-    if sizes.crank_bore:
-        own = bore_of(assembly.mechanism.spec.size, "crank", sizes.crank_bore)
-        shapes.append(own.shape("BORE", keyway_direction(assembly)))
-    return shapes
+def arc_leaves_hub(assembly: Assembly, sizes: Sizes) -> bool:
+    """Return True if an arc leaves the spec's bore of the crank a wall, and its hub.
 
-
-def rollers_gap(assembly: Assembly, sizes: Sizes) -> float | None:
-    """Return the gap between the roller that starts the wheel and that which stops it, mm.
-
-    It is negative where they overlap, and None if each roller does both.
+    It also does where a sector would be no deeper. Default bores and hubs are within an arc.
     """
-    if len(assembly.rollers) == len(assembly.motions):
-        return None
-    pairs = combinations(roller_centres(assembly), 2)
-    return min(math.dist(one, other) for one, other in pairs) - 2.0 * sizes.roller
+    size = assembly.full.spec.size
+    bore = 0.5 * (size.crank_bore_mm or 0.0)
+    _, hub = crank_reach_and_hub(size, bore, sizes.wall_min)
+    wall = size.allowances.around_shaft_mm + sizes.wall_min
+    needed = max(bore + wall if bore else 0.0, hub if size.has_hub("crank") else 0.0)
+    sector = assembly.L - sizes.rim - sizes.relief
+    return arc_floor(assembly, sizes.lock) >= min(needed, sector)
 
 
 def _arc(sizes: Sizes, relief: Relief) -> Segment:

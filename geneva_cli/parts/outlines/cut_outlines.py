@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable, Iterator
 from functools import cache, lru_cache
 
 import numpy as np
 
-from geneva_cli.geometry.shapes import Contour
+from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.shapes import Arc, Contour
+from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.numerics.latest import KEPT
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.outlines.crank_outline import crank_contours
+from geneva_cli.parts.outlines.crank_outline import arc_leaves_hub, crank_contours
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.reliefs import arc_leaves_hub, has_arcs, is_whole, without_lock
+from geneva_cli.parts.outlines.reliefs import has_arcs, is_whole, without_lock
 from geneva_cli.parts.outlines.wheel_outline import CURVED, turned_walls, wheel_contour
 from geneva_cli.parts.sizes.plain_sizes import Sizes
+from geneva_cli.parts.sizes.stressed import lock_of
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.pairs import Pose
 
@@ -39,6 +44,31 @@ def _drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
     if assembly.full.spec.wheel.stopped:
         wheel = wheel_contour(assembly, sizes, walls, convex=True)
     return Outlines(assembly, sizes, walls, wheel, crank, relief, gaps, close)
+
+
+def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
+    """Return the lock: the narrowest arc of the crank, and the corner that leaves the most play.
+
+    Beyond the crank's axis, as an internal wheel reaches, the wheel leaves less than a sector
+    between two reliefs.
+    """
+    lock = lock_of(assembly, sizes)
+    if is_whole(assembly, sizes):
+        return lock
+    try:
+        parts = drawn(assembly, sizes)
+    except GenevaError:  # the check of the parts reports the error
+        return lock
+    locking = cut_arcs(parts.crank, lock.lock, 0.0, SAME_LENGTH * assembly.L)
+    return lock_of(assembly, sizes, [0.5 * abs(arc.sweep) for arc in locking])
+
+
+def cut_arcs(contours: Iterable[Contour], radius: float, away: float, near: float) -> Iterator[Arc]:
+    """Yield the arcs of a radius whose centres are ``away`` from the axis, both within ``near``."""
+    pieces = (piece for contour in contours for piece in contour.segments)
+    for arc in (piece for piece in pieces if isinstance(piece, Arc)):
+        if abs(arc.radius - radius) < near and abs(math.hypot(*arc.centre) - away) < near:
+            yield arc
 
 
 def _relieved(bare: Gaps, sizes: Sizes, close: float) -> tuple[list[Contour], str, Gaps]:

@@ -63,7 +63,7 @@ def sizes(
     out = usual
     if assembly.full.spec.is_loaded:
         # without a load none is needed
-        from geneva_cli.parts.outlines.cut_lock import cut_lock
+        from geneva_cli.parts.outlines.cut_outlines import cut_lock
         from geneva_cli.parts.sizes.load_sizes import load_sizes
 
         first = None

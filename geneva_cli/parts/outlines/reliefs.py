@@ -11,7 +11,6 @@ import numpy as np
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.sizes.arm_sizes import crank_reach_and_hub
 from geneva_cli.parts.sizes.plain_sizes import Sizes
 
 # radii of the corners of each kind of slot's mouth at entry and exit, mm
@@ -68,20 +67,6 @@ def has_arcs(assembly: Assembly, lock: float) -> bool:
     floor = arc_floor(assembly, lock)
     # L/18 about the axis is enough for a bore
     return floor >= (1.0 / 18.0) * assembly.L if paired else floor > 0.0
-
-
-def arc_leaves_hub(assembly: Assembly, sizes: Sizes) -> bool:
-    """Return True if an arc leaves the spec's bore of the crank a wall, and its hub.
-
-    It also does where a sector would be no deeper. Default bores and hubs are within an arc.
-    """
-    size = assembly.full.spec.size
-    bore = 0.5 * (size.crank_bore_mm or 0.0)
-    _, hub = crank_reach_and_hub(size, bore, sizes.wall_min)
-    wall = size.allowances.around_shaft_mm + sizes.wall_min
-    needed = max(bore + wall if bore else 0.0, hub if size.has_hub("crank") else 0.0)
-    sector = assembly.L - sizes.rim - sizes.relief
-    return arc_floor(assembly, sizes.lock) >= min(needed, sector)
 
 
 def without_lock(assembly: Assembly) -> bool:

@@ -27,8 +27,8 @@ from geneva_cli.geometry.shapes import (
     polygon,
 )
 from geneva_cli.parts.shafts.keyways import ParallelKey, key
-from geneva_cli.parts.written import length
 from geneva_cli.spec.tables import Size
+from geneva_cli.spec.written import length
 
 
 @dataclass(frozen=True)

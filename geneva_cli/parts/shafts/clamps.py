@@ -14,8 +14,8 @@ from geneva_cli.geometry.measure import turned
 from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Line, about, closed
 from geneva_cli.parts.shafts.screws import SCREWS, Screw, change_for_hub, screw
-from geneva_cli.parts.written import length
 from geneva_cli.spec.tables import Size
+from geneva_cli.spec.written import length
 
 
 class Clamp(NamedTuple):

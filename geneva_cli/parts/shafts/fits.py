@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from geneva_cli.parts.written import deviation, signed
 from geneva_cli.spec.workshops import workshop
+from geneva_cli.spec.written import deviation, signed
 
 
 class SizeRange(NamedTuple):

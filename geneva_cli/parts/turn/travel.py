@@ -60,7 +60,7 @@ def path_travel(engagement: Engagement, length: float, turn_deg: float) -> Trave
     start, end = np.array(edges[:-1]), np.array(edges[1:])
     moving = np.full(len(start), True)
     if engagement.groove is not None:
-        from geneva_cli.parts.slots.groove import dwell_rates
+        from geneva_cli.motion.groove_path import dwell_rates
 
         dwell = dwell_rates(engagement.groove)
         if dwell:

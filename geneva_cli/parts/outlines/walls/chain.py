@@ -16,12 +16,10 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.outlines.walls.joint import WallPlace, joint, points_at, runs
-from geneva_cli.parts.outlines.walls.path_walls import Wall, walls
+from geneva_cli.parts.outlines.walls.joint import Wall, WallPlace, joint, points_at, runs
 from geneva_cli.parts.sizes.plain_sizes import Sizes
 
 
@@ -33,9 +31,11 @@ class WallPiece(NamedTuple):
     end: float
 
 
-def chain(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[WallPiece]:
-    """Return the pieces of walls that bound a slot, from the mouth's lower corner to its upper."""
-    around = walls(assembly, sizes, engagement)
+def chain(assembly: Assembly, sizes: Sizes, around: list[Wall]) -> list[WallPiece]:
+    """Return the pieces of walls that bound a slot, from the mouth's lower corner to its upper.
+
+    They are pieces of the walls ``around`` all positions of its roller.
+    """
     rim = _Rim(assembly, sizes)
     crossings = [c for wall in around for c in rim.crossings(wall)]
     if not crossings:

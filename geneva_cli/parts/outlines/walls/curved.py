@@ -14,6 +14,7 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.outlines.walls.chain import WallPiece, chain
 from geneva_cli.parts.outlines.walls.joint import points_at
+from geneva_cli.parts.outlines.walls.path_walls import walls
 from geneva_cli.parts.sizes.plain_sizes import Sizes
 
 # A wall ends at an intersection, whose last bits differ between processors, and many bits where two
@@ -34,7 +35,8 @@ def curved_walls(
     """
     half = 0.5 * tolerance
     runs: list[list[Segment]] = []
-    pieces = chain(assembly, sizes._replace(half_width=sizes.half_width + half), engagement)
+    larger = sizes._replace(half_width=sizes.half_width + half)
+    pieces = chain(assembly, larger, walls(assembly, larger, engagement))
     for i, piece in enumerate(pieces):
         other = len(pieces) - 1 - i
         both = other < i and engagement.mirrored

@@ -3,15 +3,27 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import NamedTuple
+from collections.abc import Callable, Iterator
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Whole
-from geneva_cli.parts.outlines.walls.path_walls import Wall
+from geneva_cli.numerics.arrays import Array, Mask, Whole
 
+Curve: TypeAlias = "Callable[[Array], tuple[Array, Array]]"  # parameters -> points and tangents
 REACH = 3  # samples within which two walls meet
+
+
+class Wall(NamedTuple):
+    """One wall: points and tangents by a parameter, and samples in the order of the parameter."""
+
+    curve: Curve
+    t: Array
+    points: Array
+    tangents: Array
+    free: Mask  # samples that no other position of the roller covers
+    centre: tuple[float, float] | None = None  # where the wall is an arc, by its angle
+    radius: float = 0.0
 
 
 class WallPlace(NamedTuple):

@@ -7,8 +7,6 @@ path out, and the circle again. Where the roller turns back, its own outline is 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -17,29 +15,16 @@ from geneva_cli.motion.pitch_curve import Pitch, retraces
 from geneva_cli.numerics.arrays import Array, Mask, array
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.parts.assembly import Assembly
+from geneva_cli.parts.outlines.walls.joint import Curve, Wall
 from geneva_cli.parts.sizes.plain_sizes import Sizes
 from geneva_cli.parts.slots.roller_paths import rest
 from geneva_cli.parts.slots.slot_profile import heading_at, pitch_at
 from geneva_cli.parts.slots.slot_sampling import nodes
 
-Curve: TypeAlias = "Callable[[Array], tuple[Array, Array]]"  # parameters -> points and tangents
-
 # Of the centre distance, the greatest deviation of the sampled path from the true one: less than
 # half of the overlap that does not count as covered.
 FINE = 4e-7
 CIRCLE_SAMPLES = 97  # of the roller's circle, at least, and of its own outline
-
-
-class Wall(NamedTuple):
-    """One wall: points and tangents by a parameter, and samples in the order of the parameter."""
-
-    curve: Curve
-    t: Array
-    points: Array
-    tangents: Array
-    free: Mask  # samples that no other position of the roller covers
-    centre: tuple[float, float] | None = None  # where the wall is an arc, by its angle
-    radius: float = 0.0
 
 
 def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall]:
