@@ -145,7 +145,7 @@ MOST = {
     "vibration - --period-ratio 5": (114, 119),
     "check -": (208, 286),
     "report -": (283, 334),
-    "compare - --vary drive.n_rpm=60,90": (209, 215),
+    "compare - --vary drive.n_rpm=60,90": (210, 216),
     "profile -": (96, 115),
     "profile - --part wheel --format svg": (200, 277),
     "profile - --part wheel --format dxf": (194, 271),
