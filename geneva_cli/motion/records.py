@@ -37,13 +37,14 @@ _TABLES = {
     "gears": "parts.gears.gear_curves:gears_table",
     "groove": "parts.slots.groove:groove_table",
 }
-_FRONT = "parts.front_parts:FrontParts"
+_FRONT = "parts.flat_parts:FrontParts"
 # The kinds of the core; those in ``kinds`` follow.
 _CORE = (
     Kind(
         "external",
         wheel="motion.wheels.external:External",
         parts="parts.flat_parts:FlatParts",
+        frame="parts.frame:framed",
         drawings=_DRAWINGS,
         tables=_TABLES,
     ),
@@ -51,6 +52,7 @@ _CORE = (
         "internal",
         wheel="motion.wheels.internal:Internal",
         parts="parts.flat_parts:FlatParts",
+        frame="parts.frame:framed",
         drawings=_DRAWINGS,
         tables=_TABLES,
     ),

@@ -16,7 +16,6 @@ from geneva_cli.motion import registry
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.parts.crank_solids import locking_plates
 from geneva_cli.parts.links.links import Links, drawn_links
-from geneva_cli.parts.outlines.outline_sizes import outlines
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.projection import titled
 from geneva_cli.parts.shafts.bores import has_shape, round_bore
@@ -25,8 +24,8 @@ from geneva_cli.parts.wheel import wheel_plate
 from geneva_cli.spec.least_wall import wall_min
 
 
-def first_pair(mechanism: Mechanism) -> Mechanism:
-    """Return the first wheel and its crank as a machine.
+def first_pair(mechanism: Mechanism, outlines: Outlines | None) -> Mechanism:
+    """Return the first wheel and its crank as a machine, for the ``outlines`` of the second pair.
 
     Raises GenevaError for a machine without a first wheel.
     """
@@ -44,7 +43,7 @@ def first_pair(mechanism: Mechanism) -> Mechanism:
             f"{key}: the first wheel on the crank's shaft has a round bore; remove {key}",
             ("size", key),
         )
-    bars = drawn_links(mechanism, outlines(mechanism) if spec.is_flat else None)
+    bars = drawn_links(mechanism, outlines)
     second, own = (L, 0.0), (L + first.distance_mm, 0.0)
     bore = 0.0 if bars.one_piece(own, L) else bars.shaft(own, L)
     alone = first_spec(mechanism, first)

@@ -7,8 +7,8 @@ use. Drawing, solid, list of parts, sheet and the checks of shafts are projectio
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Self, cast
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, NoReturn, Self, cast
 
 import numpy as np
 
@@ -19,12 +19,15 @@ from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension
+from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.edged_parts import EdgedParts
+from geneva_cli.parts.links.link_shafts import links_to_fix
 from geneva_cli.parts.outlines.outline_sizes import machine_sizes, outlines
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.reliefs import is_whole
 from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
+from geneva_cli.parts.parts import NamedBuilds
 from geneva_cli.parts.sizes.plain_sizes import Sizes, drawn_thicknesses, pin_radius
 from geneva_cli.parts.slots.roller_paths import roller_centres
 
@@ -250,7 +253,7 @@ class FlatParts(EdgedParts):
         """The parts of the first of two wheels in series. Raises GenevaError without a second."""
         from geneva_cli.parts.first_pair import first_pair
 
-        return FlatParts(first_pair(self.mechanism))
+        return FlatParts(first_pair(self.mechanism, self.drawn))
 
     @property
     def in_front(self) -> tuple[FlatParts, ...]:
@@ -322,8 +325,13 @@ class FlatParts(EdgedParts):
 
     @cached_property
     def _framed(self) -> FrameAndShafts:
-        from geneva_cli.parts.frame import framed
-
+        framed: Callable[..., FrameAndShafts] | None
+        framed = thing(self.mechanism.spec.wheel.NAME, "frame")
+        if framed is None:
+            raise GenevaError(
+                f'--part frame: the shafts of gearing = "{self.mechanism.spec.wheel.NAME}" are not '
+                "parallel, so one plate cannot hold them"
+            )
         return framed(self.mechanism, self.drawn, self.links, self._base, self.first)
 
     @cached_property
@@ -419,3 +427,42 @@ class FlatParts(EdgedParts):
         yield "shafts", lambda: [one.part for one in self.shafts]
         yield "groove plate", lambda: [one.part for one in self.groove_plate]
         yield "frame", lambda: [one.part for one in (*self.spacers, *self.bridge, self.frame)]
+
+
+class FrontParts(FlatParts):
+    """Links and gears without frame and shafts; all parts of a machine with no others."""
+
+    @property
+    def built(self) -> NoReturn:
+        """Raise GenevaError with the reason why wheel and crank have no parts."""
+        raise GenevaError(self.mechanism.spec.no_parts, ("wheel", "gearing"))
+
+    @property
+    def flat(self) -> Self:
+        """These parts."""
+        return self
+
+    @property
+    def all_built(self) -> NamedBuilds:
+        """Name and function of links and gears."""
+        return [("all parts", lambda: self)]
+
+    @property
+    def screws(self) -> tuple[Screws, ...]:
+        """The screws between the parts; none."""
+        return ()
+
+    @property
+    def to_fix(self) -> tuple[str, ...]:
+        """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
+        return tuple(links_to_fix(self.links, self.mechanism))
+
+    @property
+    def members(self) -> tuple[Member, ...]:
+        """Links and gears."""
+        return (*self.linked, *self.round_gears, *self.gear_pair)
+
+    def by_name(self) -> Iterator[NamedParts]:
+        """Yield links and gears in the order of a list, as names and functions that build them."""
+        yield "links", lambda: [one.part for one in self.linked]
+        yield "gears", lambda: [one.part for one in (*self.round_gears, *self.gear_pair)]

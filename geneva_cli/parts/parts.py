@@ -15,7 +15,8 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import parts_class, thing
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly, input_of
-from geneva_cli.parts.turn.machine_parts import CONTACT, Clearances, Lengths, Shape, WorkLimit
+from geneva_cli.parts.turn.machine_parts import CONTACT, Lengths, Shape, WorkLimit
+from geneva_cli.parts.turn.pairs import Clearances
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.plates import Member

@@ -19,7 +19,7 @@ from geneva_cli.geometry.hull import convex_hull
 from geneva_cli.geometry.measure import segment_length
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line
 from geneva_cli.parts.arm import crank_arm, walls
-from geneva_cli.parts.shafts.keyways import DIN_6885_1, TABLES, key
+from geneva_cli.spec.keyways import DIN_6885_1, TABLES, key
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Size
 

@@ -372,7 +372,7 @@ def test_a_first_crank_is_as_wide_as_its_link():
     design = load(str(repo.DESIGNS / "geneva-pair.toml"))
     (link,) = drawn_links(design.mechanism, design.parts.outlines).plates
     (_, _, eye), (_, _, hub) = sorted(rounds(link.outline), key=lambda one: one[2])
-    size = first_pair(design.mechanism).spec.size
+    size = first_pair(design.mechanism, design.parts.outlines).spec.size
     assert (size.arm_eye_mm, size.arm_hub_mm) == pytest.approx((2.0 * eye, 2.0 * hub))
 
 

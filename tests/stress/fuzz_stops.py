@@ -18,7 +18,7 @@ from words import Motion
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.turn.free_angles import free_angles, search_deg
 from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.parts.turn.machine_parts import smallest_clearance
+from geneva_cli.parts.turn.pairs import smallest_clearance
 from geneva_cli.parts.turn.play import windows
 
 SECONDS = 30  # of one machine

@@ -7,7 +7,7 @@ KINDS = (
         "linear",
         wheel="kinds.linear.motion:Linear",
         parts="kinds.linear.parts:RackParts",
-        front="parts.front_parts:FrontParts",
+        front="parts.flat_parts:FrontParts",
         drawings={
             "slot": "kinds.linear.drawings:slot",
             "wheel": "drawings.part_drawings:wheel",

@@ -17,7 +17,8 @@ import numpy as np
 from geneva_cli.geometry.sphere_arcs import SphereArcs
 from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.parts.turn.touch import SLACK, WAYS, Touch, triangles, within
+from geneva_cli.parts.turn.pairs import SLACK
+from geneva_cli.parts.turn.touch import WAYS, Touch, triangles, within
 
 ALL_ROUND = 7.0  # radians, more than a whole turn: the sweep of an edge without ends
 

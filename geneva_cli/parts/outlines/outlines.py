@@ -11,7 +11,7 @@ from geneva_cli.geometry.shapes import Contour
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes.plain_sizes import Sizes
-from geneva_cli.parts.turn.machine_parts import Clearances
+from geneva_cli.parts.turn.pairs import Clearances
 
 
 class Outlines(NamedTuple):

@@ -23,11 +23,11 @@ from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.links.link_positions import gear_plane, is_bridged, links_at
 from geneva_cli.parts.outlines.reliefs import Mouths, Relief, is_whole, reliefs, sectors, widened
 from geneva_cli.parts.shafts.bores import reach_or_bore
-from geneva_cli.parts.shafts.keyways import key
 from geneva_cli.parts.sizes.arm_sizes import arm_hub, arm_passing, hole_radius
 from geneva_cli.parts.sizes.plain_sizes import Sizes, bridge_low, half_or, plane_span
 from geneva_cli.parts.slots.roller_paths import mouth_corners, roller_reaches
 from geneva_cli.spec.default_sizes import value_or
+from geneva_cli.spec.keyways import key
 from geneva_cli.spec.least_wall import eye_about
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.numerics.arrays import Array, Mask, Whole
-from geneva_cli.parts.turn.touch import SLACK
+from geneva_cli.parts.turn.pairs import SLACK
 
 
 class Rounds(NamedTuple):

@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.parts.turn.machine_parts import MachineParts, rim_lever, smallest_clearance
-from geneva_cli.parts.turn.pairs import Stop
+from geneva_cli.parts.turn.machine_parts import MachineParts, rim_lever
+from geneva_cli.parts.turn.pairs import Stop, smallest_clearance
 
 EXACT = 1e-10  # radians: smaller angles are rounding
 

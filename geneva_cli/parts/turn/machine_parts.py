@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Sized
 from typing import TYPE_CHECKING, Protocol, Self
 
-import numpy as np
-
 from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.arrays import Array
 
 if TYPE_CHECKING:
     from geneva_cli.parts.assembly import Assembly
-    from geneva_cli.parts.turn.pairs import Pairs, Pose, Stop
+    from geneva_cli.parts.turn.pairs import Clearances, Pairs
 
 
 # Of the centre distance, 0.2 um in 100 mm: parts that overlap by less count as touching. No cutter
@@ -22,46 +20,6 @@ CONTACT = 2e-6
 
 class WorkLimit(GenevaError):
     """Error for a full turn that would take too long."""
-
-
-class Clearances(Protocol):
-    """The clearances between wheel, crank and rollers, mm, negative where they overlap.
-
-    All are computed in n poses, with the wheel turned on by ``lead`` radians. Clearances wider than
-    ``near`` mm are returned as ``near``.
-    """
-
-    @property
-    def near(self) -> float:
-        """The widest clearance that is distinguished from wider ones, mm."""
-
-    def begin(self) -> None:
-        """Count work from here on; raise WorkLimit when it exceeds the limit."""
-
-    def pose(self, input_deg: Array) -> Pose:
-        """Return the positions at input angles (n,), degrees."""
-
-    def rollers(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
-        """Return the clearance of each roller to the wheel, (n, m)."""
-
-    def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
-        """Return the clearance between the crank's locking surfaces and the wheel, (n,)."""
-
-    def repeats(self, count: int) -> bool:
-        """Return True if the parts coincide with themselves after one slot and 1/``count`` turn."""
-
-    def stops(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
-        """Return the stops of the wheel, turned back and turned on from n poses.
-
-        The parts overlap nowhere by ``close`` mm at first. The wheel turns until some do, or by
-        ``most`` radians.
-        """
-
-
-def smallest_clearance(gaps: Clearances, pose: Pose, lead: Array, near: float) -> Array:
-    """Return the smallest clearance of all parts in each pose, (n,)."""
-    rolling = gaps.rollers(pose, lead, near).min(axis=1)
-    return np.minimum(gaps.locking(pose, lead, near), rolling)
 
 
 class Lengths(Protocol):

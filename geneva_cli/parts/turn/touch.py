@@ -11,7 +11,6 @@ from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.parts.turn.pairs import Stop
 
 WAYS = np.array(((-1.0,), (1.0,)))  # back and on: factors for rows of angles
-SLACK = 1e-9  # radians, and of a length: smoothly joined pieces leave no gap between them
 
 
 class Touch(NamedTuple):

@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.parts.turn.machine_parts import Clearances, MachineParts
+from geneva_cli.parts.turn.machine_parts import MachineParts
 from geneva_cli.parts.turn.one_motion import one_motion
-from geneva_cli.parts.turn.pairs import Intervals, Pair, Window
+from geneva_cli.parts.turn.pairs import Clearances, Intervals, Pair, Window
 from geneva_cli.parts.turn.play import windows
 
 MOST = 20_000  # intervals of one pair of parts: ten times what the designs take; under a second
