@@ -9,13 +9,15 @@ at the centre. The hub has flat faces and the bore; it sits in a round hole abou
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Sequence
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.round_holes import RoundHole, least_wall
 from geneva_cli.geometry.sphere import POLE, Region, dot, place
 from geneva_cli.geometry.sphere_hull import Cap, convex_hull
 from geneva_cli.kinds.spherical.axles import refuse_wide
+from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.crank import locked
 from geneva_cli.parts.shafts.bolt_holes import bolt_radius, refuse_no_screw
 from geneva_cli.parts.shafts.bores import Bore, bore_of
@@ -25,10 +27,8 @@ from geneva_cli.parts.sizes.arm_sizes import (
     pin_hole,
     wall_of_bolts,
 )
-from geneva_cli.spec.least_wall import eye_about
-
-if TYPE_CHECKING:
-    from geneva_cli.kinds.spherical.shells import Shells
+from geneva_cli.spec.least_wall import eye_about, wall_min
+from geneva_cli.spec.tables import Size
 
 
 class CapArm(NamedTuple):
@@ -56,23 +56,22 @@ class CapArm(NamedTuple):
         return self.bolts[sector * each : (sector + 1) * each]
 
 
-def has_arm(parts: Shells) -> bool:
+def has_arm(ball: Ball) -> bool:
     """Return True if the machine has an arm: a crank with rollers on pins."""
-    return parts.ball.arm_bore_mm > 0.0
+    return ball.arm_bore_mm > 0.0
 
 
-def crank_arm(parts: Shells) -> CapArm:
-    """Return the arm of a machine.
+def crank_arm(ball: Ball, sectors: Sequence[Region], size: Size) -> CapArm:
+    """Return the arm of a machine, with the locking sectors that it carries.
 
     By default each locking sector has as many bolts as leave walls, up to two. Raises GenevaError,
     naming the key, where the sizes leave no arm around the holes.
     """
-    own = parts.assembly.full.spec.size.lock_bolts
-    arm = _arm(parts, own or 0)
-    if own is None and parts.crank:
-        size = parts.assembly.full.spec.size
-        least = min(arm.wall, wall_of_bolts(size, parts.sizes.wall_min))
-        bolted = (_arm(parts, count) for count in (2, 1))
+    own = size.lock_bolts
+    arm = _arm(ball, sectors, size, own or 0)
+    if own is None and sectors:
+        least = min(arm.wall, wall_of_bolts(size, wall_min(size, ball.radius_mm)))
+        bolted = (_arm(ball, sectors, size, count) for count in (2, 1))
         arm = next((one for one in bolted if one.wall >= least), arm)
     if arm.wall <= 0.0:
         raise GenevaError(
@@ -83,25 +82,22 @@ def crank_arm(parts: Shells) -> CapArm:
     return arm
 
 
-def _arm(parts: Shells, bolts_each: int) -> CapArm:
+def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> CapArm:
     """Return the arm with so many bolts in each locking sector."""
-    spec, ball = parts.assembly.full.spec, parts.ball
-    if not has_arm(parts):
+    if not has_arm(ball):
         raise GenevaError("pin_mm = 0: there is no pin for an arm to carry", ("size", "pin_mm"))
-    wall, under = parts.sizes.wall_min, ball.arm_span_mm[0]
-    hole = pin_hole(spec.size, ball.pin_mm)
-    hub, eye = hub_and_eye(
-        spec.size, wall, hole, ball.arm_bore_mm, ball.passing_mm(ball.opening_mm)
-    )
-    _refuse(parts, hub, hole, eye)
-    form = bore_of(spec.size, "crank", ball.arm_bore_mm)
+    wall, under = wall_min(size, ball.radius_mm), ball.arm_span_mm[0]
+    hole = pin_hole(size, ball.pin_mm)
+    hub, eye = hub_and_eye(size, wall, hole, ball.arm_bore_mm, ball.passing_mm(ball.opening_mm))
+    _refuse(ball, size, hub, hole, eye)
+    form = bore_of(size, "crank", ball.arm_bore_mm)
     around = hub - form.reach  # the hub's wall
     pins = tuple(RoundHole(place(ball.arm, azimuth), hole) for azimuth in ball.rollers)
-    screwed = _bolts(parts, bolts_each)
+    screwed = _bolts(ball, sectors, size, bolts_each)
     cap, eye = ball.cap(hub, form.reach, wall), eye / ball.radius_mm
     caps = [Cap(POLE, cap)]
     caps += [Cap(pin.axis, eye) for pin in pins]
-    bolted = wall_of_bolts(spec.size, wall)
+    bolted = wall_of_bolts(size, wall)
     caps += [Cap(b.axis, eye_about(b.radius, bolted) / under) for b in screwed]
     middle = next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi)
     arm = CapArm(
@@ -116,18 +112,17 @@ def _arm(parts: Shells, bolts_each: int) -> CapArm:
         reach=max(math.acos(dot(one.middle, POLE)) + one.angle for one in caps),
         wall=0.0,
     )
-    return arm._replace(wall=min(around, _walls(arm, parts)))
+    return arm._replace(wall=min(around, _walls(arm, ball, sectors)))
 
 
-def _bolts(parts: Shells, count: int) -> tuple[RoundHole, ...]:
+def _bolts(ball: Ball, sectors: Sequence[Region], size: Size, count: int) -> tuple[RoundHole, ...]:
     """Return the holes of so many bolts in each locking sector, evenly spaced and of one size.
 
     Raises GenevaError where there are no sectors to fix.
     """
-    size, ball = parts.assembly.full.spec.size, parts.ball
     L, own = ball.radius_mm, size.lock_bolt_circle_mm
-    rings = [(math.pi - s.boundary[2].angle, s.boundary[0].angle) for s in parts.crank]
-    rims = [sector.boundary[0] for sector in parts.crank]
+    rings = [(math.pi - s.boundary[2].angle, s.boundary[0].angle) for s in sectors]
+    rims = [sector.boundary[0] for sector in sectors]
     widths = [(math.atan2(rim.start[1], rim.start[0]), rim.sweep) for rim in rims]
     narrow = min((0.5 * L * (high - low) for low, high in rings), default=0.0)
     directions = lock_bolt_directions(widths, count)
@@ -140,9 +135,8 @@ def _bolts(parts: Shells, count: int) -> tuple[RoundHole, ...]:
     return tuple(holes)
 
 
-def _refuse(parts: Shells, hub: float, hole: float, eye: float) -> None:
+def _refuse(ball: Ball, size: Size, hub: float, hole: float, eye: float) -> None:
     """Raise GenevaError, naming the key, for an arm that does not fit on its sphere."""
-    ball = parts.ball
     under, over = ball.arm_span_mm
     refuse_wide("arm_hub_mm", hub, under, over)
     if ball.arm + eye / ball.radius_mm >= 0.5 * math.pi:
@@ -153,7 +147,7 @@ def _refuse(parts: Shells, hub: float, hole: float, eye: float) -> None:
         )
     limit = under * math.sin(ball.arm - RoundHole(POLE, hole).angle(under))
     if hub >= limit:
-        name = "arm_hub_mm" if parts.assembly.full.spec.size.arm_hub_mm else "arm_bore_mm"
+        name = "arm_hub_mm" if size.arm_hub_mm else "arm_bore_mm"
         raise GenevaError(
             f"arm_bore_mm, arm_hub_mm: the hub, {2.0 * hub:.6g} mm in diameter, cuts the pin's "
             f"hole; it must be below {2.0 * limit:.6g}",
@@ -161,14 +155,13 @@ def _refuse(parts: Shells, hub: float, hole: float, eye: float) -> None:
         )
 
 
-def _walls(arm: CapArm, parts: Shells) -> float:
+def _walls(arm: CapArm, ball: Ball, sectors: Sequence[Region]) -> float:
     """Return the least wall on the inner faces of the arm and of the bolted sectors.
 
     It is negative where holes overlap, or cut the boundary of their part.
     """
-    ball = parts.ball
     least = least_wall(arm.boundary, arm.holes, ball.arm_span_mm[0])
-    for k, sector in enumerate(parts.crank if arm.bolts else []):
-        own = arm.bolts_of(k, len(parts.crank))
+    for k, sector in enumerate(sectors if arm.bolts else []):
+        own = arm.bolts_of(k, len(sectors))
         least = min(least, least_wall(sector, own, ball.lock_span_mm[0]))
     return least

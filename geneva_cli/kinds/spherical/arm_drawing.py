@@ -11,8 +11,7 @@ from geneva_cli.geometry.sphere import Region, SphereArc, place
 from geneva_cli.geometry.sphere_hull import Cap
 from geneva_cli.kinds.spherical.arm import CapArm, crank_arm
 from geneva_cli.kinds.spherical.ball import Ball
-from geneva_cli.kinds.spherical.drawings import flat_region
-from geneva_cli.kinds.spherical.laid_flat import Cone
+from geneva_cli.kinds.spherical.laid_flat import Cone, flat_region
 from geneva_cli.kinds.spherical.parts import SphereParts, arm_solids
 from geneva_cli.parts.projection import titled
 
@@ -23,7 +22,9 @@ def arm(parts: SphereParts) -> Drawing:
     Raises GenevaError without an arm.
     """
     ball = parts.ball
-    cap_arm = parts.arm or crank_arm(parts.shells)  # the error says why there is no arm
+    # the error says why there is no arm
+    size = parts.mechanism.spec.size
+    cap_arm = parts.arm or crank_arm(parts.ball, parts.shells.crank, size)
     shapes = arm_flat(parts, cap_arm)
     low, high = ball.arm_span_mm
     plate = Plate("arm", "ARM", shapes[0], tuple(shapes[1:]), 0.0, high - low)
@@ -59,7 +60,7 @@ def arm_flat(parts: SphereParts, arm: CapArm) -> list[Contour]:
     for hole, azimuth in zip(others, azimuths, strict=True):
         region = Cap(hole.axis, hole.angle(cone.radius_mm)).region
         about = cut + (azimuth - cut) % math.tau
-        holes.append(flat_region("BORE", region, cone, about, parts))
+        holes.append(flat_region("BORE", region, cone, about, parts.tolerance, parts.curves))
     return [closed("ARM", outline), *holes]
 
 

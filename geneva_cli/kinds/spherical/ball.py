@@ -5,8 +5,13 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.sphere import Vector, place
 from geneva_cli.spec.tables import Size
+
+
+class PartDoesNotFit(GenevaError):
+    """Error for a part that does not fit, but would with a smaller roller."""
 
 
 class Ball(NamedTuple):

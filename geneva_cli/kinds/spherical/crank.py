@@ -13,8 +13,7 @@ import numpy as np
 
 from geneva_cli.geometry.sphere import POLE, Region, Rotation, SphereArc, cross, opposite, place
 from geneva_cli.geometry.sphere_hull import Cap
-from geneva_cli.kinds.spherical.ball import Ball
-from geneva_cli.kinds.spherical.sizes import PartDoesNotFit
+from geneva_cli.kinds.spherical.ball import Ball, PartDoesNotFit
 from geneva_cli.kinds.spherical.wheel import QUARTER, edge_points
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE

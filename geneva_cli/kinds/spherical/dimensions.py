@@ -10,7 +10,7 @@ from geneva_cli.geometry.sphere import Region
 from geneva_cli.kinds.spherical.arm import CapArm
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.dial import dial_holes
-from geneva_cli.kinds.spherical.drawings import crank_cone, wheel_cone
+from geneva_cli.kinds.spherical.laid_flat import crank_cone, wheel_cone
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.motion.pivots import Dimension
 from geneva_cli.parts.missing import Missing, or_missing

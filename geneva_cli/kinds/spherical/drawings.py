@@ -10,11 +10,10 @@ import math
 from geneva_cli.geometry.drawing import Annotations, Drawing
 from geneva_cli.geometry.measure import bounds, mapped
 from geneva_cli.geometry.plates import Group, Member, Part, Plate
-from geneva_cli.geometry.shapes import Contour, Layer, Line, Point, Segment, Shape, closed, joined
-from geneva_cli.geometry.sphere import Region
+from geneva_cli.geometry.shapes import Contour, Line, Point, Segment, Shape, closed, joined
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.crank import locked, rollers
-from geneva_cli.kinds.spherical.laid_flat import Cone
+from geneva_cli.kinds.spherical.laid_flat import Cone, crank_cone, flat_region, wheel_cone
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.wheel import edge
 from geneva_cli.parts.projection import titled
@@ -57,17 +56,6 @@ def _drawing(parts: SphereParts, title: str, shapes: list[Shape], shells: Part) 
     return Drawing(title, tuple(shapes), solid=Group(title, tuple(plates)), shells=shells)
 
 
-def wheel_cone(ball: Ball) -> Cone:
-    """Return the cone that touches the sphere in the middle of the slots' length."""
-    mouth = math.acos(math.cos(ball.rim) / math.cos(ball.half_width))
-    return Cone(ball.radius_mm, 0.5 * (ball.bottom + mouth))
-
-
-def crank_cone(ball: Ball) -> Cone:
-    """Return the cone that touches the sphere at the rollers."""
-    return Cone(ball.radius_mm, ball.arm)
-
-
 def wheel_flat(parts: SphereParts, cone: Cone) -> list[Shape]:
     """Return the wheel's outline on its flat cone, and the rollers' paths."""
     ball = parts.ball
@@ -102,22 +90,12 @@ def slot_flat(ball: Ball, cone: Cone, tolerance: float, curves: str) -> Contour:
 
 def crank_flat(parts: SphereParts, cone: Cone) -> list[Shape]:
     """Return locking sectors, rollers and the rollers' circle on the crank's flat cone."""
-    ball = parts.ball
+    ball, accuracy = parts.ball, (parts.tolerance, parts.curves)
     shapes: list[Shape] = []
     for region, (a, b) in zip(parts.shells.crank, locked(ball), strict=True):
-        shapes.append(flat_region("CRANK", region, cone, 0.5 * (a + b), parts))
+        shapes.append(flat_region("CRANK", region, cone, 0.5 * (a + b), *accuracy))
     for region, about in zip(rollers(ball), ball.rollers, strict=True):
-        shapes.append(flat_region("ROLLER", region, cone, about, parts))
+        shapes.append(flat_region("ROLLER", region, cone, about, *accuracy))
     ends = cone.point(ball.arm, 0.0), cone.point(ball.arm, math.tau)
     shapes.append(Contour("PITCH", (cone.level(*ends, math.tau),), closed=False))
     return shapes
-
-
-def flat_region(
-    layer: Layer, region: Region, cone: Cone, about: float, parts: SphereParts
-) -> Contour:
-    """Return a region laid flat, whose azimuths are within half a turn of ``about``."""
-    segments: list[Segment] = []
-    for arc in region.boundary:
-        segments += cone.segments(arc, about, parts.tolerance or 0.0, parts.curves)
-    return closed(layer, segments)

@@ -13,8 +13,9 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.geometry import fit
-from geneva_cli.geometry.shapes import Arc, Line, Point, Segment
-from geneva_cli.geometry.sphere import SphereArc, Vector
+from geneva_cli.geometry.shapes import Arc, Contour, Layer, Line, Point, Segment, closed
+from geneva_cli.geometry.sphere import Region, SphereArc, Vector
+from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.written import length, unit
@@ -126,3 +127,29 @@ class Cone(NamedTuple):
             np.column_stack((x, y)),
             np.column_stack((along * c - across * s, along * s + across * c)),
         )
+
+
+def wheel_cone(ball: Ball) -> Cone:
+    """Return the cone that touches the sphere in the middle of the slots' length."""
+    mouth = math.acos(math.cos(ball.rim) / math.cos(ball.half_width))
+    return Cone(ball.radius_mm, 0.5 * (ball.bottom + mouth))
+
+
+def crank_cone(ball: Ball) -> Cone:
+    """Return the cone that touches the sphere at the rollers."""
+    return Cone(ball.radius_mm, ball.arm)
+
+
+def flat_region(
+    layer: Layer,
+    region: Region,
+    cone: Cone,
+    about: float,
+    tolerance: float | None,
+    curves: str,
+) -> Contour:
+    """Return a region laid flat, whose azimuths are within half a turn of ``about``."""
+    segments: list[Segment] = []
+    for arc in region.boundary:
+        segments += cone.segments(arc, about, tolerance or 0.0, curves)
+    return closed(layer, segments)

@@ -97,7 +97,9 @@ class SphereParts(Parts):
     @cached_property
     def arm(self) -> CapArm | None:
         """The crank arm; None without pins for the rollers."""
-        return crank_arm(self.shells) if has_arm(self.shells) else None
+        if not has_arm(self.ball):
+            return None
+        return crank_arm(self.ball, self.shells.crank, self.mechanism.spec.size)
 
     @cached_property
     def crank(self) -> Member:

@@ -29,14 +29,8 @@ from geneva_cli.kinds.spherical.arm import CapArm
 from geneva_cli.kinds.spherical.arm_drawing import arm_cone, arm_flat
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.dimensions import dimensions
-from geneva_cli.kinds.spherical.drawings import (
-    crank_cone,
-    crank_flat,
-    slot_flat,
-    wheel_cone,
-    wheel_flat,
-)
-from geneva_cli.kinds.spherical.laid_flat import Cone
+from geneva_cli.kinds.spherical.drawings import crank_flat, slot_flat, wheel_flat
+from geneva_cli.kinds.spherical.laid_flat import Cone, crank_cone, wheel_cone
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.section import section
 from geneva_cli.motion.pivots import Dimension

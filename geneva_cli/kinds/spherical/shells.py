@@ -7,10 +7,10 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.sphere import Region
-from geneva_cli.kinds.spherical.ball import Ball
+from geneva_cli.kinds.spherical.ball import Ball, PartDoesNotFit
 from geneva_cli.kinds.spherical.crank import sectors
 from geneva_cli.kinds.spherical.gaps import BallGaps
-from geneva_cli.kinds.spherical.sizes import PartDoesNotFit, ball
+from geneva_cli.kinds.spherical.sizes import ball
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.numerics.roots import boundary

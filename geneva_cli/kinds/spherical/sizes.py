@@ -13,6 +13,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinds.spherical.ball import PartDoesNotFit
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.rollers import places
@@ -30,10 +31,6 @@ from geneva_cli.spec.tables import Z_DRAWN, Size
 if TYPE_CHECKING:
     from geneva_cli.kinds.spherical.ball import Ball
     from geneva_cli.parts.sizes.stressed import Stressed
-
-
-class PartDoesNotFit(GenevaError):
-    """Error for a part that does not fit, but would with a smaller roller."""
 
 
 def ball(mechanism: Mechanism) -> Ball:

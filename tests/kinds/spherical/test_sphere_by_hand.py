@@ -17,7 +17,7 @@ from geneva_cli.geometry.plates import solids
 from geneva_cli.geometry.sphere import place
 from geneva_cli.kinds.spherical.arm_drawing import arm_cone
 from geneva_cli.kinds.spherical.ball import inner_edge
-from geneva_cli.kinds.spherical.drawings import wheel_cone
+from geneva_cli.kinds.spherical.laid_flat import wheel_cone
 from geneva_cli.kinds.spherical.sheet import flat_slot
 from geneva_cli.parts.parts import parts_of
 

@@ -20,7 +20,7 @@ from geneva_cli.geometry.sphere_arcs import SphereArcs
 from geneva_cli.kinds.spherical.arm import crank_arm
 from geneva_cli.kinds.spherical.arm_drawing import arm_cone
 from geneva_cli.kinds.spherical.crank import at_mid_motion, rollers, sectors
-from geneva_cli.kinds.spherical.drawings import crank_cone, wheel_cone
+from geneva_cli.kinds.spherical.laid_flat import crank_cone, wheel_cone
 from geneva_cli.kinds.spherical.parts import wheel_shell
 from geneva_cli.kinds.spherical.sizes import ball
 from geneva_cli.kinds.spherical.wheel import edge_points, wheel_regions
@@ -279,7 +279,10 @@ def test_the_arm_laid_flat(name):
     and bolts is a round about its place."""
     design = MACHINES[name].with_("size.press_fit_mm", 0.01)
     drawn = parts_of(design.mechanism)
-    made, found = crank_arm(drawn.shells), drawn.shells.ball
+    made, found = (
+        crank_arm(drawn.ball, drawn.shells.crank, drawn.mechanism.spec.size),
+        drawn.shells.ball,
+    )
     outline, *holes = design.drawing("arm", 0.005).shapes
     cone = arm_cone(found)
     R, m, share = cone.radius_mm, cone.polar, math.cos(cone.polar)
@@ -464,13 +467,16 @@ def test_refused(size, z, said):
 def test_bolts_hold_the_sectors_by_default():
     """Two in each, in the middle of the sector, with the least wall round them."""
     drawn = parts_of(Design(Spherical(6)).mechanism)
-    arm, (sector,) = crank_arm(drawn.shells), drawn.shells.crank
+    arm, (sector,) = (
+        crank_arm(drawn.ball, drawn.shells.crank, drawn.mechanism.spec.size),
+        drawn.shells.crank,
+    )
     low, high = math.pi - sector.boundary[2].angle, sector.boundary[0].angle
     polar_angles = [math.acos(bolt.axis[2]) for bolt in arm.bolts]
     assert polar_angles == pytest.approx([0.5 * (low + high)] * 2, abs=1e-12)
     assert arm.wall >= drawn.shells.sizes.wall_min
     without = parts_of(Design(Spherical(6), size=Size(lock_bolts=0)).mechanism)
-    assert not crank_arm(without.shells).bolts
+    assert not crank_arm(without.ball, without.shells.crank, without.mechanism.spec.size).bolts
 
 
 def test_a_keyway_widens_the_default_hub():
