@@ -47,11 +47,6 @@ class CrankArm(NamedTuple):
     hub_gap: float  # from the arm's end to the wheel's shaft or hub; infinite if internal
 
 
-def has_arm(parts: Outlines) -> bool:
-    """Return True if the machine has an arm: a crank with rollers on pins."""
-    return parts.assembly.full.spec.drive.ONE_ARM and parts.sizes.pin > 0.0
-
-
 def crank_arm(parts: Outlines) -> CrankArm:
     """Return the arm of a machine.
 
@@ -100,7 +95,7 @@ def bolts(parts: Outlines) -> list[Circle]:
     if size.lock_bolts is not None:
         return _bolts(parts, size.lock_bolts)
     held = has_shape(size, "crank") and sizes.crank_bore > 0.0
-    if held or not (parts.crank and has_arm(parts)):
+    if held or not (parts.crank and parts.has_arm):
         return []
     fitting = (_bolts(parts, count) for count in (2, 1))
     return next((some for some in fitting if some and _leave_walls(parts, some)), [])
@@ -147,7 +142,7 @@ def _widest(parts: Outlines, at: list[float]) -> tuple[float, float]:
     a = np.asarray(at)
     points = [np.outer(radii, f(a)).ravel() for f in (np.cos, np.sin)]
     walls = -Polyarc(parts.crank).signed(np.column_stack(points)).reshape(len(radii), len(at))
-    inner = parts.sizes.arm_bore if has_arm(parts) else parts.sizes.crank_bore
+    inner = parts.sizes.arm_bore if parts.has_arm else parts.sizes.crank_bore
     nearest = np.minimum(walls, radii[:, None] - inner).min(axis=1)
     best = int(nearest.argmax())
     return float(radii[best]), max(0.0, float(nearest[best]))

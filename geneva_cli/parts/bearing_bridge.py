@@ -19,7 +19,7 @@ from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, as_contour
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import rounded_radius
-from geneva_cli.parts.arm import crank_arm, has_arm
+from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.links.link_positions import is_bridged, links_at, turn_deg
 from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.links.links import Links
@@ -57,7 +57,7 @@ def swept_mm(mechanism: Mechanism, parts: Outlines, bars: Links) -> float:
     """Return a radius about the crank's axis that no part of crank and drive turns beyond."""
     L, sizes = mechanism.center_distance_mm, parts.sizes
     far = [sizes.lock, sizes.crank_hub]
-    if has_arm(parts):
+    if parts.has_arm:
         arm = crank_arm(parts)
         eye = max(arm.eye, sizes.roller)
         far += [arm.hub, *(math.hypot(*pin.centre) + eye for pin in arm.pins)]

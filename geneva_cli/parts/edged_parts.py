@@ -10,11 +10,11 @@ from geneva_cli.geometry.edges import Edge
 from geneva_cli.geometry.plates import Member, Plate, edged
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.kept import cached_property
-from geneva_cli.parts.parts import Parts, Unborne
+from geneva_cli.parts.parts import Parts
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.gear_teeth import Writer
-    from geneva_cli.parts.framed import FrameAndShafts
+    from geneva_cli.parts.framed import FrameAndShafts, Unborne
     from geneva_cli.parts.shafts.bolt_holes import Screws
 
 

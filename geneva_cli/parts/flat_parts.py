@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Self, cast
 
 import numpy as np
 
@@ -24,7 +24,7 @@ from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.outlines.outline_sizes import machine_sizes, outlines
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.reliefs import is_whole
-from geneva_cli.parts.outlines.wheel_outline import dial_bolts, slot_walls, wheel_contour
+from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
 from geneva_cli.parts.sizes.plain_sizes import Sizes, drawn_thicknesses, pin_radius
 from geneva_cli.parts.slots.roller_paths import roller_centres
 
@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from geneva_cli.parts.missing import NamedParts
     from geneva_cli.parts.shafts.bolt_holes import Screws
     from geneva_cli.parts.turn.bounds import FlatPairs
+    from geneva_cli.parts.turn.gaps import Gaps
 
 
 class FlatParts(EdgedParts):
@@ -88,7 +89,7 @@ class FlatParts(EdgedParts):
         from geneva_cli.geometry.extents import farthest
         from geneva_cli.parts.turn.bounds import FlatPairs
 
-        gaps, axis = self.outlines.gaps, np.zeros((1, 2))
+        gaps, axis = cast("Gaps", self.outlines.gaps), np.zeros((1, 2))
         outside = self.assembly.sign > 0.0
         rim = float(farthest(gaps.wheel, 0.0, 0.0).max() if outside else gaps.wheel.signed(axis)[0])
         return FlatPairs(gaps, self.outlines.crank, target, rim)
@@ -138,9 +139,9 @@ class FlatParts(EdgedParts):
     @cached_property
     def arm(self) -> CrankArm | None:
         """The crank arm; None without a crank, or without pins for the rollers."""
-        from geneva_cli.parts.arm import crank_arm, has_arm
+        from geneva_cli.parts.arm import crank_arm
 
-        return crank_arm(self.outlines) if has_arm(self.outlines) else None
+        return crank_arm(self.outlines) if self.outlines.has_arm else None
 
     @cached_property
     def arm_plate(self) -> Plate | None:
@@ -162,7 +163,6 @@ class FlatParts(EdgedParts):
 
         They are in the crank's frame. Of a wheel that is not drawn, they are those on links.
         """
-        from geneva_cli.parts.arm import has_arm
         from geneva_cli.parts.crank_solids import roller_plates
 
         mechanism, low = self.mechanism, self.links.pin_low
@@ -171,7 +171,7 @@ class FlatParts(EdgedParts):
         thick = drawn_thicknesses(size, mechanism.center_distance_mm, sizes)
         if low is None:
             low = -size.allowances.pin_gap_mm - (
-                thick.arm if self.drawn and has_arm(self.drawn) else 0.0
+                thick.arm if self.drawn and self.drawn.has_arm else 0.0
             )
         plates = roller_plates(
             r, pin_radius(size, r, sizes), low, thick.wheel, size.allowances.shaft_fit_mm
@@ -348,6 +348,7 @@ class FlatParts(EdgedParts):
         if not self.drawn:
             return framed
         from geneva_cli.parts.arm import bolts
+        from geneva_cli.parts.outlines.wheel_circles import dial_bolts
         from geneva_cli.parts.shafts.bolt_holes import Screws
 
         own = []

@@ -19,9 +19,8 @@ from geneva_cli.geometry.plates import Member, Plate, Stack
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Point
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.bearing_bridge import bearing_bridge
-from geneva_cli.parts.framed import FrameAndShafts, Screwed
+from geneva_cli.parts.framed import FrameAndShafts, Screwed, Unborne
 from geneva_cli.parts.links.link_positions import same
 from geneva_cli.parts.links.link_shafts import outside_links
 from geneva_cli.parts.links.links import Links, placed_holes
@@ -34,7 +33,6 @@ from geneva_cli.parts.mounted_plate import (
 )
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_hub import wheel_hub
-from geneva_cli.parts.parts import Unborne
 from geneva_cli.parts.shafts.all_shafts import all_shafts, passing, passing_arm
 from geneva_cli.parts.shafts.bearings import shoulder_length
 from geneva_cli.parts.shafts.bolt_holes import tapped
@@ -190,6 +188,6 @@ def _spacer(screw: Circle, part: Plate, top: float) -> Member:
 def _lowest(mechanism: Mechanism, parts: Outlines | None, others: Sequence[Seat]) -> float:
     """Return the lowest point, along the axis, of the wheel's hub, the arm, and other parts."""
     hub = wheel_hub(parts.assembly, parts.sizes) if parts else None
-    arm = parts.sizes.arm_thickness if parts and has_arm(parts) else 0.0
+    arm = parts.sizes.arm_thickness if parts and parts.has_arm else 0.0
     stands = -mechanism.spec.size.allowances.pin_gap_mm
     return min([stands - arm, *([hub.low] if hub else []), *(one.low for one in others)])

@@ -7,8 +7,14 @@ from typing import NamedTuple
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.parts.mounted_plate import mounts_of
-from geneva_cli.parts.parts import Unborne
 from geneva_cli.parts.shafts.bolt_holes import Screws, tapped
+
+
+class Unborne(NamedTuple):
+    """A shaft that turns and does not reach the frame, and the reason."""
+
+    name: str
+    reason: str
 
 
 class Screwed(NamedTuple):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, ClassVar, NamedTuple, Self, TypeAlias
+from typing import TYPE_CHECKING, ClassVar, Self, TypeAlias
 
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.mechanism import Mechanism
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from geneva_cli.geometry.plates import Member
     from geneva_cli.motion.pivots import Dimension
     from geneva_cli.numerics.arrays import Array
+    from geneva_cli.parts.framed import Unborne
     from geneva_cli.parts.gears.gear_blanks import Gear
     from geneva_cli.parts.missing import NamedParts
     from geneva_cli.parts.outlines.outlines import Outlines
@@ -29,13 +30,6 @@ if TYPE_CHECKING:
     from geneva_cli.parts.turn.pairs import Pairs
 
 NamedBuilds: TypeAlias = "list[tuple[str, Callable[[], Parts]]]"
-
-
-class Unborne(NamedTuple):
-    """A shaft that turns and does not reach the frame, and the reason."""
-
-    name: str
-    reason: str
 
 
 class Parts(ABC):
@@ -97,9 +91,7 @@ class Parts(ABC):
     @property
     def outlines(self) -> Outlines:
         """The outlines of wheel and crank. Raises GenevaError where they are not flat."""
-        from geneva_cli.parts.outlines.outline_sizes import outlines
-
-        return outlines(self.mechanism)
+        return self.flat.outlines
 
     @abstractmethod
     def pairs(self, target: float) -> Pairs:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from geneva_cli.geometry.plates import Group, Member, Plate
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.parts.assembly import Assembly
+from geneva_cli.parts.outlines.wheel_circles import wheel_circles
 from geneva_cli.parts.outlines.wheel_hub import wheel_hub
-from geneva_cli.parts.outlines.wheel_outline import wheel_circles
 from geneva_cli.parts.sizes.plain_sizes import Sizes
 
 

@@ -28,8 +28,8 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.outlines.crank_outline import crank_contours
 from geneva_cli.parts.outlines.cut_lock import cut_arcs, cut_lock
+from geneva_cli.parts.outlines.cut_outlines import SWEPT_DEG, drawn
 from geneva_cli.parts.outlines.outline_sizes import sized
-from geneva_cli.parts.outlines.outlines import SWEPT_DEG, drawn
 from geneva_cli.parts.outlines.wheel_outline import turned_walls, wheel_contour
 from geneva_cli.parts.shafts.keyways import DIN_6885_1
 from geneva_cli.parts.sizes.stressed import lock_of, stressed

@@ -8,7 +8,7 @@ from drawing_witness import vertices
 from words import load
 
 from geneva_cli.geometry.shapes import Circle
-from geneva_cli.parts.outlines.wheel_outline import wheel_circles
+from geneva_cli.parts.outlines.wheel_circles import wheel_circles
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.projection import outlines_of
 from geneva_cli.verdict.report.parts import cut_sizes

@@ -22,7 +22,6 @@ from geneva_cli.geometry.shapes import Circle, Contour
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.links.link_positions import gear_plane, links_at, same, turn_deg
 from geneva_cli.parts.links.link_sizes import LinkSizes, places
 from geneva_cli.parts.links.links import Links
@@ -189,7 +188,7 @@ class _Shaft:
             at, kind = places(link)[0], link.kinds[0]
             if kind is Joint.SHAFT and np.abs(at - L).max() < SAME_LENGTH * L:
                 self.carries.add(link.plane)
-        if has_arm(parts):
+        if parts.has_arm:
             self.carries.add(1)
         machine = parts.assembly.full
         if machine.spec.gears and machine.gear_shaft == machine.crank_shaft:

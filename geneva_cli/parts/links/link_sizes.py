@@ -18,9 +18,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
-from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.links.link_positions import links_at
-from geneva_cli.parts.outlines.outline_sizes import sized
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import Bore
 from geneva_cli.parts.sizes.arm_sizes import HUB, pin_hole
@@ -91,12 +89,7 @@ def link_sizes(
     size, links = spec.size, [link for link in links if not link.radius_mm]
     drawn = parts.sizes if parts else None
     wall, thick = wall_min(size, L), drawn_thicknesses(size, L, drawn)
-    first = None
-    if drawn and spec.is_loaded:
-        # without a load none is needed
-        from geneva_cli.parts.sizes.first_sizes import first_sizes
-
-        first = first_sizes(mechanism, sized)
+    first = drawn.first if drawn else None
     stands = first.pin if first else pin_radius(size, mechanism.roller_radius_mm, drawn)
     own = None if size.link_bore_mm is None else 0.5 * size.link_bore_mm
     roller = pin_hole(size, stands) if stands else 0.0
@@ -138,7 +131,7 @@ def _pin_and_eye(size: Size, links: Iterable[Link], wall: float, L: float) -> tu
 
 def _crank_shaft(mechanism: Mechanism, parts: Outlines | None) -> float | None:
     """Return the radius of the crank's shaft: of arm, locking disc or spec; None for none."""
-    if parts and has_arm(parts):
+    if parts and parts.has_arm:
         return parts.sizes.arm_bore
     if parts and parts.sizes.crank_bore:
         return parts.sizes.crank_bore

@@ -24,7 +24,7 @@ def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
     lock = lock_of(assembly, sizes)
     if is_whole(assembly, sizes):
         return lock
-    from geneva_cli.parts.outlines.outlines import drawn  # which few locks need
+    from geneva_cli.parts.outlines.cut_outlines import drawn  # which few locks need
 
     try:
         parts = drawn(assembly, sizes)

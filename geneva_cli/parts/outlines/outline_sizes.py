@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, TypeAlias
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.assembly import Assembly, assembly
-from geneva_cli.parts.outlines.outlines import Outlines, drawn
+from geneva_cli.parts.outlines.cut_outlines import drawn
+from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.sizes.plain_sizes import Sizes, pin_radius
 from geneva_cli.parts.sizes.sizes import refuse_sizes, usual_sizes
 from geneva_cli.parts.slots.roller_paths import RollerPaths, roller_paths
@@ -71,7 +72,7 @@ def sizes(
 
             first = first_sizes(assembly.full, sized)
         by = cut_lock(assembly, usual) if usual.lock else None  # no load changes it
-        out = load_sizes(assembly, usual, space, by, loads, first)
+        out = load_sizes(assembly, usual, space, by, loads, first)._replace(first=first)
     refuse_sizes(assembly, out)
     return out
 

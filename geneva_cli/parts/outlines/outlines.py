@@ -1,8 +1,7 @@
-"""The outlines of a machine's parts, and the relief of the crank that clears the wheel."""
+"""The outlines of wheel and crank, with the sizes and the positions that they are cut for."""
 
 from __future__ import annotations
 
-from functools import cache, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -10,17 +9,9 @@ import numpy as np
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.numerics.latest import KEPT
-from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.outlines.crank_outline import crank_contours
-from geneva_cli.parts.outlines.reliefs import arc_leaves_hub, has_arcs, is_whole, without_lock
-from geneva_cli.parts.outlines.wheel_outline import CURVED, turned_walls, wheel_contour
 from geneva_cli.parts.sizes.plain_sizes import Sizes
-from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.pairs import Pose
-
-SWEPT_DEG = 0.2  # of the input, between the positions of the wheel that a relief must clear
+from geneva_cli.parts.turn.machine_parts import Clearances
 
 
 class Outlines(NamedTuple):
@@ -37,7 +28,7 @@ class Outlines(NamedTuple):
     wheel: Contour
     crank: list[Contour]
     relief: str
-    gaps: Gaps
+    gaps: Clearances
     close: float
 
     @property
@@ -45,71 +36,7 @@ class Outlines(NamedTuple):
         """The distance of the crank's outline from its axis at the bottom of a relief, mm."""
         return abs(float(Polyarc(self.crank).signed(np.zeros((1, 2)))[0]))
 
-
-def drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
-    """Return the outlines of an assembly with known sizes.
-
-    They are cached without what a load changes: a lock is cut before the parts are sized for it.
-    """
-    return _drawn(assembly, sizes.outline)._replace(sizes=sizes)
-
-
-@lru_cache(maxsize=KEPT)  # a sweep cuts the locks of its designs first, and then turns the parts
-def _drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
-    kinds, L = assembly.kinds, assembly.L
-    walls = turned_walls(assembly, sizes)
-    close = (CURVED if any(engagement.slot.curved for engagement in kinds) else SAME_LENGTH) * L
-    wheel = wheel_contour(assembly, sizes, walls)
-    crank, relief, gaps = _relieved(Gaps(assembly, sizes, wheel, []), sizes, close)
-    if assembly.full.spec.wheel.stopped:
-        wheel = wheel_contour(assembly, sizes, walls, convex=True)
-    return Outlines(assembly, sizes, walls, wheel, crank, relief, gaps, close)
-
-
-def _relieved(bare: Gaps, sizes: Sizes, close: float) -> tuple[list[Contour], str, Gaps]:
-    """Return the crank with the relief of the spec, or else the first kind that clears the wheel.
-
-    An arc leaves the most of the disc and is one cut. If it collides, as with many slots, or leaves
-    too little around the crank's bore or hub, the whole sector is cut down to where the wheel never
-    comes.
-    """
-    assembly = bare.assembly
-    if not sizes.lock:
-        return [], "none", bare
-    requested = assembly.mechanism.spec.size.relief
-    whole = is_whole(assembly, sizes)
-    swept = cache(lambda i: bare.swept(i, SWEPT_DEG))
-    arcs = whole and not requested and not without_lock(assembly) and has_arcs(assembly, sizes.lock)
-    if arcs and arc_leaves_hub(assembly, sizes):
-        crank = crank_contours(assembly, sizes, "arc", swept)
-        gaps = bare.with_crank(crank)
-        if _overlap(gaps, close) <= close:
-            return crank, "arc", gaps
-    kind, spare = requested or "sector", 0.0
-    crank = crank_contours(assembly, sizes, kind, swept)
-    gaps = bare.with_crank(crank)
-    for _ in range(0 if whole else 5):
-        overlap = _overlap(gaps, close)
-        if overlap <= close:
-            break
-        # Between two of these positions the wheel comes nearer still: three times the overlap.
-        spare += 3.0 * overlap + 10.0 * close
-        crank = crank_contours(assembly, sizes, kind, swept, spare)
-        gaps = bare.with_crank(crank)
-    return crank, kind, gaps
-
-
-def _overlap(gaps: Gaps, close: float) -> float:
-    """Return the greatest overlap of crank and wheel in all motions, mm.
-
-    Gaps wider than ``close`` count as ``close``.
-    """
-    least = 0.0
-    for engagement, behind in gaps.assembly.motions:
-        count = 2 + int(engagement.motion_deg / SWEPT_DEG)
-        at = np.linspace(engagement.entry_deg, engagement.exit_deg, count)
-        at = behind + at + 0.3 * SWEPT_DEG
-        # without the rollers, which lock nothing
-        pose = Pose(gaps.assembly.wheel(at), gaps.assembly.crank(at), np.empty((len(at), 0, 2)))
-        least = min(least, float(gaps.locking(pose, near=close).min()))
-    return -least
+    @property
+    def has_arm(self) -> bool:
+        """True if the machine has an arm: a crank with rollers on pins."""
+        return self.assembly.full.spec.drive.ONE_ARM and self.sizes.pin > 0.0

@@ -11,7 +11,7 @@ from geneva_cli.geometry.plates import Member
 from geneva_cli.geometry.shapes import Point
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import AxisPlace
-from geneva_cli.parts.arm import crank_arm, has_arm
+from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.links.link_planes import crank_stop
 from geneva_cli.parts.links.link_positions import same
 from geneva_cli.parts.links.link_shafts import carried, link_shafts
@@ -89,7 +89,7 @@ def passing_arm(outlines: Outlines, own: Iterable[Shaft]) -> Iterator[Seat]:
     """Yield the faces of an arm whose end passes a wheel's shaft nearer than its shoulder."""
     from geneva_cli.parts.shafts.turned_shafts import shoulder_mm
 
-    if not has_arm(outlines):
+    if not outlines.has_arm:
         return
     arm, L = crank_arm(outlines), outlines.assembly.L
     away = L - max(math.hypot(*pin.centre) for pin in arm.pins) - arm.eye

@@ -18,7 +18,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Point
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.outlines.crank_outline import crank_circles
 from geneva_cli.parts.outlines.outlines import Outlines
@@ -46,7 +45,7 @@ def _crank_hub(parts: Outlines) -> Plate | None:
         return None
     on_arm = 0.0 - size.allowances.pin_gap_mm  # no -0.0
     disc = bool(parts.crank) and is_whole(parts.assembly, sizes)
-    if not (disc or has_arm(parts)):
+    if not (disc or parts.has_arm):
         key = "crank_hub_length_mm" if size.crank_hub_mm is None else "crank_hub_mm"
         raise GenevaError(
             f"{key}: a hub needs the locking disc or the crank arm to stand on, and there is "
@@ -112,7 +111,7 @@ def _on_crank(parts: Outlines) -> tuple[float, float]:
     if sizes.crank_bore:
         hub = crank_hub(parts)
         high = hub.high if hub else on_arm + sizes.lock_thickness
-    return on_arm - (sizes.arm_thickness if has_arm(parts) else 0.0), high
+    return on_arm - (sizes.arm_thickness if parts.has_arm else 0.0), high
 
 
 def wheel_shaft_radius(parts: Outlines) -> float:
@@ -140,4 +139,4 @@ def _has_gear(parts: Outlines) -> bool:
 
 def crank_shaft_radius(parts: Outlines) -> float:
     """Return the radius of the shaft of arm and locking disc; 0 if it carries only links."""
-    return parts.sizes.arm_bore if has_arm(parts) else parts.sizes.crank_bore
+    return parts.sizes.arm_bore if parts.has_arm else parts.sizes.crank_bore

@@ -11,6 +11,14 @@ if TYPE_CHECKING:
     from geneva_cli.spec.tables import Size
 
 
+class FirstSizes(NamedTuple):
+    """What a load needs of the first wheel's parts, mm."""
+
+    thickness: float  # of the wheel and its crank
+    pin: float  # radius of the roller's pin
+    shaft: float  # radius of its crank's shaft
+
+
 class Sizes(NamedTuple):
     """Lengths and radii, mm; bores and hubs are radii too. 0 for parts that do not exist."""
 
@@ -37,6 +45,7 @@ class Sizes(NamedTuple):
     lock_thickness: float
     arm_thickness: float
     link_thickness: float
+    first: FirstSizes | None = None  # of a first wheel in front, under a load
 
     @property
     def horn(self) -> float:
@@ -59,15 +68,8 @@ class Sizes(NamedTuple):
             lock_thickness=0.0,
             arm_thickness=0.0,
             link_thickness=0.0,
+            first=None,
         )
-
-
-class FirstSizes(NamedTuple):
-    """What a load needs of the first wheel's parts, mm."""
-
-    thickness: float  # of the wheel and its crank
-    pin: float  # radius of the roller's pin
-    shaft: float  # radius of its crank's shaft
 
 
 def drawn_thicknesses(size: Size, L: float, parts: Sizes | None = None) -> Thicknesses:

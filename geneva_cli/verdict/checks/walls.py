@@ -15,8 +15,8 @@ from geneva_cli.motion.pitch_curve import opposites
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.crank_outline import rollers_gap
 from geneva_cli.parts.outlines.reliefs import is_whole
+from geneva_cli.parts.outlines.wheel_circles import wheel_circles
 from geneva_cli.parts.outlines.wheel_hub import wheel_hub
-from geneva_cli.parts.outlines.wheel_outline import wheel_circles
 from geneva_cli.parts.shafts.bores import has_shape
 from geneva_cli.parts.sizes.plain_sizes import Sizes
 from geneva_cli.verdict.checks.check import Check, compared
