@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import geneva_cli
-from geneva_cli import Crank, Design, External, Internal, SideCrank, Size, Spherical, Tolerance
+from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, Tolerance
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.tolerance import random_machines
@@ -138,74 +138,6 @@ def test_slopes_of_the_lock(half, sign):
         true = mp.diff(lambda h, w=way: play(h * w[0], h * w[5], h * w[6]), 0)
         # the angle is a small difference of large ones, and so is the slope by L
         assert abs(lock(slope_of(i)).angle.c[1] - true) < 1e-13
-
-
-ROUND = [(60.0, 1), (60.0, 2), (90.0, 1), (120.0, 1)]  # the corner's, the end's, both, the end's
-
-
-def on_sphere(axes_deg, rollers):
-    """A machine on a sphere with play, and its lock."""
-    from geneva_cli.kinds.spherical.cut_shells import sphere_locks
-
-    size = Size(slot_clearance_mm=0.1, lock_clearance_mm=0.1)
-    drive = Crank(rollers=rollers)
-    design = Design(Spherical(6, axes_deg=axes_deg), drive, size=size)
-    [lock] = sphere_locks(design.parts.shells)
-    return design, lock
-
-
-@pytest.mark.parametrize("axes_deg, rollers", ROUND)
-def test_play_of_a_lock_on_a_sphere_is_that_of_a_whole_turn(axes_deg, rollers):
-    """Found there from the regions' arcs, whose overlap by 1e-9 L still counts as touching."""
-    design, lock = on_sphere(axes_deg, rollers)
-    assert (lock.reach <= lock.half + 1e-9) == ((axes_deg, rollers) in ROUND[0:3:2])
-    play = lock(at())
-    assert not play.jams
-    assert math.degrees(play.angle.c[0]) == pytest.approx(design.parts.turn.dwell.deg, rel=2e-6)
-
-
-@pytest.mark.parametrize("axes_deg, rollers", ROUND)
-def test_slopes_of_a_lock_on_a_sphere(axes_deg, rollers):
-    """In vectors: the corner, or the end, turned about the wheel's axis onto disc or recess."""
-    _, lock = on_sphere(axes_deg, rollers)
-    S, L = mp.mpf(lock.axes), mp.mpf(lock.radius_mm)
-    axis = mp.matrix([mp.sin(S), 0, mp.cos(S)])
-
-    def turned(v, d):
-        return mp.matrix([v[0] * mp.cos(d) - v[1] * mp.sin(d), v[0] * mp.sin(d) + v[1] * mp.cos(d),
-                          v[2]])  # fmt: skip
-
-    def place(angle, azimuth):  # about the crank's axis, from where the wheel's is
-        to, aside = mp.matrix([-mp.cos(S), 0, mp.sin(S)]), mp.matrix([0, 1, 0])
-        way = to * mp.cos(azimuth) + aside * mp.sin(azimuth)
-        return axis * mp.cos(angle) + way * mp.sin(angle)
-
-    def play(dk, dr):
-        k = mp.asin(mp.sin(mp.mpf(lock.lock)) + dk / L)
-        rho = mp.asin(mp.sin(mp.mpf(lock.recess)) + dr / L)
-        if lock.reach <= lock.half:
-            p = mp.mpf(lock.corner)
-            reach = mp.acos((mp.cos(p) - mp.cos(S) * mp.cos(rho)) / (mp.sin(S) * mp.sin(rho)))
-            point, onto = place(rho, reach), k  # the corner comes down on the disc
-        else:
-            point, onto = place(k, mp.mpf(lock.half)), rho  # the end runs up to the recess
-        far = lambda d: (axis.T * turned(point, d))[0] - mp.cos(onto)  # noqa: E731
-        return abs(mp.findroot(far, 0.001))
-
-    # the smallest of both, that of no slope, is the difference of two azimuths of about 1
-    assert abs(lock(at(lock_radius_mm=0.01)).angle.c[0] - play(0.01, 0)) < 1e-14
-    for i, way in ((5, (1, 0)), (6, (0, 1))):
-        true = mp.diff(lambda h, w=way: play(h * w[0], h * w[1]), 0)
-        assert abs(lock(slope_of(i)).angle.c[1] - true) < 1e-13
-
-
-def test_a_sector_that_does_not_go_in_jams_on_a_sphere():
-    _, lock = on_sphere(60.0, 1)
-    # 0.1 mm of arc are 0.1 cos(lock's angle) of radius
-    for by, jams in ((0.099, False), (0.101, True)):
-        share = by * math.cos(lock.lock)
-        assert lock(at(lock_radius_mm=share)).jams == jams
-        assert lock(at(lock_radius_mm=np.array([0.0, share]))).jams.tolist() == [False, jams]
 
 
 # The motion ----------------------------------------------------------------------------------

@@ -26,7 +26,7 @@ FOUR_BAR = (
 )
 NEAR_PLACES = {
     FOUR_BAR.format(12, 20, 100, 100, 60, 30, 100): (89.65, 252.03),
-    **{CASES[name]: ON_PATH[name] for name in ON_PATH},
+    **{CASES[name]: ON_PATH[name] for name in ON_PATH if name in CASES},
 }
 
 # The point moves 17 times slower than its links there: what rounds is larger than what is left,
