@@ -38,7 +38,7 @@ if TYPE_CHECKING:  # for a type checker: one line for each name
     from geneva_cli.motion.laws.standard import Polynomial345 as Polynomial345
     from geneva_cli.motion.laws.standard import Polynomial4567 as Polynomial4567
     from geneva_cli.motion.laws.standard import SineGroup as SineGroup
-    from geneva_cli.motion.laws.table import TableLaw as TableLaw
+    from geneva_cli.motion.laws.table_law import TableLaw as TableLaw
     from geneva_cli.motion.machine_spec import Spec as Spec
     from geneva_cli.motion.motion import Motion as Motion
     from geneva_cli.motion.wheels.external import External as External

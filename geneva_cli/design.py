@@ -400,7 +400,7 @@ class Design:
         >>> [mark.y for mark in panels[1].curves[0].marks]
         [-6.0]
         """
-        from geneva_cli.loads.figures import figure
+        from geneva_cli.loads.cycle_figures import figure
 
         return figure({self.spec.title: self.cycle}, pick)[0]
 
@@ -427,7 +427,7 @@ class Design:
         >>> round(loaded.loads["pin_force_N"].max, 3)
         649.007
         """
-        from geneva_cli.loads.summary import summaries
+        from geneva_cli.loads.load_tables import summaries
 
         return summaries(self.cycle)
 
@@ -441,8 +441,8 @@ class Design:
         return self._loads(for_people=False)
 
     def _loads(self, for_people: bool) -> Table:
+        from geneva_cli.loads.load_tables import loads_table, missing
         from geneva_cli.loads.sizing import sizing_with_wheel
-        from geneva_cli.loads.summary import loads_table, missing
         from geneva_cli.verdict.strength import OF_LIFE
 
         _ = self.loads  # all quantities at once, some of which the life needs
@@ -513,7 +513,7 @@ class Design:
         >>> Design(External(6), load=Load(torque_Nm=15)).load_cycle(4).to_dict()["pin_force_N"]
         array([173.20508076, 173.20508076,   0.        ,   0.        ])
         """
-        from geneva_cli.loads.summary import cycle_table
+        from geneva_cli.loads.load_tables import cycle_table
 
         return cycle_table(self.cycle, samples)
 
@@ -529,8 +529,8 @@ class Design:
         >>> round(found["residual_share"], 12)
         0.871288725706
         """
-        from geneva_cli.loads.vibration.answers import vibration_table
         from geneva_cli.loads.vibration.oscillator import oscillator
+        from geneva_cli.loads.vibration.vibration_answers import vibration_table
 
         return vibration_table(self.mechanism, oscillator(self.mechanism, period_ratio, damping))
 
@@ -544,8 +544,8 @@ class Design:
         >>> [round(float(n), 9) for n in table["n_rpm"]]
         [30.0, 60.0, 120.0]
         """
-        from geneva_cli.loads.vibration.answers import spectrum
         from geneva_cli.loads.vibration.oscillator import required_oscillator
+        from geneva_cli.loads.vibration.vibration_answers import spectrum
 
         shaft = required_oscillator(self.mechanism, period_ratio, damping)
         return spectrum(self.mechanism, shaft, samples)
@@ -822,7 +822,7 @@ class Design:
         >>> indexed.tolerance().to_dict()["dwell_position.worst_arcsec"]
         72.0
         """
-        from geneva_cli.verdict.tolerance.tables import tolerance_table
+        from geneva_cli.verdict.tolerance.tolerance_tables import tolerance_table
 
         return tolerance_table(self.mechanism, self.parts, samples, seed, radius_mm)
 
@@ -836,7 +836,7 @@ class Design:
         >>> len(found["dwell_position_deg"]), float(sum(found["dwell_position_share"]))
         (60, 1.0)
         """
-        from geneva_cli.verdict.tolerance.tables import histogram_table
+        from geneva_cli.verdict.tolerance.tolerance_tables import histogram_table
 
         return histogram_table(self.mechanism, self.parts, samples, seed)
 
@@ -859,7 +859,7 @@ class Design:
         >>> [text.name for text in Design(External(30)).warnings]
         ['many-slots']
         """
-        from geneva_cli.verdict.both_ways import all_warnings
+        from geneva_cli.verdict.both_directions import all_warnings
         from geneva_cli.verdict.warnings import warnings
 
         # the other direction's would be called backwards, which this one is

@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 
 from geneva_cli.loads.cycle import cycle_of
-from geneva_cli.loads.summary import summaries
+from geneva_cli.loads.load_tables import summaries
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.study.fields import values
 from geneva_cli.verdict.quantities.groups import GROUPS

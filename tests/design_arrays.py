@@ -6,7 +6,7 @@ from words import Motion, Spec, Wheel
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion import machine_spec as spec
 from geneva_cli.motion import registry
-from geneva_cli.motion.laws.table import TableLaw
+from geneva_cli.motion.laws.table_law import TableLaw
 from geneva_cli.motion.many import changed
 from geneva_cli.motion.mechanism import build
 

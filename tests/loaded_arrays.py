@@ -8,8 +8,8 @@ from geneva_cli.loads.cycle_quantities import QUANTITIES, SQUARED
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions, signed_instant
 from geneva_cli.loads.load_functions import load_batch as of
+from geneva_cli.loads.load_peaks import load_summaries
 from geneva_cli.loads.load_summary import LoadSummary
-from geneva_cli.loads.summaries import load_summaries
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.many import many
 from geneva_cli.spec.tables import Load

@@ -3,7 +3,7 @@
 import functools
 
 from geneva_cli.study.synth.reading import read_target
-from geneva_cli.study.synth.search import search
+from geneva_cli.study.synth.synth_search import search
 
 
 @functools.cache

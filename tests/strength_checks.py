@@ -6,7 +6,7 @@ import pytest
 from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import build
 from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.quantities.designs import Designs
+from geneva_cli.verdict.quantities.batch_designs import Designs
 
 PARTS = (
     "pin_stress_MPa",

@@ -55,7 +55,7 @@ MEMBERS = {
 # share, and the list of them.
 SHARED = {
     "cli.commands": set(),
-    "verdict.checks": {"check", "registry"},
+    "verdict.checks": {"check", "all_checks"},
     "verdict.report": set(),
 }
 STREAMS = {"streams", "__main__", "specfile", "output", "manual", "cli"}
@@ -72,7 +72,7 @@ ALONE = {
     "specfile.json_schema",
     "geometry.pieces",
     "drawings.catalogue",
-    "verdict.quantities.names",
+    "verdict.quantities.quantity_names",
 }
 # A kind's names; "table" is a law, and also what people are shown.
 NAMES = {*registry.LAWS, *(kind.name for kind in registry.KINDS)} - {"table"}
@@ -262,9 +262,9 @@ CORE = {"numerics", "geometry", "motion", "drives", "loads", "parts", "drawings"
 # table, a key's value of any type, a class that is found by its name.
 ANY = {
     # jets and values alike; what the searches of numerics hand back to whom they ask, unread
-    "numerics.pieces": {"at", "column", "rows", "evaluate", "_turn"},
-    "loads.summary": {"_rows", "_cells"},
-    "loads.vibration.answers": {"values"},
+    "numerics.smooth_pieces": {"at", "column", "rows", "evaluate", "_turn"},
+    "loads.load_tables": {"_rows", "_cells"},
+    "loads.vibration.vibration_answers": {"values"},
     "motion.records": {"families_of_kinds", "parts_class", "thing"},
     "motion.registry": {"_load_kind"},
     "motion.machine_spec": {"replace", "table"},
@@ -501,3 +501,17 @@ def test_no_result_waits_for_a_lock():
         return "cached_property" if re.search(r"functools.*cached_property", source(module)) else ""
 
     assert broken(locked, [m for m in MODULES if m != "kept"]) == {}
+
+
+def named_alike(module):
+    """The name of a file; none where it may occur twice: kinds name files after rooms, and
+    commands after what they show.
+    """
+    exempt = module.startswith(("kinds.", "extras.", "cli.commands."))
+    return "" if exempt else module.rpartition(".")[2]
+
+
+def test_no_two_files_have_one_name():
+    """A reader who looks for a file finds one."""
+    names = [name for m in MODULES if read(source(m)).full and (name := named_alike(m))]
+    assert {name for name in names if names.count(name) > 1} == set()

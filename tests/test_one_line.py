@@ -33,11 +33,11 @@ from geneva_cli.spec.schema import Example
 from geneva_cli.specfile import template
 from geneva_cli.table import Table, rows_table
 from geneva_cli.verdict.advice import judged
-from geneva_cli.verdict.checks import registry as checks
+from geneva_cli.verdict.checks import all_checks as checks
 from geneva_cli.verdict.checks import single_check
 from geneva_cli.verdict.checks.check import NONE, Check, compared
 from geneva_cli.verdict.quantities import groups
-from geneva_cli.verdict.quantities.designs import Columns, Designs
+from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
 
 Add = Callable[..., None]
 

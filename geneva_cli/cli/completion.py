@@ -85,7 +85,7 @@ def explained() -> Iterable[str]:
 
 def fields() -> Iterable[str]:
     """The quantities of a design."""
-    from geneva_cli.verdict.quantities.names import group_of
+    from geneva_cli.verdict.quantities.quantity_names import group_of
 
     return group_of()
 

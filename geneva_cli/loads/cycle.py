@@ -37,7 +37,7 @@ from geneva_cli.numerics.arrays import Whole, array
 from geneva_cli.numerics.greatest import first_greatest
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
-from geneva_cli.numerics.search import SearchResult
+from geneva_cli.numerics.stretch_search import SearchResult
 
 Integrand: TypeAlias = "Callable[[Instant[Array]], Array]"  # of values, at many angles
 

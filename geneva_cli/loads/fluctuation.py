@@ -20,7 +20,6 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.forces import LoadCase, QuantityValue
-from geneva_cli.loads.groups import parts
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import (
@@ -30,6 +29,7 @@ from geneva_cli.loads.load_functions import (
     load_batch,
     signed_instant,
 )
+from geneva_cli.loads.load_groups import parts
 from geneva_cli.loads.stretches import spans_of, to_mid_motion
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
@@ -38,7 +38,7 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Whole
 from geneva_cli.numerics.jet import Array, Jet
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
-from geneva_cli.numerics.search import search
+from geneva_cli.numerics.stretch_search import search
 
 
 class Unevenness(NamedTuple):

@@ -33,7 +33,7 @@ from geneva_cli.numerics.jet import Array, Jet
 
 if TYPE_CHECKING:
     from geneva_cli.loads.mid_motion import MidMotionValues
-    from geneva_cli.numerics.search import Stretches
+    from geneva_cli.numerics.stretch_search import Stretches
 
 
 MARGINS = ("grip", "edge")  # where one of them is not above 0, a quantity is unbounded

@@ -15,9 +15,9 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Number, Whole, array, matrix_product
 from geneva_cli.numerics.jet import Array
-from geneva_cli.numerics.pieces import gathered, spread
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
-from geneva_cli.numerics.search import SearchResult, Stretches, search
+from geneva_cli.numerics.smooth_pieces import gathered, spread
+from geneva_cli.numerics.stretch_search import SearchResult, Stretches, search
 
 
 def search_loads(load: LoadFunctions, n: int, sized: bool = False) -> SearchResult:

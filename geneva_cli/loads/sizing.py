@@ -24,8 +24,8 @@ from geneva_cli.loads.cycle_quantities import TORQUE
 from geneva_cli.loads.fluctuation import fluctuations, flywheel_kgm2
 from geneva_cli.loads.indexer_formula import IndexerFormula, ShaftLoad, indexer_formula
 from geneva_cli.loads.load_case import load_case
+from geneva_cli.loads.load_peaks import load_summaries
 from geneva_cli.loads.load_summary import LoadSummary
-from geneva_cli.loads.summaries import load_summaries
 from geneva_cli.motion.cam_factors import CamFactors, cam_factors
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.machine_spec import Spec

@@ -24,7 +24,7 @@ from geneva_cli.numerics.arrays import Mask
 from geneva_cli.numerics.extrema import smooth_pieces
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.roots import root
-from geneva_cli.numerics.search import Stretches
+from geneva_cli.numerics.stretch_search import Stretches
 
 # The greatest fraction of the step between two adjacent angles: the loads then keep six digits.
 FEWEST_DIGITS = 1e-10

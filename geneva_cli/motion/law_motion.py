@@ -7,8 +7,8 @@ from typing import ClassVar
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Peak, WheelMotion
-from geneva_cli.motion.laws.greatest import greatest
 from geneva_cli.motion.laws.law import Law, remaining
+from geneva_cli.motion.laws.law_peaks import greatest
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import SINGLE, Array, all_true, ascending, library
 from geneva_cli.numerics.jet import Jet, Number, piecewise

@@ -30,7 +30,7 @@ _DRAWINGS = {
     "groove-plate": "drawings.part_drawings:groove_plate",
     "coupon": "drawings.coupon:coupon",
     "plate": "drawings.print_plate:plate",
-    "sheet": "drawings.sheet.sheet:sheet",
+    "sheet": "drawings.sheet.machine_sheet:sheet",
 }
 _TABLES = {
     "slot": "parts.slots.slot_sampling:profile_table",

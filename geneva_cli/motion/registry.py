@@ -37,7 +37,7 @@ for _folder in EXTRAS:
 LAWS |= {
     "scca": "motion.laws.scca:SineConstantCosine",
     "tuned": "loads.vibration.tuned:Tuned",
-    "table": "motion.laws.table:TableLaw",
+    "table": "motion.laws.table_law:TableLaw",
 }
 
 # other words for a kind, where the nearest by its letters would be another one

@@ -13,7 +13,7 @@ import numpy as np
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Whole
-    from geneva_cli.numerics.pieces import SmoothPieces
+    from geneva_cli.numerics.smooth_pieces import SmoothPieces
 
 
 class GreatestValues:

@@ -131,7 +131,7 @@ def _chunks(table: Table, output: str, name: str) -> Iterator[str]:
 
         table = table_in_inches(table)
     if name == "table" and is_seen(output):
-        from geneva_cli.output.terminal.tables import chunks
+        from geneva_cli.output.terminal.terminal_tables import chunks
         from geneva_cli.output.terminal.window import window
 
         return chunks(table, window(bool(choice.columns), choice.wide))
@@ -311,7 +311,7 @@ def show_markdown(text: str) -> None:
     if not is_seen("-"):
         sys.stdout.write(text)
         return
-    from geneva_cli.output.terminal.reader import chunks
+    from geneva_cli.output.terminal.page_reader import chunks
     from geneva_cli.output.terminal.window import window
 
     _put(chunks(text, window(False, choice.wide)), "-", ())

@@ -15,7 +15,7 @@ from types import FrameType
 from typing import BinaryIO
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.output.locks import lock
+from geneva_cli.output.file_locks import lock
 
 # Left behind only by kill -9 or a power failure, until the next run that writes this file.
 TEMPORARY = ".{name}.geneva-{number}.tmp"

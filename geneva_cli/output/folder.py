@@ -16,6 +16,7 @@ from contextlib import contextmanager, suppress
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, few
+from geneva_cli.output.file_locks import lock
 from geneva_cli.output.files import (
     digest_of,
     holding_signals,
@@ -26,7 +27,6 @@ from geneva_cli.output.files import (
     write,
     write_errors,
 )
-from geneva_cli.output.locks import lock
 
 LIST = "contents.csv"
 COLUMNS = ("file", "content", "sha256")

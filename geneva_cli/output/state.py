@@ -18,8 +18,8 @@ from contextlib import suppress
 from typing import BinaryIO
 
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.output.file_locks import lock_alone
 from geneva_cli.output.files import refuse_input
-from geneva_cli.output.locks import lock_alone
 
 SUFFIX = ".geneva"
 TITLE = b"geneva sweep state 1 "

@@ -17,8 +17,8 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, Number
 from geneva_cli.spec.schema import SpecTable, fields
 from geneva_cli.study.fields import Cell
-from geneva_cli.verdict.quantities.designs import Designs
-from geneva_cli.verdict.quantities.names import group_of, in_batch
+from geneva_cli.verdict.quantities.batch_designs import Designs
+from geneva_cli.verdict.quantities.quantity_names import group_of, in_batch
 
 if TYPE_CHECKING:
     from geneva_cli.study.sweep.values import Value

@@ -14,7 +14,7 @@ from geneva_cli.study.spec_texts import designs_of, spec_texts
 from geneva_cli.study.sweep.constraints import is_number
 from geneva_cli.table import Reading, Table, rows_table
 from geneva_cli.verdict.quantities.groups import INPUTS, MACHINE
-from geneva_cli.verdict.quantities.names import group_of
+from geneva_cli.verdict.quantities.quantity_names import group_of
 
 
 def compare(

@@ -143,7 +143,7 @@ def _writer(design: Design, name: str) -> Callable[[str], None]:
 
             show_document(document(design), path)
         elif stem == "machine":
-            from geneva_cli.study.animation.scene import scene
+            from geneva_cli.study.animation.turning_scene import scene
 
             animate(scene(design), path)
         elif stem == "sheet":

@@ -14,7 +14,7 @@ from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.table import Table
 from geneva_cli.verdict.quantities.groups import MACHINE, REPORT, QuantityGroup
 from geneva_cli.verdict.quantities.groups import values as values_of
-from geneva_cli.verdict.quantities.names import group_of, in_batch, whole_name
+from geneva_cli.verdict.quantities.quantity_names import group_of, in_batch, whole_name
 
 Cell: TypeAlias = float | int | str | bool | None
 

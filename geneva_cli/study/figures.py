@@ -9,11 +9,11 @@ from itertools import pairwise
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError, cut, few
 from geneva_cli.figure import JOINED, LINE, POINTS, Axis, Curve, Figure, Panel, Piece
-from geneva_cli.loads.figures import AXIS_BY_NAME, LeftOut, figure
+from geneva_cli.loads.cycle_figures import AXIS_BY_NAME, LeftOut, figure
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.specfile.columns import Columns, read_columns
 from geneva_cli.study.spec_texts import designs_of, spec_texts
-from geneva_cli.verdict.quantities.names import whole_name
+from geneva_cli.verdict.quantities.quantity_names import whole_name
 
 QUANTITIES = tuple(AXIS_BY_NAME)  # quantities that can be plotted for a design
 CURVES_MAX = 12  # curves of a panel that the eye can tell apart

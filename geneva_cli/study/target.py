@@ -23,7 +23,7 @@ from geneva_cli.motion.wheels.gearing import Gearing, Output
 from geneva_cli.spec.tables import DISTANCE_MM
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.sweep.constraints import Constraint, Objective
-from geneva_cli.verdict.quantities.names import in_batch
+from geneva_cli.verdict.quantities.quantity_names import in_batch
 
 GEARINGS = ("external", "internal", "spherical")  # wheels; racks are searched alone
 USUAL_RPM = 60.0

@@ -19,10 +19,10 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.numerics.latest import counted
 from geneva_cli.numerics.roots import Falsi
-from geneva_cli.verdict.both_ways import parts_of_ways, worst_checks
+from geneva_cli.verdict.both_directions import parts_of_ways, worst_checks
 from geneva_cli.verdict.checks import checks_at_rest, single_check
+from geneva_cli.verdict.checks.all_checks import STANDING, checks_of_turn, turn_checks
 from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
-from geneva_cli.verdict.checks.registry import STANDING, checks_of_turn, turn_checks
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts
@@ -329,7 +329,7 @@ def _left(parts: Parts, check: Check) -> float:
     try:
         if check.at_deg is not None and check.name in NEAR:
             from geneva_cli.parts.turn.glance import gap_about, play_about
-            from geneva_cli.verdict.checks.play import finds_slot
+            from geneva_cli.verdict.checks.play_checks import finds_slot
 
             _ = parts.turned
             if check.name in GAPS:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 
 from geneva_cli.errors import Notice
-from geneva_cli.loads import loads
+from geneva_cli.loads import highest_speed
 from geneva_cli.loads.carried import weight_kg
 from geneva_cli.loads.contact import contact
 from geneva_cli.loads.cycle import Cycle, cycle_of
@@ -145,7 +145,7 @@ def load_warnings(mechanism: Mechanism) -> list[Notice]:
     cycle = cycle_of(mechanism)
     out = [*_jammed(cycle), *_on_an_edge(cycle)]
     # the search for a speed is needed only if the present one breaks a limit
-    if not _keeps_limits(cycle) and loads.fastest_rpm(mechanism) is None:
+    if not _keeps_limits(cycle) and highest_speed.fastest_rpm(mechanism) is None:
         out.append(_no_speed(mechanism))
     return out
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from geneva_cli.table import in_digits
+from geneva_cli.verdict.checks.all_checks import JAMS
 from geneva_cli.verdict.checks.check import Check
-from geneva_cli.verdict.checks.registry import JAMS
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts

@@ -16,7 +16,7 @@ from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.sizes.plain_sizes import Sizes
 from geneva_cli.parts.turn.full_turn import SAME, FullTurn
 from geneva_cli.spec.workshops import workshop
-from geneva_cli.verdict.checks.play import motion_play_max, slips_deg
+from geneva_cli.verdict.checks.play_checks import motion_play_max, slips_deg
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.plates import Solid

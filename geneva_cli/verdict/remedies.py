@@ -27,8 +27,8 @@ from geneva_cli.verdict.changes import (
     sized,
     towards,
 )
+from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, TOLERANCES
 from geneva_cli.verdict.checks.check import Check
-from geneva_cli.verdict.checks.registry import LIMITS, MOTION, TOLERANCES
 
 
 def remedies(check: Check, mechanism: Mechanism) -> Iterator[Change]:

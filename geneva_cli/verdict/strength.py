@@ -11,11 +11,11 @@ import numpy as np
 
 from geneva_cli.errors import Notice
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.strength import horn, lock, shafts
+from geneva_cli.loads.strength import horn, lock, shaft_stress
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Number
 from geneva_cli.parts.outlines.outline_sizes import sized
-from geneva_cli.verdict.quantities.designs import single
+from geneva_cli.verdict.quantities.batch_designs import single
 from geneva_cli.verdict.quantities.groups import REPORT, only
 from geneva_cli.verdict.quantities.under_load import under_load
 
@@ -165,12 +165,12 @@ class Strength:
 
     def _wheel_shaft(self) -> Keys:
         yield [(self.spec.output.turns, "a wheel that turns on a shaft")]
-        yield from self._shaft("wheel", shafts.wheel_shaft(self.spec.shaft))
+        yield from self._shaft("wheel", shaft_stress.wheel_shaft(self.spec.shaft))
 
     def _crank_shaft(self) -> Keys:
-        yield from self._shaft("crank", shafts.crank_shaft(self.spec.shaft))
+        yield from self._shaft("crank", shaft_stress.crank_shaft(self.spec.shaft))
 
-    def _shaft(self, which: str, ends: shafts.ShaftDimensions) -> Keys:
+    def _shaft(self, which: str, ends: shaft_stress.ShaftDimensions) -> Keys:
         if self.spec.is_loaded:
             yield [self.has_bound]
         drawn = self.load.parts and getattr(self.load.parts, f"{which}_shaft")

@@ -9,7 +9,7 @@ from functools import cache, partial
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.verdict.quantities.designs import BatchMember, Designs, limited_loads, single
+from geneva_cli.verdict.quantities.batch_designs import BatchMember, Designs, limited_loads, single
 from geneva_cli.verdict.quantities.under_load import under_load
 
 

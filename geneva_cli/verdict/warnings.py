@@ -38,7 +38,7 @@ def _of_strength(mechanism: Mechanism) -> list[Notice]:
 
 def _of_loads(mechanism: Mechanism) -> list[Notice]:
     from geneva_cli.loads.cycle import cycle_of
-    from geneva_cli.loads.summary import summaries
+    from geneva_cli.loads.load_tables import summaries
     from geneva_cli.verdict.cycle_warnings import cycle_warnings, load_warnings
 
     cycle = cycle_of(mechanism)

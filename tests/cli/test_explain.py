@@ -21,9 +21,9 @@ from geneva_cli.design import load
 from geneva_cli.drawings import parts_list
 from geneva_cli.drawings.catalogue import PARTS
 from geneva_cli.errors import GenevaError, Notice
-from geneva_cli.loads import figures, summary
+from geneva_cli.loads import cycle_figures, load_tables
 from geneva_cli.loads.sizing import SHOWN_SIZING
-from geneva_cli.loads.vibration import answers
+from geneva_cli.loads.vibration import vibration_answers
 from geneva_cli.loads.vibration.vibration import SpeedToAvoid
 from geneva_cli.manual import TOPICS
 from geneva_cli.manual.explained import GROUPS, Entry, entries
@@ -38,14 +38,14 @@ from geneva_cli.specfile.meanings import listed, meanings, names
 from geneva_cli.specfile.template import EXAMPLES
 from geneva_cli.study import survey
 from geneva_cli.study.sweep.run import ERROR
-from geneva_cli.study.synth.table import NAMES as SYNTH
+from geneva_cli.study.synth.synth_table import NAMES as SYNTH
 from geneva_cli.study.verdicts import checks_table
 from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.checks.registry import LIMITS, MOTION, STANDING, TURNING
-from geneva_cli.verdict.checks.registry import PROOFS as PROVED
+from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, STANDING, TURNING
+from geneva_cli.verdict.checks.all_checks import PROOFS as PROVED
 from geneva_cli.verdict.quantities import groups
-from geneva_cli.verdict.quantities.names import group_of
-from geneva_cli.verdict.tolerance.tables import ANGLES
+from geneva_cli.verdict.quantities.quantity_names import group_of
+from geneva_cli.verdict.tolerance.tolerance_tables import ANGLES
 
 WORDLESS = {"word", "yes or no", "list", "table", "text", "number"}  # not worked out by a formula
 PACKAGE = repo.ROOT / "geneva_cli"
@@ -113,16 +113,18 @@ def quantities() -> set[str]:
     out |= {*chain.from_iterable(group.names for group in parts), "tolerance.warnings"}
     out |= {f"parts_list.{kind}" for kind in parts_list.KINDS} | {"checks.passes", "checks.failed"}
     out |= {"passes", "checks_failed", "not_proved", "warnings", "spec", "title"}  # the report's
-    of_loads = {f"{q}.{s}" for q in summary.SHOWN_QUANTITIES for s in summary.LoadSummary._fields}
+    of_loads = {
+        f"{q}.{s}" for q in load_tables.SHOWN_QUANTITIES for s in load_tables.LoadSummary._fields
+    }
     out |= {f"loads.{name}" for name in of_loads} | {"loads.reversals_deg"}
     out |= {f"sizing.{name}" for name in SHOWN_SIZING}
     out |= {f"vibration.avoid.{name}" for name in SpeedToAvoid._fields}
-    out |= {f"vibration.{name}" for name in (*answers.STATION_COLUMNS, "avoid")}
+    out |= {f"vibration.{name}" for name in (*vibration_answers.STATION_COLUMNS, "avoid")}
     out |= {
-        *answers.SPECTRUM_COLUMNS,
+        *vibration_answers.SPECTRUM_COLUMNS,
         *survey.NAMES,
         *motion.motion_columns(load(str(repo.DESIGNS / "wandering-hours.toml")).mechanism),
-        *figures.AXIS_BY_NAME,
+        *cycle_figures.AXIS_BY_NAME,
         *CamFactors._fields,
     }
     out |= {"acceleration.exit", "jerk.exit", *law_values.LAW_COLUMNS, *SYNTH, ERROR}

@@ -20,8 +20,8 @@ from windows import COLUMNS, bare, look_at_page, look_at_table, require_width
 from geneva_cli import output
 from geneva_cli.cli.app import COMMANDS, app
 from geneva_cli.manual import TOPICS, page
-from geneva_cli.output.terminal.tables import chunks
-from geneva_cli.output.terminal.values import value
+from geneva_cli.output.terminal.shown_values import value
+from geneva_cli.output.terminal.terminal_tables import chunks
 from geneva_cli.output.terminal.window import Window
 from geneva_cli.table import Reading, record_table, rows_table
 

@@ -9,8 +9,8 @@ import pytest
 
 from geneva_cli.output import text
 from geneva_cli.output.plot import plot_text
-from geneva_cli.output.terminal import reader
-from geneva_cli.output.terminal import tables as terminal
+from geneva_cli.output.terminal import page_reader
+from geneva_cli.output.terminal import terminal_tables as terminal
 from geneva_cli.output.terminal.window import Window
 
 COLUMNS = (60, 80, 120, 200)
@@ -73,9 +73,9 @@ def look_at_table(table, chunks=terminal.chunks):
 def look_at_page(page):
     """A page of Markdown in every window."""
     both = (WIDEST, WIDEST._replace(styled=True))
-    known = {w for one in both for w in words("".join(reader.chunks(page, one)).splitlines())}
+    known = {w for one in both for w in words("".join(page_reader.chunks(page, one)).splitlines())}
     for columns, styled in itertools.product(COLUMNS, STYLED):
-        lines = "".join(reader.chunks(page, Window(columns, styled))).splitlines()
+        lines = "".join(page_reader.chunks(page, Window(columns, styled))).splitlines()
         require_whole(lines, columns, known)
 
 

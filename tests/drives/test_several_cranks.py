@@ -23,7 +23,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import may_vary
 from geneva_cli.motion.mechanism import build
 from geneva_cli.output.scene import place_at, value_at
-from geneva_cli.study.animation.scene import scene
+from geneva_cli.study.animation.turning_scene import scene
 
 pytestmark = pytest.mark.usefixtures("no_advice")
 

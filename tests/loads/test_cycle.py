@@ -14,7 +14,7 @@ from words import Drive, Motion, Spec, Wheel, load
 from geneva_cli import Crank, Design, External, GenevaError, Internal, Load, Shaft, Size, Spherical
 from geneva_cli.cli.app import app
 from geneva_cli.loads.cycle import Cycle
-from geneva_cli.loads.summary import reversals_deg, summaries
+from geneva_cli.loads.load_tables import reversals_deg, summaries
 from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.angles import omega
 from geneva_cli.verdict.carried_warnings import unlikely_warnings

@@ -15,9 +15,9 @@ from sampling import some
 from witness import mp
 
 from geneva_cli import Crank, External, load
-from geneva_cli.loads import summary
+from geneva_cli.loads import load_tables
 from geneva_cli.loads.cycle import Cycle, cycle_of
-from geneva_cli.loads.summaries import load_peaks, load_summaries
+from geneva_cli.loads.load_peaks import load_peaks, load_summaries
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import Mechanism, build
@@ -47,7 +47,7 @@ def all_told(cycle: Cycle) -> Iterator[Told]:
     for name in QUANTITIES:
         size, at_deg = getattr(found, name)
         yield Told(name, size, at_deg, 1.0, size)
-    for name, one in summary.summaries(cycle).items():
+    for name, one in load_tables.summaries(cycle).items():
         size = max(abs(one.max or 0.0), abs(one.min or 0.0))
         if one.max is not None:
             yield Told(name, one.max, one.max_at_deg, 1.0, size)
@@ -113,7 +113,7 @@ def test_of_two_zeros_the_first_is_told() -> None:
 
     first, second = (float(mp.degrees(mp.findroot(torque, mp.radians(x)))) for x in (17, 52))
     assert (round(first, 3), round(second, 3)) == (17.339, 52.165)
-    least = summary.summaries(Cycle(build(spec)))["contact_stress_MPa"]
+    least = load_tables.summaries(Cycle(build(spec)))["contact_stress_MPa"]
     assert least.min_at_deg == pytest.approx(first, abs=1e-9)
     batch = many(spec, {"drive.n_rpm": np.array([90.0, 91.0])}).machine
     for name in ("contact_stress_MPa", "wheel_bearing_N"):

@@ -12,7 +12,7 @@ from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads import load_functions, loads
+from geneva_cli.loads import highest_speed, load_functions
 from geneva_cli.loads.contact import contact
 from geneva_cli.loads.cycle import Cycle, greatest
 from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS
@@ -66,7 +66,7 @@ def test_inertia_alone_takes_the_peaks_of_the_motion(spec):
     motion, scale = worst(mechanism), 0.05 * OMEGA**2
     shaft = greatest(mechanism, "input_torque_Nm")
     assert shaft.max == pytest.approx(scale * motion.power.max, rel=2e-14)
-    assert loads.kinetic_power_W(mechanism, motion.power.max) == pytest.approx(
+    assert highest_speed.kinetic_power_W(mechanism, motion.power.max) == pytest.approx(
         shaft.max * OMEGA, rel=2e-14
     )
     torque = greatest(mechanism, "wheel_torque_Nm")
@@ -102,7 +102,7 @@ def test_against_a_dense_grid(spec):
     every = state(mechanism, engagement, x)
     for quantity, values in every._asdict().items():
         if quantity == "pressure_deg":
-            found = loads.greatest_pressure(mechanism).max
+            found = highest_speed.greatest_pressure(mechanism).max
         else:
             found = greatest(mechanism, REPORTED_PEAKS[quantity]).max
         most = float(np.max(np.abs(values)))
@@ -117,15 +117,18 @@ def test_the_pressure_angles_of_a_batch():
     wide = np.array([-4.0, 0.0, 5.0])
     batch = many(matched, {"motion.alpha0_deg": wide}).machine
     alone = [build(matched.with_("motion.alpha0_deg", one)) for one in wide.tolist()]
-    each = np.hstack([loads.greatest_pressure(one) for one in alone])
-    assert np.array(loads.greatest_pressure(batch)) == pytest.approx(each, rel=1e-13)
+    each = np.hstack([highest_speed.greatest_pressure(one) for one in alone])
+    assert np.array(highest_speed.greatest_pressure(batch)) == pytest.approx(each, rel=1e-13)
     assert len(set(each[0])) == 3 and each[0].max() < 90.0
     ratio = alone[1].ratio
     spec = curved("modified-trapezoid", ratio)
     crossing = many(spec, {"motion.ratio": np.array([0.9, 0.8]) * ratio}).machine
-    assert np.array(loads.greatest_pressure(crossing)).tolist() == [[90.0, 90.0], [0.0, 0.0]]
+    assert np.array(highest_speed.greatest_pressure(crossing)).tolist() == [
+        [90.0, 90.0],
+        [0.0, 0.0],
+    ]
     mixed = many(spec, {"motion.ratio": np.array([1.0, 0.8]) * ratio}).machine
-    assert np.isnan(loads.greatest_pressure(mixed)).all()
+    assert np.isnan(highest_speed.greatest_pressure(mixed)).all()
 
 
 def test_place_and_value_of_a_peak_with_friction():
@@ -203,7 +206,7 @@ def test_a_bearing_wall_as_sharp_as_the_roller_ends_in_an_edge():
 def test_the_fastest_speed_meets_its_limit(spec, key, quantity, limit, load):
     """Solved at each place, not searched for: the load there is the limit to 64 ulp."""
     mechanism = build(spec.replace(load=load, limits=Limits(**{key: limit})))
-    n = loads.fastest_rpm(mechanism)
+    n = highest_speed.fastest_rpm(mechanism)
     if spec.motion and quantity == "contact_stress_MPa":
         assert n is None  # without bound beside the cusp
         return
@@ -227,7 +230,7 @@ def test_the_fastest_speed_where_the_load_is_rounding_at_rest(monkeypatch):
     drive, keys = Drive("epicyclic"), Keys("epicyclic", "shockless")
     limits = Limits(pin_force_max_N=55.0)
     mechanism = build(Spec(Wheel(4), drive, keys, load=Load(0.043), limits=limits))
-    n = loads.fastest_rpm(mechanism)
+    n = highest_speed.fastest_rpm(mechanism)
     again = build(mechanism.spec.replace(drive=mechanism.spec.drive.replace(n_rpm=n)))
     assert greatest(again, "pin_force_N").max == pytest.approx(55.0, rel=2e-14)
     assert 0 < sum(looks) < 5000
@@ -237,7 +240,7 @@ def test_the_fastest_speed_where_the_load_is_rounding_at_rest(monkeypatch):
 def test_a_limit_that_no_speed_keeps():
     """The resistance alone takes 100 N at mid-motion."""
     mechanism = build(Spec(Wheel(6), load=Load(0.0, 5.0), limits=Limits(pin_force_max_N=20.0)))
-    assert loads.fastest_rpm(mechanism) is None
+    assert highest_speed.fastest_rpm(mechanism) is None
     assert any("no speed keeps pin_force_max_N = 20" in t for t in load_warnings(mechanism))
     table = Design.of(mechanism.spec).report.table
     row = dict(zip(table.names, table.columns, strict=True))
@@ -247,12 +250,12 @@ def test_a_limit_that_no_speed_keeps():
 def test_off_the_mid_condition_no_speed_keeps_a_force():
     limits = Limits(pin_force_max_N=1e4)
     mechanism = build(curved("modified-sine", 0.4, Load(0.02, 3.0)).replace(limits=limits))
-    assert loads.fastest_rpm(mechanism) is None
+    assert highest_speed.fastest_rpm(mechanism) is None
 
 
 def test_limits_that_any_speed_keeps():
     mechanism = build(Spec(Wheel(6), load=Load(0.0, 5.0), limits=Limits(pin_force_max_N=200.0)))
-    assert math.isinf(loads.fastest_rpm(mechanism))
+    assert math.isinf(highest_speed.fastest_rpm(mechanism))
     assert not load_warnings(mechanism)
 
 

@@ -21,7 +21,7 @@ from geneva_cli.loads.vibration.oscillator import Oscillator
 from geneva_cli.loads.vibration.shape import law_shape, shape
 from geneva_cli.loads.vibration.vibration import oscillators_of, speeds_to_avoid
 from geneva_cli.motion import registry
-from geneva_cli.motion.laws.table import TableLaw
+from geneva_cli.motion.laws.table_law import TableLaw
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 

@@ -19,10 +19,10 @@ from geneva_cli.motion import registry
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.law_motion import LawMotion
 from geneva_cli.motion.law_values import characteristic
-from geneva_cli.motion.laws.greatest import greatest
+from geneva_cli.motion.laws.law_peaks import greatest
 from geneva_cli.motion.laws.scca import SineConstantCosine
 from geneva_cli.motion.laws.standard import SineGroup
-from geneva_cli.motion.laws.table import TableLaw
+from geneva_cli.motion.laws.table_law import TableLaw
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.peak_search import QUANTITIES, search_peaks

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.search import search
+from geneva_cli.numerics.stretch_search import search
 
 WHOLE = 10.0
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from geneva_cli.numerics.pieces import gathered, spread
 from geneva_cli.numerics.quadrature import rule
+from geneva_cli.numerics.smooth_pieces import gathered, spread
 
 
 @pytest.mark.parametrize("w", [1e-3, 0.5, 7.0, 1e9])

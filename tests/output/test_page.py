@@ -29,8 +29,8 @@ from geneva_cli.output.svg import still_svg
 from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.pairs import Pose
-from geneva_cli.study.animation.scene import scene
-from geneva_cli.study.animation.turn import MachineTurn
+from geneva_cli.study.animation.animated_turn import MachineTurn
+from geneva_cli.study.animation.turning_scene import scene
 
 pytestmark = pytest.mark.usefixtures("made_once")
 DESIGNS = sorted(design.stem for design in repo.DESIGNS.glob("*.toml"))

@@ -18,7 +18,7 @@ from geneva_cli.geometry.helvetica import CAPITALS, width
 from geneva_cli.geometry.sheet import WIDTHS, Label
 from geneva_cli.output import draw_sheet
 from geneva_cli.output.formats import DXF_VERSIONS, is_drawn, sheet_as
-from geneva_cli.output.sheets import dxf, pdf, svg
+from geneva_cli.output.sheets import sheet_dxf, sheet_pdf, svg
 from geneva_cli.spec.tables import Size
 
 NAME = "{http://www.w3.org/2000/svg}"
@@ -71,7 +71,7 @@ def objects(text):
 
 
 def test_a_pdf_is_whole(sheet):
-    text = "".join(pdf.chunks(sheet))
+    text = "".join(sheet_pdf.chunks(sheet))
     assert text.isascii()
     found, trailer = objects(text)
     assert "/Root 1 0 R" in trailer
@@ -132,12 +132,12 @@ def test_an_svg_has_all_texts_where_they_are(sheet):
 @pytest.mark.parametrize("version", DXF_VERSIONS)
 def test_a_dxf_has_dimensions_that_measure_themselves(sheet, version):
     """ezdxf measures each between its own points; times its style's factor it is the part's."""
-    written = "".join(dxf.chunks(sheet, version))
+    written = "".join(sheet_dxf.chunks(sheet, version))
     document, audit = recover.read(io.BytesIO(written.encode()))
     assert not audit.errors
     assert not audit.fixes
     found = list(document.modelspace().query("DIMENSION"))
-    wanted = [m for m in sheet.measures if m.kind in dxf.KINDS]
+    wanted = [m for m in sheet.measures if m.kind in sheet_dxf.KINDS]
     assert len(found) == len(wanted) > 15
     for dimension, m in zip(found, wanted, strict=True):
         measured = dimension.get_measurement()
@@ -157,12 +157,12 @@ def test_a_dxf_has_dimensions_that_measure_themselves(sheet, version):
 
 
 def test_signs_of_a_dxf():
-    assert dxf._signed("6× Ø 20 ±0.01 60°") == "6× %%c 20 %%p0.01 60%%d"
-    assert "%%" not in dxf._signed("100%%c")
+    assert sheet_dxf._signed("6× Ø 20 ±0.01 60°") == "6× %%c 20 %%p0.01 60%%d"
+    assert "%%" not in sheet_dxf._signed("100%%c")
 
 
 def test_the_same_bytes(sheet):
-    for module in (svg, pdf, dxf):
+    for module in (svg, sheet_pdf, sheet_dxf):
         assert "".join(module.chunks(sheet)) == "".join(module.chunks(sheet))
         assert not re.search(r"20[2-9]\d-|/tmp|/home", "".join(module.chunks(sheet)))
 

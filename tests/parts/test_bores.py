@@ -19,7 +19,7 @@ from geneva_cli.output.step import chunks
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.shafts.bores import bore_of, radius_of
 from geneva_cli.spec.tables import Shaft
-from geneva_cli.verdict.checks.registry import check_named, standing
+from geneva_cli.verdict.checks.all_checks import check_named, standing
 
 
 def of(**size):

@@ -12,7 +12,7 @@ from geneva_cli import load
 from geneva_cli.drawings.catalogue import CUT, DRAWINGS
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.dxf import chunks
-from geneva_cli.output.sheets.dxf import chunks as sheet_chunks
+from geneva_cli.output.sheets.sheet_dxf import chunks as sheet_chunks
 
 pytestmark = pytest.mark.usefixtures("made_once")
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))

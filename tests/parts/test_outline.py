@@ -34,7 +34,7 @@ from geneva_cli.parts.outlines.wheel_outline import wheel_contour
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.spec.tables import Size
-from geneva_cli.verdict.checks.registry import turn_checks
+from geneva_cli.verdict.checks.all_checks import turn_checks
 
 L = 100.0
 FLAT = 1e-5 * L  # how far the witnesses' polygons stray from the arcs

@@ -14,12 +14,12 @@ from scipy.spatial import KDTree
 from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli import Design, EllipticalGears, External, Internal, load
-from geneva_cli.drawings.sheet.bores import bored
-from geneva_cli.drawings.sheet.crank import draw_arm, draw_disc, draw_roller
-from geneva_cli.drawings.sheet.links import draw_link
+from geneva_cli.drawings.sheet.bore_dimensions import bored
+from geneva_cli.drawings.sheet.crank_views import draw_arm, draw_disc, draw_roller
+from geneva_cli.drawings.sheet.link_views import draw_link
 from geneva_cli.drawings.sheet.standing import draw_frame
 from geneva_cli.drawings.sheet.view import View
-from geneva_cli.drawings.sheet.wheel import draw_wheel
+from geneva_cli.drawings.sheet.wheel_views import draw_wheel
 from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.moments import moments
 from geneva_cli.geometry.plates import plates, solids

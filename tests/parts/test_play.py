@@ -24,7 +24,7 @@ from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.machine_parts import WorkLimit
 from geneva_cli.parts.turn.play import windows
-from geneva_cli.verdict.checks.registry import turn_checks
+from geneva_cli.verdict.checks.all_checks import turn_checks
 
 DESIGNS = repo.DESIGNS
 

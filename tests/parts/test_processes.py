@@ -26,8 +26,8 @@ from geneva_cli.parts.shafts.fits import limits
 from geneva_cli.spec.processes import PROCESSES
 from geneva_cli.spec.workshops import deviation_mm, workshop
 from geneva_cli.verdict.checks.check import Check
-from geneva_cli.verdict.report.sizes import inputs
-from geneva_cli.verdict.report.sizes import sizes as report_sizes
+from geneva_cli.verdict.report.sizes_report import inputs
+from geneva_cli.verdict.report.sizes_report import sizes as report_sizes
 
 
 def test_a_mill_keeps_the_nominal_sizes() -> None:

@@ -37,7 +37,7 @@ from geneva_cli.geometry.measure import bounds, points
 from geneva_cli.geometry.placed import in_place
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line
 from geneva_cli.geometry.sheet import Label
-from geneva_cli.output.sheets import dxf
+from geneva_cli.output.sheets import sheet_dxf
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.spec.tables import RollerMaterial, Size, TitleBlock, Tolerance, WheelMaterial
 
@@ -480,8 +480,8 @@ def test_fits_and_masses_in_inches():
 def test_a_dxf_in_inches_measures_inches():
     """The factor of each style makes inches of the paper's millimetres."""
     found = load(str(repo.DESIGNS / "turret.toml")).sheet(TOLERANCE, units="inch")
-    document = ezdxf.read(io.StringIO("".join(dxf.chunks(found))))
-    measures = [m for m in found.measures if m.kind in dxf.KINDS]
+    document = ezdxf.read(io.StringIO("".join(sheet_dxf.chunks(found))))
+    measures = [m for m in found.measures if m.kind in sheet_dxf.KINDS]
     dimensions = list(document.modelspace().query("DIMENSION"))
     for dimension, m in zip(dimensions, measures, strict=True):
         if m.kind != "angular":

@@ -14,7 +14,7 @@ from fuzzing import campaign, in_time
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.extras.certify.certificate import certificate
-from geneva_cli.extras.certify.loads import LOADS, not_proved
+from geneva_cli.extras.certify.certified_loads import LOADS, not_proved
 from geneva_cli.loads.cycle import greatest
 from geneva_cli.motion.peaks import QUANTITIES, worst
 from geneva_cli.motion.registry import DRIVES

@@ -18,7 +18,7 @@ from sheet_witness import assert_as_listed, assert_measured, beyond, crossings, 
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.sheet import DIMENSION
-from geneva_cli.output.sheets import dxf, pdf, svg
+from geneva_cli.output.sheets import sheet_dxf, sheet_pdf, svg
 
 SECONDS = 60  # for one sheet and its checks
 TOLERANCE = 0.01  # mm at L = 100, of the walls
@@ -59,11 +59,11 @@ def written(sheet):
     tree = ElementTree.fromstring("".join(svg.chunks(sheet)))
     shown = {"".join(node.itertext()) for node in tree.iter() if node.tag.endswith("}text")}
     assert {label.text for label in sheet.texts} <= shown
-    drawing = ezdxf.read(io.StringIO("".join(dxf.chunks(sheet))))
+    drawing = ezdxf.read(io.StringIO("".join(sheet_dxf.chunks(sheet))))
     assert not drawing.audit().errors
     spans = [m for m in sheet.measures if m.kind != "note"]
     assert len(drawing.modelspace().query("DIMENSION")) == len(spans), DIMENSION
-    page = "".join(pdf.chunks(sheet))
+    page = "".join(sheet_pdf.chunks(sheet))
     assert page.startswith("%PDF-")
     assert page.rstrip().endswith("%%EOF")
     for at, number in offsets(page):

@@ -19,7 +19,7 @@ from loaded_arrays import beyond, loaded
 from many_options import options
 
 from geneva_cli.loads.cycle_quantities import known_quantities
-from geneva_cli.loads.summaries import load_peaks, load_summaries
+from geneva_cli.loads.load_peaks import load_peaks, load_summaries
 
 CHUNK = 4_096  # designs built together
 PLACES = 200

@@ -15,8 +15,8 @@ from geneva_cli.cli.app import app
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.study.synth.reading import read_target
-from geneva_cli.study.synth.search import search
-from geneva_cli.study.synth.table import chosen
+from geneva_cli.study.synth.synth_search import search
+from geneva_cli.study.synth.synth_table import chosen
 
 ROWS = 105  # as many as the trial in which an older synth's specs failed 27 times
 REQUIREMENTS = (

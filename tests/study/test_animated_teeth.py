@@ -12,7 +12,7 @@ from geneva_cli import Design, SideCrank, load
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.measure import at
 from geneva_cli.output.scene import body_pose, pose
-from geneva_cli.study.animation.scene import scene
+from geneva_cli.study.animation.turning_scene import scene
 
 
 @functools.cache

@@ -21,13 +21,13 @@ from geneva_cli.design import Design, load
 from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.shapes import Line, closed
 from geneva_cli.output import jsonfile
-from geneva_cli.output.document import html, markdown, pdf, pdf_table
+from geneva_cli.output.document import document_markdown, document_pdf, html, pdf_table
 from geneva_cli.output.document.blocks import Document, Fact, Facts, Grid, Picture, TextList
 from geneva_cli.output.document.html import inline
-from geneva_cli.output.document.values import value_text
+from geneva_cli.output.document.printed_values import value_text
 from geneva_cli.output.letters import western
 from geneva_cli.output.pdf import pdf_drawing, pdf_file
-from geneva_cli.output.pdf.paper import SOFT, lines, wide
+from geneva_cli.output.pdf.pdf_pages import SOFT, lines, wide
 from geneva_cli.study.document import document
 from geneva_cli.table import record_table
 
@@ -45,7 +45,7 @@ VOID = {"meta", "br", "img", "link"}
 def few_samples() -> Iterator[None]:
     """What is shown of tolerances does not depend on how many machines are drawn at random."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("geneva_cli.verdict.report.loads.SAMPLES", 64)
+        patch.setattr("geneva_cli.verdict.report.load_report.SAMPLES", 64)
         yield
 
 
@@ -209,7 +209,7 @@ def _plain(text: str) -> str:
 @pytest.mark.parametrize("name", ["turret", "spherical-z6", "jams"])
 def test_a_pdf_holds_title_verdict_and_every_check(name: str, jams: str) -> None:
     design, found = made(jams) if name == "jams" else of(name)
-    text = "".join(pdf.chunks(found))
+    text = "".join(document_pdf.chunks(found))
     texts, every = said(text)
     assert texts[0] == western(found.title)[: len(texts[0])]
     assert found.verdict in texts
@@ -218,14 +218,14 @@ def test_a_pdf_holds_title_verdict_and_every_check(name: str, jams: str) -> None
     pages = [body for body in every.values() if "/Type /Page " in body]
     numbers = [t for t in texts if re.fullmatch(r"\d+ / \d+", t)]
     assert numbers == [f"{i} / {len(pages)}" for i in range(1, len(pages) + 1)]
-    assert text == "".join(pdf.chunks(found)) and "CreationDate" not in text
+    assert text == "".join(document_pdf.chunks(found)) and "CreationDate" not in text
 
 
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["turret", "spherical-z6", "press-curved", "internal-z6"])
 def test_page_1_is_machine_verdict_key_figures_and_motor(name: str) -> None:
     _, found = of(name)
-    every, _ = objects("".join(pdf.chunks(found)))
+    every, _ = objects("".join(document_pdf.chunks(found)))
     first = next(body for _, body in sorted(every.items()) if "stream" in body)
     texts = [_plain(t) for t in re.findall(r"\(((?:[^()\\]|\\.)*)\) Tj", first)]
     assert found.verdict in texts
@@ -237,7 +237,7 @@ def test_page_1_is_machine_verdict_key_figures_and_motor(name: str) -> None:
 def test_the_parts_list_fits_its_columns() -> None:
     """No heading and no number of it is broken."""
     _, found = of("turret")
-    texts, _ = said("".join(pdf.chunks(found)))
+    texts, _ = said("".join(document_pdf.chunks(found)))
     assert {"Count", "Mass, kg", "461.94", "143.342", "material.wheel"} <= set(texts)
     assert "Centroid x, mm" in texts
 
@@ -253,7 +253,7 @@ def test_a_power_of_ten_is_raised_on_paper() -> None:
 def test_nothing_of_a_pdf_leaves_its_page(jams: str) -> None:
     """Texts end before the margin, and stand between the first line and the page's number."""
     shown_ = r"/F([12]) (\S+) Tf 1 0 0 1 (\S+) (\S+) Tm \(((?:[^()\\]|\\.)*)\) Tj"
-    every = re.findall(shown_, "".join(pdf.chunks(made(jams)[1])))
+    every = re.findall(shown_, "".join(document_pdf.chunks(made(jams)[1])))
     assert len(every) > 500
     for font, size, x, y, text in every:
         end = float(x) + wide(_plain(text), float(size), font == "2")
@@ -360,7 +360,7 @@ def test_what_is_not_drawn_is_said_in_its_place(tmp_path: Path) -> None:
     assert flat.drawing.title == "Wheel and crank, laid flat"
     file = tmp_path / "spec.toml"
     file.write_text("[wheel]\nz = 400\n", encoding="utf-8")
-    said_ = "".join(markdown.chunks(made(str(file))[1]))
+    said_ = "".join(document_markdown.chunks(made(str(file))[1]))
     assert "Not drawn: z = 400" in said_
 
 

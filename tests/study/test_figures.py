@@ -20,9 +20,9 @@ from geneva_cli import (
     load,
 )
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.figures import AXIS_BY_NAME, MACHINES_MAX, USUAL_QUANTITIES, figure
+from geneva_cli.loads.cycle_figures import AXIS_BY_NAME, MACHINES_MAX, USUAL_QUANTITIES, figure
+from geneva_cli.loads.load_tables import SHOWN_QUANTITIES
 from geneva_cli.loads.stages import motion_stages
-from geneva_cli.loads.summary import SHOWN_QUANTITIES
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.sampling import ASPECT, CHORD_ERROR, refined, thinned

@@ -15,10 +15,10 @@ from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS
 from geneva_cli.study.batches import numbers
 from geneva_cli.study.fields import pick
 from geneva_cli.study.survey import NAMES as TABLE
-from geneva_cli.study.synth.rows import Candidate
+from geneva_cli.study.synth.machine_rows import Candidate
 from geneva_cli.table import Table
 from geneva_cli.verdict.quantities.groups import GROUPS
-from geneva_cli.verdict.quantities.names import WORDS, group_of, whole_name
+from geneva_cli.verdict.quantities.quantity_names import WORDS, group_of, whole_name
 
 pytestmark = pytest.mark.usefixtures("made_once")
 LISTS = {  # of a report's names those of tables and lists, which are no quantities

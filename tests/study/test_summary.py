@@ -16,13 +16,13 @@ from geneva_cli.answer import FAILS, PASSES, WARNS, Summary, SummaryLine
 from geneva_cli.cli.app import app
 from geneva_cli.design import Design, load
 from geneva_cli.loads.indexer_formula import RATED_kW, RecommendedMotor
-from geneva_cli.output.terminal import tables as terminal
+from geneva_cli.output.terminal import terminal_tables as terminal
 from geneva_cli.output.terminal.summary import chunks
 from geneva_cli.output.terminal.window import Window
-from geneva_cli.study.summary.loads import of_loads
-from geneva_cli.study.summary.report import of_report
-from geneva_cli.study.summary.tolerance import of_tolerance
-from geneva_cli.study.summary.vibration import of_vibration
+from geneva_cli.study.summary.load_lines import of_loads
+from geneva_cli.study.summary.report_summary import of_report
+from geneva_cli.study.summary.tolerance_summary import of_tolerance
+from geneva_cli.study.summary.vibration_summary import of_vibration
 
 pytestmark = pytest.mark.usefixtures("made_once")
 TURRET = str(repo.DESIGNS / "turret.toml")

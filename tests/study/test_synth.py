@@ -20,19 +20,19 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import peak, worst
 from geneva_cli.motion.timing import timings
-from geneva_cli.output.terminal.tables import chunks
+from geneva_cli.output.terminal.terminal_tables import chunks
 from geneva_cli.output.terminal.window import Window
-from geneva_cli.study.synth import table as rows_shown
+from geneva_cli.study.synth import synth_table as rows_shown
 from geneva_cli.study.synth.built import Built
 from geneva_cli.study.synth.families import closed
+from geneva_cli.study.synth.machine_rows import NEAR_DEG, MachineRow, _slot_failure
 from geneva_cli.study.synth.parts_data import parts_data
 from geneva_cli.study.synth.reading import read_target
-from geneva_cli.study.synth.rows import NEAR_DEG, MachineRow, _slot_failure
-from geneva_cli.study.synth.search import search
 from geneva_cli.study.synth.shown import for_people, for_terminal
-from geneva_cli.study.synth.table import NAMES, chosen, commented, synthesis_table, turned
+from geneva_cli.study.synth.synth_search import search
+from geneva_cli.study.synth.synth_table import NAMES, chosen, commented, synthesis_table, turned
 from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.checks.motion import GROOVE_MAX_DEG, groove_pressure
+from geneva_cli.verdict.checks.motion_checks import GROOVE_MAX_DEG, groove_pressure
 
 pytestmark = pytest.mark.usefixtures("few_four_bars")
 GEARINGS = ("external", "internal")

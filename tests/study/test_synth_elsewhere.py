@@ -14,10 +14,10 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
 from geneva_cli.study.synth.built import built
 from geneva_cli.study.synth.families import every
-from geneva_cli.study.synth.parts import machine_and_parts
+from geneva_cli.study.synth.fast_parts import machine_and_parts
 from geneva_cli.study.synth.reading import read_target
-from geneva_cli.study.synth.search import search
-from geneva_cli.study.synth.table import turned
+from geneva_cli.study.synth.synth_search import search
+from geneva_cli.study.synth.synth_table import turned
 from geneva_cli.verdict.checks import checks
 
 pytestmark = pytest.mark.usefixtures("few_four_bars")

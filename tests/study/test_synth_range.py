@@ -21,9 +21,9 @@ from geneva_cli.study.batches import columns
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.sweep.constraints import Objective, objective
 from geneva_cli.study.synth.reading import SPANS, read_target, span
-from geneva_cli.study.synth.search import search
 from geneva_cli.study.synth.shown import for_people
-from geneva_cli.study.synth.table import synthesis_table
+from geneva_cli.study.synth.synth_search import search
+from geneva_cli.study.synth.synth_table import synthesis_table
 
 pytestmark = pytest.mark.usefixtures("few_four_bars")
 DESIGNS = os.path.join(os.path.dirname(__file__), "..", "..", "designs")
@@ -153,7 +153,7 @@ def test_a_dwell_of_several_turns_is_behind_a_first_wheel():
 )
 def test_bounds_on_times_that_nothing_keeps_are_refused_at_once(target, bound, said, monkeypatch):
     """As the options are that say the same, and before any machine is looked for."""
-    monkeypatch.setattr("geneva_cli.study.synth.search.families", None)
+    monkeypatch.setattr("geneva_cli.study.synth.synth_search.families", None)
     with pytest.raises(GenevaError) as error:
         search(read_target(**target, subject_to=[bound]))
     assert said in str(error.value)

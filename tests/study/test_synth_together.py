@@ -22,7 +22,7 @@ from geneva_cli.parts.slots.roller_paths import roller_paths
 from geneva_cli.spec.tables import Load, Size
 from geneva_cli.study.batches import numbers
 from geneva_cli.study.fields import pick
-from geneva_cli.study.synth import search as searching
+from geneva_cli.study.synth import synth_search as searching
 from geneva_cli.study.synth.families.every import kinds
 from geneva_cli.study.synth.parts_data import (
     UNDERCUT_SAMPLES,
@@ -32,8 +32,8 @@ from geneva_cli.study.synth.parts_data import (
     parts_data,
 )
 from geneva_cli.study.synth.reading import read_target
-from geneva_cli.study.synth.search import search
-from geneva_cli.study.synth.table import synthesis_table
+from geneva_cli.study.synth.synth_search import search
+from geneva_cli.study.synth.synth_table import synthesis_table
 
 LAW = Cycloidal()
 MATCHED = Motion(LAW, ratio="matched")

@@ -16,13 +16,13 @@ from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.glance import gap_about, play_about
 from geneva_cli.spec.tables import Size
 from geneva_cli.study.synth.built import built
-from geneva_cli.study.synth.parts import USUAL, exact, parts, with_roller
+from geneva_cli.study.synth.fast_parts import USUAL, exact, parts, with_roller
 from geneva_cli.study.synth.parts_data import distances_at_rest, parts_data
 from geneva_cli.study.synth.reading import read_target
-from geneva_cli.study.synth.search import search
+from geneva_cli.study.synth.synth_search import search
 from geneva_cli.study.synth.turns import Turn
 from geneva_cli.verdict.checks import Check, checks
-from geneva_cli.verdict.checks.play import finds_slot
+from geneva_cli.verdict.checks.play_checks import finds_slot
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,7 @@ from words import Drive, Keys, Spec, Wheel
 from geneva_cli.motion.many import many
 from geneva_cli.study.batches import columns
 from geneva_cli.study.synth.reading import read_target
-from geneva_cli.study.synth.search import search
+from geneva_cli.study.synth.synth_search import search
 
 pytestmark = pytest.mark.usefixtures("few_four_bars")
 # Of a smooth least value a grid of 81 by 161 is short by the square of half a step, 1e-4 of what is

@@ -10,7 +10,7 @@ from sampling import some
 from words import load
 
 from geneva_cli import Design
-from geneva_cli.loads import loads
+from geneva_cli.loads import highest_speed
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.numerics.latest import counted
 from geneva_cli.spec.schema import fields
@@ -284,7 +284,7 @@ def test_searches_of_loads_count(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     adviser = advice.Adviser(mechanism, failing, parts=False)
     assert adviser.advice(failing)[0]
     with counted() as one:
-        loads.greatest_pressure(build(mechanism.spec))
+        highest_speed.greatest_pressure(build(mechanism.spec))
     assert one.evaluations > 1
     assert advice.WORK - adviser.work > (advice.TRIAL + 1) * len(built) > 0
 

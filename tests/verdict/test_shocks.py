@@ -28,11 +28,11 @@ from geneva_cli.loads.impacts.mouth import mouth_contacts
 from geneva_cli.loads.strength.pin import pin_diameter_mm
 from geneva_cli.motion.many import many
 from geneva_cli.parts.outlines.outline_sizes import built
-from geneva_cli.study.summary.loads import load_lines
+from geneva_cli.study.summary.load_lines import load_lines
 from geneva_cli.verdict.checks import single_check
-from geneva_cli.verdict.quantities.designs import Designs
+from geneva_cli.verdict.quantities.batch_designs import Designs
 from geneva_cli.verdict.quantities.disturbances import entry, reversal
-from geneva_cli.verdict.quantities.strength import pin
+from geneva_cli.verdict.quantities.part_strength import pin
 
 LOOSE = Size(face_width_mm=18.0, slot_clearance_mm=0.02)
 WIDE = Tolerance(crank_radius_mm=0.02, center_distance_mm=0.03, slot_width_mm=0.02)

@@ -16,13 +16,13 @@ from strength_checks import HORNS, PARTS, require_same_in_a_batch, rows
 
 from geneva_cli import Crank, Design, External, Internal, NoncircularGears, SideCrank
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.strength.arm import (
+from geneva_cli.loads.strength.arm_strength import (
     ArmDimensions,
     arm_stress_MPa,
     least_thickness_mm,
     torsion_MPa,
 )
-from geneva_cli.loads.strength.keys import KeyDimensions, key_stress, shear_allowed_MPa
+from geneva_cli.loads.strength.key_strength import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.loads.strength.part_loads import part_loads
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
@@ -34,8 +34,14 @@ from geneva_cli.parts.sizes.stressed import lock_of, stressed
 from geneva_cli.spec.keyways import DIN_6885_1
 from geneva_cli.spec.materials import wheel_material
 from geneva_cli.spec.tables import Load, Shaft, Size, WheelMaterial
-from geneva_cli.verdict.quantities.designs import Designs
-from geneva_cli.verdict.quantities.strength import arm, crank_key, crank_shaft, pin, wheel_shaft
+from geneva_cli.verdict.quantities.batch_designs import Designs
+from geneva_cli.verdict.quantities.part_strength import (
+    arm,
+    crank_key,
+    crank_shaft,
+    pin,
+    wheel_shaft,
+)
 
 STRENGTH = PARTS + HORNS
 

@@ -11,8 +11,8 @@ from geneva_cli.geometry.shapes import Circle
 from geneva_cli.parts.outlines.wheel_circles import wheel_circles
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.projection import outlines_of
-from geneva_cli.verdict.report.parts import cut_sizes
-from geneva_cli.verdict.report.sizes import sizes
+from geneva_cli.verdict.report.parts_report import cut_sizes
+from geneva_cli.verdict.report.sizes_report import sizes
 
 pytestmark = pytest.mark.usefixtures("made_once")
 CHORD = 1e-4  # mm, of the polylines that stand for outlines

@@ -23,8 +23,8 @@ from geneva_cli.parts.outlines.outline_sizes import sized
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, Size, WheelMaterial
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.quantities.designs import Designs
-from geneva_cli.verdict.quantities.strength import lock, margin
+from geneva_cli.verdict.quantities.batch_designs import Designs
+from geneva_cli.verdict.quantities.part_strength import lock, margin
 from geneva_cli.verdict.strength import REPORT_GROUPS, Strength
 
 DESIGNS = repo.DESIGNS

@@ -31,7 +31,7 @@ def run(
 
     from geneva_cli.design import load
     from geneva_cli.output import animate
-    from geneva_cli.study.animation.scene import scene
+    from geneva_cli.study.animation.turning_scene import scene
 
     if open_ and output != "-" and not output.endswith(".html"):
         raise GenevaError(f'-o "{output}": --open opens a page: it must end in .html')

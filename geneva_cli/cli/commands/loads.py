@@ -51,7 +51,7 @@ def run(
     from geneva_cli.design import load
     from geneva_cli.output import show, show_answer
     from geneva_cli.output.formats import is_for_people, table_as
-    from geneva_cli.study.summary.loads import of_loads
+    from geneva_cli.study.summary.load_lines import of_loads
 
     design = load(spec, settings or (), reverse)
     if certify:

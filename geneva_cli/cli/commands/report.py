@@ -36,7 +36,7 @@ def run(
     from geneva_cli.design import load
     from geneva_cli.output import show_answer, show_document
     from geneva_cli.output.formats import is_document
-    from geneva_cli.study.summary.report import of_report
+    from geneva_cli.study.summary.report_summary import of_report
 
     is_whole = is_document(output, format)
     design = load(spec, settings or ())

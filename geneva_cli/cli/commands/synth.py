@@ -127,7 +127,7 @@ def _show(target: "Target", check: int, buildable: bool, output: str, format: st
     from geneva_cli.output import is_watched, show
     from geneva_cli.output.formats import is_for_people
     from geneva_cli.study.synth.shown import for_people, for_terminal
-    from geneva_cli.study.synth.table import synthesis_table
+    from geneva_cli.study.synth.synth_table import synthesis_table
 
     if output.endswith(".toml") and not format:
         raise GenevaError(f"-o {cut(output, 300)}: a spec is one row of the table; add --write N")
@@ -145,8 +145,8 @@ def _write(
 ) -> None:
     from geneva_cli.design import Design
     from geneva_cli.output import show_text
-    from geneva_cli.study.synth.search import search
-    from geneva_cli.study.synth.table import chosen
+    from geneva_cli.study.synth.synth_search import search
+    from geneva_cli.study.synth.synth_table import chosen
 
     if format:
         raise GenevaError(f"--format {cut(format)}: --write writes a spec, which is TOML")

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TypeAlias
 
-from geneva_cli.drawings.sheet.crank import draw_roller
-from geneva_cli.drawings.sheet.links import draw_link
+from geneva_cli.drawings.sheet.crank_views import draw_roller
+from geneva_cli.drawings.sheet.link_views import draw_link
 from geneva_cli.drawings.sheet.standing import draw_shaft
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.geometry.plates import Group, Member, Plate, Shell

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.bores import bolted, circle_of
+from geneva_cli.drawings.sheet.bore_dimensions import bolted, circle_of
 from geneva_cli.drawings.sheet.view import View, grouped, times
 from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.plates import Plate, Stack

@@ -20,7 +20,8 @@ from geneva_cli.drives.paths.course import (
     leaves_slot,
     open_intervals,
 )
-from geneva_cli.drives.paths.pairs import (
+from geneva_cli.drives.paths.samples import PathSamples, points, sampled
+from geneva_cli.drives.paths.tangent_pairs import (
     DOUBLE_ROOT_SLOPE,
     SAME_ENTRY,
     EndPairs,
@@ -29,7 +30,6 @@ from geneva_cli.drives.paths.pairs import (
     pairs,
     residual,
 )
-from geneva_cli.drives.paths.samples import PathSamples, points, sampled
 from geneva_cli.drives.roller_path import RollerPath
 from geneva_cli.numerics.arrays import Array, Mask, joined
 

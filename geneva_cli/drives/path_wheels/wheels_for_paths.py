@@ -15,7 +15,7 @@ import numpy as np
 from geneva_cli.drives.path_wheels.choice import chosen
 from geneva_cli.drives.path_wheels.wheel_for_path import fit
 from geneva_cli.drives.path_wheels.wheels import WheelSearch, wheels
-from geneva_cli.drives.paths.pairs import DOUBLE_ROOT_SLOPE, ends_at, residual
+from geneva_cli.drives.paths.tangent_pairs import DOUBLE_ROOT_SLOPE, ends_at, residual
 from geneva_cli.drives.roller_path import RollerPath, exactly
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.wheels.poses import HalfStep

@@ -12,7 +12,7 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.extras.certify.loads import LOADS, load_formula, not_proved
+from geneva_cli.extras.certify.certified_loads import LOADS, load_formula, not_proved
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import QUANTITIES

@@ -30,7 +30,7 @@ from geneva_cli.kinds.linear.guide_friction import RackGuide
 from geneva_cli.kinds.linear.guide_place import guide_place
 from geneva_cli.loads.forces import QuantityValue
 from geneva_cli.loads.instant import Instant
-from geneva_cli.loads.summaries import load_peaks
+from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.motion.engagement import Peak
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Jet

@@ -12,7 +12,7 @@ from geneva_cli.kinds.linear.motion import guided
 from geneva_cli.kinds.linear.rack import rack_sizes
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.verdict.part_sizes import as_numbers, batched
-from geneva_cli.verdict.quantities.designs import Columns, Designs
+from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
 from geneva_cli.verdict.quantities.horns import Horns
 
 

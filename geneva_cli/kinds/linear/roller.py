@@ -5,7 +5,7 @@ from __future__ import annotations
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.linear.rack import rack_sizes
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.study.synth.parts import SIZES
+from geneva_cli.study.synth.fast_parts import SIZES
 
 
 def rack_roller(mechanism: Mechanism) -> tuple[None, str]:

@@ -9,9 +9,9 @@ from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.shapes import Circle, Shape
 from geneva_cli.kinds.linear.rack import rack_sizes
 from geneva_cli.output.scene import Body, Box, Track
+from geneva_cli.study.animation.animated_turn import MachineTurn
+from geneva_cli.study.animation.shown_wheels import WheelScene
 from geneva_cli.study.animation.tracks import still
-from geneva_cli.study.animation.turn import MachineTurn
-from geneva_cli.study.animation.wheels import WheelScene
 
 if TYPE_CHECKING:
     from geneva_cli.parts.outlines.outlines import Outlines

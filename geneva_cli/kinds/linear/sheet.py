@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.bores import bolted, circle_of, holes_of
+from geneva_cli.drawings.sheet.bore_dimensions import bolted, circle_of, holes_of
 from geneva_cli.drawings.sheet.content import (
     SheetContent,
     Views,
@@ -15,7 +15,7 @@ from geneva_cli.drawings.sheet.content import (
     sheet_of,
     shown_on_sheet,
 )
-from geneva_cli.drawings.sheet.crank import draw_arm
+from geneva_cli.drawings.sheet.crank_views import draw_arm
 from geneva_cli.drawings.sheet.linked import flat_plates, geared, rolling, shafted, titled
 from geneva_cli.drawings.sheet.paper import scale_name
 from geneva_cli.drawings.sheet.standing import draw_frame

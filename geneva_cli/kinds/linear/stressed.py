@@ -12,8 +12,8 @@ import numpy as np
 
 from geneva_cli.kinds.linear.arm import crank_arm, rack_bore
 from geneva_cli.kinds.linear.frame import has_arm, rack_frame, shaft_radius
-from geneva_cli.loads.strength.arm import ArmDimensions
-from geneva_cli.loads.strength.keys import KeyDimensions
+from geneva_cli.loads.strength.arm_strength import ArmDimensions
+from geneva_cli.loads.strength.key_strength import KeyDimensions
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sizes.plain_sizes import pin_radius

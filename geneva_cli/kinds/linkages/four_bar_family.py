@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from geneva_cli.drives.path_wheels.wheels import followed
-from geneva_cli.drives.paths.pairs import ends_at, newton, residual
+from geneva_cli.drives.paths.tangent_pairs import ends_at, newton, residual
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.linkages.coupler import coupler_drive
 from geneva_cli.kinds.linkages.coupler_costs import Costs, is_known

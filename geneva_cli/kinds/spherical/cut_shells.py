@@ -9,7 +9,7 @@ from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.shells import Shells
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.parts.parts import Parts
-from geneva_cli.verdict.tolerance.locks import SAME, Corners, CutParts
+from geneva_cli.verdict.tolerance.lock_tolerances import SAME, Corners, CutParts
 
 
 class CutShells(CutParts):

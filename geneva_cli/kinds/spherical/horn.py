@@ -33,7 +33,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.strength.arm import torsion_MPa
+from geneva_cli.loads.strength.arm_strength import torsion_MPa
 from geneva_cli.loads.strength.horn_search import (
     HornStress,
     SlotEnd,

@@ -12,7 +12,7 @@ from geneva_cli.kinds.spherical.horn import sphere_horn, sphere_stoutness
 from geneva_cli.kinds.spherical.sizes import sized_ball
 from geneva_cli.loads.strength.horn_search import HornStress
 from geneva_cli.numerics.arrays import parameter
-from geneva_cli.verdict.quantities.designs import Designs
+from geneva_cli.verdict.quantities.batch_designs import Designs
 from geneva_cli.verdict.quantities.horns import Horns
 
 

@@ -16,7 +16,7 @@ from geneva_cli.kinds.spherical.horn import sphere_horn
 from geneva_cli.kinds.spherical.stressed import sphere_stressed
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.part_loads import PartLoads, greatest, single_loads
-from geneva_cli.loads.strength.shafts import (
+from geneva_cli.loads.strength.shaft_stress import (
     LoadedShaft,
     ShaftDimensions,
     crank_forces,
@@ -42,7 +42,7 @@ from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.materials import wheel_material
 
 if TYPE_CHECKING:
-    from geneva_cli.loads.strength.shafts import ShaftForces
+    from geneva_cli.loads.strength.shaft_stress import ShaftForces
 
 
 def horn_thickness_mm(mechanism: Mechanism, usual: Ball) -> float | None:

@@ -6,7 +6,14 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.spherical.sizes import ball
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.spec.least_wall import wall_min
-from geneva_cli.study.synth.parts import LOCK, SIZES, largest, radii_from, radius_mm, with_roller
+from geneva_cli.study.synth.fast_parts import (
+    LOCK,
+    SIZES,
+    largest,
+    radii_from,
+    radius_mm,
+    with_roller,
+)
 
 
 def ball_roller(mechanism: Mechanism) -> tuple[float | None, str]:

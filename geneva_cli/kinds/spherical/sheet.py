@@ -14,7 +14,7 @@ import numpy as np
 
 from geneva_cli.drawings.parts_list import part_rows
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.bores import bored
+from geneva_cli.drawings.sheet.bore_dimensions import bored
 from geneva_cli.drawings.sheet.composed import on_paper
 from geneva_cli.drawings.sheet.linked import shafted
 from geneva_cli.drawings.sheet.paper import table

@@ -17,7 +17,7 @@ import math
 import numpy as np
 
 from geneva_cli.kinds.spherical.ball import Ball
-from geneva_cli.loads.strength.arm import ArmDimensions
+from geneva_cli.loads.strength.arm_strength import ArmDimensions
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sizes.arm_sizes import arm_hub, hole_radius

@@ -10,7 +10,7 @@ from geneva_cli.loads.forces import contact_modulus_GPa, hertz_MPa
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.parts import Parts
 from geneva_cli.spec.materials import wheel_material
-from geneva_cli.verdict.quantities.designs import Values
+from geneva_cli.verdict.quantities.batch_designs import Values
 
 
 def stop(parts: Parts) -> Values:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from geneva_cli.kinds.stop.parts import wheel_stop
-from geneva_cli.study.animation.turn import MachineTurn
-from geneva_cli.study.animation.wheels import WheelScene
+from geneva_cli.study.animation.animated_turn import MachineTurn
+from geneva_cli.study.animation.shown_wheels import WheelScene
 
 if TYPE_CHECKING:
     from geneva_cli.parts.outlines.outlines import Outlines

@@ -11,9 +11,15 @@ import numpy as np
 from geneva_cli.loads.cycle_quantities import FORCE
 from geneva_cli.loads.impacts.impacts import reversal_impacts
 from geneva_cli.loads.load_functions import LoadQuantity
+from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
-from geneva_cli.loads.strength.shafts import OnShaft, Torque, crank_forces, on_carrier, wheel_forces
-from geneva_cli.loads.summaries import load_peaks
+from geneva_cli.loads.strength.shaft_stress import (
+    OnShaft,
+    Torque,
+    crank_forces,
+    on_carrier,
+    wheel_forces,
+)
 from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import larger, parameter

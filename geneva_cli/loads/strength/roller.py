@@ -22,10 +22,10 @@ import numpy as np
 from geneva_cli.loads.contact import contact, is_straight
 from geneva_cli.loads.cycle_quantities import FORCE
 from geneva_cli.loads.forces import Contact, LoadCase
-from geneva_cli.loads.groups import of_groups
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadBatch, LoadFunctions, SignFunctions, load_batch
+from geneva_cli.loads.load_groups import of_groups
 from geneva_cli.loads.strength.wear import Rubbing, greatest_rubbing_N
 from geneva_cli.loads.stretches import refuse_noise, spans_of, to_mid_motion
 from geneva_cli.motion.batch import taken
@@ -35,7 +35,7 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Whole, array, parameter
 from geneva_cli.numerics.jet import Array, Jet, Number
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
-from geneva_cli.numerics.search import search
+from geneva_cli.numerics.stretch_search import search
 
 LIFE_EXPONENT = 10.0 / 3.0  # p, of line contact
 

@@ -22,7 +22,7 @@ from geneva_cli.output.document.blocks import (
     Row,
     TextList,
 )
-from geneva_cli.output.document.values import SHORT, is_number, is_short, value_text
+from geneva_cli.output.document.printed_values import SHORT, is_number, is_short, value_text
 from geneva_cli.output.plot import plot_svg
 from geneva_cli.output.svg import drawing_svg as svg
 from geneva_cli.output.terminal.summary import SIGNS

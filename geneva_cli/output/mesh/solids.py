@@ -16,7 +16,7 @@ from geneva_cli.geometry.plates import Group, Member, Part, Shell, Solid, Stack
 from geneva_cli.geometry.shapes import Layer, Point
 from geneva_cli.geometry.stacks import Run, Side, levels, outline_of, sides
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.output.mesh.plates import plate_mesh
+from geneva_cli.output.mesh.plate_meshes import plate_mesh
 from geneva_cli.output.mesh.polygons import chord_points, triangles
 from geneva_cli.output.mesh.shells import shell_mesh
 from geneva_cli.output.mesh.surface import Fans, Surface, rounded

@@ -13,8 +13,8 @@ from geneva_cli.geometry.plates import Part
 from geneva_cli.geometry.shapes import Point, Shape
 from geneva_cli.output.inks import CENTRE_LINES, inks
 from geneva_cli.output.notes import LETTERS, Notes, notes
-from geneva_cli.output.pdf.paper import LEFT, SMALL, SOFT, WIDE, Item, words
 from geneva_cli.output.pdf.pdf_file import outline, point, tint
+from geneva_cli.output.pdf.pdf_pages import LEFT, SMALL, SOFT, WIDE, Item, words
 from geneva_cli.output.svg.svg_fill import opacity, rings
 
 STROKE, THIN = 0.3, 0.16

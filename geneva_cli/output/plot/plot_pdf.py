@@ -8,8 +8,8 @@ from functools import partial
 from geneva_cli.figure import Figure
 from geneva_cli.output.letters import western
 from geneva_cli.output.pdf import pdf_file
-from geneva_cli.output.pdf.paper import INK, LEFT, WIDE, Item, box, wide, words
 from geneva_cli.output.pdf.pdf_file import POINT, number, tint
+from geneva_cli.output.pdf.pdf_pages import INK, LEFT, WIDE, Item, box, wide, words
 from geneva_cli.output.plot.plot_layout import (
     END,
     INCH,

@@ -11,7 +11,7 @@ from geneva_cli.errors import clean
 from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.output.solid_part import solid_part
 from geneva_cli.output.step.entities import Entities, words
-from geneva_cli.output.step.product import Products
+from geneva_cli.output.step.step_product import Products
 
 
 def chunks(drawing: Drawing, units: str) -> Iterator[str]:

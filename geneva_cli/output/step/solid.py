@@ -11,9 +11,7 @@ from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Point
 from geneva_cli.output.solid_part import plate_contours
 from geneva_cli.output.splines import Piece, pieces
-from geneva_cli.output.step.cross_holes import bored_walls
 from geneva_cli.output.step.curves import circle_at, curve, is_along, knots_of, level, unit_of
-from geneva_cli.output.step.edges import edge_faces
 from geneva_cli.output.step.entities import (
     Entities,
     SolidCorner,
@@ -25,6 +23,8 @@ from geneva_cli.output.step.entities import (
     loop,
     real,
 )
+from geneva_cli.output.step.step_edges import edge_faces
+from geneva_cli.output.step.step_holes import bored_walls
 
 
 def solid(file: Entities, plate: Plate) -> str:

@@ -19,7 +19,7 @@ from geneva_cli.output.terminal.layout import (
     width_of,
     widths,
 )
-from geneva_cli.output.terminal.values import NUMBER, aligned, bare, with_unit
+from geneva_cli.output.terminal.shown_values import NUMBER, aligned, bare, with_unit
 from geneva_cli.output.terminal.window import Window, paragraphs
 from geneva_cli.output.text import without_noise
 from geneva_cli.table import Table

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.loads.impacts.shock_force import forces_N
-from geneva_cli.loads.strength.arm import arm_stress_MPa
-from geneva_cli.loads.strength.keys import KeyDimensions, key_stress, shear_allowed_MPa
+from geneva_cli.loads.strength.arm_strength import arm_stress_MPa
+from geneva_cli.loads.strength.key_strength import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.loads.strength.pin import PinSize, pin
-from geneva_cli.loads.strength.shafts import shear_MPa
+from geneva_cli.loads.strength.shaft_stress import shear_MPa
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.preferred import rounded_from
 from geneva_cli.numerics.tolerances import keeps

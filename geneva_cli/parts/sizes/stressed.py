@@ -14,8 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.strength.arm import ArmDimensions
-from geneva_cli.loads.strength.keys import KeyDimensions
+from geneva_cli.loads.strength.arm_strength import ArmDimensions
+from geneva_cli.loads.strength.key_strength import KeyDimensions
 from geneva_cli.loads.tolerance.locking import Lock, loosest
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.tolerances import SAME_LENGTH

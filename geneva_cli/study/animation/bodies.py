@@ -11,10 +11,10 @@ from geneva_cli.geometry.shapes import Circle, Contour, Shape, polygon
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.scene import Body
 from geneva_cli.parts.gears.gear_curves import gears_table
+from geneva_cli.study.animation.animated_turn import MachineTurn
+from geneva_cli.study.animation.shown_wheels import wheels_of
 from geneva_cli.study.animation.teeth import DrawnTeeth, round_gears
 from geneva_cli.study.animation.tracks import still
-from geneva_cli.study.animation.turn import MachineTurn
-from geneva_cli.study.animation.wheels import wheels_of
 
 
 def bodies(design: Design, turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Body]:

@@ -12,7 +12,7 @@ from geneva_cli.motion.pivots import AxisPlace
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.scene import Push
 from geneva_cli.parts.assembly import Passage
-from geneva_cli.study.animation.turn import MachineTurn
+from geneva_cli.study.animation.animated_turn import MachineTurn
 
 
 def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:

@@ -18,8 +18,8 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.output.scene import Body, Track
 from geneva_cli.parts.links.link_positions import links_at, same
 from geneva_cli.parts.links.link_sizes import places
+from geneva_cli.study.animation.animated_turn import MachineTurn
 from geneva_cli.study.animation.tracks import still
-from geneva_cli.study.animation.turn import MachineTurn
 
 
 class DrawnTeeth(NamedTuple):

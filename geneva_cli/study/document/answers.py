@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from geneva_cli.design import Design
-from geneva_cli.loads.figures import AXIS_BY_NAME
+from geneva_cli.loads.cycle_figures import AXIS_BY_NAME
 from geneva_cli.loads.load_summary import LoadSummary
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.output.chosen import only

@@ -9,7 +9,7 @@ from geneva_cli.manual.explained import entries
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.output.document.blocks import BAD, Block, Grid, Heading, Prose, Row, TextList
 from geneva_cli.study.document.facts import RemainingValues, capital, section
-from geneva_cli.study.summary import report
+from geneva_cli.study.summary import report_summary
 from geneva_cli.verdict.headline import headline
 from geneva_cli.verdict.strength import OF_LIFE
 
@@ -82,7 +82,7 @@ def remarks(design: Design, left: RemainingValues) -> Iterator[Block]:
 def key_figures(design: Design) -> Grid:
     """The key figures of the summary of ``geneva report``."""
     rows: list[Row] = []
-    for line in report.key_figures(design):
+    for line in report_summary.key_figures(design):
         note = f"; {line.note}" if line.note else ""
         rows.append((capital(line.label), f"{line.text}{note}"))
     return Grid("In short", ("", ""), tuple(rows))

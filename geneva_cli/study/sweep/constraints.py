@@ -10,7 +10,7 @@ from typing import NamedTuple, TypeGuard
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.numerics.arrays import N
 from geneva_cli.numerics.tolerances import keeps
-from geneva_cli.verdict.quantities.names import WORDS, whole_name
+from geneva_cli.verdict.quantities.quantity_names import WORDS, whole_name
 
 
 class Constraint(NamedTuple):

@@ -8,12 +8,12 @@ from typing import NamedTuple
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.spec.least_wall import wall_min
-from geneva_cli.study.synth.parts import SPARE, USUAL, exact, parts, with_roller
+from geneva_cli.study.synth.fast_parts import SPARE, USUAL, exact, parts, with_roller
 from geneva_cli.study.synth.parts_data import parts_data
 from geneva_cli.study.synth.turns import HAND_OVER_PLAY, Turn, failing_of, is_lost
-from geneva_cli.verdict.both_ways import worst_checks
+from geneva_cli.verdict.both_directions import worst_checks
+from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, applicable
 from geneva_cli.verdict.checks.check import Check
-from geneva_cli.verdict.checks.registry import LIMITS, MOTION, applicable
 
 # keys that conflict with a crank's bore
 SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}

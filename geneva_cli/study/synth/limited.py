@@ -7,7 +7,7 @@ from typing import Any
 
 from geneva_cli.spec.load_limits import LIMITED
 from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.synth.rows import MachineRow
+from geneva_cli.study.synth.machine_rows import MachineRow
 from geneva_cli.study.target import Target
 
 

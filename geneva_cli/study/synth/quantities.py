@@ -13,9 +13,9 @@ from geneva_cli.study.batches import cells_of, numbers
 from geneva_cli.study.fields import Cell, Pick
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Nearness
-from geneva_cli.study.synth.rows import MachineRow
+from geneva_cli.study.synth.machine_rows import MachineRow
 from geneva_cli.study.target import Target
-from geneva_cli.verdict.quantities.names import in_batch
+from geneva_cli.verdict.quantities.quantity_names import in_batch
 
 
 def with_batch_values(names: Sequence[str], rows: Sequence[MachineRow]) -> list[MachineRow]:

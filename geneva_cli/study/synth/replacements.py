@@ -10,11 +10,11 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeAlias
 
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.study.synth.best import FamilySearch, Trial
 from geneva_cli.study.synth.families.family import Family
-from geneva_cli.study.synth.parts import has_no_obstacle
+from geneva_cli.study.synth.family_search import FamilySearch, Trial
+from geneva_cli.study.synth.fast_parts import has_no_obstacle
+from geneva_cli.study.synth.machine_rows import MachineRow, rows, with_peak_limit
 from geneva_cli.study.synth.parts_data import compute_parts_data
-from geneva_cli.study.synth.rows import MachineRow, rows, with_peak_limit
 from geneva_cli.study.target import Target
 
 TrialsByFamily: TypeAlias = dict[int, list[Trial]]  # places of families, by their numbers

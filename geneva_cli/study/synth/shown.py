@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from geneva_cli.numerics.tolerances import same
 from geneva_cli.output.text import cell
-from geneva_cli.study.synth.rows import OWN_KEYS
+from geneva_cli.study.synth.machine_rows import OWN_KEYS
 from geneva_cli.table import Reading, Table
 
 # Columns and their short names, the least important last; empty ones are left out. Rows are sorted

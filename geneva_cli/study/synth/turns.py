@@ -13,9 +13,9 @@ from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.glance import gap_about, play_about
 from geneva_cli.parts.turn.machine_parts import WorkLimit
 from geneva_cli.parts.turn.one_motion import one_motion
+from geneva_cli.verdict.checks.all_checks import check_named, standing, standing_checks, turn_checks
 from geneva_cli.verdict.checks.check import Check, refused
-from geneva_cli.verdict.checks.play import finds_slot
-from geneva_cli.verdict.checks.registry import check_named, standing, standing_checks, turn_checks
+from geneva_cli.verdict.checks.play_checks import finds_slot
 
 HAND_OVER_PLAY = "hand_over_play_deg"
 # Times the play that lets a roller find its slot. With this much play between lock and slot no

@@ -10,10 +10,7 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.verdict.checks.check import Check as Check
-from geneva_cli.verdict.checks.check import all_pass as all_pass
-from geneva_cli.verdict.checks.check import refused
-from geneva_cli.verdict.checks.registry import (
+from geneva_cli.verdict.checks.all_checks import (
     LIMITS,
     MOTION,
     PROOFS,
@@ -23,6 +20,9 @@ from geneva_cli.verdict.checks.registry import (
     standing_checks,
     turn_checks,
 )
+from geneva_cli.verdict.checks.check import Check as Check
+from geneva_cli.verdict.checks.check import all_pass as all_pass
+from geneva_cli.verdict.checks.check import refused
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts

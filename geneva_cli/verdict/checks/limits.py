@@ -36,8 +36,11 @@ def limited_load(name: str, mechanism: Mechanism) -> Check | None:
     limit = mechanism.spec.limits.as_dict()[name]
     if limit is None:
         return None
-    from geneva_cli.verdict.quantities.designs import number_of, single  # for names alone, none
-    from geneva_cli.verdict.quantities.loads import greatest
+    from geneva_cli.verdict.quantities.batch_designs import (  # for names alone, none
+        number_of,
+        single,
+    )
+    from geneva_cli.verdict.quantities.load_quantities import greatest
 
     peaks, load = single(mechanism).columns(greatest), load_limits.limited_load(name)
     most, at_deg = peaks[f"{load}.max"], peaks[f"{load}.at_deg"]
@@ -67,8 +70,8 @@ def product_slip(name: str, mechanism: Mechanism) -> Check | None:
 
 def _product_motion(mechanism: Mechanism) -> ProductMotion:
     """The product's motion, which the quantities of the same design share."""
-    from geneva_cli.verdict.quantities.designs import single  # for names alone, no numbers
-    from geneva_cli.verdict.quantities.motion import product_motion_of
+    from geneva_cli.verdict.quantities.batch_designs import single  # for names alone, no numbers
+    from geneva_cli.verdict.quantities.motion_quantities import product_motion_of
 
     motion = single(mechanism).once(product_motion_of)
     assert motion is not None  # the spec refuses limit and friction without the product's place

@@ -90,7 +90,7 @@ def drag_words(mechanism: Mechanism) -> str:
 
 
 def _pin(mechanism: Mechanism) -> PinSize | None:
-    from geneva_cli.verdict.quantities.designs import single
+    from geneva_cli.verdict.quantities.batch_designs import single
     from geneva_cli.verdict.quantities.under_load import drawn_pin
 
     return drawn_pin(single(mechanism))

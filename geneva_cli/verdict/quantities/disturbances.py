@@ -8,7 +8,7 @@ from geneva_cli.loads.carried import inertia_kgm2
 from geneva_cli.loads.impacts.change_of_sides import lasting_drag_Nm
 from geneva_cli.loads.impacts.impacts import Impacts, entry_impacts, reversal_impacts
 from geneva_cli.numerics.arrays import Array, Number
-from geneva_cli.verdict.quantities.designs import Columns, Designs
+from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
 from geneva_cli.verdict.quantities.under_load import drawn_pin
 
 

@@ -13,13 +13,13 @@ from geneva_cli.motion.records import KINDS, of_wheel
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, WheelMaterial
-from geneva_cli.verdict.checks.registry import PROOFS, checks_before_turn, checks_of_turn
+from geneva_cli.verdict.checks.all_checks import PROOFS, checks_before_turn, checks_of_turn
 
 if TYPE_CHECKING:
     from geneva_cli.motion.machine_spec import Spec
     from geneva_cli.numerics.arrays import Number
     from geneva_cli.parts.parts import Parts
-    from geneva_cli.verdict.quantities.designs import Columns, Designs, Values
+    from geneva_cli.verdict.quantities.batch_designs import Columns, Designs, Values
 
 INPUTS, CHECKS = "inputs.", "checks."  # beginnings of the names of a spec's keys, and of checks
 ECHOED = {  # keys that the numbers of a report depend on, besides the machine's own shape
@@ -99,7 +99,7 @@ class QuantityGroup(NamedTuple):
         if self.alone:
             computed = load_named(self.alone)(parts)
         else:
-            from geneva_cli.verdict.quantities.designs import single
+            from geneva_cli.verdict.quantities.batch_designs import single
 
             columns = self.columns(single(parts.mechanism))
             computed = {name: only(columns[name]) for name in self.own}
@@ -174,15 +174,15 @@ _REPORT = (
     QuantityGroup(
         "inputs",
         tuple(f"{table}.{key}" for table, names in ECHOED.items() for key in names),
-        "verdict.report.sizes:inputs",
+        "verdict.report.sizes_report:inputs",
     ),
     _group(
         "timing",
         "motion_deg dwell_deg index_deg k tau motion_s dwell_s cycle_s index_mm",
-        batch="verdict.quantities.motion:timing",
+        batch="verdict.quantities.motion_quantities:timing",
     ),
     _group("timing", "shortest_motion_s", "verdict.report.stations:shortest_motion"),
-    _group("timing", "k_r", batch="verdict.quantities.motion:timing"),
+    _group("timing", "k_r", batch="verdict.quantities.motion_quantities:timing"),
     QuantityGroup(
         "",
         (
@@ -194,7 +194,7 @@ _REPORT = (
             *_product("power", "max at_deg max_rad2_s3 max_m2_s3"),
         ),
         "verdict.report.stations:peaks",
-        "verdict.quantities.motion:peaks",
+        "verdict.quantities.motion_quantities:peaks",
     ),
     _group("", "", "verdict.report.stations:stations"),
     QuantityGroup(
@@ -204,13 +204,13 @@ _REPORT = (
             *_product("input_torque_Nm contact_stress_MPa", "max at_deg"),
             "kinetic_power_W",
         ),
-        "verdict.report.loads:greatest_loads",
-        "verdict.quantities.loads:greatest",
+        "verdict.report.load_report:greatest_loads",
+        "verdict.quantities.load_quantities:greatest",
     ),
     QuantityGroup(
         "cycle",
         _product("input_torque_Nm power_W crank_bearing_N", "max min mean rms"),
-        "verdict.report.loads:cycle",
+        "verdict.report.load_report:cycle",
     ),
     _group(
         "shock.entry",
@@ -222,17 +222,17 @@ _REPORT = (
         "at_deg jump force_N moment_Nms contact_stress_MPa drag_Nm",
         batch="verdict.quantities.disturbances:reversal",
     ),
-    _group("slot", "positively_driven", "verdict.report.loads:slot"),
+    _group("slot", "positively_driven", "verdict.report.load_report:slot"),
     _group(
         "slot",
         "not_driven_share branch_gap_mm branch_gap_at_deg",
-        batch="verdict.quantities.loads:slot",
+        batch="verdict.quantities.load_quantities:slot",
     ),
     _group(
         "vibration",
         "none period_ratio damping_ratio natural_Hz residual_share residual_deg "
         "residual_share_worst steady_share dynamic_factor windup_deg",
-        "verdict.report.loads:vibration",
+        "verdict.report.load_report:vibration",
         "verdict.quantities.disturbances:vibration",
     )._replace(one_by_one=("none",)),
     QuantityGroup(
@@ -244,7 +244,7 @@ _REPORT = (
                 "max at_deg",
             ),
         ),
-        batch="verdict.quantities.motion:product",
+        batch="verdict.quantities.motion_quantities:product",
     ),
     _group("", "", "verdict.report.stations:wheels"),
     _group("", "", "verdict.report.stations:cranks"),
@@ -254,22 +254,22 @@ _REPORT = (
         "center_distance_mm crank_radius_mm ratio roller_radius_mm slot_width_mm clearances_from "
         "slot_mouth_radius_mm slot_bottom_radius_mm wheel_radius_mm rim_radius_mm "
         "pressure_angle_max_deg rollers_max",
-        "verdict.report.sizes:sizes",
+        "verdict.report.sizes_report:sizes",
     ),
     _group(
         "parts",
         "none rim_radius_mm slot_end_radius_mm lock_radius_mm recess_radius_mm relief horn_mm "
         "wheel_bore_mm crank_bore_mm",
-        "verdict.report.parts:parts",
+        "verdict.report.parts_report:parts",
         makes_parts=True,
     ),
     _group(
         "parts",
         "smallest_gap_mm smallest_gap_at_deg dwell_play_deg dwell_play_mm",
-        "verdict.report.parts:turned",
+        "verdict.report.parts_report:turned",
         makes_parts=True,
     ),
-    _group("parts_list", "", "verdict.report.parts:parts_list_tables", makes_parts=True),
+    _group("parts_list", "", "verdict.report.parts_report:parts_list_tables", makes_parts=True),
     QuantityGroup(
         "tolerance",
         (
@@ -277,7 +277,7 @@ _REPORT = (
             *_product("entry_jump", "mean worst mouth_worst"),
             *_product("clearances", "slot_needed_mm lock_needed_mm turns"),
         ),
-        "verdict.report.loads:tolerances",
+        "verdict.report.load_report:tolerances",
         "verdict.quantities.disturbances:tolerances",
         (
             *_product("dwell_position", "worst_deg rss_deg p997_deg"),
@@ -289,39 +289,41 @@ _REPORT = (
     _group(
         "strength.pin",
         "diameter_mm bending_MPa shear_MPa stress_MPa allowed_MPa margin least_diameter_mm",
-        batch="verdict.quantities.strength:pin",
+        batch="verdict.quantities.part_strength:pin",
     ),
     _group(
         "strength.horn",
         "stress_MPa at_deg inwards_mm thickness_mm allowed_MPa margin",
-        batch="verdict.quantities.strength:horn",
+        batch="verdict.quantities.part_strength:horn",
     ),
     _group(
         "strength.lock",
         "torque_Nm force_N contact_stress_MPa pressure_MPa allowed_MPa margin horn_stress_MPa "
         "play_deg approach_deg bending_deg deflection_deg",
-        batch="verdict.quantities.strength:lock",
+        batch="verdict.quantities.part_strength:lock",
     ),
     *(
         _group(
             f"strength.{shaft}",
             "diameter_mm moment_Nm at_deg stress_MPa allowed_MPa margin least_diameter_mm "
             "twist_deg",
-            batch=f"verdict.quantities.strength:{shaft}",
+            batch=f"verdict.quantities.part_strength:{shaft}",
         )
         for shaft in ("wheel_shaft", "crank_shaft")
     ),
     _group(
         "strength.arm",
         "thickness_mm stress_MPa allowed_MPa margin",
-        batch="verdict.quantities.strength:arm",
+        batch="verdict.quantities.part_strength:arm",
     ),
-    _group("strength.arm", "least_thickness_mm", batch="verdict.quantities.strength:arm_thickness"),
+    _group(
+        "strength.arm", "least_thickness_mm", batch="verdict.quantities.part_strength:arm_thickness"
+    ),
     *(
         _group(
             f"strength.{key}",
             "length_mm pressure_MPa shear_MPa allowed_MPa margin least_length_mm",
-            batch=f"verdict.quantities.strength:{key}",
+            batch=f"verdict.quantities.part_strength:{key}",
         )
         for key in ("wheel_key", "crank_key")
     ),
@@ -337,8 +339,8 @@ _REPORT = (
         "roller_life_turns roller_life_motions roller_life_h slot_wear_mm_per_million",
         batch="verdict.quantities.life:wear",
     ),
-    _group("strength", "", "verdict.report.loads:needs"),
-    _group("", "", "verdict.both_ways:differences"),
+    _group("strength", "", "verdict.report.load_report:needs"),
+    _group("", "", "verdict.both_directions:differences"),
 )
 
 
@@ -363,7 +365,7 @@ STUDY = (
             *_product(SIGNED, "max max_at_deg"),
         ),
         "verdict.quantities.single:cycle",
-        "verdict.quantities.loads:summaries",
+        "verdict.quantities.load_quantities:summaries",
     ),
     _group(
         "sizing",
@@ -372,7 +374,7 @@ STUDY = (
         "motor_rpm motor_torque_max_Nm motor_torque_rms_Nm inertia_ratio flywheel_to_add_kgm2 "
         "coasting_speed_share input_torque_ratio",
         "verdict.quantities.single:motor_sizing",
-        "verdict.quantities.loads:sizing",
+        "verdict.quantities.load_quantities:sizing",
     ),
     QuantityGroup(
         "checks",

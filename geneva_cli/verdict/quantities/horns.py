@@ -8,7 +8,7 @@ from geneva_cli.loads.strength import horn
 
 if TYPE_CHECKING:
     from geneva_cli.loads.strength.horn_search import HornStress
-    from geneva_cli.verdict.quantities.designs import Designs
+    from geneva_cli.verdict.quantities.batch_designs import Designs
 
 
 class Horns:

@@ -7,8 +7,8 @@ import numpy as np
 from geneva_cli.loads.strength import roller
 from geneva_cli.loads.strength.wear import wears_mm
 from geneva_cli.numerics.arrays import Number
-from geneva_cli.verdict.quantities.designs import Columns, Designs
-from geneva_cli.verdict.quantities.strength import horn, pin
+from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
+from geneva_cli.verdict.quantities.part_strength import horn, pin
 from geneva_cli.verdict.quantities.under_load import under_load
 
 

@@ -6,16 +6,16 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from geneva_cli.loads.cycle import cycle_of
+from geneva_cli.loads.load_tables import summaries
 from geneva_cli.loads.sizing import WHEEL_INERTIA, sizing
-from geneva_cli.loads.summary import summaries
-from geneva_cli.verdict.both_ways import worst_checks
+from geneva_cli.verdict.both_directions import worst_checks
 from geneva_cli.verdict.checks import Check, proofs
-from geneva_cli.verdict.checks.registry import checks_before_turn, checks_of_turn
-from geneva_cli.verdict.quantities.loads import summary_ends
+from geneva_cli.verdict.checks.all_checks import checks_before_turn, checks_of_turn
+from geneva_cli.verdict.quantities.load_quantities import summary_ends
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts
-    from geneva_cli.verdict.quantities.designs import Values
+    from geneva_cli.verdict.quantities.batch_designs import Values
 
 
 def machine(parts: Parts) -> Values:

@@ -12,10 +12,10 @@ from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.cycle_quantities import FORCE, PV
 from geneva_cli.loads.impacts.impacts import Impacts, reversal_impacts
 from geneva_cli.loads.impacts.shock_force import forces_N
-from geneva_cli.loads.strength import lock, shafts
+from geneva_cli.loads.load_peaks import load_peaks
+from geneva_cli.loads.strength import lock, shaft_stress
 from geneva_cli.loads.strength import pin as pins
 from geneva_cli.loads.strength.pin import PinSize
-from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Array, Number, library, parameter
 from geneva_cli.parts.outlines.outline_sizes import Layout, sized
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from geneva_cli.loads.strength.lock import LockUnderTorque
     from geneva_cli.loads.strength.part_loads import PartLoads
     from geneva_cli.parts.sizes.stressed import Stressed
-    from geneva_cli.verdict.quantities.designs import Designs
+    from geneva_cli.verdict.quantities.batch_designs import Designs
 
 
 class UnderLoad:
@@ -175,14 +175,14 @@ class UnderLoad:
         return (own_loads if self.designs.single else part_loads)(self.machine)
 
     @cached_property
-    def held(self) -> shafts.Held | None:
+    def held(self) -> shaft_stress.Held | None:
         """What the lock holds in the dwell; None without a torque there."""
         torque = lock.dwell_torque_Nm(self.machine)
         if not torque.any():
             return None
         sizes = self.lock_sizes  # without a disc something else holds the wheel, by a couple
         force = lock.held_force_N(torque[:, None], sizes.lock) if sizes else 0.0 * torque
-        return shafts.Held(np.nan_to_num(np.ravel(force)), torque)
+        return shaft_stress.Held(np.nan_to_num(np.ravel(force)), torque)
 
 
 def under_load(of: Designs) -> UnderLoad:

@@ -12,7 +12,7 @@ from geneva_cli.errors import Notice
 from geneva_cli.parts.parts import Parts
 from geneva_cli.table import Table, in_digits, record_table
 from geneva_cli.verdict.checks.check import Check, all_pass
-from geneva_cli.verdict.quantities.designs import Values
+from geneva_cli.verdict.quantities.batch_designs import Values
 from geneva_cli.verdict.quantities.groups import REPORT
 from geneva_cli.verdict.quantities.groups import values as values_of
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.loads import loads
+from geneva_cli.loads import highest_speed
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import Peaks, placed_peaks, worst
 from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.angles import omega
 from geneva_cli.parts.parts import Parts
 from geneva_cli.table import rows_table
-from geneva_cli.verdict.quantities.designs import Numbers, Values
-from geneva_cli.verdict.quantities.motion import peak_values
+from geneva_cli.verdict.quantities.batch_designs import Numbers, Values
+from geneva_cli.verdict.quantities.motion_quantities import peak_values
 
 
 def shortest_motion(parts: Parts) -> Values:
@@ -29,7 +29,7 @@ def _shortest_s(mechanism: Mechanism, motion_deg: float) -> float | None:
 
     Krasniqi's (15) and (16). Without limits it is that at n; None if no speed keeps them.
     """
-    fastest = loads.fastest_rpm(mechanism)
+    fastest = highest_speed.fastest_rpm(mechanism)
     if fastest is not None and math.isinf(fastest):
         fastest = mechanism.spec.drive.n_rpm
     return motion_deg / (6.0 * fastest) if fastest else None

@@ -24,8 +24,8 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.spec.tables import Tolerance
-from geneva_cli.verdict.checks.registry import turn_checks
-from geneva_cli.verdict.tolerance.locks import cut_parts
+from geneva_cli.verdict.checks.all_checks import turn_checks
+from geneva_cli.verdict.tolerance.lock_tolerances import cut_parts
 
 
 class RequiredClearances(NamedTuple):

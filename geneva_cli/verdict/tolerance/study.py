@@ -25,7 +25,7 @@ from geneva_cli.loads.tolerance.worst_effects import entry_jumps_worst
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
 from geneva_cli.parts.parts import Parts
-from geneva_cli.verdict.tolerance.locks import cut_parts
+from geneva_cli.verdict.tolerance.lock_tolerances import cut_parts
 from geneva_cli.verdict.tolerance.needed import RequiredClearances, required_clearances
 
 

@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 from geneva_cli import Design, External, GenevaError, Load, Size
 from geneva_cli.cli.app import app
 from geneva_cli.design import load
-from geneva_cli.extras.certify.loads import LOADS
+from geneva_cli.extras.certify.certified_loads import LOADS
 from geneva_cli.loads.cycle import greatest
 from geneva_cli.loads.load_case import load_case
 

@@ -28,14 +28,14 @@ from geneva_cli import (
 )
 from geneva_cli.extras.servo.against import against
 from geneva_cli.geometry.plates import plates
-from geneva_cli.loads.loads import kinetic_power_W
+from geneva_cli.loads.highest_speed import kinetic_power_W
 from geneva_cli.loads.product import product_motion
 from geneva_cli.loads.sizing import sizing
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import build
 from geneva_cli.output.scene import place_at, value_at
-from geneva_cli.study.animation.scene import scene
+from geneva_cli.study.animation.turning_scene import scene
 from geneva_cli.verdict.quantities.groups import GROUPS
 from geneva_cli.verdict.strength import strength
 

@@ -12,7 +12,7 @@ import pytest
 from mpmath import mp
 
 from geneva_cli import Carousel, Design, External, GenevaError, Internal, Load, Mass, Motion
-from geneva_cli.loads.loads import fastest_rpm
+from geneva_cli.loads.highest_speed import fastest_rpm
 from geneva_cli.loads.sizing import sizing
 from geneva_cli.loads.strength.lock import held_torque_Nm
 from geneva_cli.motion.laws.standard import Cycloidal

@@ -22,7 +22,7 @@ from geneva_cli.kinds.linear.rack import locking_sector, rack_contour, rack_size
 from geneva_cli.kinds.linear.stressed import rack_stressed
 from geneva_cli.motion.many import many
 from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.verdict.quantities.designs import Designs
+from geneva_cli.verdict.quantities.batch_designs import Designs
 
 R, r = 50.0, 6.0
 

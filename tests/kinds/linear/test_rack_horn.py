@@ -9,8 +9,8 @@ import pytest
 from geneva_cli import Design, External, Internal, Linear, Load, Size
 from geneva_cli.loads.strength.horn import horn_stresses
 from geneva_cli.motion.many import many
-from geneva_cli.verdict.quantities.designs import Designs
-from geneva_cli.verdict.quantities.strength import horn as horn_of
+from geneva_cli.verdict.quantities.batch_designs import Designs
+from geneva_cli.verdict.quantities.part_strength import horn as horn_of
 from geneva_cli.verdict.strength import strength
 
 R, r, CLEARANCE, RECESS, FORCE, WIDTH = 50.0, 6.0, 0.1, 41.0, 30.0, 12.0

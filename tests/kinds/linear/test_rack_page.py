@@ -10,7 +10,7 @@ from test_page import ANGLE, PLACE, script_of
 from geneva_cli import Design, EllipticalGears, Linear, Load, Size
 from geneva_cli.geometry.measure import bounds
 from geneva_cli.output import page
-from geneva_cli.study.animation.scene import scene
+from geneva_cli.study.animation.turning_scene import scene
 
 SIZE = Size(center_distance_mm=50.0, roller_radius_mm=6.0)
 

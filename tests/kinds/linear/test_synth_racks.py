@@ -14,8 +14,8 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.timing import timings
 from geneva_cli.study.synth.reading import read_target
-from geneva_cli.study.synth.search import search
-from geneva_cli.study.synth.table import synthesis_table
+from geneva_cli.study.synth.synth_search import search
+from geneva_cli.study.synth.synth_table import synthesis_table
 
 
 def rows_of(**options):

@@ -10,8 +10,8 @@ from scipy.optimize import root
 from geneva_cli.drives.path_wheels.choice import chosen
 from geneva_cli.drives.path_wheels.wheels import wheels
 from geneva_cli.drives.paths.boxes import _overlaps, _two_turns
-from geneva_cli.drives.paths.pairs import pairs
 from geneva_cli.drives.paths.samples import PathSamples, points
+from geneva_cli.drives.paths.tangent_pairs import pairs
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.linkages.four_bar import FourBar
 

@@ -18,10 +18,10 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import peak as peak_of
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.spec.tables import Size
-from geneva_cli.study.synth.parts import parts
+from geneva_cli.study.synth.fast_parts import parts
 from geneva_cli.study.synth.reading import read_target
-from geneva_cli.study.synth.search import search
-from geneva_cli.study.synth.table import chosen, turned
+from geneva_cli.study.synth.synth_search import search
+from geneva_cli.study.synth.synth_table import chosen, turned
 from geneva_cli.verdict.checks import checks
 
 KEYS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg")

@@ -33,8 +33,8 @@ from geneva_cli import (
 from geneva_cli.drives.retimed import retimed
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import bounds
+from geneva_cli.loads.load_peaks import load_summaries
 from geneva_cli.loads.load_summary import LoadSummary
-from geneva_cli.loads.summaries import load_summaries
 from geneva_cli.motion.both_ways import backwards
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many, worst_peaks
@@ -46,9 +46,9 @@ from geneva_cli.parts.outlines.outline_sizes import outlines
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.specfile.tree import spec_of
 from geneva_cli.specfile.writer import spec_lines
+from geneva_cli.study.animation.animated_turn import MachineTurn
 from geneva_cli.study.animation.bodies import bodies
 from geneva_cli.study.animation.teeth import drawn_teeth
-from geneva_cli.study.animation.turn import MachineTurn
 
 GEARS = EllipticalGears(eccentricity=0.2, gear_distance_mm=50.0)
 PLANET = Epicyclic(planet_ratio="shockless")

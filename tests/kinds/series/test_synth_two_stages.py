@@ -6,7 +6,7 @@ import mpmath
 import pytest
 
 from geneva_cli.study.synth.reading import read_target
-from geneva_cli.study.synth.search import search
+from geneva_cli.study.synth.synth_search import search
 
 NEAR = "0.1"  # joints so near to the crank that the search of four-bars is short
 

@@ -17,13 +17,13 @@ from geneva_cli import Crank, Spherical
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.spherical.sizes import ball
 from geneva_cli.kinds.spherical.stressed import sphere_stressed
-from geneva_cli.loads.strength.arm import arm_stress_MPa
+from geneva_cli.loads.strength.arm_strength import arm_stress_MPa
 from geneva_cli.loads.strength.part_loads import single_loads
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.tables import Load, Shaft, Size
-from geneva_cli.verdict.quantities.designs import Designs
-from geneva_cli.verdict.quantities.strength import (
+from geneva_cli.verdict.quantities.batch_designs import Designs
+from geneva_cli.verdict.quantities.part_strength import (
     arm,
     crank_key,
     crank_shaft,

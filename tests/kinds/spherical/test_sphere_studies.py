@@ -7,7 +7,7 @@ from geneva_cli import Design, Size, Spherical, Tolerance
 from geneva_cli.motion.mechanism import build
 from geneva_cli.study.synth.built import built
 from geneva_cli.study.synth.reading import read_target
-from geneva_cli.study.synth.search import search
+from geneva_cli.study.synth.synth_search import search
 from geneva_cli.verdict.checks import checks
 
 

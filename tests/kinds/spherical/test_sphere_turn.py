@@ -15,7 +15,7 @@ from geneva_cli.kinds.spherical.sizes import ball
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.gaps import NEAR
 from geneva_cli.verdict.checks import all_pass, checks
-from geneva_cli.verdict.checks.registry import standing_checks
+from geneva_cli.verdict.checks.all_checks import standing_checks
 
 CLEAR = {"slot_clearance_mm": 0.05, "lock_clearance_mm": 0.04}
 

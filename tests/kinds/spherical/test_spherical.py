@@ -26,7 +26,7 @@ from geneva_cli.kinds.spherical.sizes import ball
 from geneva_cli.kinds.spherical.wheel import edge_points, wheel_regions
 from geneva_cli.output.step import chunks
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.verdict.checks.registry import standing_checks
+from geneva_cli.verdict.checks.all_checks import standing_checks
 
 CLEAR = Size(80.0, 5.0, slot_clearance_mm=0.05, lock_clearance_mm=0.04)
 MACHINES = {

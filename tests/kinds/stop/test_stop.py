@@ -18,7 +18,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.stop.parts import clearances_before, wheel_stop
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.study.synth.reading import read_target
-from geneva_cli.study.synth.search import search
+from geneva_cli.study.synth.synth_search import search
 
 STOPPED = {z: Design(External(z, stop=True)) for z in (3, 4, 5, 6, 8, 12)}
 

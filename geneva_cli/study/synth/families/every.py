@@ -12,9 +12,9 @@ from typing import TypeAlias
 
 from geneva_cli.motion.records import families_of_kinds
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.study.synth.families.curved import with_laws
+from geneva_cli.study.synth.families.curved_slots import with_laws
 from geneva_cli.study.synth.families.family import Family
-from geneva_cli.study.synth.families.straight import straight
+from geneva_cli.study.synth.families.straight_slots import straight
 from geneva_cli.study.synth.families.two_numbers import two_numbers
 from geneva_cli.study.target import Target
 

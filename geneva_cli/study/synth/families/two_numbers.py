@@ -38,7 +38,7 @@ from geneva_cli.study.synth.families.family import (
     only,
 )
 from geneva_cli.study.target import Target
-from geneva_cli.verdict.quantities.names import is_motion
+from geneva_cli.verdict.quantities.quantity_names import is_motion
 
 GRID = 10  # places of either number that are sampled first, in the middle of equal parts
 

@@ -14,11 +14,11 @@ from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.spec.load_limits import LIMITED
 from geneva_cli.study.batches import numbers
 from geneva_cli.study.synth.families.family import Family, allows
-from geneva_cli.study.synth.parts import machine_and_parts
+from geneva_cli.study.synth.fast_parts import machine_and_parts
 from geneva_cli.study.synth.parts_data import compute_parts_data, parts_data
 from geneva_cli.study.target import Target
-from geneva_cli.verdict.checks.motion import GROOVE_MAX_DEG, driven_fraction, groove_pressure
-from geneva_cli.verdict.checks.registry import LIMITS, MOTION, applicable
+from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, applicable
+from geneva_cli.verdict.checks.motion_checks import GROOVE_MAX_DEG, driven_fraction, groove_pressure
 
 NEAR_DEG = 3.0  # below its limit, within which the pressure angle is searched between samples
 COSTS = ("velocity.max", "acceleration.max", "acceleration.entry", "jerk.max", "power.max")

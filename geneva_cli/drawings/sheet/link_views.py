@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.bores import bored
+from geneva_cli.drawings.sheet.bore_dimensions import bored
 from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.view import Block, View, grouped
 from geneva_cli.geometry.measure import at

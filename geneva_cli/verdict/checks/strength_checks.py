@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.spec.load_limits import LIMITED
+from geneva_cli.verdict.checks.all_checks import LIMITS, check_named
 from geneva_cli.verdict.checks.check import Check, compared
-from geneva_cli.verdict.checks.registry import LIMITS, check_named
 
 if TYPE_CHECKING:
     from geneva_cli.verdict.strength import Strength

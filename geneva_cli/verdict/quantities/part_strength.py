@@ -7,17 +7,18 @@ from collections.abc import Callable
 import numpy as np
 
 from geneva_cli.loads.impacts.shock_force import least_pin_mm
-from geneva_cli.loads.strength import arm as arms
+from geneva_cli.loads.strength import arm_strength as arms
 from geneva_cli.loads.strength import pin as pins
-from geneva_cli.loads.strength import shafts
-from geneva_cli.loads.strength.keys import KeyDimensions, key_stress, shear_allowed_MPa
+from geneva_cli.loads.strength import shaft_stress
+from geneva_cli.loads.strength.key_strength import KeyDimensions, key_stress, shear_allowed_MPa
+from geneva_cli.loads.strength.shaft_stress import ShaftDimensions, ShaftStress
 from geneva_cli.loads.unbalance import centrifugal_N
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import Array, Number, array, parameter
 from geneva_cli.spec.materials import roller_material, wheel_material
 from geneva_cli.spec.tables import Material
 from geneva_cli.spec.workshops import Stock
-from geneva_cli.verdict.quantities.designs import Columns, Designs
+from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
 from geneva_cli.verdict.quantities.under_load import under_load
 
 
@@ -120,7 +121,9 @@ def crank_shaft(of: Designs) -> Columns:
     return _shaft(of, *of.once(_shafts)[1])
 
 
-def _shafts(of: Designs) -> list[tuple[shafts.ShaftDimensions, shafts.ShaftStress | None]]:
+def _shafts(
+    of: Designs,
+) -> list[tuple[ShaftDimensions, ShaftStress | None]]:
     """The dimensions of the shafts of wheel and crank, and their stresses under load."""
     wheel_held = crank_held = under_load(of).held
     if wheel_held and of.machine.frame:
@@ -128,16 +131,16 @@ def _shafts(of: Designs) -> list[tuple[shafts.ShaftDimensions, shafts.ShaftStres
         wheel_held = wheel_held._replace(force_N=force)
     if crank_held:  # the force passes through the crank's axis
         crank_held = crank_held.without_torque
-    wheel = _drawn(of, shafts.wheel_shaft(of.spec.shaft), "wheel")
-    crank = _drawn(of, shafts.crank_shaft(of.spec.shaft), "crank")
+    wheel = _drawn(of, shaft_stress.wheel_shaft(of.spec.shaft), "wheel")
+    crank = _drawn(of, shaft_stress.crank_shaft(of.spec.shaft), "crank")
     both = (
-        shafts.LoadedShaft(wheel, shafts.wheel_forces(of.machine), wheel_held),
-        shafts.LoadedShaft(crank, shafts.crank_forces(of.spec), crank_held),
+        shaft_stress.LoadedShaft(wheel, shaft_stress.wheel_forces(of.machine), wheel_held),
+        shaft_stress.LoadedShaft(crank, shaft_stress.crank_forces(of.spec), crank_held),
     )
-    return list(zip((wheel, crank), shafts.shafts_under_load(of.machine, both), strict=True))
+    return list(zip((wheel, crank), shaft_stress.shafts_under_load(of.machine, both), strict=True))
 
 
-def _drawn(of: Designs, ends: shafts.ShaftDimensions, part: str) -> shafts.ShaftDimensions:
+def _drawn(of: Designs, ends: ShaftDimensions, part: str) -> ShaftDimensions:
     """The dimensions of a loaded shaft, with those of its parts where the spec has none."""
     if not of.spec.is_loaded:
         return ends
@@ -162,7 +165,7 @@ def _number(of: Designs, values: Number) -> float:
     return every.item() if of.single else parameter(every[:, None])
 
 
-def _shaft(of: Designs, ends: shafts.ShaftDimensions, turned: shafts.ShaftStress | None) -> Columns:
+def _shaft(of: Designs, ends: ShaftDimensions, turned: ShaftStress | None) -> Columns:
     """The columns of a shaft under its load."""
     out: dict[str, Number | None] = {"diameter_mm": ends.diameter_mm}
     if turned is None:

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS, sources
+from geneva_cli.loads.highest_speed import greatest_pressure, kinetic_power_W
+from geneva_cli.loads.load_peaks import load_peaks, load_summaries
 from geneva_cli.loads.load_summary import LoadSummary
-from geneva_cli.loads.loads import greatest_pressure, kinetic_power_W
 from geneva_cli.loads.positive_drive import positive_drives
-from geneva_cli.loads.summaries import load_peaks, load_summaries
 from geneva_cli.motion.many import worst_peaks
 from geneva_cli.numerics.arrays import Number, parameter
-from geneva_cli.verdict.quantities.designs import Columns, Designs
+from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
 
 
 def greatest(of: Designs) -> Columns:

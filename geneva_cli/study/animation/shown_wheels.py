@@ -13,7 +13,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.scene import Body, Box
-from geneva_cli.study.animation.turn import MachineTurn
+from geneva_cli.study.animation.animated_turn import MachineTurn
 
 if TYPE_CHECKING:
     from geneva_cli.parts.outlines.outlines import Outlines

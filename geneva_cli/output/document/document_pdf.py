@@ -20,7 +20,8 @@ from geneva_cli.output.document.blocks import (
 from geneva_cli.output.document.pdf_table import caption, facts, grid
 from geneva_cli.output.letters import western
 from geneva_cli.output.pdf import pdf_file
-from geneva_cli.output.pdf.paper import (
+from geneva_cli.output.pdf.pdf_drawing import drawing
+from geneva_cli.output.pdf.pdf_pages import (
     AMBER,
     BODY,
     GREEN,
@@ -37,7 +38,6 @@ from geneva_cli.output.pdf.paper import (
     rule,
     words,
 )
-from geneva_cli.output.pdf.pdf_drawing import drawing
 from geneva_cli.output.plot import plot_pdf
 
 TITLE, HEAD, VERDICT = 6.4, 4.4, 4.2

@@ -21,7 +21,7 @@ from geneva_cli.verdict.checks.check import Check
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts
-    from geneva_cli.verdict.quantities.designs import Values
+    from geneva_cli.verdict.quantities.batch_designs import Values
 
 
 def parts_of_ways(mechanism: Mechanism) -> list[Parts]:

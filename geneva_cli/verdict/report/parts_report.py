@@ -8,7 +8,7 @@ from geneva_cli.drawings.parts_list import FIRST, KINDS, parts_list
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.parts import Parts
 from geneva_cli.table import Reading, rows_table
-from geneva_cli.verdict.quantities.designs import Values
+from geneva_cli.verdict.quantities.batch_designs import Values
 
 
 def parts(of: Parts) -> Values:

@@ -31,11 +31,11 @@ from geneva_cli.output.scene import (
 from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.specfile.writer import quoted, spec_lines
+from geneva_cli.study.animation.animated_turn import MachineTurn
 from geneva_cli.study.animation.bodies import bodies
 from geneva_cli.study.animation.pushes import pushes
+from geneva_cli.study.animation.shown_wheels import wheels_of
 from geneva_cli.study.animation.teeth import DrawnTeeth, carried_gear, drawn_teeth
-from geneva_cli.study.animation.turn import MachineTurn
-from geneva_cli.study.animation.wheels import wheels_of
 from geneva_cli.study.summary.titles import title_of
 from geneva_cli.verdict.report.words import words
 
@@ -48,7 +48,7 @@ def scene(design: Design) -> Scene:
 
     Raises GenevaError for a spec that makes no machine.
 
-    >>> from geneva_cli.study.animation.scene import scene
+    >>> from geneva_cli.study.animation.turning_scene import scene
     >>> shown = scene(Design(External(6)))
     >>> [body.name for body in shown.bodies], shown.turn_deg, len(shown.states)
     (['wheel', 'crank'], 360.0, 2)

@@ -18,8 +18,8 @@ from geneva_cli.loads.forces import LoadCase, QuantityValue
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions, LoadQuantity, load_batch
+from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.load_search import search_loads, shown_deg
-from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray

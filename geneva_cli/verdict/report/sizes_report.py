@@ -9,9 +9,9 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import scalar
 from geneva_cli.parts.parts import Parts
-from geneva_cli.verdict.quantities.designs import Values, single
+from geneva_cli.verdict.quantities.batch_designs import Values, single
 from geneva_cli.verdict.quantities.groups import ECHOED, only
-from geneva_cli.verdict.quantities.loads import pressure
+from geneva_cli.verdict.quantities.load_quantities import pressure
 
 
 def sizes(parts: Parts) -> Values:

@@ -24,7 +24,7 @@ from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.outlines.outline_sizes import sizes
 from geneva_cli.parts.turn.machine_parts import CONTACT
 from geneva_cli.study.synth.parts_data import PartsData, distances_at_rest, parts_data
-from geneva_cli.verdict.checks.motion import undercut_depth
+from geneva_cli.verdict.checks.motion_checks import undercut_depth
 from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT
 
 USUAL = (5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.8, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)  # % of L

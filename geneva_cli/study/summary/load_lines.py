@@ -10,7 +10,7 @@ from geneva_cli.answer import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.design import Design
 from geneva_cli.loads.indexer_formula import RecommendedMotor, recommended_motor
 from geneva_cli.loads.load_summary import LoadSummary
-from geneva_cli.loads.summary import no_load
+from geneva_cli.loads.load_tables import no_load
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.spec.tables import Motor
 from geneva_cli.study.fields import pick

@@ -34,7 +34,7 @@ from geneva_cli.study.synth.families.family import (
     only,
     rollers,
 )
-from geneva_cli.study.synth.parts import has_no_obstacle
+from geneva_cli.study.synth.fast_parts import has_no_obstacle
 from geneva_cli.study.synth.parts_data import compute_parts_data
 from geneva_cli.study.target import Target
 

@@ -15,12 +15,12 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice, cut, few, nearest
 from geneva_cli.figure import Axis, Curve, Figure, Mark, Panel, Piece
-from geneva_cli.loads import summary
+from geneva_cli.loads import load_tables
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.cycle_quantities import FORCE, WALL_FORCE, sources
+from geneva_cli.loads.load_peaks import load_summaries
 from geneva_cli.loads.load_summary import LoadSummary
 from geneva_cli.loads.stages import MOTION_QUANTITIES, Stage, load_stages, motion_stages, pieces
-from geneva_cli.loads.summaries import load_summaries
 from geneva_cli.motion import peaks
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import first_entry_deg
@@ -142,7 +142,7 @@ def _left_out(cycle: Cycle, names: Sequence[str]) -> Iterator[str]:
 
 def _why(cycle: Cycle, name: str) -> str:
     """The reason why a machine does not have a quantity."""
-    notices = summary.missing(cycle)
+    notices = load_tables.missing(cycle)
     if not cycle.is_loaded:
         return notices[0]
     for line in notices:

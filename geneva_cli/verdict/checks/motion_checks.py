@@ -48,8 +48,8 @@ def limited_pressure(name: str, mechanism: Mechanism) -> Check | None:
 
 
 def _greatest_pressure(name: str, mechanism: Mechanism, limit: float) -> Check:
-    from geneva_cli.verdict.quantities.designs import number_of, single
-    from geneva_cli.verdict.quantities.loads import pressure
+    from geneva_cli.verdict.quantities.batch_designs import number_of, single
+    from geneva_cli.verdict.quantities.load_quantities import pressure
 
     peak = single(mechanism).columns(pressure)
     most, at_deg = peak["max_deg"], peak["at_deg"]

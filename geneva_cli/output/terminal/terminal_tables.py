@@ -9,7 +9,7 @@ from typing import Any
 from geneva_cli.names import heading, spoken
 from geneva_cli.output.terminal.fitted import rows_of
 from geneva_cli.output.terminal.layout import BOLD, GAP, styled, width_of, wrapped
-from geneva_cli.output.terminal.values import bare, value
+from geneva_cli.output.terminal.shown_values import bare, value
 from geneva_cli.output.terminal.window import Window, paragraphs
 from geneva_cli.output.text import WIDTH, apart
 from geneva_cli.table import Table

@@ -28,7 +28,7 @@ from geneva_cli.numerics.arrays import (
 )
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
 from geneva_cli.numerics.greatest import GreatestValues
-from geneva_cli.numerics.pieces import (
+from geneva_cli.numerics.smooth_pieces import (
     LATER_TERMS,
     NEWTON_STEPS,
     Cutter,

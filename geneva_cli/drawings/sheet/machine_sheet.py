@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from geneva_cli.drawings.machine_drawing import machine
-from geneva_cli.drawings.sheet import links, points, sized
+from geneva_cli.drawings.sheet import link_views, points, sized
 from geneva_cli.drawings.sheet.content import (
     SheetContent,
     Views,
@@ -17,7 +17,7 @@ from geneva_cli.drawings.sheet.content import (
     sheet_of,
     shown_on_sheet,
 )
-from geneva_cli.drawings.sheet.crank import draw_arm, draw_assembly, draw_disc
+from geneva_cli.drawings.sheet.crank_views import draw_arm, draw_assembly, draw_disc
 from geneva_cli.drawings.sheet.linked import (
     Begin,
     flat_plates,
@@ -30,7 +30,7 @@ from geneva_cli.drawings.sheet.linked import (
 from geneva_cli.drawings.sheet.paper import scale_name, table
 from geneva_cli.drawings.sheet.standing import draw_frame, draw_groove
 from geneva_cli.drawings.sheet.view import Block, View
-from geneva_cli.drawings.sheet.wheel import draw_wheel
+from geneva_cli.drawings.sheet.wheel_views import draw_wheel
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.geometry.sheet import Sheet
 from geneva_cli.motion.mechanism import Mechanism
@@ -47,7 +47,7 @@ def sheet(parts: FlatParts) -> Sheet:
     fixed = [
         *points.tables(parts.outlines, tolerance),
         *points.gear_tables(mechanism, tolerance),
-        *links.round_parts((*parts.links.joined, *parts.spacers), mechanism),
+        *link_views.round_parts((*parts.links.joined, *parts.spacers), mechanism),
         *layout(mechanism),
     ]
     views = Views(partial(_views, shown, parts), partial(_together, shown, parts), (0.0, L))

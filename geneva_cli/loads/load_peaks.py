@@ -25,7 +25,6 @@ from geneva_cli.loads.cycle_quantities import (
     STRESS,
 )
 from geneva_cli.loads.forces import LoadCase
-from geneva_cli.loads.groups import of_groups
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import (
     NO_MORE,
@@ -34,6 +33,7 @@ from geneva_cli.loads.load_functions import (
     LoadQuantity,
     load_batch,
 )
+from geneva_cli.loads.load_groups import of_groups
 from geneva_cli.loads.load_search import search_loads, shown_deg, sums_of
 from geneva_cli.loads.load_summary import (
     EngagementExtremes,

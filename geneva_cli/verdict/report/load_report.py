@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads import loads
+from geneva_cli.loads import highest_speed
 from geneva_cli.loads.carried import inertia_kgm2
 from geneva_cli.loads.cycle import cycle_of, greatest
 from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS, sources
-from geneva_cli.loads.summary import reversals_deg
+from geneva_cli.loads.load_tables import reversals_deg
 from geneva_cli.motion.peaks import worst
 from geneva_cli.parts.parts import Parts
 from geneva_cli.spec.tables import Tolerance
-from geneva_cli.verdict.quantities.designs import Values
+from geneva_cli.verdict.quantities.batch_designs import Values
 from geneva_cli.verdict.quantities.groups import own_names
 from geneva_cli.verdict.strength import REASONS, strength
 
@@ -31,7 +31,7 @@ def greatest_loads(parts: Parts) -> Values:
         values[f"{name}.max"] = peak.max if peak and bounded else None
         values[f"{name}.at_deg"] = peak.at_deg if peak else None
     power = worst(mechanism).power.max if inertia_kgm2(mechanism.spec) else math.inf
-    kinetic = None if math.isinf(power) else loads.kinetic_power_W(mechanism, power)
+    kinetic = None if math.isinf(power) else highest_speed.kinetic_power_W(mechanism, power)
     return values | {"kinetic_power_W": kinetic}
 
 
@@ -74,8 +74,8 @@ def vibration(parts: Parts) -> Values:
     if mechanism.spec.shaft.stiffness_Nm_rad is None:
         return none
     # only for elastic shafts: the modules of vibration take a twentieth of a short report
-    from geneva_cli.loads.vibration.answers import values
     from geneva_cli.loads.vibration.oscillator import required_oscillator
+    from geneva_cli.loads.vibration.vibration_answers import values
 
     try:
         results = values(mechanism, required_oscillator(mechanism))
@@ -89,7 +89,7 @@ def tolerances(parts: Parts) -> Values:
     mechanism, tolerance = parts.mechanism, parts.mechanism.spec.tolerance
     if tolerance == Tolerance(distribution=tolerance.distribution):
         return {"warnings": None}
-    from geneva_cli.verdict.tolerance.tables import tolerance_table
+    from geneva_cli.verdict.tolerance.tolerance_tables import tolerance_table
 
     # micrometres need a radius
     L = mechanism.center_distance_mm

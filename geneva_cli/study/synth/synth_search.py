@@ -14,20 +14,20 @@ from geneva_cli.progress import tracked
 from geneva_cli.study.batches import numbers
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Constraint, is_number
-from geneva_cli.study.synth.best import best
 from geneva_cli.study.synth.families import closed
 from geneva_cli.study.synth.families.every import Kind, families, kinds
 from geneva_cli.study.synth.families.family import natural_deg, pieces
+from geneva_cli.study.synth.family_search import best
 from geneva_cli.study.synth.limited import (
     first_of_each,
     frame_limits,
     with_replacements,
 )
+from geneva_cli.study.synth.machine_rows import MachineRow, rows
 from geneva_cli.study.synth.quantities import bounded, with_batch_values
 from geneva_cli.study.synth.replacements import replacement_rows
-from geneva_cli.study.synth.rows import MachineRow, rows
 from geneva_cli.study.target import TURNS, Target
-from geneva_cli.verdict.quantities.names import in_batch
+from geneva_cli.verdict.quantities.quantity_names import in_batch
 
 TURNED = 20  # rows whose parts are turned by default
 
