@@ -214,7 +214,7 @@ def draw_sheet(
     name = sheet_as(output, format)
     require_own(own, name)
     refuse_columns()
-    module = importlib.import_module(f"geneva_cli.output.sheets.{name}")
+    module = importlib.import_module(f"geneva_cli.output.sheets.sheet_{name}")
     _put(module.chunks(sheet, **own), output, inputs)
 
 

@@ -27,7 +27,7 @@ CAMS = ("cam",)  # for motions only: a file for a controller
 CONTROLLERS = ("polynomial", "codesys", "beckhoff")  # what reads a cam
 PICTURES = ("png", "pdf")  # for figures only
 # for documents; the other formats of tables get their values
-DOCUMENTS = {"html": "html", "pdf": "pdf", "md": "markdown"}
+DOCUMENTS = {"html": "html", "pdf": "document_pdf", "md": "document_markdown"}
 PLOTTED = ("table", "svg", *PICTURES)  # for figures; the others get their points
 EXTENSIONS = {"txt" if name == "table" else name: name for name in (*FORMATS, *DRAWN, *PICTURES)}
 EXTENSIONS |= {"stp": "step", "html": "html", "htm": "html"}

@@ -18,7 +18,7 @@ from geneva_cli.geometry.helvetica import CAPITALS, width
 from geneva_cli.geometry.sheet import WIDTHS, Label
 from geneva_cli.output import draw_sheet
 from geneva_cli.output.formats import DXF_VERSIONS, is_drawn, sheet_as
-from geneva_cli.output.sheets import sheet_dxf, sheet_pdf, svg
+from geneva_cli.output.sheets import sheet_dxf, sheet_pdf, sheet_svg
 from geneva_cli.spec.tables import Size
 
 NAME = "{http://www.w3.org/2000/svg}"
@@ -112,7 +112,7 @@ def test_arcs_of_a_pdf_are_arcs():
 
 
 def test_an_svg_has_all_texts_where_they_are(sheet):
-    root = ElementTree.fromstring("".join(svg.chunks(sheet)))
+    root = ElementTree.fromstring("".join(sheet_svg.chunks(sheet)))
     x, y, w, h = map(float, root.get("viewBox").split())
     assert (x, y, w, h) == (0.0, -sheet.height, sheet.width, sheet.height)
     assert root.get("width") == f"{sheet.width:.9f}mm"
@@ -162,7 +162,7 @@ def test_signs_of_a_dxf():
 
 
 def test_the_same_bytes(sheet):
-    for module in (svg, sheet_pdf, sheet_dxf):
+    for module in (sheet_svg, sheet_pdf, sheet_dxf):
         assert "".join(module.chunks(sheet)) == "".join(module.chunks(sheet))
         assert not re.search(r"20[2-9]\d-|/tmp|/home", "".join(module.chunks(sheet)))
 

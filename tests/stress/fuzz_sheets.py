@@ -18,7 +18,7 @@ from sheet_witness import assert_as_listed, assert_measured, beyond, crossings, 
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.sheet import DIMENSION
-from geneva_cli.output.sheets import sheet_dxf, sheet_pdf, svg
+from geneva_cli.output.sheets import sheet_dxf, sheet_pdf, sheet_svg
 
 SECONDS = 60  # for one sheet and its checks
 TOLERANCE = 0.01  # mm at L = 100, of the walls
@@ -56,7 +56,7 @@ def one(text):
 
 def written(sheet):
     """Check the files with other readers: texts in SVG, dimensions in DXF, one page in PDF."""
-    tree = ElementTree.fromstring("".join(svg.chunks(sheet)))
+    tree = ElementTree.fromstring("".join(sheet_svg.chunks(sheet)))
     shown = {"".join(node.itertext()) for node in tree.iter() if node.tag.endswith("}text")}
     assert {label.text for label in sheet.texts} <= shown
     drawing = ezdxf.read(io.StringIO("".join(sheet_dxf.chunks(sheet))))
