@@ -179,7 +179,6 @@ ASKS = {
 }
 # Keys and tables of a kind that stand in the core.
 NAMED = {
-    "motion.registry": {"linear"},  # what a user may mean by "rack"
     "specfile.template": {"stop"},  # to be an example of the kind
     "study.document.answers": {"carousel", "stop"},  # tables of the report
     "study.synth.reading": {"linear", "stop"},  # --linear; the key of a wheel

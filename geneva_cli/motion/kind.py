@@ -34,6 +34,8 @@ class Kind(NamedTuple):
     name: str  # as in the spec
     wheel: str = ""  # class, whose fields are keys of [wheel]
     drive: str = ""  # class, whose fields are keys of [drive]
+    # other words for it, where the nearest name by its letters would be another one
+    synonyms: tuple[str, ...] = ()
     adds_to: str = ""  # name of the kind to which it adds, where it is neither wheel nor drive
     gearings: tuple[str, ...] = ()  # kinds of wheels that a drive can drive; empty for any
     refuses: str = ""  # rules of what makes no machine with it

@@ -42,6 +42,7 @@ _FRONT = "parts.flat_parts:FrontParts"
 _CORE = (
     Kind(
         "external",
+        synonyms=("outer", "outside"),
         wheel="motion.wheels.external:External",
         parts="parts.flat_parts:FlatParts",
         frame="parts.frame:framed",
@@ -50,6 +51,7 @@ _CORE = (
     ),
     Kind(
         "internal",
+        synonyms=("inner", "inside"),
         wheel="motion.wheels.internal:Internal",
         parts="parts.flat_parts:FlatParts",
         frame="parts.frame:framed",
@@ -58,6 +60,7 @@ _CORE = (
     ),
     Kind(
         "spherical",
+        synonyms=("bevel",),
         wheel="motion.wheels.spherical:Spherical",
         front=_FRONT,
         drawings=_DRAWINGS,

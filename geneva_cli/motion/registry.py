@@ -40,16 +40,6 @@ LAWS |= {
     "table": "motion.laws.table_law:TableLaw",
 }
 
-# other words for a kind, where the nearest by its letters would be another one
-_SYNONYMS = {
-    "inner": "internal",
-    "inside": "internal",
-    "outer": "external",
-    "outside": "external",
-    "rack": "linear",
-    "bevel": "spherical",
-}
-
 
 def gearing(name: str) -> type[Gearing]:
     """Class of a wheel. Raises GenevaError, naming the key, for an unknown name."""
@@ -82,6 +72,7 @@ def _load_kind(kinds: dict[str, str], name: str, key: tuple[str, str]) -> Any:
     if not isinstance(name, str) or name not in kinds:
         quoted = f'"{cut(name)}"' if isinstance(name, str) else cut(name)
         known = few(name, [f'"{kind}"' for kind in kinds])
-        hint = nearest(_SYNONYMS.get(name, name), kinds) if isinstance(name, str) else ""
+        synonyms = {word: kind.name for kind in KINDS for word in kind.synonyms}
+        hint = nearest(synonyms.get(name, name), kinds) if isinstance(name, str) else ""
         raise GenevaError(f"{key[1]} must be one of {known}, not {quoted}{hint}", key)
     return load_named(kinds[name])

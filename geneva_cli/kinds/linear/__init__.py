@@ -5,6 +5,7 @@ from geneva_cli.motion.kind import Kind, Quantities
 KINDS = (
     Kind(
         "linear",
+        synonyms=("rack",),
         wheel="kinds.linear.motion:Linear",
         parts="kinds.linear.parts:RackParts",
         front="parts.flat_parts:FrontParts",
