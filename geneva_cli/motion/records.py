@@ -6,6 +6,7 @@ a folder of ``kinds`` and a line there.
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 from geneva_cli.kinds import FOLDERS
@@ -111,8 +112,14 @@ def thing(wheel: str, field: str) -> Any:
 
     >>> thing("external", "load_case")
     """
+    path = _path(wheel, field)
+    return load_named(path) if path else None
+
+
+@cache  # it is asked for each design of a sweep
+def _path(wheel: str, field: str) -> str:
     paths = [path for kind in of_wheel(wheel) if (path := kind._asdict()[field])]
-    return load_named(paths[-1]) if paths else None
+    return paths[-1] if paths else ""
 
 
 def parts_class(wheel: str) -> Any:
