@@ -13,10 +13,10 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.output import animate, show_document
 from geneva_cli.specfile import designs
 from geneva_cli.specfile.template import KINDS, example, template
-from geneva_cli.study.animation.scene import scene
+from geneva_cli.study.animation.turning_scene import scene
 from geneva_cli.study.document import document
 from geneva_cli.study.export import export_files, trade_of
-from geneva_cli.study.summary.checks import of_checks
+from geneva_cli.study.summary.check_summary import of_checks
 from geneva_cli.study.verdicts import verdict
 
 SPEC = "spec.toml"
