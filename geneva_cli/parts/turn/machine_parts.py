@@ -55,8 +55,8 @@ def rim_lever(parts: MachineParts) -> float:
     return parts.assembly.plane_motion.lever(parts.sizes.rim)
 
 
-class Shape(Protocol):
-    """Wheel and crank of a machine, as they are cut and turned."""
+class Turned(Protocol):
+    """What is turned: its positions, lengths and clearances."""
 
     @property
     def assembly(self) -> Assembly:
@@ -69,6 +69,10 @@ class Shape(Protocol):
     @property
     def gaps(self) -> Clearances:
         """Clearances between the parts."""
+
+
+class Shape(Turned, Protocol):
+    """Wheel and crank of a machine, as they are cut and turned."""
 
     @property
     def crank(self) -> Sized:
@@ -78,20 +82,8 @@ class Shape(Protocol):
         """Return these parts with another assembly."""
 
 
-class MachineParts(Protocol):
+class MachineParts(Turned, Protocol):
     """What a full turn needs of the parts of a machine; see ``Parts``."""
-
-    @property
-    def assembly(self) -> Assembly:
-        """Positions of the parts at any input angle."""
-
-    @property
-    def sizes(self) -> Lengths:
-        """Lengths of the parts."""
-
-    @property
-    def gaps(self) -> Clearances:
-        """Clearances between the parts."""
 
     @property
     def locked(self) -> bool:
