@@ -13,11 +13,11 @@ from geneva_cli.loads.stretches import on_breaks, spans_of
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Mask, Number, Whole, array, matrix_product
+from geneva_cli.numerics.arrays import Number, Whole, array, matrix_product
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
 from geneva_cli.numerics.smooth_pieces import gathered, spread
-from geneva_cli.numerics.stretch_search import SearchResult, Stretches, search
+from geneva_cli.numerics.stretch_search import SearchResult, search
 
 
 def search_loads(load: LoadFunctions, n: int, sized: bool = False) -> SearchResult:
@@ -26,12 +26,6 @@ def search_loads(load: LoadFunctions, n: int, sized: bool = False) -> SearchResu
     if sized and load.repeats:
         spans = spans[: len(spans) // 2]
     return search(load, spans, n, sized, load.at_mid_motion(n), load.spread)
-
-
-def sums_of(load: LoadFunctions, result: SearchResult, n: int, plain: bool) -> Array:
-    """The integrals of n designs' quantities over the stretches of a search: (rows, n)."""
-    bounded = np.asarray(np.isfinite(result.most).reshape(2, -1, n).all(axis=0))
-    return sums(load, result.stretches, bounded, n, plain)
 
 
 def shown_deg(mechanism: Mechanism, engagement: Engagement, x: Array) -> Array:
@@ -45,12 +39,15 @@ def _shown(mechanism: Mechanism, places: Array) -> Number:
     return mechanism.shown_deg(cast("float", places))
 
 
-def sums(load: LoadFunctions, pieces: Stretches, bounded: Mask, n: int, plain: bool) -> Array:
+def sums_of(load: LoadFunctions, result: SearchResult, n: int, plain: bool) -> Array:
     """The integrals by the angle in radians of the squares and, with ``plain``, of the quantities.
 
-    The shape is (names, n) for each; integrals that are not ``bounded`` are infinite. Only
-    quantities that are searched by their squares behave as a root at the ends of their stretches.
+    They are over the stretches of a search, (names, n) for each, and infinite for quantities
+    without a bound. Only quantities that are searched by their squares behave as a root at the ends
+    of their stretches.
     """
+    pieces = result.stretches
+    bounded = np.asarray(np.isfinite(result.most).reshape(2, -1, n).all(axis=0))
     # pieces of one span together: a motion of several pieces is evaluated in one of them at a time
     order = np.argsort(pieces.span, kind="stable")
     design, (a, b) = pieces.design[order], pieces.x[:, order]
@@ -74,7 +71,7 @@ def sums(load: LoadFunctions, pieces: Stretches, bounded: Mask, n: int, plain: b
 
 
 def _to_mid_motion(load: LoadFunctions, n: int, plain: bool) -> Array:
-    """The integrals of ``sums`` next to mid-motion of curved slots, by the angle in degrees.
+    """The integrals of ``sums_of`` next to mid-motion of curved slots, by the angle in degrees.
 
     No stretch reaches there. The integral of a cubic from 0 to 1 follows from its values at 1, 2
     and 3 (Adams and Bashforth).

@@ -38,7 +38,7 @@ class EngagementExtremes(NamedTuple):
 
     most: Array
     at_deg: Array  # as shown
-    total: Array | None  # the result of ``sums``
+    total: Array | None  # the result of ``sums_of``
 
 
 def summaries_from(
@@ -105,8 +105,8 @@ def means_from(
 ) -> dict[str, tuple[Array | None, Array]]:
     """Mean and root mean square of quantities over a period.
 
-    ``each`` are the integrals over each engagement, as ``sums`` returns them. The results are (m,)
-    each, dwells included, and infinite if unbounded. Without ``plain`` the mean is None.
+    ``each`` are the integrals over each engagement, as ``sums_of`` returns them. The results are
+    (m,) each, dwells included, and infinite if unbounded. Without ``plain`` the mean is None.
     """
     every, out = _in_period(mechanism, names, each), {}
     every /= np.ravel(mechanism.under_load.period_deg) * DEGREE
