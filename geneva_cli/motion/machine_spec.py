@@ -10,7 +10,7 @@ from typing import Any, Self
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.drive import Drive, Gears
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.records import CRANK, of_wheel, thing
+from geneva_cli.motion.records import CRANK, named, thing
 from geneva_cli.motion.wheels.gearing import Gearing, Output
 from geneva_cli.numerics.arrays import Batchable, all_true
 from geneva_cli.spec.load_named import load_named
@@ -312,7 +312,7 @@ class Spec(Batchable):
     @property
     def _built(self) -> bool:
         """True if the wheel's kind has parts, or one that adds to it."""
-        return any(kind.parts for kind in of_wheel(self.wheel.NAME))
+        return bool(named(self.wheel.NAME, "parts"))
 
     @property
     def is_turned(self) -> bool:

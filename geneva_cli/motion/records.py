@@ -39,25 +39,25 @@ _TABLES = {
     "groove": "parts.slots.groove:groove_table",
 }
 _FRONT = "parts.flat_parts:FrontParts"
+# What wheels in the plane have in common.
+_FLAT = Kind(
+    "",
+    parts="parts.flat_parts:FlatParts",
+    frame="parts.frame:framed",
+    drawings=_DRAWINGS,
+    tables=_TABLES,
+)
 # The kinds of the core; those in ``kinds`` follow.
 _CORE = (
-    Kind(
-        "external",
+    _FLAT._replace(
+        name="external",
         synonyms=("outer", "outside"),
         wheel="motion.wheels.external:External",
-        parts="parts.flat_parts:FlatParts",
-        frame="parts.frame:framed",
-        drawings=_DRAWINGS,
-        tables=_TABLES,
     ),
-    Kind(
-        "internal",
+    _FLAT._replace(
+        name="internal",
         synonyms=("inner", "inside"),
         wheel="motion.wheels.internal:Internal",
-        parts="parts.flat_parts:FlatParts",
-        frame="parts.frame:framed",
-        drawings=_DRAWINGS,
-        tables=_TABLES,
     ),
     Kind(
         "spherical",
@@ -112,12 +112,13 @@ def thing(wheel: str, field: str) -> Any:
 
     >>> thing("external", "load_case")
     """
-    path = _path(wheel, field)
+    path = named(wheel, field)
     return load_named(path) if path else None
 
 
 @cache  # it is asked for each design of a sweep
-def _path(wheel: str, field: str) -> str:
+def named(wheel: str, field: str) -> str:
+    """Name of that function or class, as ``module:name``; empty without one."""
     paths = [path for kind in of_wheel(wheel) if (path := kind._asdict()[field])]
     return paths[-1] if paths else ""
 

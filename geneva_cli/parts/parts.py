@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, ClassVar, Self, TypeAlias
 
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.records import parts_class, thing
+from geneva_cli.motion.records import named, parts_class, thing
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly, input_of
 from geneva_cli.parts.turn.machine_parts import CONTACT, Lengths, Shape, WorkLimit
@@ -181,7 +181,7 @@ class Parts(ABC):
     @property
     def all_built(self) -> NamedBuilds:
         """Names of all parts, and functions that raise GenevaError where there are none."""
-        if thing(self.mechanism.spec.wheel.NAME, "front"):
+        if named(self.mechanism.spec.wheel.NAME, "front"):
             return [("wheel and crank", lambda: self.built), ("all parts", lambda: self.flat)]
         return [("all parts", lambda: self.built)]
 
@@ -200,6 +200,11 @@ class Parts(ABC):
         """Return these parts with curves that are at least so accurate, mm."""
         own = self.tolerance
         return self.within(tolerance if own is None else min(tolerance, own), self.curves)
+
+    @property
+    @abstractmethod
+    def members(self) -> tuple[Member, ...]:
+        """All parts at their positions."""
 
     @abstractmethod
     def by_name(self) -> Iterator[NamedParts]:
