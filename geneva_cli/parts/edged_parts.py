@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from geneva_cli.geometry.edges import Edge
-from geneva_cli.geometry.plates import Member, Plate, edged
+from geneva_cli.geometry.plates import Member, Plate, edged, plates
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.kept import cached_property
 from geneva_cli.parts.parts import Parts
@@ -74,6 +74,19 @@ class EdgedParts(Parts):
     def unborne(self) -> tuple[Unborne, ...]:
         """The shafts that have no bearing."""
         return self._framed.unborne
+
+    @property
+    def required(self) -> tuple[Member, ...]:
+        """The parts without which the machine is not built."""
+        return self.members
+
+    def require(self) -> None:
+        """Raise GenevaError for a part that cannot be built."""
+        from geneva_cli.geometry.hole_walls import require_faces
+
+        for member in self.required:
+            for plate in plates(member.part):
+                require_faces(plate)
 
     @property
     def _edge(self) -> Edge:

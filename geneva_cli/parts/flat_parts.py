@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NoReturn, Self, cast
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Group, Member, Plate, plates
+from geneva_cli.geometry.plates import Group, Member, Plate
 from geneva_cli.geometry.shapes import Contour, Point
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Engagement
@@ -368,14 +368,15 @@ class FlatParts(EdgedParts):
                 own.append(Screws(fixed, len(holes), 2.0 * holes[0].radius, thread))
         return (*own, *framed)
 
-    def require(self) -> None:
-        """Raise GenevaError for a part that cannot be built, without fitting curves for it."""
-        from geneva_cli.geometry.hole_walls import require_faces
-
+    @property
+    def required(self) -> tuple[Member, ...]:
+        """Wheel, crank, links and frame, whose curves need not be fitted."""
         turning = (self.wheel, self.crank) if self.drawn else ()
-        for member in (*turning, *self.links.cut, self.frame):
-            for plate in plates(member.part):
-                require_faces(plate)
+        return (*turning, *self.links.cut, self.frame)
+
+    def require(self) -> None:
+        """Raise GenevaError for a part that cannot be built."""
+        super().require()
         if self.mechanism.spec.gears is not None:
             from geneva_cli.parts.gears.gear_pair import pair_with_teeth
 

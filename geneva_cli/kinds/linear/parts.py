@@ -13,8 +13,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Self
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.hole_walls import require_faces
-from geneva_cli.geometry.plates import Group, Member, Plate, plates
+from geneva_cli.geometry.plates import Group, Member, Plate
 from geneva_cli.geometry.shapes import Point
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.linear.arm import lock_bolts, rack_arm, rack_crank
@@ -168,12 +167,6 @@ class RackParts(EdgedParts):
         moving = self.wheel, self.bar, self.crank
         framed = self.mechanism.spec.has_parts
         return (*moving, *self.gear_pair, *self.shafts, *self.standing) if framed else moving
-
-    def require(self) -> None:
-        """Raise GenevaError for a part that cannot be built."""
-        for member in self.members:
-            for plate in plates(member.part):
-                require_faces(plate)
 
     def by_name(self) -> Iterator[NamedParts]:
         """Yield all parts in the order of a list, as names and functions that build them."""

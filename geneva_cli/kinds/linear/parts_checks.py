@@ -14,7 +14,7 @@ from geneva_cli.kinds.linear.parts import RackParts
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses
 from geneva_cli.verdict.checks.check import Check, gap
-from geneva_cli.verdict.checks.process import built, cut_width, plate_thickness
+from geneva_cli.verdict.checks.process import cut_width, plate_thickness
 from geneva_cli.verdict.shaft_gap import Ring, ShaftGap, gear_rings, least_gap, rings_of
 
 
@@ -43,11 +43,6 @@ def slot_width(name: str, parts: RackParts) -> Check | None:
     """The width of a rack's slots, where the process cuts none that is narrow for its plate."""
     thick = drawn_thicknesses(parts.mechanism.spec.size, parts.sizes.arm).wheel
     return cut_width(name, parts.mechanism, 2.0 * parts.sizes.half_width, thick)
-
-
-def plates_built(name: str, parts: RackParts) -> Check | None:
-    """The check that fails if a plate of a machine cannot be built; else None."""
-    return built(name, parts.require)
 
 
 def rack_gear_gap(parts: RackParts) -> ShaftGap | None:

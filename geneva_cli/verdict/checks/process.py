@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.spec.workshops import workshop
 from geneva_cli.verdict.checks.check import Check, compared, refused
@@ -37,7 +38,7 @@ def cut_width(name: str, mechanism: Mechanism, wide: float, thick: float) -> Che
     return compared(name, wide, "at least", least * thick) if least else None
 
 
-def plates_built(name: str, parts: FlatParts) -> Check | None:
+def plates_built(name: str, parts: EdgedParts) -> Check | None:
     """The check that fails if a plate of a machine cannot be built; else None."""
     return built(name, parts.require)
 
