@@ -13,7 +13,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.tolerance.locking import Lock
-from geneva_cli.motion.batch import alone, designs_in
+from geneva_cli.motion.batch import designs_in, taken
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.records import thing
@@ -36,7 +36,7 @@ def design_lock_sizes(mechanism: Mechanism) -> LockSizes | None:
     whole = mechanism.spec
     # the parts' sizes depend on these tables; designs that differ in loads only are sized once
     spec = Spec(whole.wheel, whole.drive, whole.motion, whole.size, drive_before=whole.drive_before)
-    return layouts_lock_sizes([sized(build(alone(spec, i))) for i in range(designs_in(spec))])
+    return layouts_lock_sizes([sized(build(taken(spec, i))) for i in range(designs_in(spec))])
 
 
 def layouts_lock_sizes(layouts: Sequence[Layout | None]) -> LockSizes | None:
