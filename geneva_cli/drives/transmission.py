@@ -130,9 +130,8 @@ class Transmission(Drive, kw_only=True):
         first, second, third = (self._anchor(pose, place.crank_deg) for pose in place.poses)
         path = AnchoredPath((first, second, third))
         slot, motion = wheel.follow(path, place, here.advance)
-        closed = wheel.closed_form(place) if self.direct else None
-        if closed:
-            motion = ClassicMotion(path, place.step.b, *closed)
+        if place.closed and self.direct:
+            motion = ClassicMotion(path, place.step.b, *place.closed)
         else:
             motion.closed_peaks = self.closed_peaks(wheel, place)
             motion.mirrored = motion.mirrored and here.even
@@ -140,8 +139,7 @@ class Transmission(Drive, kw_only=True):
         body = body or self.turning(place.crank_deg, -wheel.SIGN)
         mid = here.input_deg
         reactions = self.reactions(wheel, path, mid, L) if wheel.FLAT else None
-        hub = wheel.hub(place)
-        return Engagement(mid, path, slot, motion, body, reactions, hub=hub)
+        return Engagement(mid, path, slot, motion, body, reactions, hub=place.hub)
 
     def turning(self, crank_deg: float, sense: float) -> CarrierVelocity | None:
         """Rate of the crank from a crank angle on; None if only its pin's path gives it.

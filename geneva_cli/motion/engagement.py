@@ -44,7 +44,10 @@ class Groove(Protocol):
     """A fixed groove about the crank's axis, which guides the roller along the crank."""
 
     sign: float  # 1 for an external wheel, -1 for an internal one
-    motion: WheelMotion  # of the wheel, from which the groove follows
+
+    @property
+    def motion(self) -> WheelMotion:
+        """Motion of the wheel, from which the groove follows."""
 
     def distances(self, input_deg: Number, order: int = 3) -> Vector:
         """Roller distances from the wheel's axis and from the crank's, in units of L."""

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self, TypeAli
 
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Layout, Pivot
-from geneva_cli.motion.wheels.poses import HalfStep, PinPose, Skew
+from geneva_cli.motion.wheels.classic import gap
+from geneva_cli.motion.wheels.poses import HalfStep, PinPose, Skew, radial
 from geneva_cli.numerics.arrays import larger
 from geneva_cli.numerics.jet import Jet, turning
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
@@ -61,7 +62,9 @@ class RollerPlace(NamedTuple):
     the centre distance. ``skew`` describes an offset slot.
 
     On a sphere ``height`` is the pin's position along the wheel's axis: (top, fall) for top - fall
-    (1 - cos a). ``cone`` is the cosine of the pin's cone.
+    (1 - cos a). ``cone`` is the cosine of the pin's cone. ``hub`` is the distance over L from the
+    wheel's axis to the point about which the crank's arm turns. ``closed`` has sign, l and 1 - l
+    for the closed forms of a plain crank; None if there are none.
     """
 
     step: HalfStep
@@ -72,12 +75,20 @@ class RollerPlace(NamedTuple):
     crank_deg: float = 0.0
     height: tuple[float, float] | None = None
     cone: float = 1.0
+    hub: float = 1.0
+    closed: tuple[float, float, float] | None = None
 
     @property
     def reach_deg(self) -> float:
         """Greatest crank angle from the line of centres at which it moves the wheel, degrees."""
         farthest: float = larger(-self.poses[0].crank_deg, self.poses[2].crank_deg)
         return farthest
+
+
+def radial_place(sign: float, step: HalfStep) -> RollerPlace:
+    """Place of a roller in a straight radial slot of an external or internal (-1) wheel."""
+    three, l = radial(sign, step), step.sin_cos[0]
+    return RollerPlace(step, three[2].crank_deg, three, l, closed=(sign, l, gap(1.0, *step)))
 
 
 class Gearing(SpecTable):
@@ -214,14 +225,6 @@ class Gearing(SpecTable):
 
     def body(self, place: RollerPlace, turn: Displacement) -> CarrierVelocity | None:
         """Angular velocity of the roller's carrier; None for a crank arm in the plane."""
-        return None
-
-    def hub(self, place: RollerPlace) -> float:
-        """Distance over L from the wheel's axis to the point about which the crank's arm turns."""
-        return 1.0
-
-    def closed_form(self, place: RollerPlace) -> tuple[float, float, float] | None:
-        """Sign, l and 1 - l for the closed forms of a plain crank; None if there are none."""
         return None
 
     def exact_rate(
