@@ -219,9 +219,9 @@ class Gearing(SpecTable):
     def plane_motion(self, center_distance_mm: float) -> PlaneMotion:
         """How the wheel moves in its plane, for lengths in millimetres."""
         # imported here, as `table` starts without NumPy
-        from geneva_cli.motion.plane_motion import Turning
+        from geneva_cli.motion.plane_motion import PlaneMotion
 
-        return Turning()
+        return PlaneMotion()
 
     def body(self, place: RollerPlace, turn: Displacement) -> CarrierVelocity | None:
         """Angular velocity of the roller's carrier; None for a crank arm in the plane."""
