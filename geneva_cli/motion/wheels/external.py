@@ -8,10 +8,8 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.engagement import Displacement, Slot, WheelMotion
 from geneva_cli.motion.path_and_slot import AnchoredPath
 from geneva_cli.motion.pivots import Dimension, Layout
-from geneva_cli.motion.wheels import classic
-from geneva_cli.motion.wheels.gearing import FollowedRate, Gearing, RollerPlace, radial_place
+from geneva_cli.motion.wheels.gearing import FollowedRate, Gearing, RollerPlace
 from geneva_cli.motion.wheels.poses import HalfStep
-from geneva_cli.numerics.arrays import choose
 from geneva_cli.spec.rules import LENGTH, Range
 from geneva_cli.spec.schema import Example
 
@@ -95,10 +93,6 @@ class External(Gearing):
         steps = (self.steps[0], *self.steps[:0:-1]) if self.steps else None
         return self.replace(offset_mm=0.0 - self.offset_mm, steps_deg=steps)
 
-    def half_motion_deg(self, step: HalfStep) -> float:
-        """Crank angle in degrees from entry to the line of centres: 90° - b."""
-        return classic.half_motion_deg(self.SIGN, *step)
-
     @property
     def layout(self) -> Layout:
         """Distance by which the slots' axes miss the wheel's axis."""
@@ -108,7 +102,7 @@ class External(Gearing):
         """Place of a roller; GenevaError if an offset slot cannot be entered without shock."""
         e = self.offset_mm / center_distance_mm
         if isinstance(e, float) and not e:
-            return radial_place(self.SIGN, step)
+            return super().place(step, center_distance_mm)
 
         from geneva_cli.motion.wheels.skew import margin, skew
 
@@ -148,12 +142,6 @@ class External(Gearing):
         from geneva_cli.motion.wheels.offset_slot import exact_rate
 
         return exact_rate(exact(self.offset_mm) / exact(L), *step)
-
-    def matched_ratio(self, v: float) -> float:
-        """R/L of the mid condition psi1(0) = l/(1-l) f1(0), with the transmission's ratio f1."""
-        able = v > 0.0
-        ratio: float = choose(able, v, math.nan) / (1.0 + choose(able, v, 0.0))
-        return ratio
 
 
 def _multiples(z: int, n: int) -> str:

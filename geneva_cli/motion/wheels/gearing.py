@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import math
-from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import field
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self, TypeAlias
 
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Layout, Pivot
-from geneva_cli.motion.wheels.classic import gap
+from geneva_cli.motion.wheels import classic
 from geneva_cli.motion.wheels.poses import HalfStep, PinPose, Skew, radial
-from geneva_cli.numerics.arrays import larger
+from geneva_cli.numerics.arrays import choose, larger
 from geneva_cli.numerics.jet import Jet, turning
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
 from geneva_cli.spec.schema import Example, SpecTable
@@ -83,12 +82,6 @@ class RollerPlace(NamedTuple):
         """Greatest crank angle from the line of centres at which it moves the wheel, degrees."""
         farthest: float = larger(-self.poses[0].crank_deg, self.poses[2].crank_deg)
         return farthest
-
-
-def radial_place(sign: float, step: HalfStep) -> RollerPlace:
-    """Place of a roller in a straight radial slot of an external or internal (-1) wheel."""
-    three, l = radial(sign, step), step.sin_cos[0]
-    return RollerPlace(step, three[2].crank_deg, three, l, closed=(sign, l, gap(1.0, *step)))
 
 
 class Gearing(SpecTable):
@@ -195,13 +188,21 @@ class Gearing(SpecTable):
         """The wheel's step at its i-th engagement, degrees."""
         return self.steps[i] if self.steps else 360.0 / self.z
 
-    @abstractmethod
     def half_motion_deg(self, step: HalfStep) -> float:
-        """Crank angle in degrees from entry to the line of centres, for an entry without shock."""
+        """Crank angle in degrees from entry to the line of centres, for an entry without shock.
 
-    @abstractmethod
+        It is 90° - b outside, 90° + b inside.
+        """
+        return classic.half_motion_deg(self.SIGN, *step)
+
     def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
-        """Place of a roller in a straight slot. Raises GenevaError if it is impossible."""
+        """Place of a roller in a straight slot, which is radial in a flat wheel.
+
+        Raises GenevaError if it is impossible.
+        """
+        three, l = radial(self.SIGN, step), step.sin_cos[0]
+        closed = self.SIGN, l, classic.gap(1.0, *step)
+        return RollerPlace(step, three[2].crank_deg, three, l, closed=closed)
 
     def rest(self, ratio: float) -> float:
         """Least distance of a pin on any circle from the wheel's axis: 1 - l, inside 1 + l."""
@@ -245,6 +246,9 @@ class Gearing(SpecTable):
     def matched_ratio(self, v: float) -> float:
         """R/L at which the pin crosses the line of centres as fast as the wheel's slot does there.
 
-        ``v`` is the wheel's speed over the crank's. NaN if no R/L below 1 has this property.
+        ``v`` is the wheel's speed over the crank's there: l/(1 - l), inside l/(1 + l). NaN if no
+        R/L below 1 has this property.
         """
-        return math.nan
+        able = (v > 0.0) & ((1.0 - self.SIGN) * v < 1.0)
+        ratio: float = choose(able, v, math.nan) / (1.0 + self.SIGN * choose(able, v, 0.0))
+        return ratio
