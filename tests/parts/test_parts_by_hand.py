@@ -27,18 +27,18 @@ from geneva_cli.geometry.shapes import Arc, Circle
 from geneva_cli.geometry.sheet import CENTRE, OUTLINE
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.first_pair import first_pair
+from geneva_cli.parts.frame import passing_arm
 from geneva_cli.parts.gears.gear_pair import gear_shafts
 from geneva_cli.parts.links.link_planes import planes
 from geneva_cli.parts.links.links import drawn_links
+from geneva_cli.parts.machine_sizes import machine_sizes, outlines
 from geneva_cli.parts.outlines.cut_outlines import cut_arcs
-from geneva_cli.parts.outlines.outline_sizes import machine_sizes, outlines
 from geneva_cli.parts.outlines.reliefs import arc_floor, reliefs, widened
-from geneva_cli.parts.shafts.all_shafts import passing_arm
 from geneva_cli.parts.shafts.bores import RoundBore, bore_of
 from geneva_cli.parts.shafts.hub_and_shafts import crank_hub
 from geneva_cli.parts.shafts.shaft import Ends, Shaft
-from geneva_cli.parts.sizes.stressed import lock_of, stressed
 from geneva_cli.parts.slots.roller_paths import mouth_corners
+from geneva_cli.parts.stressed import lock_of, stressed
 from geneva_cli.spec.tables import Size
 
 L = 100.0

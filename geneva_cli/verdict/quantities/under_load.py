@@ -27,9 +27,9 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Array, Number, Record, library, parameter, record_of
+from geneva_cli.parts.machine_sizes import Layout, sized
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
-from geneva_cli.parts.outlines.outline_sizes import Layout, sized
-from geneva_cli.parts.sizes.stressed import Stressed, stressed
+from geneva_cli.parts.stressed import Stressed, stressed
 from geneva_cli.spec.materials import roller_material
 
 if TYPE_CHECKING:
