@@ -20,14 +20,12 @@ from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.part_loads import PartLoads, greatest, single_loads
 from geneva_cli.loads.strength.shaft_stress import (
     LoadedShaft,
-    ShaftDimensions,
     crank_forces,
     shafts_under_load,
     wheel_forces,
 )
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.preferred import bores_from, rounded_from
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.shafts.bores import reach_or_bore
@@ -178,10 +176,10 @@ def _hub_fits(spec: Spec, ball: Ball) -> bool:
 @lru_cache(maxsize=64)
 def _moment_Nm(mechanism: Mechanism, forces: ShaftForces, overhang_mm: float) -> float:
     """Return the greatest equivalent torque of a shaft; it needs a search of the whole cycle."""
-    shaft = LoadedShaft(ShaftDimensions(None, overhang_mm, None, None), forces)
+    shaft = LoadedShaft(forces, overhang_mm)
 
     def moment_Nm(way: Mechanism) -> float:
         (one,) = shafts_under_load(way, [shaft])
-        return array(one.moment_Nm).item() if one else 0.0
+        return one["moment_Nm"].item() if one else 0.0
 
     return greatest(moment_Nm, mechanism)

@@ -1,7 +1,8 @@
 """Hubs with what holds them on their shafts: a slit with a clamp screw, or radial set screws.
 
-A clamp screw pulls the jaws of a slit hub together, and friction holds the shaft. The hub stays within its circle. Screw and head are in a notch whose face is as far from the slit as
-the thread is wide. The other jaw has the thread.
+A clamp screw pulls the jaws of a slit hub together, and friction holds the shaft. The hub stays
+within its circle. Screw and head are in a notch whose face is as far from the slit as the thread is
+wide. The other jaw has the thread.
 """
 
 from __future__ import annotations

@@ -87,7 +87,7 @@ def _above(shaft: Shaft, own: Bore, free: float | None) -> Iterator[Step]:
         if seat.held:
             yield from _on_part(own, seat, section, ends_here=True)
             # a flat or a hexagon does not pass a round step; what is keyed does
-            below = below if own.keyed else section
+            below = below if own.key else section
         else:
             yield Step(f"seat of {seat.part}", below, seat.high)
         if after.low - seat.high > SHORTEST_MM:  # faces that touch may differ by rounding
@@ -99,7 +99,7 @@ def _above(shaft: Shaft, own: Bore, free: float | None) -> Iterator[Step]:
 def _on_part(own: Bore, seat: Seat, section: Shape, ends_here: bool) -> Iterator[Step]:
     """Yield the steps of a part's seat, and a circlip where there is space above it."""
     name, long = f"seat of {seat.part}", seat.high - seat.low
-    if own.keyed:
+    if own.key:
         # a keyway that ends before both faces leaves a round seat on each side
         yield Step(name, rounded(section), seat.low + 0.1 * long)
         yield Step(f"{name}, {own.shaft_note}", section, seat.high - 0.1 * long)
