@@ -9,7 +9,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import Mechanism
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.sizes.plain_sizes import Sizes
+    from geneva_cli.parts.sizes import Sizes
 
 Value: TypeAlias = float | int | str | None  # None: the key is left out
 # From the present value to the last one tried: values beyond a passing one may fail.
@@ -69,7 +69,7 @@ def size_now(mechanism: Mechanism, key: str) -> float | None:
     if key not in _SIZES:
         return None
     from geneva_cli.parts.assembly import assembly
-    from geneva_cli.parts.outlines.outline_sizes import sizes
+    from geneva_cli.parts.machine_sizes import sizes
 
     try:
         return _SIZES[key](sizes(assembly(mechanism)))
