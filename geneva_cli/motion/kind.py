@@ -57,8 +57,8 @@ class Kind(NamedTuple):
     quantities: tuple[Quantities, ...] = ()  # of the report
     horns: str = ""  # function that returns the horns of designs, with their stress
     cut_parts: str = ""  # class of the parts as they are cut within the tolerances
-    # functions that return families of synth, by where they are searched: beside "straight" slots
-    # of a wheel, "alone", or where wheels on a "carrier" are required
+    # functions that return families of synth, by where they are searched: those of a "wheel" alone,
+    # beside "straight" slots of any wheel, "alone", or where wheels on a "carrier" are required
     families: Mapping[str, str] = _NONE
     roller: str = ""  # function that returns the roller that suits a mechanism, for synth
     scene: str = ""  # class of what a page shows of the wheels
