@@ -63,11 +63,11 @@ stress-numbers: .venv/dev
 stress-windows: .venv/dev
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_windows.py
 
-# Proved bounds of every peak: all designs, and 1,000 random machines of each kind; two hours. `make
-# stress` takes the designs alone.
+# Proved bounds of every peak of 1,000 random machines of each kind; two hours. `make stress` takes
+# the designs.
 certify: .venv/dev
 	@mkdir -p build
-	PYTHONPATH=tests:tests/motion:tests/parts:tests/stress $(BIN)/python tests/stress/certify.py --runs 10500 --jobs 2 --state build/certify.json
+	$(FUZZ) certificates --runs 10500 --state build/certify.json
 
 # 2,000 mutated specs before the reader, JSON Schema, and the checkers of two editors; two minutes.
 editors: .venv/dev
@@ -107,17 +107,16 @@ jam: .venv/dev
 	$(PIP) "pymunk>=7,<8"
 	PYTHONPATH=tests $(BIN)/python tests/stress/jam.py
 
-# A million random specs, 20,000 machines with parts, 10,000 drawing sheets, 100,000 wheels of ever
-# larger clearance, 2,000 wheels with curved slots, 20,000 outlines with a kerf; hours.
-# Stopped, it goes on from there; another seed, or new code, begins again: rm build/fuzz-*.json.
+# A million random specs, 20,000 machines with parts, 10,000 drawing sheets, 2,000 wheels with curved
+# slots; hours. Stopped, it goes on from there; another seed, or new code, begins again: rm
+# build/fuzz-*.json.
+FUZZ = PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/fuzz.py --jobs 2
 fuzz: .venv/dev
 	@mkdir -p build
-	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/fuzz_spec.py --runs 1000000 --jobs 2 --state build/fuzz-specs.json
-	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/fuzz_parts.py --runs 20000 --jobs 2 --state build/fuzz-parts.json
-	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/fuzz_sheets.py --runs 10000 --jobs 2 --state build/fuzz-sheets.json
-	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/fuzz_play.py --runs 4000 --jobs 2 --state build/fuzz-play.json
-	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/fuzz_stops.py --runs 2000 --jobs 2 --state build/fuzz-stops.json
-	PYTHONPATH=tests:tests/motion:tests/geometry $(BIN)/python tests/stress/fuzz_kerf.py --runs 20000 --jobs 2 --state build/fuzz-kerf.json
+	$(FUZZ) specs --runs 1000000 --state build/fuzz-specs.json
+	$(FUZZ) parts --runs 20000 --state build/fuzz-parts.json
+	$(FUZZ) sheets --runs 10000 --state build/fuzz-sheets.json
+	$(FUZZ) stops --runs 2000 --state build/fuzz-stops.json
 
 # Start-up of every command against `import typer` alone: whole processes in pairs, processor time.
 # The budget of `geneva table --z 6` is 1.05.

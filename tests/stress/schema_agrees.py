@@ -19,8 +19,8 @@ from functools import cache
 from pathlib import Path
 
 import jsonschema
-from fuzz_spec import ODD, spec_text
-from fuzzing import FILES
+from fuzz import FILES
+from fuzz_texts import ODD, spec_text
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion import registry
