@@ -10,7 +10,7 @@ PIP = $(BIN)/pip install --quiet --disable-pip-version-check --no-compile
 # some hundred times.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test pytest lint docs web web-test stress stress-numbers stress-windows \
+.PHONY: demo test pytest lint docs web web-test stress stress-numbers \
   certify jam cad editors page fuzz bench bench-start dist clean
 
 demo: .venv/demo
@@ -47,10 +47,7 @@ bench: .venv/dev
 # Numerical stress against mpmath, random machines turned, then every case of the tests, of which
 # `make test` takes a sample (tests/sampling.py): sweeps of every key of all designs are among them,
 # and their certificates (`make certify` adds random machines); an hour and a half on two cores.
-# Screens take six windows of twelve: see the text of stress_windows.py.
-# Each script has one process, so two of them run side by side; their lines mix.
-stress: .venv/dev
-	$(MAKE) --jobs=2 stress-numbers stress-windows
+stress: stress-numbers
 	GENEVA_STRESS=1 $(BIN)/pytest -n logical --dist worksteal
 
 stress-numbers: .venv/dev
@@ -59,9 +56,6 @@ stress-numbers: .venv/dev
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_many.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_synth.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_loads_many.py --designs 5000
-
-stress-windows: .venv/dev
-	PYTHONPATH=tests $(BIN)/python tests/stress/stress_windows.py
 
 # Proved bounds of every peak of 1,000 random machines of each kind; two hours. `make stress` takes
 # the designs.

@@ -14,7 +14,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.figure import JOINED, POINTS, Axis, Curve, Figure, Mark, Panel
 from geneva_cli.output import letters, show_figure
 from geneva_cli.output.plot import plot_svg, plot_text, strokes
-from geneva_cli.output.plot.ticks import labels, mark_text, ticks
+from geneva_cli.output.plot.ticks import labels, ticks
 from geneva_cli.study.figures import of_specs
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
@@ -181,12 +181,6 @@ def test_several_designs():
     assert set(read(text)["pin_force_N"].curves) == {f"c{i}" for i in (0, 1, 2, 4, 5)}
 
 
-def test_overlapping_texts_would_be_noticed():
-    one = f'<svg xmlns="{SVG[1:-1]}" font-size="11"><text x="0" y="20">peak</text>'
-    assert list(overlapping(boxes(one + '<text x="20" y="25">max</text></svg>')[1]))
-    assert not list(overlapping(boxes(one + '<text x="40" y="25">max</text></svg>')[1]))
-
-
 def test_the_structure(pressed):
     """What others may build on: groups named as the quantities, texts as texts, both papers."""
     text = svg_of(pressed)
@@ -238,38 +232,6 @@ def test_contrast(paper):
     assert contrast(paper.text, paper.rest) > 7.0
 
 
-# Linear RGB as eyes without the long or the middle cone have it, after Vienot, Brettel and Mollon
-# (1999), "Digital video colourmaps for checking the legibility of displays by dichromats".
-PROTAN = ((0.11238, 0.88762, 0.0), (0.11238, 0.88762, 0.0), (0.00401, -0.00401, 1.0))
-DEUTAN = ((0.29275, 0.70725, 0.0), (0.29275, 0.70725, 0.0), (-0.02234, 0.02234, 1.0))
-
-
-def lab(rgb):
-    """CIE L*a*b*, white D65."""
-    rows = ((0.4124, 0.3576, 0.1805), (0.2126, 0.7152, 0.0722), (0.0193, 0.1192, 0.9505))
-    white = (0.9505, 1.0, 1.089)
-    xyz = [sum(m * c for m, c in zip(row, rgb, strict=True)) for row in rows]
-    f = [max(v / w, 0.0) ** (1 / 3) for v, w in zip(xyz, white, strict=True)]
-    return 116.0 * f[1] - 16.0, 500.0 * (f[0] - f[1]), 200.0 * (f[1] - f[2])
-
-
-@pytest.mark.parametrize("paper", [strokes.LIGHT, strokes.DARK], ids=["light", "dark"])
-@pytest.mark.parametrize("eye", [PROTAN, DEUTAN], ids=["protan", "deutan"])
-def test_apart_for_the_colour_blind(paper, eye):
-    """The first four by 10 in L*a*b*, where about 2 is noticed; dashes tell the others too."""
-    seen = [
-        lab([sum(m * c for m, c in zip(row, linear(colour), strict=True)) for row in eye])
-        for colour in paper.curves[:4]
-    ]
-    for a, b in itertools.combinations(seen, 2):
-        assert math.dist(a, b) > 10.0
-
-
-def test_twelve_curves_look_different():
-    looks = {(strokes.colour(n, strokes.LIGHT), strokes.dashes(n)) for n in range(12)}
-    assert len(looks) == 12
-
-
 # Numbers on axes
 
 
@@ -284,11 +246,6 @@ def test_ticks_are_round():
             found = ticks(low, high, most)
             assert 1 <= len(found) <= most
             assert all(low - 1e-9 <= x <= high + 1e-9 for x in found)
-
-
-def test_what_is_said_of_a_peak():
-    assert mark_text(Mark("max", 0.0, None)) == "no bound at 0.00°"
-    assert mark_text(Mark("peak", -0.001, -6.0)) == "peak -6 at 0.00°"
 
 
 # As text
@@ -322,24 +279,7 @@ def test_a_chart_shows_the_curve(pressed):
     assert any(0x2800 < ord(c) < 0x2900 for line in braille for c in line)
 
 
-def test_a_chart_of_several_has_letters_for_each():
-    x = [0.0, 1.0]
-    curves = tuple(Curve(n, f"design {n}", ((x, [n, n]),)) for n in range(12))
-    panel = Panel(Axis("velocity", "Velocity"), curves)
-    text = lines_of(Figure("all", Axis("x", "x"), (panel,), (0.0, 1.0)))
-    for n, mark in enumerate(plot_text.MARKS):
-        assert f"  {mark}  design {n}" in text
-    body = "".join(line[12:] for line in text if line[11:12] == "|")
-    assert set(plot_text.MARKS) <= set(body)
-
-
 # Files
-
-
-def test_what_is_asked_for_is_written(pressed, tmp_path):
-    for name, start in (("a.svg", b"<svg "), ("a.txt", b"Press"), ("a.csv", b"quantity,curve,")):
-        show_figure(pressed, str(tmp_path / name))
-        assert (tmp_path / name).read_bytes().startswith(start)
 
 
 @pytest.mark.parametrize("kind", [("png", b"\x89PNG"), ("pdf", b"%PDF")], ids=lambda k: k[0])
