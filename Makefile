@@ -39,10 +39,10 @@ lint: .venv/dev
 docs: .venv/dev
 	$(DOCS)
 
-# Run time against error, tables and plots in build/bench; an hour.
+# Run time against error, tables in build/bench; half an hour.
 bench: .venv/dev
 	@mkdir -p build/bench
-	PYTHONPATH=tests $(BIN)/python -m bench --plots build/bench -o build/bench/bench.md
+	PYTHONPATH=tests $(BIN)/python -m bench -o build/bench/bench.md
 
 # Numerical stress against mpmath, random machines turned, then every case of the tests, of which
 # `make test` takes a sample (tests/sampling.py): sweeps of every key of all designs are among them,
