@@ -11,7 +11,7 @@ PIP = $(BIN)/pip install --quiet --disable-pip-version-check --no-compile
 unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: demo test pytest lint docs web web-test stress stress-numbers \
-  certify jam cad editors page fuzz bench bench-start dist clean
+  certify jam cad fuzz bench bench-start dist clean
 
 demo: .venv/demo
 	@mkdir -p build
@@ -53,6 +53,7 @@ stress: stress-numbers
 stress-numbers: .venv/dev
 	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/stress.py
 	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/stress_outline.py
+	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/schema_agrees.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_many.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_synth.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_loads_many.py --designs 5000
@@ -62,18 +63,6 @@ stress-numbers: .venv/dev
 certify: .venv/dev
 	@mkdir -p build
 	$(FUZZ) certificates --runs 10500 --state build/certify.json
-
-# 2,000 mutated specs before the reader, JSON Schema, and the checkers of two editors; two minutes.
-editors: .venv/dev
-	$(PIP) "taplo>=0.9,<1" "tombi>=1,<2"
-	PATH="$(CURDIR)/$(BIN):$$PATH" PYTHONPATH=tests:tests/motion:tests/stress python tests/stress/schema_agrees.py taplo tombi
-
-# The page of every design in a headless Chromium, which must be installed: the slider, the console,
-# frames a second, and pictures in build/page to look at; some minutes.
-page: .venv/dev
-	@mkdir -p build/page
-	$(PIP) "websocket-client>=1.8,<2"
-	PYTHONPATH=tests:tests/output $(BIN)/python tests/stress/page_in_browser.py build/page
 
 # A static folder, build/web, on which geneva runs in a browser; needs npm and its registry. To try
 # it: python3 -m http.server -d build/web

@@ -21,7 +21,6 @@ SUBJECTS = (
     "many",
     "sweep",
     "motion",
-    "loads",
     "tolerance",
     "synth",
     "start",

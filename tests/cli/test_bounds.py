@@ -111,16 +111,6 @@ def test_a_spec_of_a_gigabyte():
     refused(["peaks", "huge.toml"], "huge.toml: ", "larger than")
 
 
-@pytest.mark.sampled(5)
-@pytest.mark.parametrize("command", ["peaks", "motion", "profile", "report", "check"])
-def test_the_most_slots_are_no_trouble(command):
-    put("spec.toml", "[wheel]\nz = 1000000\n")
-    status, said, megabytes, seconds = run(command, "spec.toml", "--format", "csv")
-    assert status == 0, said
-    assert megabytes < 200.0
-    assert seconds < CPU
-
-
 # 36,000 rows of three numbers and a text are 9 MB as Python's objects; pyarrow reads and writes
 # ahead in blocks of 4 MB, and keeps what it has had
 @pytest.mark.sampled(2)

@@ -114,14 +114,6 @@ def test_parts_that_cannot_be_built_are_named(watched: None) -> None:
     assert shown.count("the slots reach down to") == 1  # the text; the note is the change alone
 
 
-def test_a_window_gets_the_answer_and_the_table_on_request(watched: None) -> None:
-    short, whole = run(TURRET).stdout, run(TURRET, "-v").stdout
-    assert "tightest  crank shaft stress 61.41 MPa at -17.24°, at most 82.5" in short
-    assert short.count(TURRET) == 1
-    assert "dwell_hold" not in short
-    assert "dwell_hold" in whole
-
-
 def test_several_specs_are_counted_before_their_details(fails: str) -> None:
     found = run(PLAIN, fails, TURRET).stdout
     heads, *details = found.split("\n\n")
@@ -129,18 +121,6 @@ def test_several_specs_are_counted_before_their_details(fails: str) -> None:
     assert heads.endswith("✗ 1 of 3 specs fails, 1 with warnings")
     assert details[0] == fails
     assert details[2] == TURRET
-
-
-def test_proof_sets_the_tolerance() -> None:
-    found = run(TURRET, "--proof", "0.0001", "--format", "json")
-    row = json.loads(found.stdout)["rows"][-1]
-    assert (row["check"], row["limit"], row["passes"]) == ("gap_proved_mm", -0.0001, True)
-    assert -0.0001 <= row["value"] <= 0.0
-    for bad in ("0", "-1", "nan", "inf", "13"):
-        found = run(TURRET, "--proof", bad)
-        assert found.exit_code == 2
-        assert "--proof" in found.stderr
-        assert "must be above 0, at most 12 mm" in found.stderr
 
 
 def test_standard_input_is_read_once() -> None:

@@ -28,12 +28,6 @@ CURVED = '[motion]\nlaw = "cycloidal"\n'
 TABLE = '[motion]\nlaw = "table"\nfile = "law.csv"\n'
 
 
-UNEVEN = (
-    '[wheel]\nz = 5\n[drive]\nkind = "gear-sector"\nsector_deg = 77.7\n[drive.before]\n'
-    'kind = "side-crank"\nA = 0.999999999\n[load]\ninertia_kgm2 = 0.01\n'
-)
-
-
 class Case(NamedTuple):
     """A wrong spec, the line that is wrong (0: none) and what the message must hold."""
 
@@ -263,16 +257,6 @@ def test_messages_carry_no_terminal_escapes(text):
     refused(run("peaks", "spec.toml"), place="spec.toml:")
 
 
-def test_a_long_spec_is_refused_quickly():
-    # Each line could hold the key; looking at every one of them must not take the square of that.
-    write("spec.toml", "# z\n" * 200_000 + "[wheel]\nz = 2\n")
-    found = subprocess.run(
-        [GENEVA, "peaks", "spec.toml"], capture_output=True, text=True, timeout=10
-    )
-    assert found.returncode == 2
-    assert found.stderr.startswith("spec.toml:200002: ")
-
-
 # The law's points: they have their own file, and their own lines.
 ROWS = "u,s\n0,0\n0.2,0.1\n0.4,0.3\n0.6,0.7\n0.8,0.9\n1,1\n"
 POINTS = [
@@ -425,13 +409,6 @@ def test_an_option_of_one_value_is_given_once(arguments, option):
     assert os.listdir() == ["spec.toml"]
 
 
-def test_an_option_of_several_values_may_be_given_several_times():
-    write("spec.toml", SIDE + "A = 0.3\n" + WHEEL)
-    several = "sweep spec.toml --vary wheel.z=4,5 --vary drive.A=0,0.25 --set drive.n_rpm=9"
-    assert run(*several.split()).exit_code == 0
-    assert run(*["table", "--z", "6", "--internal", "--internal"]).exit_code == 0
-
-
 @pytest.mark.parametrize(
     ("arguments", "place"),
     [
@@ -449,10 +426,3 @@ def test_the_installed_command(arguments, place):
     assert (found.returncode, found.stdout) == (2, "")
     assert found.stderr.startswith(place)
     assert "Traceback" not in found.stderr
-
-
-@pytest.mark.parametrize("more", [(), ("--reverse",)])
-def test_an_error_of_a_machine_turning_backwards_has_its_place(more):
-    """A side-crank of A nearly 1 turns the sector so unevenly that its loads are rounding."""
-    write("spec.toml", UNEVEN)
-    refused(run("loads", "spec.toml", *more), "the wheel moves", place="spec.toml:4: ")

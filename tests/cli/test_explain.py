@@ -278,18 +278,3 @@ def warned(example: str) -> set[str]:
 )
 def test_what_a_word_means(word: str, groups: list[str]):
     assert [m.group for m in meanings(word)] == groups
-
-
-def test_formats(tmp_path):
-    def run(*words: str) -> str:
-        result = CliRunner().invoke(app, ["explain", *words])
-        assert result.exit_code == 0, result.output
-        return result.stdout
-
-    (row,) = json.loads(run("horn_mm", "--format", "json"))["rows"]
-    assert (row["group"], row["name"], row["unit"]) == ("check", "horn_mm", "mm")
-    page = run("horn_mm")
-    assert page.startswith("## horn_mm (check)\n\n") and row["formula"] in " ".join(page.split())
-    run("horn_mm", "-o", str(tmp_path / "horn.md"))
-    assert (tmp_path / "horn.md").read_text(encoding="utf-8") == page
-    assert "check,horn_mm," in run("--format", "csv")

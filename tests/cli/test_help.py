@@ -86,13 +86,3 @@ def test_a_shell_completes_words(line, words):
         assert found == words
     else:
         assert len(found) >= 2
-
-
-@pytest.mark.parametrize("name", COMMANDS)
-def test_the_help_of_a_command_fits_a_screen(name, monkeypatch):
-    """80 columns, some 45 lines, three examples: what is longer is in the manual."""
-    monkeypatch.setenv("COLUMNS", "80")
-    lines = geneva(name, "-h").splitlines()
-    assert len(lines) <= 45
-    assert max(map(len, lines)) <= 80
-    assert 1 <= len([e for n, e in EXAMPLES if n == name]) <= 4

@@ -18,7 +18,7 @@ import repo
 from repo import GENEVA, put
 from words import load
 
-from geneva_cli import Cycloidal, Design, External, Motion, progress
+from geneva_cli import progress
 from geneva_cli.motion.motion_table import SAMPLES_MAX, motion_table
 from geneva_cli.output import show
 from geneva_cli.output.terminal.bar import TextBar
@@ -47,28 +47,6 @@ def test_a_long_table_is_the_same_as_a_held_one(text, monkeypatch):
     # A whole cycle is mirrored, and a piece is not: the last digits of its place may differ.
     assert np.allclose(rows, np.column_stack(held.columns), rtol=1e-11, atol=1e-12)
     assert rows[-1, 1] == held.columns[1][-1]
-
-
-@pytest.mark.parametrize(
-    "rows",
-    [
-        lambda design, samples: design.slot(samples=samples),
-        lambda design, samples: design.spectrum(samples, 5.0, 0.1),
-        lambda design, samples: design.spectrum(samples, 5.0),
-    ],
-    ids=["slot", "damped", "undamped"],
-)
-def test_long_tables_of_other_numbers_are_the_same(rows, monkeypatch):
-    """Slot and spectrum, in pieces and whole; the last digits depend on where a piece ends."""
-    samples = 2300
-    design = Design(External(6), motion=Motion(Cycloidal()))
-    whole = rows(design, samples)
-    monkeypatch.setattr("geneva_cli.table.WHOLE_ROWS", 1000)
-    monkeypatch.setattr("geneva_cli.table.PIECE", 512)  # no divisor of them
-    for name, column in rows(design, samples).to_dict().items():
-        expected = np.array(whole[name], dtype=float)
-        assert len(column) == samples
-        assert np.allclose(np.array(column, dtype=float), expected, rtol=1e-12, equal_nan=True)
 
 
 @pytest.mark.parametrize(

@@ -20,10 +20,9 @@ from windows import COLUMNS, bare, look_at_page, look_at_table, require_width
 from geneva_cli import output
 from geneva_cli.cli.app import COMMANDS, app
 from geneva_cli.manual import TOPICS, page
-from geneva_cli.output.terminal.shown_values import value
+from geneva_cli.output.terminal.layout import Window, value
 from geneva_cli.output.terminal.terminal_tables import chunks
-from geneva_cli.output.terminal.window import Window
-from geneva_cli.table import Reading, record_table, rows_table
+from geneva_cli.table import record_table, rows_table
 
 LOOKS = ({"TERM": "xterm-256color"}, {"TERM": "dumb"}, {"TERM": "xterm", "NO_COLOR": "1"})
 
@@ -72,33 +71,6 @@ def test_a_terminal_itself_says_how_wide_it_is(environment):
     assert max(map(len, map(bare, lines))) > 60
 
 
-def test_an_error_on_a_terminal_is_broken_between_words():
-    lines = on_a_terminal(60, LOOKS[1], "peaks", "no-such-design.toml")
-    require_width(lines, 60)
-    assert len(lines) > 1
-    said = CliRunner().invoke(app, ["peaks", "no-such-design.toml"]).stderr
-    assert " ".join(line.strip() for line in lines) == said.strip()
-
-
-def test_the_first_screen(monkeypatch):
-    """The README's first command: what is alike once, units below headings, the rest by name."""
-    lines = seen(monkeypatch, 80, "table", "--z", "4..6")
-    assert lines[0] == "External wheels, one roller, 60 rpm: one index a turn, cycle 1 s."
-    assert [line.split()[:3] for line in lines[-5:-2]] == [
-        ["4", "90", "270"],
-        ["5", "108", "252"],
-        ["6", "120", "240"],
-    ]
-    assert lines[-1].startswith("8 more columns: --wide, or --columns rollers_max,")
-
-
-@pytest.mark.parametrize("format", ["csv", "md", "table"])
-def test_columns_are_chosen_in_every_format(format):
-    words = ["table", "--z", "4", "--columns", "z,tau", "--format", format]
-    shown = CliRunner().invoke(app, words).stdout
-    assert "tau" in shown and "0.25" in shown and "gearing" not in shown
-
-
 def test_a_wrong_column_is_refused_with_the_nearest():
     result = CliRunner().invoke(app, ["table", "--columns", "acceleration"])
     assert result.exit_code == 2
@@ -116,15 +88,6 @@ def test_columns_where_no_table_is_printed_are_refused(tmp_path):
 
 def lines_of(table, columns):
     return "".join(chunks(table, Window(columns))).splitlines()
-
-
-def test_the_least_important_column_goes_first():
-    names = tuple(f"number_{i}" for i in range(12))
-    table = rows_table(names, [[i * 1.23456 + j for i in range(12)] for j in range(5)])
-    look_at_table(table)
-    assert lines_of(table, 60)[-1].startswith("5 more columns: --wide, or --columns number_7,")
-    reverse = table.replaced(reading=Reading(first=names[::-1]))
-    assert lines_of(reverse, 60)[-1].startswith("5 more columns: --wide, or --columns number_4,")
 
 
 def test_what_is_alike_in_every_row_is_said_once():

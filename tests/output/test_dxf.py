@@ -1,15 +1,9 @@
 """DXF files, read back by ezdxf: the same shapes, true arcs, one version, the same bytes."""
 
-import hashlib
 import io
 import math
-import os
-import re
-import subprocess
-import sys
 
 import pytest
-import repo
 from drawing_witness import (
     apart,
     contours,
@@ -26,9 +20,7 @@ from sampling import some
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.drawing import Drawing, extent
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, about, closed
-from geneva_cli.output import dxf
-from geneva_cli.output.dxf import chunks
-from geneva_cli.output.dxf_file import FLOAT_CODES
+from geneva_cli.output.dxf import FLOAT_CODES, chunks
 from geneva_cli.output.svg import drawing_svg as svg
 
 # mm. A file's last decimal is 1e-12; a polyline's centre of 300 degrees, an ARC's ends at a radius
@@ -190,21 +182,6 @@ def floats(written):
             yield value
 
 
-FIXED = re.compile(r"-?\d+\.\d{12}(\d{3})?")
-
-
-def bad(value):
-    return not FIXED.fullmatch(value) or (float(value) == 0.0 and "-" in value)
-
-
-TINY = of(
-    closed("WHEEL", [Arc((1e-17, -0.0), (30.0, 1e-13), 1e-3), Line((30.0, 1e-13), (1e-17, -0.0))]),
-    Circle("BORE", (-1e-17, -1e-14), 1e-5),
-    Circle("BORE", (1e7, -1e7), 1e6),
-    smooth(),
-)
-
-
 def test_nothing_is_doubled_or_of_no_length():
     contour = closed(
         "WHEEL",
@@ -222,43 +199,6 @@ def test_nothing_is_doubled_or_of_no_length():
     found = entities(of(contour, bore, none, contour, bore))
     assert [e.dxftype() for e in found] == ["LWPOLYLINE", "CIRCLE"]
     assert [p[:2] for p in found[0].get_points("xyb")] == [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0)]
-
-
-RUN = """
-import hashlib, sys
-sys.path.insert(0, {tests!r})
-import geneva_cli.output.dxf  # before the tests import ezdxf
-from test_dxf import MANY, TINY
-from geneva_cli.output import dxf
-from geneva_cli.output.svg import drawing_svg as svg
-for drawing in (MANY, TINY):
-    for module in (dxf, svg):
-        text = "".join(module.chunks(drawing, "mm"))
-        print(hashlib.sha256(text.encode()).hexdigest())
-"""
-
-
-def test_the_same_bytes_everywhere(tmp_path):
-    """Another hash seed, folder, time zone and home; an ezdxf.ini that is none."""
-    tests = str(repo.TESTS)
-    (tmp_path / "ezdxf.ini").write_text("no settings at all\n")
-    change = {"PYTHONHASHSEED": "2", "TZ": "Asia/Tokyo", "HOME": str(tmp_path), "LC_ALL": "C"}
-    # Before 3.13, Python reads an editable install's path in the locale's encoding and will not
-    # start in one without the folder's letters; so it is told its path, and runs without site.
-    change["PYTHONPATH"] = os.pathsep.join([os.path.dirname(tests), *sys.path])
-    run = subprocess.run(
-        [sys.executable, "-S", "-c", RUN.format(tests=tests)],
-        cwd=tmp_path,
-        env=os.environ | change,
-        capture_output=True,
-        text=True,
-    )
-    assert run.returncode == 0, run.stderr
-    assert os.listdir(tmp_path) == ["ezdxf.ini"]  # no cache in the user's home
-    texts = [
-        "".join(module.chunks(drawing, "mm")) for drawing in (MANY, TINY) for module in (dxf, svg)
-    ]
-    assert run.stdout.split() == [hashlib.sha256(text.encode()).hexdigest() for text in texts]
 
 
 def test_the_title_is_a_comment_in_plain_letters():

@@ -203,19 +203,6 @@ def test_of_a_whole_file_there_is_nothing_to_do(path):
     assert sorted(os.listdir(os.path.dirname(path))) == ["rows.csv", "rows.csv.geneva"]
 
 
-@pytest.mark.parametrize("key", [KEY, "another"])
-def test_a_file_of_something_else_or_changed_since_is_not_taken_for_whole(path, key):
-    whole(path, "1,2\n")
-    if key == KEY:
-        with open(path, "a") as file:
-            file.write("3,4\n")
-    with closing(GrowingFile(path, HEADER, key, True)) as file:
-        assert not file.is_whole
-        file.append("5,6\n")
-        file.finish()
-    assert read(path) == "a,b\n5,6\n"
-
-
 def test_an_input_is_not_written_over(path):
     put(path, "")
     with pytest.raises(GenevaError, match="is an input"):

@@ -17,7 +17,6 @@ from geneva_cli.output.inches import (
     text_in_inches,
     value_in_inches,
 )
-from geneva_cli.study.figures import of_table
 from geneva_cli.table import Table, pieces
 
 # What one of a unit is in SI units.
@@ -107,13 +106,6 @@ def test_a_record_in_inches(answer):
             assert (instead, number) == (unit, value)
 
 
-def test_rows_with_a_unit_each():
-    table = Table(
-        ("name", "value", "unit", "size_x_mm"), (["a", "b"], [25.4, 3], ["mm", ""], [5.08, None])
-    )
-    assert list(table_in_inches(table).rows()) == [("a", 1.0, "in", 0.2), ("b", 3, "", None)]
-
-
 def test_a_long_table_is_converted_in_pieces():
     columns = pieces(70_000, 2, lambda a, b: [np.arange(a, b) * 25.4, np.arange(a, b) * 1.0])
     table = Table(("x_mm", "input_deg"), columns)
@@ -121,17 +113,6 @@ def test_a_long_table_is_converted_in_pieces():
     assert other.names == ("x_in", "input_deg")
     *_, last = other.rows()
     assert last == (pytest.approx(69_999.0, rel=1e-15), 69_999.0)
-
-
-def test_a_figure_of_columns_has_its_units_in_its_names(tmp_path):
-    path = tmp_path / "sweep.csv"
-    path.write_text("size.center_distance_mm,loads.pin_force_N.max\n254,4.4482216152605\n508,0\n")
-    words = "--x", "size.center_distance_mm", "--y", "loads.pin_force_N.max"
-    text = run("plot", str(path), *words, "--format", "svg", "--units", "inch").stdout
-    assert ">loads.pin_force_lbf.max by size.center_distance_in<" in text
-    other = figure_in_inches(of_table(str(path), words[1], [words[3]]))
-    assert other.panels[0].curves[0].pieces == (([10.0, 20.0], [1.0, 0.0]),)
-    assert other.window == pytest.approx((9.8, 20.2), rel=1e-15)  # two hundredths beside the points
 
 
 def test_a_figure_is_scaled():

@@ -25,7 +25,7 @@ from geneva_cli.geometry.plates import Plate, Shell, solids
 from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, as_contour, closed
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.mesh import obj, stl, threemf
-from geneva_cli.output.mesh.polygons import DECIMALS, chord_points, triangles
+from geneva_cli.output.mesh.polygons import DECIMALS, chord_points
 from geneva_cli.output.mesh.solids import bodies
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
@@ -101,21 +101,6 @@ def test_random_outlines(corners, tolerance):
     mesh = one(Plate("plate", "WHEEL", outline, (hole,), 0.0, 1.0), tolerance)
     require_closed(mesh)
     assert mesh.volume == pytest.approx(ring.area, rel=1e-9)
-
-
-def test_corners_in_line_stay_corners():
-    """Earcut leaves out corners that are exactly in line, with which the walls would not meet."""
-    square = [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (4.0, 0.0), (4.0, 4.0), (2.0, 4.0), (0.0, 4.0)]
-    hole = [(1.0, 1.0), (1.0, 2.0), (2.0, 2.0), (2.0, 1.0)]
-    cut = triangles([square, hole], "square")
-    assert {i for one in cut for i in one} == set(range(11))
-    assert len(cut) == 11  # n + 2 holes - 2
-
-
-def test_an_outline_that_crosses_is_refused():
-    bow = [(0.0, 0.0), (2.0, 2.0), (2.0, 0.0), (0.0, 2.0)]
-    with pytest.raises(GenevaError, match="bow: its outline and holes leave no wall"):
-        triangles([bow], "bow")
 
 
 @pytest.mark.parametrize("radius", [6e-9, 1.25e-11])

@@ -3,7 +3,6 @@
 import json
 import math
 import re
-import tempfile
 from functools import cache
 from html.parser import HTMLParser
 from xml.etree import ElementTree
@@ -15,10 +14,8 @@ from drawing_witness import polygon
 from py_mini_racer import MiniRacer
 from sampling import some
 from shapely import LineString, affinity
-from typer.testing import CliRunner
 
 from geneva_cli import load
-from geneva_cli.cli.app import app
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.output import animate, page
@@ -232,28 +229,6 @@ def test_the_same_scene_gives_the_same_bytes_and_titles_are_no_markup():
     hostile = load(str(repo.DESIGNS / "three-slots.toml"), ['title="</script><b>x"'])
     text = "".join(page.chunks(scene(hostile)))
     assert "<b>x" not in text and "&lt;b&gt;x" in text
-
-
-def test_an_opened_page_leaves_one_page_that_nobody_else_can_place(tmp_path, monkeypatch):
-    """Two runs leave the last one's page; where a link has the folder's name, another is made."""
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
-        monkeypatch.delenv(name, raising=False)
-    for design in ("turret", "three-slots"):
-        shown = CliRunner().invoke(app, ["animate", str(repo.DESIGNS / f"{design}.toml"), "--open"])
-        assert shown.exit_code == 0
-    (folder,) = tmp_path.iterdir()
-    assert folder.stat().st_mode & 0o777 == 0o700
-    (place,) = folder.iterdir()
-    assert place.read_text(encoding="utf-8") == text_of("three-slots")
-    assert shown.stdout.splitlines()[0] == str(place)
-    place.unlink()
-    folder.rmdir()
-    theirs = tmp_path / "theirs"
-    theirs.mkdir()
-    folder.symlink_to(theirs)
-    shown = CliRunner().invoke(app, ["animate", str(repo.DESIGNS / "turret.toml"), "--open"])
-    assert shown.exit_code == 0 and not list(theirs.iterdir())
 
 
 @pytest.mark.sampled(2)

@@ -13,9 +13,8 @@ from geneva_cli import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.figure import JOINED, POINTS, Axis, Curve, Figure, Mark, Panel
 from geneva_cli.output import letters, show_figure
-from geneva_cli.output.plot import plot_svg, plot_text, strokes
+from geneva_cli.output.plot import plot_svg, plot_text
 from geneva_cli.output.plot.ticks import labels, ticks
-from geneva_cli.study.figures import of_specs
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 SVG = "{http://www.w3.org/2000/svg}"
@@ -167,36 +166,6 @@ def test_texts_keep_clear_of_each_other_and_of_the_edge(path):
     assert "nan" not in text.lower() and "inf" not in text.lower()
 
 
-def test_several_designs():
-    names = ["press-straight", "press-curved", "turret", "gear-sector", "epicyclic-z4", "limits"]
-    figure, _, left_out = of_specs([str(repo.DESIGNS / f"{n}.toml") for n in names])
-    text = svg_of(figure)
-    assert list(overlapping(boxes(text)[1])) == []
-    assert len(text) < 100_000
-    assert set(read(text)["velocity"].curves) == {f"c{i}" for i in range(6)}
-    # told apart without colour
-    dashed = re.findall(r"\.c(\d) \{ stroke-dasharray: ([\d. ]+) \}", text)
-    assert len({d for _, d in dashed}) == 5
-    assert [path.endswith("gear-sector.toml") for path, _ in left_out] == [True]
-    assert set(read(text)["pin_force_N"].curves) == {f"c{i}" for i in (0, 1, 2, 4, 5)}
-
-
-def test_the_structure(pressed):
-    """What others may build on: groups named as the quantities, texts as texts, both papers."""
-    text = svg_of(pressed)
-    root = ET.fromstring(text)
-    usual = ["wheel_deg", "velocity", "acceleration", "jerk"]
-    usual += ["pin_force_N", "input_torque_Nm", "power_W"]
-    assert [g.get("id") for g in root.iter(f"{SVG}g")] == usual
-    assert root.find(f"{SVG}title").text == "Press feed, six straight slots"
-    words = [t.text for t in root.iter(f"{SVG}text")]
-    for word in ("Pin force (N)", "Wheel angle (°)", "Input angle (°)", "dwell", "300"):
-        assert word in words
-    assert "prefers-color-scheme: dark" in text
-    assert len([r for r in root.iter(f"{SVG}rect") if r.get("class") == "rest"]) == 7
-    assert svg_of(of_design("press-straight")) == text
-
-
 def test_a_hostile_title():
     panel = Panel(Axis("velocity", "Velocity"), (Curve(0, "<b>&", (([0.0, 1.0], [0.0, 1.0]),)),))
     figure = Figure("</title><script>\x1b[31m" * 40, Axis("x", "x"), (panel,), (0.0, 1.0))
@@ -207,29 +176,6 @@ def test_a_hostile_title():
 
 
 # Colours
-
-
-def linear(colour):
-    parts = [int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5)]
-    return [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in parts]
-
-
-def luminance(rgb):
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
-
-
-def contrast(a, b):
-    """Of the Web Content Accessibility Guidelines 2.2."""
-    low, high = sorted(luminance(linear(c)) for c in (a, b))
-    return (high + 0.05) / (low + 0.05)
-
-
-@pytest.mark.parametrize("paper", [strokes.LIGHT, strokes.DARK], ids=["light", "dark"])
-def test_contrast(paper):
-    """At least 3 for curves (WCAG 1.4.11), 7 for texts (1.4.6); over the dwell too, nearly."""
-    assert all(contrast(c, paper.page) > 3.0 for c in paper.curves)
-    assert all(contrast(c, paper.rest) > 3.0 for c in paper.curves)
-    assert contrast(paper.text, paper.rest) > 7.0
 
 
 # Numbers on axes

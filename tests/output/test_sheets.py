@@ -141,11 +141,6 @@ def test_a_dxf_has_dimensions_that_measure_themselves(sheet, version):
     assert dxfgrabber.read(io.StringIO(written)).entities
 
 
-def test_signs_of_a_dxf():
-    assert sheet_dxf._signed("6× Ø 20 ±0.01 60°") == "6× %%c 20 %%p0.01 60%%d"
-    assert "%%" not in sheet_dxf._signed("100%%c")
-
-
 def test_refusals(sheet, tmp_path):
     with pytest.raises(GenevaError, match="of a drawing sheet it must be one of dxf, svg, pdf"):
         sheet_as("-", "csv")

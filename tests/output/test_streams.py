@@ -1,10 +1,8 @@
 """Standard streams that fail, and Ctrl-C at any moment: the exit status says what happened."""
 
 import os
-import pty
 import subprocess
 import sys
-import termios
 
 import pytest
 from repo import GENEVA, put
@@ -124,31 +122,6 @@ def test_nothing_else_gets_into_a_file(streams):
     subprocess.run(command, stdin=subprocess.DEVNULL, check=True, timeout=60)
     with open("rows.csv") as file:
         assert file.read() == "data\n"
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize(
-    "arguments", ["--{}", "{}", "table --z {}", "table --n {}", "peaks x --{}", "peaks {}.toml"]
-)
-def test_messages_are_short(arguments):
-    found = run([x.format("9" * 100_000) for x in arguments.split()])
-    assert found.returncode == 2
-    assert 0 < len(found.stderr) < 5000
-    assert "Traceback" not in found.stderr
-
-
-@pytest.mark.parametrize(("columns", "width"), [("²", 70), ("0", 70), ("-5", 70), ("65", 65)])
-def test_columns_that_are_no_number(columns, width):
-    """Then a message is as wide as the terminal, here 70 letters."""
-    terminal, seen = pty.openpty()
-    termios.tcsetwinsize(seen, (24, 70))
-    environment = os.environ | {"COLUMNS": columns}
-    found = run(["peaks", f"{'long ' * 40}.toml"], environment, stderr=seen)
-    assert found.returncode == 2
-    lines = os.read(terminal, 10_000).decode().splitlines()
-    assert width - 5 < max(map(len, lines)) <= width  # no word here is longer
-    os.close(terminal)
-    os.close(seen)
 
 
 FAULTY = """

@@ -14,8 +14,6 @@ from geneva_cli.cli.app import app
 from geneva_cli.design import Design
 from geneva_cli.geometry.mass import face
 from geneva_cli.geometry.plates import plates
-from geneva_cli.output.inks import INKS
-from geneva_cli.output.plot.strokes import DARK, LIGHT
 from geneva_cli.output.svg.drawing_svg import chunks
 from geneva_cli.spec.tables import Size
 
@@ -37,16 +35,6 @@ def root(drawing, units="mm", **own):
 
 def groups(svg):
     return {g.get("id"): g for g in svg.findall(f"{NAME}g")}
-
-
-@pytest.mark.parametrize("L", [30.0, 900.0])
-def test_lines_and_texts_grow_with_the_machine(L):
-    """As shares of the picture they are always the same; a hairline is a 1500th of its width."""
-    svg = root(design(L).drawing("assembly", 1e-4 * L))
-    width = float(svg.get("viewBox").split()[2])
-    wheel, text = groups(svg)["WHEEL"], groups(svg)["TEXT"]
-    assert 1.0 / 900.0 < float(wheel.get("stroke-width")) / width < 1.0 / 600.0
-    assert 0.015 < float(text.get("font-size")) / width < 0.025
 
 
 @pytest.mark.parametrize(
@@ -93,27 +81,6 @@ def test_a_fill_is_what_the_plates_are(assembly):
         assert area == pytest.approx(face(plate).area, rel=1e-3)  # of 96 chords a piece
     # the layers themselves are what they are without it
     assert apart(svg_shapes("".join(chunks(assembly, "mm"))), drawn_shapes(assembly)) < 1e-8
-
-
-def test_an_upper_plate_covers_the_lower_ones(assembly):
-    """Tints are opaque: Pillow mixes each ink with the light page, and with the dark one."""
-    from PIL import Image, ImageColor
-
-    def on(page, layer):
-        part = 0.55 if layer == "ROLLER" else 0.16
-        return Image.blend(*(Image.new("RGB", (1, 1), c) for c in (page, INKS[layer].rgb)), part)
-
-    svg = root(assembly)
-    text = "".join(chunks(assembly, "mm"))
-    rules = dict(re.findall(r"path\[class='(.*)'\] { fill: (.*) }", text))
-    paths = list(groups(svg)["FILL"])
-    assert rules.keys() == {path.get("class") for path in paths}
-    for path in paths:
-        assert not any("opacity" in name for name in path.attrib)
-        for page, fill in ((LIGHT.page, path.get("fill")), (DARK.page, rules[path.get("class")])):
-            shown = ImageColor.getrgb(fill)
-            mixed = on(page, path.get("class")).getpixel((0, 0))
-            assert shown == pytest.approx(mixed, abs=1)  # Pillow cuts off what others round
 
 
 def test_the_command(tmp_path):
