@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.kinds.spherical.axles import hub_about
 from geneva_cli.kinds.spherical.ball import Ball, inner_edge
-from geneva_cli.kinds.spherical.horn import sphere_horn
+from geneva_cli.kinds.spherical.horn import sphere_horns
 from geneva_cli.kinds.spherical.stressed import sphere_stressed
+from geneva_cli.loads.strength.horn_search import single_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.part_loads import PartLoads, greatest, single_loads
 from geneva_cli.loads.strength.shaft_stress import (
@@ -59,7 +60,7 @@ def horn_thickness_mm(mechanism: Mechanism, usual: Ball) -> float | None:
     least = usual.span_mm[1] - usual.span_mm[0]
 
     def bent_MPa(way: Mechanism, thick: float) -> float:
-        horn = sphere_horn(way, *angles, thick)
+        horn = single_stress(sphere_horns, way, angles, thick).single
         return horn.stress_MPa if horn else 0.0
 
     # a thicker wheel bends its pins more than its horns

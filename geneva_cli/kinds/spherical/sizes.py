@@ -71,6 +71,12 @@ def stressed(mechanism: Mechanism) -> Stressed | None:
     return sphere_stressed(mechanism.spec, sizes) if sizes else None
 
 
+def horn_sizes(mechanism: Mechanism) -> tuple[float, float, float] | None:
+    """Return the angles of half a slot, the recess and the shafts; None without parts."""
+    sizes = sized_ball(mechanism)
+    return (sizes.half_width, sizes.recess, sizes.axes) if sizes else None
+
+
 def _ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     """Return the sizes for a thickness of the wheel, or else its default."""
     from geneva_cli.kinds.spherical.axles import about_crank, wheel_axle

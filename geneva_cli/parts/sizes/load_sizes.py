@@ -17,7 +17,8 @@ import math
 import numpy as np
 
 from geneva_cli.loads.strength import lock
-from geneva_cli.loads.strength.horn import single_horn_stresses
+from geneva_cli.loads.strength.horn import horns
+from geneva_cli.loads.strength.horn_search import single_stress
 from geneva_cli.loads.strength.part_loads import PartLoads, greatest, single_loads
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.loads.unbalance import centrifugal_N
@@ -107,7 +108,7 @@ def _wheel_thickness(assembly: Assembly, sizes: Sizes, by: Lock | None) -> float
     held = lock.loaded_locks(machine, sizes.half_width, by, 1.0)
 
     def per_mm(way: Mechanism) -> float:
-        bent = single_horn_stresses(way, sizes.half_width, sizes.recess).stress_MPa
+        bent = single_stress(horns, way, (sizes.half_width, sizes.recess)).stress_MPa
         every = (0.0, bent, held.horn_stress_MPa if held else 0.0)
         return float(np.nanmax(np.hstack([*map(np.ravel, every)])))
 

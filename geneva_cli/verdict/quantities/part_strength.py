@@ -74,12 +74,12 @@ def horn(of: Designs) -> Columns:
     allowed, load = _allowed(of, of.spec.material_wheel, wheel_material), under_load(of)
     out: dict[str, Number | None] = {"allowed_MPa": allowed}
     width = load.contact_mm
-    if width is None or not (load.horns and load.horns.exist):
+    if width is None or not load.has_horns:
         return out
     force = load.force_N
     if not np.isfinite(force).any():
         return out | dict.fromkeys(("stress_MPa", "at_deg", "inwards_mm", "thickness_mm"), force)
-    rows = {name: _known(row) for name, row in load.horns.stress(width)._asdict().items()}
+    rows = {name: _known(row) for name, row in load.horn_stress(width)._asdict().items()}
     stress = np.where(np.isfinite(force), rows["stress_MPa"], force)
     out["margin"] = margin(stress, allowed)
     return out | {name: np.where(np.isfinite(force), row, force) for name, row in rows.items()}
