@@ -113,6 +113,7 @@ def test_check_compares_it_with_the_load(gearing, size):
     assert "wheel_clamp_Nm" not in {c.name for c in Design(gearing, size=keys).checks}
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("gearing", "size"), [(Internal(6), {}), (External(6), {"wheel_bore_mm": 0.0})]
 )
