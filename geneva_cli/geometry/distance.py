@@ -81,7 +81,7 @@ class Polyarc:
         self.arc = self.sense != 0.0
         self.dx, self.dy, self.square, self.length, *rest = rest  # of the chord
         # A circle about the middle of each piece's chord that holds the piece. Then the turn of the
-        # outline at each piece's start and end: left (1), right (-1) or none (0).
+        # outline at each piece's start and end, radians: above 0 to the left, 0 for none.
         self.ox, self.oy, self.size, self.turn_start, self.turn_end = rest
 
     def __len__(self) -> int:
@@ -222,4 +222,4 @@ def _row(piece: Line | Arc) -> tuple[float, ...]:
 
 def _corner(before: float, after: float) -> float:
     turn = math.remainder(after - before, math.tau)
-    return math.copysign(1.0, turn) if abs(turn) > SAME_ANGLE else 0.0
+    return turn if abs(turn) > SAME_ANGLE else 0.0

@@ -133,7 +133,7 @@ class Gaps:
 
     def stops(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
         """Return the stops of the wheel, turned back and on; see ``Stops.first``."""
-        self._work(2 * len(pose.wheel) * self._stops.pairs)
+        self._work(2 * len(pose.wheel) * len(self.wheel) * (1 + len(self.crank or ())))
         return self._stops.first(pose, most, close)
 
     @cached_property

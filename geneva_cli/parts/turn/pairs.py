@@ -9,8 +9,6 @@ import numpy as np
 
 from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
 
-SLACK = 1e-9  # radians, and of a length: smoothly joined pieces leave no gap between them
-
 
 class Window(NamedTuple):
     """A motion, or the dwell after it: the input angles at its ends, and the motion's number."""
