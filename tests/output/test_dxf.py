@@ -18,8 +18,8 @@ from hypothesis import strategies as st
 from sampling import some
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.drawing import Drawing, extent
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, about, closed
+from geneva_cli.geometry.sheet import Drawing, extent
 from geneva_cli.output.dxf import FLOAT_CODES, chunks
 from geneva_cli.output.svg import drawing_svg as svg
 

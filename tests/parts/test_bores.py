@@ -12,8 +12,7 @@ from step_witness import File, Solid
 from geneva_cli import Design, External, Size, Spherical, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.moments import area
-from geneva_cli.geometry.placed import in_place
-from geneva_cli.geometry.plates import plates
+from geneva_cli.geometry.plates import in_place, plates
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.output.step import chunks
 from geneva_cli.parts.parts import parts_of

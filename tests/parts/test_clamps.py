@@ -10,9 +10,9 @@ from drawing_witness import polygon
 
 from geneva_cli import Design, External, Internal, Load, Size, Spherical
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.mass import mass_properties
 from geneva_cli.geometry.plates import plates
+from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.output.mesh.solids import bodies
 from geneva_cli.parts.shafts.held_hubs import Clamp
 from geneva_cli.parts.shafts.screws import SCREWS, screw

@@ -12,12 +12,10 @@ from drawing_witness import polygon
 from shapely.affinity import rotate, translate
 from shapely.geometry import Point
 
-from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, load
-from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.hole_walls import least_wall
-from geneva_cli.geometry.placed import in_place
-from geneva_cli.geometry.plates import plates
+from geneva_cli import Design, External, SideCrank, load
+from geneva_cli.geometry.plates import in_place, plates
 from geneva_cli.geometry.shapes import Circle
+from geneva_cli.geometry.stacks import least_wall
 from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.stressed import stressed
@@ -129,25 +127,6 @@ def test_no_two_holes_cross_where_the_crank_ends_above_its_input(z, A):
         assert math.dist(one.centre, other.centre) > one.radius + other.radius
 
 
-def test_a_shaft_that_ends_above_it_has_no_hole():
-    """The frame of a plain crank is from -20 to -10 mm, L/10 below the wheel and as thick."""
-    assert [at for at, _ in drilled(Design(Internal(6)))[1]] == [(100.0, 0.0)]
-    plate, holes = drilled(Design(External(6)))
-    assert (plate.low, plate.high) == (-20.0, -10.0)
-    assert [at for at, _ in holes] == [(0.0, 0.0), (100.0, 0.0)]
-    for low, count in ((-9.0, 1), (-10.0, 1), (-10.5, 2), (-30.0, 2)):
-        ends = Design(External(6), size=Size(wheel_shaft_low_mm=low))
-        assert len(drilled(ends)[1]) == count
-        # it goes as far along the line of centres
-        assert drilled(ends)[0].holes[-1].centre[0] == plate.holes[-1].centre[0]
-
-
-def test_it_is_below_the_wheels_hub():
-    """A hub longer than the arm is thick lowers the frame, which it would meet."""
-    plate, _ = drilled(Design(External(6), size=Size(wheel_hub_mm=24.0, wheel_hub_length_mm=12.0)))
-    assert (plate.low, plate.high) == (-22.0, -12.0)
-
-
 @pytest.mark.parametrize("name", ["side-crank-z6", "slider-crank", "turret"])
 def test_it_is_below_all_that_moves_and_has_walls(name):
     design, _, drawing = made(name)
@@ -173,15 +152,6 @@ def test_a_guide_is_screwed_on_where_its_own_holes_are():
             for s in bars
             if isinstance(s, Circle) and s.layer == "LINK"
         )
-
-
-def test_shafts_have_the_size_of_what_they_carry():
-    _, proof, drawing = made("turret")
-    wheel, crank = [s.radius for s in drawing.shapes if isinstance(s, Circle)][:2]
-    assert wheel == proof.outlines.sizes.wheel_bore
-    assert crank == proof.outlines.sizes.crank_bore
-    thick = Design(External(6)).with_("shaft.crank_diameter_mm", 30.0).drawing("frame")
-    assert [s.radius for s in thick.shapes if isinstance(s, Circle)][1] == 15.0
 
 
 def outline_at(link, plate, index):
@@ -251,11 +221,6 @@ def test_a_shaft_that_nothing_bears_is_said(name, keys, said):
     assert all(said in text for text in texts)
     noted = [label.text for label in design.sheet(0.05).texts]
     assert noted.count("no bearing: hold it from above") == bool(said)
-
-
-def test_the_shafts_of_a_sphere_stand_in_no_plate():
-    with pytest.raises(GenevaError, match=r"--part frame: the shafts of gearing = .* not parallel"):
-        Design(Spherical(6)).drawing("frame")
 
 
 def test_marks_stand_in_every_hole_of_any_part():

@@ -11,24 +11,20 @@ from sampling import some
 from shapely.affinity import rotate, translate
 
 from geneva_cli import (
-    Crank,
     Design,
     EllipticalGears,
     Epicyclic,
     External,
     NoncircularGears,
-    SideCrank,
 )
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import fit
-from geneva_cli.geometry.gear_teeth import Rack, RoundTeeth, circle
+from geneva_cli.geometry.gear_teeth import Rack, RoundTeeth
 from geneva_cli.geometry.measure import at, turned
-from geneva_cli.geometry.rolling_teeth import teeth_along
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.motion.pivots import Joint, Link, Teeth
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.gears.gear_mesh import gear_mesh
-from geneva_cli.parts.gears.gear_pair import driven_curve, driver_curve
 from geneva_cli.spec.tables import Size
 
 WRITE = {
@@ -217,15 +213,6 @@ def test_a_rack_that_rolls_leaves_these_teeth(count, shift):
     assert shapely.hausdorff_distance(one.boundary, other.boundary) < 1e-3 * m
 
 
-def test_teeth_along_a_circle_are_a_round_gears():
-    """Both ways to write a gear give one outline."""
-    rack, radius, count = Rack(1.5, 0.1), 15.0, 20
-    teeth = RoundTeeth(rack, radius, radius + 1.65)
-    along = teeth_along(circle(radius), rack, rack.pitch * np.arange(count), 1.65, WRITE["arcs"])
-    one, other = polygon([*along]), polygon(whole(teeth, count))
-    assert shapely.hausdorff_distance(one.exterior, other.exterior) < 3e-5  # twice the tolerance
-
-
 RING = Epicyclic(planet_ratio=0.02, fixed="ring")
 SOFT = Epicyclic(planet_ratio="shockless")
 
@@ -298,17 +285,6 @@ def pair(drive, **keys):
     return design, [(polygon(m.part.outline.segments, 3), m.at) for m in flat.gear_pair]
 
 
-@pytest.mark.parametrize("curve", [driven_curve, driver_curve])
-def test_tangents_of_pitch_curves_are_those_of_their_points(curve):
-    """Against differences of points: their error is h² = 1e-8 of the radius, times a few."""
-    points = curve(NoncircularGears(A=0.4, gear_distance_mm=80.0).gears, 1.0)
-    phi, h = np.array([0.3, 1.7, 3.5, 5.9]), 1e-4
-    (after, _), (before, _), (_, tangent) = points(phi + h), points(phi - h), points(phi)
-    step = after - before
-    step /= np.linalg.norm(step, axis=1)[:, None]
-    assert np.abs(step - tangent).max() < 1e-7
-
-
 @pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("kind", ["elliptical", "side-crank"])
@@ -341,40 +317,6 @@ def test_noncircular_gears_mesh(kind):
         # normal to the flanks half the backlash is 0.03 cos 20 deg
         gap = one.distance(other)
         assert gap == pytest.approx(0.03 * math.cos(math.radians(20.0)), abs=1e-3)
-
-
-@pytest.mark.parametrize(
-    ("drive", "z", "keys", "said"),
-    [
-        (SOFT, 4, {"gear_module_mm": 5.0}, "pointed; gear_module_mm = 4 is small enough"),
-        (SOFT, 4, {"gear_module_mm": 2.0, "gear_shift": -0.5}, "gear_shift = -0.5.*undercut"),
-        (SOFT, 4, {"gear_module_mm": 0.5, "gear_teeth": 3}, "; remove gear_teeth"),
-        (EllipticalGears(eccentricity=0.3), 6, {"gear_module_mm": 2.0}, "for 49 teeth"),
-        (
-            EllipticalGears(eccentricity=0.3),
-            6,
-            {"gear_module_mm": 12.210, "gear_teeth": 8},
-            "bends",
-        ),
-    ],
-)
-def test_refusals(drive, z, keys, said):
-    with pytest.raises(GenevaError, match=said) as error:
-        Design(External(z), drive, size=Size(**keys)).drawing("gears")
-    assert error.value.key[0] == "size"
-
-
-@pytest.mark.parametrize(("key", "value"), [("gear_shift", 0.2), ("gear_teeth", 20)])
-def test_teeth_without_a_module_are_refused(key, value):
-    with pytest.raises(GenevaError, match="set gear_module_mm, or remove"):
-        _ = Design(External(4), SOFT, size=Size(**{key: value})).mechanism
-
-
-@pytest.mark.parametrize("drive", [Crank(), SideCrank(A=0.3)])
-def test_a_module_without_gears_is_refused(drive):
-    with pytest.raises(GenevaError, match="gear_module_mm cuts the teeth of gears") as caught:
-        _ = Design(External(4), drive, size=Size(gear_module_mm=2.0)).mechanism
-    assert caught.value.key == ("size", "gear_module_mm")
 
 
 def test_solids_lists_and_drawings_have_the_teeth():

@@ -3,7 +3,6 @@
 import csv
 import io
 import math
-from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +19,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.moments import moments
 from geneva_cli.motion import registry
 from geneva_cli.motion.records import of_wheel
-from geneva_cli.output.finite import only
 
 DESIGNS = sorted(Path(__file__, "../../../designs").resolve().glob("*.toml"))
 SAME = 1e-9  # radians, as far as a machine must come out from its printed dimensions
@@ -285,40 +283,6 @@ def test_a_machine_is_rebuilt_from_what_is_printed(path):
             )
 
 
-SPECS = {
-    "side-crank inside": 'z = 6\ngearing = "internal"\n[drive]\nkind = "side-crank"\nA = 0.4',
-    "gears inside": 'z = 8\ngearing = "internal"\n[drive]\nkind = "noncircular-gears"\nA = -0.3',
-    "ring": 'z = 6\n[drive]\nkind = "epicyclic"\nplanet_ratio = 0.02\nfixed = "ring"',
-    "planet behind gears": 'z = 6\n[drive]\nkind = "epicyclic"\nplanet_ratio = 0.01\n'
-    '[drive.before]\nkind = "noncircular-gears"\nA = 0.3',
-    "slider behind gears": 'z = 8\n[drive]\nkind = "slider-crank"\ncrank_mm = 40\nrod_mm = 100\n'
-    "point_mm = 80\npoint_deg = 90\n"
-    '[drive.before]\nkind = "elliptical-gears"\neccentricity = 0.2\nphase = "quick"',
-    "sector": 'z = 3\n[drive]\nkind = "gear-sector"\nsector_deg = 150\ngear_ratio = 0.6',
-    "pair": 'z = 6\n[drive]\nkind = "geneva-pair"\nfirst_z = 3',
-    "cam inside": 'z = 6\ngearing = "internal"\n[drive]\nkind = "cam"\n[motion]\nlaw = "3-4-5"',
-}
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("name", SPECS)
-def test_kinds_in_other_sizes(name, tmp_path):
-    path = tmp_path / "spec.toml"
-    path.write_text(f"[wheel]\n{SPECS[name]}\n[size]\nroller_radius_mm = 2\n")
-    test_a_machine_is_rebuilt_from_what_is_printed(path)
-
-
-@pytest.mark.parametrize("drive", ["side-crank", "elliptical-gears", "noncircular-gears"])
-def test_no_pivots_where_the_shafts_meet(drive, tmp_path):
-    """The crank's axis of a spherical wheel is in no plane with that of a gear beside it."""
-    key = "eccentricity = 0.3" if drive == "elliptical-gears" else "A = 0.4"
-    path = tmp_path / "spec.toml"
-    path.write_text(f'[wheel]\nz = 6\ngearing = "spherical"\n[drive]\nkind = "{drive}"\n{key}\n')
-    _, pivots, numbers = printed(path)
-    assert pivots == {}
-    assert numbers["sphere's radius"] == 100.0
-
-
 def test_every_kind_is_rebuilt():
     """No drive, and no gearing with a parts list, is left out of the designs."""
     specs = [load(str(path)).spec for path in DESIGNS]
@@ -494,39 +458,3 @@ def test_what_cannot_be_built_is_listed_with_the_reason(name, key, value, why, m
     assert any(why in c.why for c in design.checks if c.passes is False)
     with pytest.raises(GenevaError, match=why):
         design.drawing("assembly")
-
-
-@pytest.mark.usefixtures("no_advice")
-def test_a_part_without_walls_for_its_edges_leaves_the_others_listed():
-    """The locking disc has 8.256 mm beside its bore, and a chamfer of 6 mm takes 4.128 at most."""
-    (turret,) = (str(path) for path in DESIGNS if path.stem == "turret")
-    whole, chamfered = (
-        load(turret, keys).part_table("parts").to_rows()
-        for keys in ([], ["size.edge_chamfer_mm=6"])
-    )
-    names, left = (
-        [row["name"] for row in rows if row["row"] == "part"] for rows in (whole, chamfered)
-    )
-    rows = [row for row in chamfered if row["row"] == "missing"]
-    unbuilt = {name: row["why"] for row in rows for name in row["name"].split(", ")}
-    assert "the locking disc has a wall of 8.256 mm" in unbuilt["locking disc"]
-    assert "wheel" in left and sorted([*left, *unbuilt]) == sorted(names)
-
-
-@pytest.mark.sampled(8)
-@pytest.mark.parametrize("path", DESIGNS, ids=lambda path: path.stem)
-def test_nothing_is_missing_from_a_machine_that_is_built(path):
-    rows = load(str(path)).part_table("parts").to_rows()
-    assert "missing" not in {row["row"] for row in rows}
-
-
-def test_chosen_columns_leave_out_the_kinds_of_rows_that_have_none_of_them():
-    table = load(str(next(path for path in DESIGNS if path.stem == "four-bar-z4"))).part_table(
-        "parts"
-    )
-    count = Counter(row["row"] for row in table.to_rows())
-    assert len(only(table, ["name", "mass_kg"])) == count["part"]
-    assert len(only(table, ["x_mm"])) == count["pivot"]
-    assert len(only(table, ["name", "unit", "y_mm"])) == count["dimension"] + count["pivot"]
-    assert len(only(table, ["row", "name"])) == len(table)
-    assert len(only(table, ["why"])) == 0

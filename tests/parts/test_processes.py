@@ -1,7 +1,6 @@
 """Clearances by the way in which parts are made."""
 
 import math
-import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
@@ -9,25 +8,15 @@ import numpy as np
 import pytest
 from mpmath import mp
 from repo import DESIGNS
-from typer.testing import CliRunner
 
-from geneva_cli import Design, External, Load, Size, load
-from geneva_cli.cli.app import app
-from geneva_cli.errors import GenevaError
+from geneva_cli import Design, External, Size, load
 from geneva_cli.geometry.plates import Group, Member, Plate
 from geneva_cli.geometry.shapes import Circle, Point
-from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.many import many
-from geneva_cli.motion.mechanism import build
-from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.machine_sizes import sizes
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.shafts.fits import limits
 from geneva_cli.spec.processes import PROCESSES
-from geneva_cli.spec.workshops import deviation_mm, workshop
+from geneva_cli.spec.workshops import deviation_mm
 from geneva_cli.verdict.checks.check import Check
-from geneva_cli.verdict.report.sizes_report import inputs
-from geneva_cli.verdict.report.sizes_report import sizes as report_sizes
 
 
 def test_a_mill_keeps_the_nominal_sizes() -> None:
@@ -88,16 +77,6 @@ def test_a_lasers_clearances_follow_its_plates() -> None:
     assert thin.allowances[:3] == (0.2, 0.25, 0.2)
 
 
-def test_a_batch_has_the_clearances_of_its_designs() -> None:
-    far = np.array([30.0, 100.0, 400.0])
-    spec = Design(External(6), size=Size(process="laser")).spec
-    batch = many(spec, {"size.center_distance_mm": far}).machine.spec.size.allowances
-    for i, L in enumerate(far):
-        one = Size(float(L), process="laser").allowances
-        for key in ("slot_clearance_mm", "lock_clearance_mm", "press_fit_mm"):
-            assert float(getattr(batch, key)[i, 0]) == getattr(one, key)
-
-
 # what changes other sizes than those of the bores
 SAME_REST = (
     *("size.slot_clearance_mm=0.1", "size.lock_clearance_mm=0.1", "size.press_fit_mm=0"),
@@ -145,39 +124,6 @@ def test_holes_that_a_laser_cuts_badly_are_named() -> None:
     assert "make the frame at most 12.86 mm thick" in texts["small-hole"]
     thin = turret("size.process=laser", "size.face_width_mm=12", "size.lock_bolts=0").warnings
     assert "small-hole" not in {text.name for text in thin}
-
-
-def test_a_clearance_for_another_thickness_is_named() -> None:
-    """A four-bar's centre distance, and so its plates of 11 mm, are solved for."""
-    four_bar = load(str(DESIGNS / "four-bar-z4.toml"), ("size.process=laser",))
-    texts = [str(text) for text in four_bar.warnings if text.name == "narrow-for-process"]
-    assert len(texts) == 1
-    assert "slot_clearance_mm = 0.25" in texts[0]
-    assert texts[0].endswith("set slot_clearance_mm to 0.3")
-    told = load(
-        str(DESIGNS / "four-bar-z4.toml"), ("size.process=laser", "size.slot_clearance_mm=0.3")
-    )
-    assert "narrow-for-process" not in {text.name for text in told.warnings}
-
-
-@pytest.mark.parametrize(
-    ("process", "given", "needed"),
-    [
-        ("laser", "0.02", "0.35"),
-        ("print", "0.02", "0.2"),
-        ("laser", "0.35", ""),
-        ("mill", "0", ""),
-    ],
-)
-def test_a_clearance_below_what_the_process_holds_is_named(
-    process: str, given: str, needed: str
-) -> None:
-    """A roller of 14 mm and its slot in a plate of 14 mm are both off by up to 0.35 mm."""
-    size = Size(140.0, 7.0, process=process, slot_clearance_mm=float(given))
-    texts = [str(text) for text in Design(External(6), size=size).warnings]
-    assert [text.split()[-1] for text in texts if "slot_clearance_mm" in text] == [needed] * bool(
-        needed
-    )
 
 
 @pytest.mark.usefixtures("no_advice")
@@ -257,95 +203,6 @@ def test_printed_parts_are_of_pla() -> None:
     assert "horn_stress_MPa" not in named(other)  # of no known strength
 
 
-def test_default_sizes_of_a_print_hold_as_pla() -> None:
-    """PLA allows a twentieth of steel's stress: the arm is thicker, and all parts hold."""
-    arms = []
-    for torque in (0.1, 1.0, 3.0):
-        size, load_ = Size(process="print"), Load(torque_Nm=torque)
-        stresses = [
-            check
-            for name, check in named(Design(External(6), size=size, load=load_)).items()
-            if name.endswith("stress_MPa")
-        ]
-        assert len(stresses) == 6
-        assert all(check.passes for check in stresses), (torque, stresses)
-        for one in (size, size.replace(process="mill")):
-            arms.append(sizes(assembly(build(Spec(External(6), size=one, load=load_)))))
-    assert [arm.arm_thickness for arm in arms[1::2]] == [10.0, 10.0, 10.0]
-    assert arms[4].arm_thickness > arms[0].arm_thickness == 10.0
-
-
-def test_small_holes_of_shells_are_named() -> None:
-    """Shells of 8 mm need 5.6 mm: pins of 5 mm less their press fit are below, hubs above."""
-    ball = sphere("size.process=laser", "size.lock_bolts=0")
-    (text,) = (str(text) for text in ball.warnings if text.name == "small-hole")
-    hole = 5.0 - ball.spec.size.allowances.press_fit_mm
-    assert f"arm Ø {hole:.4g}, " in text
-    assert text.endswith(f"make the arm at most {hole / 0.7:.4g} mm thick")
-    assert "wheel" not in text
-
-
-def test_printed_shells_have_walls_of_two_lines() -> None:
-    rows = named(sphere("size.process=print"))
-    walls = ("horn_mm", "wall_between_slots_mm", "wheel_bore_wall_mm", "arm_wall_mm")
-    assert {rows[name].limit for name in walls} == {0.8}
-
-
-TEXTS = {
-    None: ("8× 24 H7 (+0.021/0)", "Ø 24 g6 (-0.007/-0.02)", "Ø 40 h6 (0/-0.016)", "ISO 2768-m"),
-    "mill": (
-        *("8× 24 H7 (+0.021/0)", "Ø 24 g6 (-0.007/-0.02)", "Ø 40 h6 (0/-0.016)", "Ra 3.2"),
-        *("Ø 40 H7 (+0.025/0)", "Ø 12 P7 (-0.011/-0.029)", "Ø 12 F7 (+0.034/+0.016)"),
-    ),
-    "laser": (
-        *("8× 24.8 ±0.4", "Ø 24 ±0.4", "Ø 40 h6 (0/-0.016)", "Ø 40.45 ±0.45", "ISO 9013 class 1"),
-        "Ø 11.6 ±0.4, drill and ream to Ø 12 P7 (-0.011/-0.029)",
-    ),
-    "print": ("8× 24.5", "Ø 24", "Ø 40", "Ø 40.4", "±0.2 mm"),
-}
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("process", TEXTS)
-def test_a_sheet_writes_what_the_process_holds(process: str | None) -> None:
-    """Slot, roller, shaft and bore, pin, and a field of the title block; a print has no fit at all.
-
-    The rods stay: wheel 40 mm, pin 12 mm. A cut hole of a pin is ever below it, and is reamed.
-    """
-    sheet = turret(*([f"size.process={process}"] if process else [])).sheet(0.05)
-    texts = {label.text for label in sheet.texts}
-    assert set(TEXTS[process]) <= texts
-    fits = {text for text in texts if re.search(r"[A-Za-z]\d \(", text)}
-    cuts = {text for text in texts if re.search(r"Ø .* ±", text)}
-    assert bool(fits) == (process != "print")
-    assert bool(cuts) == (process == "laser")
-    said = any(text.startswith("clearance a side: ") for text in texts)
-    assert said == (process in ("laser", "print"))
-
-
-@pytest.mark.parametrize("process", PROCESSES)
-def test_a_process_is_its_keys(process: str) -> None:
-    keys = Size(process=process).allowances._asdict()
-    source = keys.pop("source")
-    wall = workshop(process).wall_mm or None
-    # a gap of the spec makes the disc thicker, one of the process does not
-    named = Design(External(6), size=Size(process=process, lock_thickness_mm=10.0))
-    spelled = Size(wall_min_mm=wall, lock_thickness_mm=10.0, **keys)
-    assert named.spec.size.allowances[:5] == spelled.allowances[:5]
-    where = assembly(named.mechanism)
-    assert sizes(where) == sizes(assembly(Design(External(6), size=spelled).mechanism))
-    page = report_sizes(named.parts) | inputs(named.parts)
-    assert page["clearances_from"] == source
-    keys.pop("gear_backlash_mm")  # on which no number of a report depends
-    assert {key: page[f"size.{key}"] for key in keys} == keys
-
-
-def test_a_key_that_is_given_wins() -> None:
-    size = Size(process="print", slot_clearance_mm=0.0)
-    assert size.allowances[:3] == (0.0, 0.25, 0.0)
-    assert Size().allowances == (0.0, 0.0, 0.0, 0.0, 0.0, None, 0.0)
-
-
 def test_teeth_have_the_clearance_of_the_process_on_both_sides() -> None:
     """Twice 0.25 mm, and 0.4 of a laser at 18 mm; the middle of H7/g6; a given key wins."""
     keys = {"wheel_thickness_mm": 18.0, "roller_radius_mm": 12.0}
@@ -362,12 +219,6 @@ def test_teeth_have_the_clearance_of_the_process_on_both_sides() -> None:
         for more in (["size.process=print"], [*spelled, "size.gear_backlash_mm=0.5"], spelled)
     ]
     assert drawn[0].shapes == drawn[1].shapes != drawn[2].shapes
-
-
-def test_a_clearance_that_leaves_no_machine_says_whose_it_is() -> None:
-    tiny = Size(process="laser", center_distance_mm=0.3)
-    with pytest.raises(GenevaError, match=r"press_fit_mm = 0.075: .*; the value comes from"):
-        build(Design(External(6), size=tiny).spec)
 
 
 @pytest.mark.sampled(6)
@@ -421,20 +272,3 @@ def placed(
             yield from placed(one.part.members, here.at, here.turn)
         else:
             yield here
-
-
-def test_the_option_sets_the_key() -> None:
-    def written(*options: str) -> str:
-        spec = str(DESIGNS / "turret.toml")
-        run = CliRunner().invoke(app, ["profile", spec, "--samples", "9", *options])
-        assert run.exit_code == 0, run.stderr
-        return run.stdout
-
-    keys = Size(250.0, 12.0, process="laser", face_width_mm=18.0).allowances
-    spelled = written("--set", f"size.slot_clearance_mm={keys.slot_clearance_mm}")
-    assert written("--set", "size.process=laser") == spelled != written()
-    wrong = CliRunner().invoke(
-        app, ["check", str(DESIGNS / "turret.toml"), "--set", "size.process=lasr"]
-    )
-    assert wrong.exit_code == 2
-    assert '(did you mean "laser"?)' in wrong.stderr

@@ -1,12 +1,9 @@
 """Drawing sheets: nothing stands on anything else, and the sizes on them are the machine's."""
 
-import io
 import math
 import re
 from functools import cache
 
-import ezdxf
-import numpy as np
 import pytest
 import repo
 import shapely
@@ -18,26 +15,17 @@ from sheet_witness import (
     assert_measured,
     beyond,
     crossings,
-    number,
     overlaps,
 )
-from words import Drive, Keys, Motion, Spec, Wheel
+from words import Spec, Wheel
 
-import geneva_cli
-from geneva_cli import EllipticalGears, load
+from geneva_cli import load
 from geneva_cli.design import Design
-from geneva_cli.drawings.sheet.cut import faces
+from geneva_cli.drawings.sheet.content import faces
 from geneva_cli.drawings.sheet.paper import FORMATS, SCALES
-from geneva_cli.drawings.sheet.points import gear_tables, polyline, tables
-from geneva_cli.drawings.sheet.view import View
-from geneva_cli.errors import GenevaError
-from geneva_cli.geometry import marks
-from geneva_cli.geometry.board import Board
-from geneva_cli.geometry.measure import bounds, points
-from geneva_cli.geometry.placed import in_place
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line
+from geneva_cli.drawings.sheet.points import gear_tables, tables
+from geneva_cli.geometry.plates import in_place
 from geneva_cli.geometry.sheet import Label
-from geneva_cli.output.sheets import sheet_dxf
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.spec.tables import RollerMaterial, Size, TitleBlock, Tolerance, WheelMaterial
 
@@ -86,30 +74,6 @@ def test_no_text_of_a_design_stands_on_anything(path, sheets):
     assert_as_listed(found, list(design.part_table("parts").to_rows()), 2e-3)
 
 
-SMALL = [
-    Spec(Wheel(3), size=Size(30.0)),
-    Spec(Wheel(24), size=Size(30.0, roller_radius_mm=0.6)),
-    Spec(Wheel(3), size=Size(900.0)),
-    Spec(Wheel(24), size=Size(900.0)),
-    Spec(Wheel(4, "internal"), size=Size(30.0)),
-    Spec(Wheel(12, "internal"), size=Size(900.0)),
-    Spec(Wheel(6), motion=Motion("cycloidal", ratio="matched"), size=Size(30.0)),
-    Spec(Wheel(8), size=Size(77.7, lock_bolts=3, crank_bore_mm=12.0, crank_keyway="DIN 6885-1")),
-    Spec(Wheel(4), Drive(rollers=3), size=Size(50.0, roller_radius_mm=3.0)),
-    Spec(Wheel(6, offset_mm=8.0), size=Size(100.0, roller_radius_mm=4.0)),
-    Spec(Wheel(6), Drive("cam"), motion=Motion("cycloidal"), size=Size(40.0)),
-    Spec(Wheel(6), Drive("side-crank"), Keys("side-crank", 0.4), size=Size(3.0)),
-]
-
-
-@pytest.mark.sampled(9)
-@pytest.mark.parametrize("spec", SMALL, ids=lambda s: f"{s.wheel.z}-{s.size.center_distance_mm:g}")
-def test_machines_of_every_size(spec):
-    found = of(spec)
-    assert overlaps(found) == []
-    assert_measured(found)
-
-
 def test_the_sizes_of_a_plain_wheel():
     """Against the closed forms: rim sqrt(L² cos² b + r²), R = L sin b, slot to L - R - r - end."""
     tolerance = Tolerance(slot_width_mm=0.01, crank_radius_mm=0.02, center_distance_mm=0.03)
@@ -132,11 +96,6 @@ def test_the_sizes_of_a_plain_wheel():
         "Ø 12 h6 (0/-0.011)",
     ]
     assert [text for text in wanted if text not in texts] == []
-
-
-def test_without_clearance_the_fit_gives_it():
-    texts = [m.label.text for m in of(Spec(Wheel(6), size=Size(120.0, 6.0))).measures]
-    assert {"6× 12 H7 (+0.018/0)", "Ø 12 g6 (-0.006/-0.017)"} <= set(texts)
 
 
 def test_the_title_block_says_what_is_there(sheets):
@@ -169,14 +128,6 @@ def under(found, heading):
     at = next(label.at for label in found.labels if label.text == heading)
     below = (at[0], pytest.approx(at[1] - 5.4))
     return next((label.text for label in found.labels if label.at == below), None)
-
-
-def test_fields_without_a_key_are_empty(sheets):
-    """No number, date or name is invented."""
-    found = sheets("turret")[1]
-    assert [under(found, heading) for heading in FIELDS] == [None] * len(FIELDS)
-    assert under(found, "edges") == "free of burrs"
-    assert under(found, "faces that roll, slide, lock") is None
 
 
 def test_the_title_block_has_the_keys_of_drawing():
@@ -310,19 +261,6 @@ def test_a_gears_pitch_curves_are_on_the_sheet(sheets):
     assert any("driven gear, t = 16" in text for text in titles)
 
 
-def test_small_machines_are_enlarged_and_large_ones_fill_their_paper(sheets):
-    _, pair = sheets("geneva-pair")
-    assert (pair.scale, pair.width) == (2.0, 594.0)
-    for name in ("geneva-pair", "side-crank-z6", "epicyclic-z4"):
-        _, found = sheets(name)
-        reach = [at for label in found.labels for at in label.corners]
-        reach += [p for m in found.measures for p in m.points]
-        reach = [p for p in reach if p[0] < found.width - 190.0]  # beside list and title block
-        x, y = zip(*reach, strict=True)
-        filled = (max(x) - min(x)) * (max(y) - min(y))
-        assert filled > 0.5 * (found.width - 190.0) * found.height
-
-
 def test_points_of_a_curved_slot_are_on_it():
     """The table as it is printed: chords within what it says, of the points that `slot` gives."""
     design = load(str(repo.DESIGNS / "press-curved.toml"))
@@ -345,89 +283,6 @@ def printed(block):
     downwards = sorted(block.labels, key=lambda label: (-label.at[1], label.at[0]))
     texts = [label.text for label in downwards if re.fullmatch(r"-?\d+\.\d{3}", label.text)]
     return [(float(x), float(y)) for x, y in zip(texts[::2], texts[1::2], strict=True)]
-
-
-def test_a_polyline_is_as_near_as_asked():
-    def circle(t):
-        return np.column_stack((50.0 * np.cos(t), 50.0 * np.sin(t)))
-
-    for close in (1.0, 0.01):
-        points = polyline(circle, 0.0, math.tau, close)
-        middles = 0.5 * (points[1:] + points[:-1])
-        assert 0.2 * close < 50.0 - np.hypot(*middles.T).min() <= close
-
-
-def test_what_finds_no_place_is_said_below():
-    """A board full of text has no room for a leader; one text in the way moves it."""
-    full, half = Board(), Board()
-    full.write(Label("W" * 400, (-1000.0, -500.0), 700.0))
-    half.write(Label("here", (4.0, 4.0), 3.0))
-    tries = list(marks.diameter((0.0, 0.0), 5.0, marks.around(), "Ø 10", 10.0))
-    assert full.first(tries) is None
-    moved = half.first(tries)
-    assert moved is not None
-    assert moved != Board().first(tries)
-
-
-@pytest.mark.parametrize(
-    ("wheel", "A"),
-    [
-        (Wheel(6), 0.99993),  # its coulisse is one piece with its shaft: its slot is all its holes
-        (Wheel(3, offset_mm=-6.6), 0.99988),  # likewise, with offset slots
-    ],
-)
-def test_a_link_without_a_round_hole_has_a_view(wheel, A):
-    """Random sheets that once broke off: a link with a slot alone is measured from its shaft."""
-    found = of(Spec(wheel, Drive("side-crank"), Keys("side-crank", A)))
-    assert "one piece with its shaft" in {label.text for label in found.labels}
-    assert overlaps(found) == []
-    assert_measured(found)
-
-
-def test_dimensions_stay_clear_of_each_other_in_a_narrow_bore(sheets):
-    """250 and 141.729 of the turret once met in its bore, arrow on arrow."""
-    _, found = sheets("turret")
-    texts = {m.label.text for m in found.measures}
-    assert {"250", "141.729"} <= texts
-    assert crossings(found) == []
-
-
-def test_a_distance_that_has_no_place_says_what_it_is():
-    """A rack of 24 slots is drawn at 1:10: texts of shorter distances are in the way of others."""
-    design = Design(geneva_cli.Linear(24), EllipticalGears(eccentricity=0.3))
-    notes = {label.text for label in design.sheet(TOLERANCE).labels}
-    box = bounds(design.drawing("frame", TOLERANCE).shapes[0])
-    assert f"{box.x1 - box.x0:g} wide" in notes
-    assert f"{100.0 - box.x0:g} from the left edge to the crank's axis" in notes
-
-
-def test_a_leader_is_not_drawn_along_an_edge():
-    """A line under a text that is nearly in the edge's direction, 1 mm away, is not used."""
-    edge = Contour("", (Line((-40.0, 6.0), (40.0, 6.5)),), closed=False)
-    board = Board()
-    board.draw(edge)
-    tries = list(marks.diameter((0.0, 0.0), 1.0, marks.around(), "Ø 2", 2.0))
-    leader = board.first(tries).main_lines
-    whole = LineString([p for piece in leader for p in piece])
-    assert all(whole.distance(shapely.Point(x, 6.0 + (x + 40.0) / 160.0)) > 1.2 for x in (-8, 8))
-    shelf = LineString(leader[1])
-    assert shelf.distance(LineString(edge.segments[0])) > 1.4
-
-
-def test_rounding_moves_no_dimension():
-    """Rounding once chose the side of a disc's dimension, and turned its text by -360 degrees."""
-
-    def drawn(y):
-        view = View("", 1.0)
-        view.draw_all([Circle("", (0.0, 0.0), 50.0)])
-        view.linear((0.0, 0.0), (-40.0, y), math.atan2(y, -40.0), "40", near=True)
-        (one,) = view.measures
-        return one
-
-    below, above = drawn(-1e-14), drawn(1e-14)
-    assert below.label.at == pytest.approx(above.label.at, abs=1e-9)
-    assert abs(below.label.turn) + abs(above.label.turn) < 1e-12
-    assert below.turn == pytest.approx(above.turn)
 
 
 def test_the_comparison_can_fail():
@@ -476,81 +331,3 @@ def test_fits_and_masses_in_inches():
     assert "Ra 3.2 µm" in {label.text for label in milled.texts}
     # another thread writes its own unit
     assert "mm, degrees" in {label.text for label in design.sheet(TOLERANCE).texts}
-
-
-def test_a_dxf_in_inches_measures_inches():
-    """The factor of each style makes inches of the paper's millimetres."""
-    found = load(str(repo.DESIGNS / "turret.toml")).sheet(TOLERANCE, units="inch")
-    document = ezdxf.read(io.StringIO("".join(sheet_dxf.chunks(found))))
-    measures = [m for m in found.measures if m.kind in sheet_dxf.KINDS]
-    dimensions = list(document.modelspace().query("DIMENSION"))
-    for dimension, m in zip(dimensions, measures, strict=True):
-        if m.kind != "angular":
-            factor = document.dimstyles.get(dimension.dxf.dimstyle).dxf.dimlfac
-            inches = dimension.get_measurement() * factor
-            assert inches == pytest.approx(m.value / 25.4, rel=1e-8)
-            assert dimension.dxf.actual_measurement == pytest.approx(m.value / 25.4, rel=1e-12)
-
-
-def test_refusals():
-    slots = Spec(Wheel(6), motion=Motion("cycloidal", ratio="matched"), size=Size(5e7))
-    with pytest.raises(GenevaError, match="do not fit on one A1 sheet"):
-        Design.of(slots).sheet(1e3)
-
-
-@pytest.mark.parametrize(
-    ("key", "across", "note"),
-    [
-        # the corners of a hexagon are on a circle 1/cos 30° wider than its flats
-        ("wheel_bore=hex", f"Ø {40.0 / math.cos(math.pi / 6.0):.3f}", "hexagon 40 across flats"),
-        ("wheel_bore=D", "Ø 40 h6 (0/-0.016)", "flat, 36 to the far side"),
-        # DIN 6885-1, 38 to 44 mm: 12 wide, 5 deep in the shaft
-        ("wheel_keyway=DIN 6885-1", "Ø 40 h6 (0/-0.016)", "keyway 12 P9, 5 deep"),
-    ],
-)
-def test_a_plain_shaft_says_what_its_section_is(key, across, note):
-    """A hexagonal shaft once had the fit of a round one, 46.188 h6, and no word of its flats."""
-    sheet = load(str(repo.DESIGNS / "turret.toml"), [f"size.{key}"]).sheet(TOLERANCE)
-    texts = [label.text for label in sheet.texts]
-    assert across in texts
-    assert note in texts[texts.index("6 wheel's shaft") :][:3]
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize(("fit_mm", "bore"), [(0.0, "Ø 20 F7"), (0.1, "Ø 20.1 H7")])
-def test_both_rollers_of_a_cam_have_bores_of_one_fit(fit_mm, bore):
-    """Those in slot and groove are on pins of 20 mm; a bore that is wider already takes no F7."""
-    design = load(str(repo.DESIGNS / "cam-geneva.toml"), [f"size.shaft_fit_mm={fit_mm}"])
-    texts = [label.text for label in design.sheet(TOLERANCE).texts]
-    assert sum(text.startswith(bore) for text in texts) >= 2
-    assert not any("F7" in text and not text.startswith(bore) for text in texts)
-
-
-@pytest.mark.parametrize("name", ["geneva-stop", "turret", "spherical-z6"])
-def test_the_text_of_an_angle_stands_at_its_arc(name, sheets):
-    """Half a text's diagonal and 3 mm from it; an arc goes on to a text beyond its legs."""
-    _, found = sheets(name)
-    angles = [measure for measure in found.measures if measure.kind == "angular"]
-    assert angles
-    for measure in angles:
-        near = min(math.dist(measure.label.middle, p) for p in points(measure.lines[0], 200))
-        corner, _, opposite, _ = measure.label.corners
-        assert near < 0.5 * math.dist(corner, opposite) + 3.0, measure.label.text
-
-
-def test_one_radius_is_written_once():
-    """The horns of curved slots differ by rounding, at 204.9445 mm."""
-    found = load(str(repo.DESIGNS / "sine-group.toml")).sheet(0.001)
-    texts = [label.text for label in found.texts]
-    assert [text for text in texts if "R 204.94" in text] == ["12× R 204.944"]
-
-
-@pytest.mark.parametrize("name", ["three-rollers-z4", "two-cranks", "turret"])
-def test_reliefs_of_one_size_are_counted(name, sheets):
-    """As many as the outline of the disc has arcs about other points than its axis."""
-    design, found = sheets(name)
-    (outline,) = design.drawing("crank", TOLERANCE).shapes[:1]
-    arcs = [piece for piece in outline.segments if isinstance(piece, Arc)]
-    reliefs = [arc for arc in arcs if math.hypot(*arc.centre) > 1.0]
-    count = f"{len(reliefs)}× " if len(reliefs) > 1 else ""
-    assert f"{count}R {number(reliefs[0].radius)}" in [label.text for label in found.texts]

@@ -10,9 +10,9 @@ from step_witness import File, Solid
 import geneva_cli
 from geneva_cli import Design, External, Internal, SideCrank, Size, load
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.plates import Group, Plate, Stack, lowered, solids
 from geneva_cli.geometry.shapes import Circle
+from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.motion import registry
 from geneva_cli.output.mesh.solids import bodies
 from geneva_cli.output.step import chunks

@@ -13,7 +13,7 @@ from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.parts.turn.glance import gap_about, play_about
+from geneva_cli.parts.turn.full_turn import gap_about, play_about
 from geneva_cli.spec.tables import Size
 from geneva_cli.study.synth.built import built
 from geneva_cli.study.synth.fast_parts import USUAL, exact, parts, with_roller

@@ -1,4 +1,4 @@
-"""Widths and lengths of bores, hubs and shafts of a spherical machine.
+"""Widths and lengths of bores, hubs and shafts of a spherical machine, and tables of its slot.
 
 A shell's faces are round, so a part on a shaft needs a hub with flat faces, in a round hole of the
 shell. Heights count as on a plane (``parts.shafts.hub_and_shafts``) from the wheel's lower face,
@@ -11,9 +11,11 @@ import math
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.sizes import crank_reach_and_hub, wheel_bore, wheel_reach_and_hub
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.tables import Size
+from geneva_cli.table import Table, rows_table
 
 
 def wheel_axle(spec: Spec, L: float, inside: float, slot_end: float) -> tuple[float, float]:
@@ -69,3 +71,24 @@ def refuse_wide(key_: str, radius: float, inner: float, outer: float) -> None:
             f"is {outer - inner:g} mm thick; it must be below {2.0 * flat:.6g}",
             ("size", key_),
         )
+
+
+def meridians_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
+    """Return the slots of a spherical wheel, one row for each: meridians of its sphere.
+
+    Azimuths are about the wheel's axis, polar angles from it. Points are on the sphere.
+    """
+    engagement, spec = mechanism.engagements[0], mechanism.spec
+    mouth, bottom = (engagement.slot(x, 0)[0].c[0] for x in (engagement.entry_deg, 0.0))
+    L = mechanism.center_distance_mm
+    names = ["slot", "azimuth_deg", "mouth_polar_deg", "bottom_polar_deg"]
+    names += [f"{end}_{axis}_mm" for end in ("mouth", "bottom") for axis in "xyz"]
+    rows = []
+    for k in range(spec.wheel.z):
+        azimuth = 2.0 * math.pi * k / spec.wheel.z
+        row = [k + 1, math.degrees(azimuth), math.degrees(mouth), math.degrees(bottom)]
+        for polar in (mouth, bottom):
+            across = L * math.sin(polar)
+            row += [across * math.cos(azimuth), across * math.sin(azimuth), L * math.cos(polar)]
+        rows.append(row)
+    return rows_table(names, rows)

@@ -16,7 +16,7 @@ import numpy as np
 
 from geneva_cli.geometry.sphere import POLE, Region
 from geneva_cli.geometry.sphere_arcs import SphereArcs
-from geneva_cli.geometry.sphere_extents import Circle, FromCircle, farthest, short_arcs
+from geneva_cli.geometry.sphere_hull import Circle, FromCircle, farthest, short_arcs
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.spherical.stops import about, polar
 from geneva_cli.kinds.spherical.wheel import QUARTER

@@ -15,10 +15,9 @@ from geneva_cli.motion.plane_motion import turned_points
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.turn.contacts import candidates, nearest_pieces
+from geneva_cli.parts.turn.contacts import PlaceIndex, candidates, nearest_pieces
 from geneva_cli.parts.turn.machine_parts import Lengths, WorkLimit
 from geneva_cli.parts.turn.pairs import Pose, Stop
-from geneva_cli.parts.turn.place_index import PlaceIndex
 from geneva_cli.parts.turn.stops import Stops
 from geneva_cli.parts.turn.turning_stops import TurningStops
 

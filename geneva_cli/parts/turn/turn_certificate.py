@@ -9,13 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.turn.machine_parts import MachineParts
-from geneva_cli.parts.turn.one_motion import one_motion
 from geneva_cli.parts.turn.pairs import Clearances, Intervals, Pair, Window
 from geneva_cli.parts.turn.play import windows
 
@@ -165,3 +164,22 @@ def spans(parts: MachineParts, window: Window) -> Iterator[tuple[tuple[float, fl
         yield (start, leaves), first
         yield (leaves, meets), None
         yield (meets, end), last
+
+
+Parts = TypeVar("Parts", bound=MachineParts)
+
+
+def one_motion(parts: Parts) -> Parts:
+    """Return the parts, checked over one motion and its dwell if all rollers move alike.
+
+    Otherwise the parts are returned unchanged. This is for pass or fail: input angles refer to the
+    first motion, and values may differ from those of the whole turn by rounding.
+    """
+    assembly = parts.assembly
+    motions, m = assembly.motions, assembly.mechanism.spec.drive.rollers
+    one = len(assembly.mechanism.engagements) == 1
+    alike = one and len(motions) == len(assembly.rollers) == m > 1
+    if not (alike and parts.gaps.repeats(m)):
+        return parts
+    once = assembly._replace(motions=motions[:1], span_deg=assembly.turn_deg / m)
+    return parts.over(once)

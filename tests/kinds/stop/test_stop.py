@@ -11,14 +11,10 @@ from drawing_witness import polygon, vertices
 from shapely.affinity import rotate, translate
 from typer.testing import CliRunner
 
-from geneva_cli import Crank, Design, External, Limits, Load, Size
+from geneva_cli import Design, External, Limits, Load, Size
 from geneva_cli.cli.app import app
-from geneva_cli.drives.side_crank import SideCrank
-from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.stop.parts import clearances_before, wheel_stop
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.study.synth.reading import read_target
-from geneva_cli.study.synth.synth_search import search
 
 STOPPED = {z: Design(External(z, stop=True)) for z in (3, 4, 5, 6, 8, 12)}
 
@@ -123,33 +119,6 @@ def test_checks_can_fail():
         assert [c.name for c in checks if c.passes is False and "stop" in c.name] == failing
 
 
-def test_a_drive_behind_the_crank_moves_the_stops_of_the_input():
-    plain, quick = STOPPED[5], Design(External(5, stop=True), SideCrank(A=0.3))
-    one, other = stops_of(plain), stops_of(quick)
-    assert other.crank_deg == pytest.approx(one.crank_deg, abs=1e-12)
-    # near mid-motion a side-crank's input turns 1 + A times as far as its crank
-    assert other.last_deg - 1440.0 == pytest.approx(1.3 * one.crank_deg, rel=1e-3)
-
-
-@pytest.mark.parametrize(
-    ("build", "words"),
-    [
-        (lambda: Design(External(5, stop=True), Crank(rollers=2)).mechanism, "one roller"),
-        (lambda: Design(External(5, offset_mm=5.0, stop=True)).mechanism, "radial slots"),
-        (
-            lambda: Design(External(5, stop=True), size=Size(lock_radius_mm=0.0)).mechanism,
-            "locking disc",
-        ),
-        (lambda: Design(External(5), load=Load(winding_torque_Nm=1.0)).mechanism, "stop = true"),
-        (lambda: Design(External(5, stop=True)).motion(turns=4), "at most 3"),
-        (lambda: External(5, stop=1), "true or false"),
-    ],
-)
-def test_what_has_no_stop_is_refused(build, words):
-    with pytest.raises(GenevaError, match=words):
-        build()
-
-
 def test_check_shows_both_ends_and_the_page_goes_back_and_forth(tmp_path):
     spec = str(repo.DESIGNS / "geneva-stop.toml")
     shown = CliRunner().invoke(app, ["check", spec])
@@ -176,16 +145,3 @@ def test_the_wheel_as_cut_has_one_convex_face():
             middle = (2 * k + 1) * math.pi / z
             far = np.hypot(*points[np.abs(ahead - middle) < 0.3 * math.pi / z].T).max()
             assert (far > rim - 1e-3) == (k == z // 2)
-
-
-@pytest.mark.long
-def test_synth_grants_turns():
-    frame = Design(External(5, stop=True)).spec
-    rows = search(read_target(z="5..8", frame=frame, subject_to=["stop.turns >= 6"])).rows
-    assert rows
-    for row in rows:
-        assert row.spec.wheel.stopped
-        assert row.spec.wheel.z >= 7  # z - 1 turns, and a little
-    for wrong in ({"internal": True}, {"rollers": 2}):
-        with pytest.raises(GenevaError, match="the spec has a stop"):
-            read_target(frame=frame, **wrong)
