@@ -13,10 +13,8 @@ from words import Drive, Motion, Spec, Wheel
 from geneva_cli.design import Design
 from geneva_cli.geometry.hull import convex_hull
 from geneva_cli.geometry.measure import segment_length
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line
+from geneva_cli.geometry.shapes import Arc, Circle
 from geneva_cli.parts.arm import crank_arm, walls
-from geneva_cli.spec.keyways import DIN_6885_1, TABLES, key
-from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Size
 
 LAW = Motion("modified-sine", ratio="matched")
@@ -117,54 +115,6 @@ def test_the_disc_is_fixed_to_the_arm():
     (check,) = [c for c in design.checks if c.name == "arm_wall_mm"]
     inside = min(polygon(b).distance(disc.exterior) for b in bolts)
     assert check.passes and check.value <= inside + 1e-3
-
-
-@pytest.mark.sampled(12)
-@pytest.mark.parametrize(("z", "gearing", "rollers"), [*crews()])
-def test_bolts_join_disc_and_arm_by_default(z, gearing, rollers):
-    """Two in each sector, with walls all round by shapely; the arm still passes the wheel's hub.
-
-    From 28 slots on, the disc is too small for bolts with their walls.
-    """
-    found = of(Wheel(z, gearing), drive=Drive(rollers=rollers)).parts.outlines
-    made, wall = crank_arm(found), found.sizes.wall_min
-    if z < 28:
-        assert len(made.bolts) in (rollers, 2 * rollers)
-    holes = [polygon(h) for h in (made.bore, *made.pins, *made.bolts)]
-    discs = [polygon(sector) for sector in found.crank]
-    for i, hole in enumerate(holes):
-        assert all(hole.distance(other) > 0.999 * wall for other in holes[:i])
-    for bolt in holes[-len(made.bolts) :] if made.bolts else ():
-        (disc,) = [one for one in discs if one.contains(bolt)]
-        assert bolt.distance(disc.exterior) > 0.999 * wall
-        assert polygon(made.outline).contains(bolt)
-    if gearing == "external":
-        # the arm's farthest points turn past the wheel's hub
-        away = Point(0.0, 0.0).hausdorff_distance(polygon(made.outline))
-        assert away <= found.assembly.L - found.sizes.wheel_hub + 1e-6
-
-
-def test_keyways_of_the_standard():
-    """DIN 6885-1: b = 6, t2 = 2.8 for a shaft of 20 mm; b = 14, t2 = 3.8 for one of 50."""
-    assert [(row.width, row.in_hub) for row in DIN_6885_1 if 20 <= row.up_to <= 22] == [(6, 2.8)]
-    assert key("DIN 6885-1", 25.0)[2:] == (14, 9, 5.5, 3.8)
-    assert all(a.up_to == b.above for a, b in zip(DIN_6885_1, DIN_6885_1[1:], strict=False))
-    for row in DIN_6885_1:  # some play is left over the key, and none is deeper than half the shaft
-        assert 0.0 < row.in_shaft + row.in_hub - row.height < 1.0
-    (field,) = [f for f in fields(Size) if f.key == "crank_keyway"]
-    assert set(field.rule) == set(TABLES)
-
-    design = of(Wheel(4), center_distance_mm=200.0, crank_bore_mm=20.0, crank_keyway="DIN 6885-1")
-    for part in ("crank", "arm"):
-        (bore,) = [s for s in design.drawing(part).shapes if isinstance(s, Contour)][1:]
-        shape = polygon(bore, 1e-7)
-        # the keyway points away from the roller: from its top to the far side is d + t2
-        low, bottom, high, top = shape.bounds
-        assert (high - low, top - bottom) == (pytest.approx(22.8), pytest.approx(20.0, abs=1e-5))
-        assert low == pytest.approx(-12.8) and bore.layer == "BORE"
-        slit = [p.start[1] for p in bore.segments if isinstance(p, Line)]
-        assert max(slit) - min(slit) == pytest.approx(6.0)
-    assert all(c.passes for c in design.checks)
 
 
 def test_an_arm_that_meets_the_hub_is_told():

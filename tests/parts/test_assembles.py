@@ -5,7 +5,6 @@ Solids are compared as shapely's polygons, which know nothing of the sizes that 
 
 import cmath
 import random
-import re
 from itertools import combinations
 
 import numpy as np
@@ -295,23 +294,6 @@ def test_turned_shafts_leave_space(kind, tmp_path):
     require_space(design)
 
 
-@pytest.mark.sampled(3)
-@pytest.mark.usefixtures("no_advice")
-@pytest.mark.parametrize("process", [None, *PROCESSES])
-@pytest.mark.parametrize("shafts", ["plain", "turned"])
-@pytest.mark.parametrize(
-    "shape", ['="round"', '="D"', '="hex"', '_mm=16 {part}_keyway="DIN 6885-1"']
-)
-def test_mountings_leave_space(shape, shafts, process, tmp_path):
-    """Each shape of the bores, with plain and turned shafts."""
-    keys = [f"size.shafts={shafts}", *([f"size.process={process}"] if process else [])]
-    for part in ("wheel", "crank"):
-        text = f"{part}_bore{shape}".format(part=part)
-        keys += [f"size.{one}" for one in re.split(r" (?=wheel|crank)", text)]
-    design = of(tmp_path, "wheel = {z = 4}\nsize = {center_distance_mm = 150}", *keys)
-    require_space(design)
-
-
 def require_space(design):
     """Nothing overlaps but pins in their press fits, by half the fit; wheel and arm are apart."""
     allowed = design.spec.size.allowances
@@ -336,12 +318,6 @@ def require_space(design):
         assert -parts.arm_plate.high == pytest.approx(allowed.pin_gap_mm, abs=1e-12)
 
 
-def spans(design, *names):
-    """Radius, if it is round, and lower and upper end of the parts of some names."""
-    every = solids(design.parts)
-    return [(one.radius, one.low, one.high) for one in every if one.name in names]
-
-
 def bores(design, name):
     (one,) = (one for one in solids(design.parts) if one.name == name)
     return [2.0 * radius for _, radius in one.bores]
@@ -351,18 +327,3 @@ def of(tmp_path, text, *given):
     spec = tmp_path / "spec.toml"
     spec.write_text(text)
     return load(str(spec), given)
-
-
-def test_a_given_crank_shaft_goes_through_all_that_is_on_it(tmp_path):
-    """Frame, arm and disc are bored for it; the disc is not where its relief has no room."""
-    for wide, disc in ((8.0, [8.0]), (30.0, [])):
-        own = f"shaft.crank_diameter_mm={wide}", "size.lock_bolts=0"
-        design = of(tmp_path, "wheel = {z = 6}", *own)
-        ((radius, low, _),) = spans(design, "crank's shaft")
-        assert bores(design, "arm")[0] == bores(design, "frame")[1] == 2.0 * radius == wide
-        assert bores(design, "locking disc") == disc
-        assert low == spans(design, "frame")[0][1]
-    own = of(tmp_path, "wheel = {z = 6}", "shaft.crank_diameter_mm=8", "size.crank_bore_mm=6")
-    assert bores(own, "frame")[1] == bores(own, "arm")[0] == 2.0 * spans(own, "crank's shaft")[0][0]
-    thick = of(tmp_path, "wheel = {z = 6}", "shaft.wheel_diameter_mm=30")
-    assert bores(thick, "frame")[0] == bores(thick, "wheel")[0] == 30.0

@@ -3,7 +3,6 @@
 import cmath
 import math
 from functools import cache
-from itertools import combinations
 
 import numpy as np
 import pytest
@@ -12,7 +11,7 @@ from drawing_witness import polygon
 from shapely.affinity import rotate, translate
 from shapely.geometry import Point
 
-from geneva_cli import Design, External, SideCrank, load
+from geneva_cli import load
 from geneva_cli.geometry.plates import in_place, plates
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.geometry.stacks import least_wall
@@ -106,27 +105,6 @@ def test_a_hole_for_every_shaft_that_reaches_it(name):
     assert middles == [pytest.approx(hole.centre) for hole in holes]
 
 
-def drilled(design):
-    """The frame and its holes for shafts, which come first."""
-    (plate,) = plates(design.drawing("frame").solid)
-    return plate, [(hole.centre, hole.radius) for hole in plate.holes[:-MOUNTS]]
-
-
-@pytest.mark.parametrize(
-    ("z", "A"), [(6, 0.05), (6, 0.15), (6, 0.19), (12, 0.3), (16, 0.3), (24, 0.3), (6, -0.1)]
-)
-def test_no_two_holes_cross_where_the_crank_ends_above_its_input(z, A):
-    """The base offset of the input crank is A times the crank, R = L sin(pi/z)."""
-    plate, holes = drilled(Design(External(z), SideCrank(A=A)))
-    offset = 100.0 * math.sin(math.pi / z) * A
-    standing, posts = [at for at, _ in holes][:2], [at for at, _ in holes][2:]
-    assert standing == [(0.0, 0.0), (pytest.approx(100.0 - offset), 0.0)]
-    # a bridge bears the shaft where it leaves through the locking disc, which needs a bore
-    assert [x for x, _ in posts] == ([100.0, 100.0] if z == 6 else [])
-    for one, other in combinations(plate.holes, 2):
-        assert math.dist(one.centre, other.centre) > one.radius + other.radius
-
-
 @pytest.mark.parametrize("name", ["side-crank-z6", "slider-crank", "turret"])
 def test_it_is_below_all_that_moves_and_has_walls(name):
     design, _, drawing = made(name)
@@ -138,20 +116,6 @@ def test_it_is_below_all_that_moves_and_has_walls(name):
     assert own["z_high_mm"] == plate.high == min(lows)
     L = design.mechanism.center_distance_mm
     assert least_wall(plate.holes, [plate.outline]) > wall_min(design.spec.size, L)
-
-
-def test_a_guide_is_screwed_on_where_its_own_holes_are():
-    """M8 passes 9 mm in the guide, and its thread of 1.25 mm pitch is in the frame."""
-    design, _, drawing = made("slider-crank")
-    holes = [s for s in drawing.shapes if isinstance(s, Circle)][2:4]
-    bars = design.drawing("assembly").shapes
-    for hole in holes:
-        assert hole.radius == 0.5 * (8.0 - 1.25)
-        assert any(
-            s.centre == pytest.approx(hole.centre) and s.radius == pytest.approx(4.5)
-            for s in bars
-            if isinstance(s, Circle) and s.layer == "LINK"
-        )
 
 
 def outline_at(link, plate, index):
@@ -221,20 +185,3 @@ def test_a_shaft_that_nothing_bears_is_said(name, keys, said):
     assert all(said in text for text in texts)
     noted = [label.text for label in design.sheet(0.05).texts]
     assert noted.count("no bearing: hold it from above") == bool(said)
-
-
-def test_marks_stand_in_every_hole_of_any_part():
-    """Also in a bore with a keyway, which is no circle, and in holes of links as they lie."""
-    keyed = made("turret")[0].with_("size.wheel_keyway", "DIN 6885-1")
-    wheel = keyed.drawing("wheel", centre_marks=True)
-    middles = [shape.segments[0] for shape in wheel.shapes if shape.layer == "CENTER"]
-    assert [line.start[1] for line in middles] == [0.0, -1.25 * keyed.parts.sizes.wheel_bore]
-    design, *_ = made("side-crank-z6")
-    links = design.drawing("links", centre_marks=True)
-    circles = {shape.centre for shape in links.shapes if isinstance(shape, Circle)}
-    level = [shape.segments[0] for shape in links.shapes if shape.layer == "CENTER"][::2]
-    found = sorted((0.5 * (line.start[0] + line.end[0]), line.start[1]) for line in level)
-    assert found == [pytest.approx(centre) for centre in sorted(circles)]
-    plain = design.drawing("links")
-    assert links.shapes[: len(plain.shapes)] == plain.shapes
-    assert links.solid == plain.solid

@@ -21,10 +21,8 @@ from test_outline import CURVED_SLOTS, STRAIGHT, L, disc, made, name, turned
 from words import LAWS, Motion
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.measure import turned as turned_contour
-from geneva_cli.geometry.shapes import Arc, Contour, Line, Segment, about, closed
+from geneva_cli.geometry.shapes import Contour, Line, about, closed
 from geneva_cli.parts.outlines.reliefs import reliefs
-from geneva_cli.parts.outlines.wheel_outline import wheel_contour
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
 from geneva_cli.parts.turn.gaps import Gaps
@@ -253,69 +251,6 @@ def test_a_rim_too_large_fouls_the_roller_before_it_enters(z: int, by: float) ->
     # the place of the smallest gap is found to a share of the half degree that it lasts
     assert turn.driving.mm == pytest.approx(R - r - math.hypot(R - r, s), rel=1e-3, abs=1e-12)
     assert turn.smallest.mm < -found.close
-
-
-@pytest.mark.parametrize("z", [4, 6, 8])
-def test_a_relief_about_the_wheels_axis_collides(z: int) -> None:
-    """An arc of the wheel's radius about its axis at mid-motion: the horns reach past it."""
-    found = made(z)
-    rk, rim = found.sizes.lock, found.sizes.rim
-    half = math.acos((L * L + rk * rk - rim * rim) / (2.0 * L * rk))
-    seen = opening(rim, rk)
-    bad = closed(
-        "CRANK",
-        [
-            about((0.0, 0.0), rk, half, math.tau - 2.0 * half),
-            about((L, 0.0), rim, math.pi + seen, -2.0 * seen),
-        ],
-    )
-    wrong = spoilt(found, crank=[bad])
-    turn = full_turn(wrong)
-    assert turn.lock is not None
-    assert turn.lock.mm < -0.05
-    assert list(overlaps(wrong))
-
-
-def with_one_recess(found: Parts, kept: int) -> Contour:
-    """The wheel with the rim closed over its recesses but one."""
-    axes = [(L * math.cos(at), L * math.sin(at)) for at in found.assembly.rests]
-    del axes[kept]
-
-    def filled(piece: Segment) -> Segment:
-        if isinstance(piece, Arc) and min(math.dist(piece.centre, axis) for axis in axes) < 1e-6:
-            first, last = (math.atan2(y, x) for x, y in (piece.start, piece.end))
-            return about((0.0, 0.0), found.sizes.rim, first, (last - first) % math.tau)
-        return piece
-
-    pieces = [filled(piece) for piece in found.outlines.wheel.segments]
-    assert sum(a != b for a, b in zip(pieces, found.outlines.wheel.segments, strict=True)) == len(
-        axes
-    )
-    return closed("WHEEL", pieces)
-
-
-@pytest.mark.parametrize("kept", [0, 5])
-def test_recesses_that_are_missing(kept: int) -> None:
-    """With one recess only the disc meets the rim at rest, by all that it reaches past it, or by
-    as much as the rim is then from the relief."""
-    found = made(6)
-    wrong = spoilt(found, with_one_recess(found, kept))
-    turn = full_turn(wrong)
-    assert turn.lock is not None
-    deep = found.sizes.lock - (L - found.sizes.rim)
-    assert -deep <= turn.lock.mm < -0.9 * deep
-
-
-@pytest.mark.parametrize("gearing", ["external", "internal"])
-def test_a_slot_cut_one_degree_off(gearing: str) -> None:
-    """At the mouth a roller without clearance meets the wall by L cos b sin(1 deg)."""
-    found = made(6, gearing, roller_radius_mm=3.0)
-    engagement = found.assembly.slots[0][0]
-    off = {engagement: turned_contour(found.outlines.slots[engagement], math.radians(1.0))}
-    wrong = spoilt(found, wheel_contour(found.assembly, found.sizes, off))
-    turn = full_turn(wrong)
-    assert turn.driving.mm < -0.9 * L * math.cos(math.pi / 6) * math.sin(math.radians(1.0))
-    assert list(overlaps(wrong))
 
 
 def sector_crank(found: Parts, locked: float) -> Contour:

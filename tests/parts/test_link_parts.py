@@ -13,10 +13,7 @@ from typer.testing import CliRunner
 
 from geneva_cli import load
 from geneva_cli.cli.app import app
-from geneva_cli.drawings.coupon import single_parts
-from geneva_cli.geometry.mass import mass_properties
 from geneva_cli.geometry.shapes import Circle
-from geneva_cli.geometry.stacks import plate_wall
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.links.links import drawn_links
@@ -52,15 +49,6 @@ def shown(name, part):
 
 def holes(plate):
     return [complex(*hole.centre) for hole in plate.holes if isinstance(hole, Circle)]
-
-
-def test_every_link_is_cut(made):
-    name, _, links = made
-    assert {plate.name for plate in links.plates} == NAMES[name]
-    for plate in links.plates:
-        # a wall all round, which the defaults leave: at least a quarter of a hole's radius
-        least = min(hole.radius for hole in plate.holes if isinstance(hole, Circle))
-        assert plate_wall(plate) > 0.25 * least
 
 
 def test_holes_are_where_the_joints_are(made):
@@ -150,33 +138,6 @@ def test_the_drawing_has_the_lengths_of_the_list(name):
         # a shaft's bore is listed after the pins'
         length = sorted(abs(a - b) for k, a in enumerate(bores) for b in bores[:k])
         assert min(abs(x - float(numbers[dimension])) for x in length) < 1e-9, (link, i, j)
-
-
-@pytest.mark.sampled(3)
-def test_rows_of_the_list(made):
-    """A row each, with its mass and its place along the axis; planes do not overlap."""
-    name, _, links = made
-    rows = {r["name"]: r for r in shown(name, "parts") if r["row"] == "part"}
-    for plate in links.plates:
-        row = rows[plate.name]
-        mass = mass_properties(plate, 7850.0).mass_kg
-        assert float(row["mass_kg"]) == pytest.approx(mass, rel=1e-12)
-        assert (float(row["z_low_mm"]), float(row["z_high_mm"])) == (plate.low, plate.high)
-    spans = sorted({(p.low, p.high) for p in links.plates})
-    assert all(a[1] <= b[0] + 1e-9 for a, b in zip(spans, spans[1:], strict=False))
-    assert spans[-1][1] <= 0.0
-
-
-@pytest.mark.parametrize("name", ["side-crank-z6", "four-bar-z4", "slider-crank"])
-def test_pins_are_turned_from_the_rollers_material(name):
-    """Those between links as that of the roller: no plate is as thick as a pin is long."""
-    design = load(str(repo.DESIGNS / f"{name}.toml"))
-    parts, _ = single_parts(design.parts, 0.1, "arcs")
-    pins = {one.name for one in parts if one.name.startswith("pin")}
-    assert pins > {"pin"}
-    assert not pins & {one.name for one in parts if one.is_cut}
-    rows = {row["name"]: row for row in design.part_table("parts").to_rows()}
-    assert {rows[pin]["material"] for pin in pins} == {"material.roller"}
 
 
 def test_kerf_and_solids(tmp_path):

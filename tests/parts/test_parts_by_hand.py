@@ -7,10 +7,9 @@ import math
 
 import numpy as np
 import pytest
-import repo
 from words import Drive, Keys, Motion, Spec, Wheel
 
-from geneva_cli import Design, External, load
+from geneva_cli import Design, External
 from geneva_cli.drawings.sheet.crank_views import draw_arm, draw_disc, draw_roller
 from geneva_cli.drawings.sheet.link_views import draw_link
 from geneva_cli.drawings.sheet.view import View
@@ -19,7 +18,6 @@ from geneva_cli.geometry.moments import moments
 from geneva_cli.geometry.plates import plates, solids
 from geneva_cli.geometry.shapes import Arc
 from geneva_cli.parts.arm import crank_arm
-from geneva_cli.parts.links.link_planes import planes
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.machine_sizes import outlines
 from geneva_cli.parts.outlines.cut_outlines import cut_arcs
@@ -72,17 +70,6 @@ def test_the_arm_is_the_hull_of_hub_and_eyes():
     on_sheet = {"R 8", "R 13", "2× R 3", "50", "Ø 6 P7 (-0.008/-0.02)"}
     on_sheet |= {"Ø 12 H7 (+0.018/0)", "2× Ø 2.05, tapped M2.5 on Ø 30"}
     assert dimensions(draw_arm, design.mechanism, arm) == on_sheet
-
-
-def test_each_sector_has_its_own_bolts():
-    """The rim reaches past the crank's axis, so that two rollers leave two sectors, up and down."""
-    size = Size(L, 4.0, wheel_radius_mm=102.0, lock_bolts=1, lock_bolt_circle_mm=110.0)
-    drawing = Design.of(Spec(Wheel(4), Drive(rollers=2), size=size)).drawing("crank")
-    discs = [plate for plate in plates(drawing.solid) if plate.layer == "CRANK"]
-    bolts = [[hole.centre for hole in disc.holes] for disc in discs]
-    assert bolts == [[pytest.approx((0.0, side * 55.0))] for side in (1.0, -1.0)]
-    heights = [disc.outline.segments[0].start[1] for disc in discs]
-    assert heights[0] > 0.0 > heights[1]
 
 
 def test_a_guide_is_as_long_as_its_block_needs():
@@ -170,30 +157,6 @@ def test_heights_above_and_below_the_wheel():
     }
 
 
-def test_a_fixed_gear_is_screwed_to_the_frame_below_the_hub():
-    """Three screws, from 45° on; a hub of 60 mm lowers the frame, so rings stand between both.
-
-    The planet of 19.5 mm rolls about the gear of 58.5 mm, and so past the hub of 20 mm. M3 passes
-    holes of 4 mm (3.4 mm by ISO 273), and its thread in the frame has a pitch of 0.5 mm.
-    """
-    sizes = {"wheel_hub_mm": 40, "wheel_hub_length_mm": 60, "gear_bolts": 3}
-    sizes |= {"gear_bolt_circle_mm": 66, "gear_bolt_mm": 4}
-    own = [f"size.{key}={value}" for key, value in sizes.items()]
-    design = load(str(repo.DESIGNS / "epicyclic-soft-z6.toml"), own)
-    parts = design.parts.flat
-    turns = [math.radians(45.0 + 120.0 * k) for k in range(3)]
-    screws = [(160.0 + 33.0 * math.cos(turn), 33.0 * math.sin(turn)) for turn in turns]
-    assert [ring.at for ring in parts.spacers] == [pytest.approx(at) for at in screws]
-    held = [hole.centre for hole in parts.frame.part.holes if hole.radius == 1.25]
-    assert held == [pytest.approx(at) for at in screws]
-    for ring in (one.part for one in parts.spacers):
-        (bore,) = ring.holes
-        assert (ring.outline.radius, bore.radius) == (4.0, 2.0)
-        assert (ring.low, ring.high) == (parts.frame.part.high, -48.0) == (-60.0, -48.0)
-    gap = planes(design.parts.outlines, parts.links).nearest
-    assert gap.gap == pytest.approx(160.0 - 58.5 - 2.0 * 19.5 - 20.0)
-
-
 def test_keyways_of_a_shaft():
     """DIN 6885-1 for 20 mm: b = 6 and t1 = 3.5, over all but a tenth of the seat at either end.
 
@@ -244,47 +207,6 @@ def test_the_dimensions_of_a_wheel():
     shown = {f"Ø {2.0 * rim:.2f}", f"{end:g}", f"6× {long:.3f}", "100", "6× 30°", "6× 60°"}
     shown |= {"6× 12.2 H7 (+0.018/0)", "6× R 6.1", "6× Ø 75.8 H7 (+0.03/0)", "Ø 16 H7 (+0.018/0)"}
     assert dimensions(draw_wheel, parts) == shown
-
-
-def test_holes_of_a_frame_are_bores_for_its_shafts():
-    """They are ``shaft_fit_mm`` wider than a shaft, and L/10 for a wheel of one piece with its own.
-
-    Corners are at least three walls wide. M4 has a clearance hole below 0.8 of 6 mm: 4.5 mm.
-    """
-    fit = {"shaft_fit_mm": 0.2, "wall_min_mm": 2.0}
-    for bore, hole in ((16.0, 8.1), (0.0, 5.0)):
-        parts = of(wheel_bore_mm=bore, crank_bore_mm=8.0, **fit).parts.flat
-        wheel, crank, *mounts = parts.frame.part.holes
-        assert (wheel.radius, crank.radius) == (pytest.approx(hole), pytest.approx(4.1))
-        assert {one.radius for one in mounts} == {2.25}
-        assert {radius for *_, radius in rounds(parts.frame.part.outline)} == {6.0}
-        shafts = {one.part.name: one.part.outline.radius for one in parts.shafts}
-        assert shafts["crank's shaft"] == 4.0
-
-
-def test_an_eye_about_a_rollers_pin_passes_the_wheels_hub():
-    """The hub is three quarters of the way from the axis to a slot of 1.05 rollers.
-
-    The roller comes as near to that as L less carrier and planet's arm, in line.
-    """
-    keys = Keys("epicyclic", "shockless")
-    size = Size(L, 8.0, pin_mm=15.0)
-    design = Design.of(Spec(Wheel(4), Drive("epicyclic"), keys, size=size))
-    links = design.parts.flat.links
-    arms = (max(abs(hole.centre[0]) for hole in plate.holes) for plate in links.plates)
-    near = L - sum(arms)
-    eye = near - 0.75 * (near - 1.05 * 8.0)
-    assert links.sizes.roller_eye == pytest.approx(eye)
-
-
-def test_teeth_leave_the_backlash_between_them():
-    """Along the pitch circles at work both teeth and the backlash fill the pitch."""
-    keys = ["size.gear_module_mm=2", "size.gear_backlash_mm=0.2"]
-    design = load(str(repo.DESIGNS / "gear-sector.toml"), keys)
-    gears = design.parts.flat.links.gears
-    thick = sum(one.cut.teeth.thickness(one.radius) for one in gears)
-    for one in gears:
-        assert thick == pytest.approx(one.radius * one.cut.teeth.step - 0.2, rel=1e-9)
 
 
 @pytest.mark.sampled(5)

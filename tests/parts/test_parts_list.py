@@ -346,40 +346,6 @@ def test_every_part_has_its_count_and_mass():
         assert float(row["size_x_mm"]) > 0.0
 
 
-def nose(cap, eye, th):
-    """The solid angle by which a belt goes beyond its cap towards an eye, by an integral.
-
-    The great circle that touches both, on the side of rising azimuths, has its pole on the other
-    side, at an azimuth by the law of cosines.
-    """
-    pole = -math.acos((math.sin(eye) - math.sin(cap) * math.cos(th)) / math.cos(cap) / math.sin(th))
-    n = math.cos(cap) * math.cos(pole), math.cos(cap) * math.sin(pole)
-    touch = math.atan2(-math.sin(eye) * n[1], math.sin(th) - math.sin(eye) * n[0])
-
-    def beyond(azimuth):
-        """Of the eye, on its far side, or of that circle."""
-        along = math.sin(th) * math.cos(azimuth)
-        if azimuth < touch:
-            reach = math.hypot(math.cos(th), along)
-            far = math.atan2(along, math.cos(th)) + math.acos(math.cos(eye) / reach)
-        else:
-            far = math.atan(-math.tan(cap) / math.cos(azimuth - pole))
-        return math.cos(cap) - math.cos(far)
-
-    halves = (0.0, touch), (touch, pole + math.pi)
-    return 2.0 * sum(quad(beyond, *ends, epsabs=1e-14)[0] for ends in halves)
-
-
-def core(diameter, inner, outer):
-    """A cylinder between two spheres: its volume, and the moment about its axis."""
-
-    def long(s):
-        return math.sqrt(outer * outer - s * s) - math.sqrt(inner * inner - s * s)
-
-    ways = (quad(lambda s, n=n: math.tau * s**n * long(s), 0.0, 0.5 * diameter) for n in (1, 3))
-    return np.array([value for value, _ in ways])
-
-
 def around(angle, inner, outer):
     """A cone between two spheres, likewise."""
     c = math.cos(angle)
@@ -387,49 +353,6 @@ def around(angle, inner, outer):
     return math.tau * np.array(
         ((1.0 - c) * (outer**3 - inner**3) / 3.0, squares * (outer**5 - inner**5) / 5.0)
     )
-
-
-def tube(outside, inside, long):
-    """A round part with a bore, likewise."""
-    return math.pi * long * np.array([(outside**n - inside**n) / k for n, k in ((2, 4), (4, 32))])
-
-
-@pytest.mark.parametrize("name", ["spherical-60deg", "spherical-z6"])
-def test_a_sphere_is_weighed_from_what_is_printed(name):
-    """Each part of the crank, by integrals over its printed dimensions, and the turned ones."""
-    parts, _, d = printed(next(p for p in DESIGNS if p.stem == name))
-    low, high = d["shells' inner radius"], d["shells' outer radius"]
-    under, over = d["arm's inner radius"], d["arm's outer radius"]
-    rollers = int(parts["roller"]["count"])
-    cap = math.radians(d["arm's cap, from the crank's axis"])
-    th = math.asin(d["roller 1: crank radius"] / d["sphere's radius"])
-    seen = math.tau * (1.0 - math.cos(cap))
-    seen += rollers * nose(cap, math.radians(d["arm's eyes, half angle"]), th)
-    pins = core(d["pins' holes in the arm"], under, over)
-    arm = seen * (over**3 - under**3) / 3.0 - core(d["arm's hub"], under, over)[0]
-    sector, inner = d["locking sector 1: width"] / 360.0, d["locking sectors' inner radius"]
-    edges = [d["lock, from the crank's axis"], d["locking sector 1: inner edge"]]
-    lock = [sector * around(math.radians(edge), inner, under) for edge in edges]
-    bolts = [core(d["lock's bolt 1: hole"], *span)[0] for span in ((inner, under), (under, over))]
-    cone = around(math.radians(d["roller's cone, half angle"]), low, high)
-    wanted = {
-        "arm": (arm - rollers * (pins[0] + 2.0 * bolts[1]), None),
-        "arm's hub": tube(d["arm's hub"], d["arm's bore"], over - under),
-        "locking sector": (lock[0][0] - lock[1][0] - 2.0 * bolts[0], None),
-        "roller": cone - core(d["pins"], low, high),
-        "pin": tube(d["pins"], 0.0, over - low),
-        "wheel's hub": tube(d["wheel's hub"], d["wheel's bore"], over - low),
-        "wheel's shaft": tube(d["wheel's bore"], 0.0, 2.0 * over - under - low),
-        "crank's shaft": tube(d["arm's bore"], 0.0, 2.0 * (over - under)),
-    }
-    assert parts.keys() == {"wheel", *wanted}
-    for name, (volume, polar) in wanted.items():
-        row = parts[name]
-        assert float(row["mass_kg"]) == pytest.approx(7850e-9 * volume, rel=1e-11)
-        if polar is not None:
-            assert float(row["inertia_kgm2"]) == pytest.approx(7850e-15 * polar, rel=1e-11)
-        ends = [high - float(row[f"z_{end}_mm"]) for end in ("high", "low")]
-        assert ends[1] - ends[0] == pytest.approx(float(row["thickness_mm"]), rel=1e-12)
 
 
 LINKED = "rollers, links, gears, shafts, frame"  # all that needs the links

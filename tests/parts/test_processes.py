@@ -1,8 +1,6 @@
 """Clearances by the way in which parts are made."""
 
 import math
-from collections.abc import Iterable, Iterator
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,10 +8,6 @@ from mpmath import mp
 from repo import DESIGNS
 
 from geneva_cli import Design, External, Size, load
-from geneva_cli.geometry.plates import Group, Member, Plate
-from geneva_cli.geometry.shapes import Circle, Point
-from geneva_cli.parts.parts import Parts
-from geneva_cli.parts.shafts.fits import limits
 from geneva_cli.spec.processes import PROCESSES
 from geneva_cli.spec.workshops import deviation_mm
 from geneva_cli.verdict.checks.check import Check
@@ -75,18 +69,6 @@ def test_a_lasers_clearances_follow_its_plates() -> None:
     assert Size(250.0, 12.0, process="laser").allowances[:3] == (0.5, 0.7, 0.5)  # 25 mm
     thin = Size(250.0, 12.0, process="laser", face_width_mm=3.0)
     assert thin.allowances[:3] == (0.2, 0.25, 0.2)
-
-
-# what changes other sizes than those of the bores
-SAME_REST = (
-    *("size.slot_clearance_mm=0.1", "size.lock_clearance_mm=0.1", "size.press_fit_mm=0"),
-    *("size.pin_gap_mm=0.3", "size.wall_min_mm=0.8"),
-    *("material.wheel.youngs_modulus_GPa=210", "material.wheel.poisson_ratio=0.3"),
-    *("material.wheel.density_kgm3=7850", "material.wheel.stress_max_MPa=165"),
-)
-
-
-PLANE = [one for one in sorted(DESIGNS.glob("*.toml")) if not one.stem.startswith("spherical")]
 
 
 def turret(*settings: str) -> Design:
@@ -201,74 +183,3 @@ def test_printed_parts_are_of_pla() -> None:
     assert named(own)["horn_stress_MPa"].limit == 30.0
     other = turret("size.process=print", "material.wheel.youngs_modulus_GPa=3")
     assert "horn_stress_MPa" not in named(other)  # of no known strength
-
-
-def test_teeth_have_the_clearance_of_the_process_on_both_sides() -> None:
-    """Twice 0.25 mm, and 0.4 of a laser at 18 mm; the middle of H7/g6; a given key wins."""
-    keys = {"wheel_thickness_mm": 18.0, "roller_radius_mm": 12.0}
-    backlashes = [Size(process=p, **keys).allowances.gear_backlash_mm for p in PROCESSES]
-    assert backlashes == [0.8, 0.02, 0.5]
-    gaps = [hole - shaft for hole in limits(14.0, "H7") for shaft in limits(14.0, "g6")]
-    assert 0.0005 * (min(gaps) + max(gaps)) == pytest.approx(0.02, abs=0.001)  # given to 1 um
-    assert Size(process="print", gear_backlash_mm=0.1).allowances.gear_backlash_mm == 0.1
-    printed = PROCESSES["print"]._asdict() | {"lock_thickness_mm": 12, "wall_min_mm": 0.8}
-    left_out = "source", "gear_backlash_mm"
-    spelled = [f"size.{key}={value}" for key, value in printed.items() if key not in left_out]
-    drawn = [
-        load(str(DESIGNS / "gear-sector.toml"), ("size.gear_module_mm=3", *more)).drawing("gears")
-        for more in (["size.process=print"], [*spelled, "size.gear_backlash_mm=0.5"], spelled)
-    ]
-    assert drawn[0].shapes == drawn[1].shapes != drawn[2].shapes
-
-
-@pytest.mark.sampled(6)
-@pytest.mark.parametrize("path", PLANE, ids=lambda path: path.stem)
-def test_rods_stay_and_bores_widen(path: Path) -> None:
-    """Printed holes about the axes of rods are 0.4 mm wider than these, or hold them tight.
-
-    The shafts are those of the design without a process.
-    """
-    plain, printed = (
-        load(str(path), [*keys, *SAME_REST]).parts for keys in ((), ("size.process=print",))
-    )
-    shafts = [sorted(one[0] for one in _rods(model, "SHAFT")) for model in (plain, printed)]
-    assert shafts[1] == pytest.approx(shafts[0], abs=1e-9)  # mm, of sums of lengths
-    loose = {
-        round(2.0 * (hole.radius - radius), 6)
-        for radius, at in _rods(printed, "SHAFT", "ROLLER")
-        for hole, there in _holes(printed)
-        if math.dist(at, there) < 1e-6 and abs(hole.radius - radius) < 0.5
-    }
-    assert loose in ({0.4}, {0.0, 0.4})
-
-
-def _rods(model: Parts, *layers: str) -> Iterator[tuple[float, Point]]:
-    """Yield radius and place of all plain shafts and pins of a flat machine."""
-    for one in placed(model.built.members):
-        plate = one.part
-        if not isinstance(plate, Plate) or plate.layer not in layers or plate.holes:
-            continue
-        if isinstance(plate.outline, Circle):
-            yield plate.outline.radius, one.at
-
-
-def _holes(model: Parts) -> Iterator[tuple[Circle, Point]]:
-    """Yield the round holes of all plates of a flat machine, with their places."""
-    for one in placed(model.built.members):
-        for hole in one.part.holes if isinstance(one.part, Plate) else ():
-            if isinstance(hole, Circle):
-                (x, y), c, s = hole.centre, math.cos(one.turn), math.sin(one.turn)
-                yield hole, (one.at[0] + c * x - s * y, one.at[1] + s * x + c * y)
-
-
-def placed(
-    members: Iterable[Member], at: Point = (0.0, 0.0), turn: float = 0.0
-) -> Iterator[Member]:
-    """Yield the plates of members and of groups among them, in the machine's frame."""
-    for one in members:
-        (x, y), c, s = one.at, math.cos(turn), math.sin(turn)
-        here = one._replace(at=(at[0] + c * x - s * y, at[1] + s * x + c * y), turn=turn + one.turn)
-        if isinstance(one.part, Group):
-            yield from placed(one.part.members, here.at, here.turn)
-        else:
-            yield here

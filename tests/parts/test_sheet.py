@@ -8,7 +8,6 @@ import pytest
 import repo
 import shapely
 from drawing_witness import vertices
-from shapely import affinity
 from shapely.geometry import LineString, Polygon
 from sheet_witness import (
     assert_as_listed,
@@ -23,9 +22,8 @@ from geneva_cli import load
 from geneva_cli.design import Design
 from geneva_cli.drawings.sheet.content import faces
 from geneva_cli.drawings.sheet.paper import FORMATS, SCALES
-from geneva_cli.drawings.sheet.points import gear_tables, tables
+from geneva_cli.drawings.sheet.points import tables
 from geneva_cli.geometry.plates import in_place
-from geneva_cli.geometry.sheet import Label
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.spec.tables import RollerMaterial, Size, TitleBlock, Tolerance, WheelMaterial
 
@@ -188,28 +186,6 @@ def test_the_section_shows_what_the_plane_of_the_axes_cuts(name, sheets):
             assert length == pytest.approx(chord.length, abs=0.3)
 
 
-def test_the_assembly_shows_where_the_section_is(sheets):
-    """An arrow beyond each end of the line of centres, upwards, with the section's letter."""
-    _, found = sheets("turret")
-    marks_ = [m for m in found.measures if m.label.text == "A"]
-    assert "A-A (1:5)" in {label.text for label in found.labels}
-    (left,), (right,) = ([m.arrows[0] for m in one] for one in (marks_[:1], marks_[1:]))
-    assert left.tip[1] == right.tip[1]
-    assert left.turn == right.turn == 0.5 * math.pi
-    (L,) = (m for m in found.measures if m.label.text.startswith("L = "))
-    assert left.tip[0] < min(p[0] for p in L.points[:2])
-    assert right.tip[0] > max(p[0] for p in L.points[:2])
-    assert L.points[0][1] == pytest.approx(left.tip[1])
-
-
-def test_a_keyways_direction_is_on_the_sheet():
-    """The crank's keyway of this machine lies opposite to its roller."""
-    size = Size(77.7, lock_bolts=3, crank_bore_mm=12.0, crank_keyway="DIN 6885-1")
-    found = of(Spec(Wheel(8), size=size))
-    texts = [label.text for label in found.labels]
-    assert "keyway at 180°, counterclockwise from the right" in texts
-
-
 LENGTHS = {
     "four-bar-z4": ("crank a", "coupler b", "rocker c"),
     "slider-crank": ("crank a", "rod b"),
@@ -238,29 +214,6 @@ def test_links_have_their_views(name, sheets):
     assert len(pressed) == (2 if name == "geneva-pair" else 1)
 
 
-def test_a_gears_pitch_curves_are_on_the_sheet(sheets):
-    """The printed points of both: they touch on the line of centres, C apart, and never cross."""
-    design, found = sheets("noncircular-gears")
-    L = design.mechanism.center_distance_mm
-    driven, driver = gear_tables(design.mechanism, 0.01)
-    rings = []
-    for block in (driven, driver):
-        points = printed(block)
-        assert "mirror image" in " ".join(label.text for label in block.labels)
-        turns = [math.atan2(y, x) for x, y in points]
-        points = [p for _, p in sorted(zip(turns, points, strict=True))]
-        rings.append(points + [(x, -y) for x, y in reversed(points)])
-    C = design.spec.drive.gears.distance_mm
-    one, other = Polygon(rings[0]), affinity.translate(Polygon(rings[1]), C)
-    close = 1e-4 * L  # of the table's chords
-    assert one.distance(other) < 2.0 * close
-    assert one.intersection(other).area < close * C
-    assert round(one.bounds[2] - other.bounds[0], 3) == 0.0
-    assert any(m.value == pytest.approx(C) for m in found.measures if m.kind == "length")
-    titles = {label.text for label in found.labels}
-    assert any("driven gear, t = 16" in text for text in titles)
-
-
 def test_points_of_a_curved_slot_are_on_it():
     """The table as it is printed: chords within what it says, of the points that `slot` gives."""
     design = load(str(repo.DESIGNS / "press-curved.toml"))
@@ -283,51 +236,3 @@ def printed(block):
     downwards = sorted(block.labels, key=lambda label: (-label.at[1], label.at[0]))
     texts = [label.text for label in downwards if re.fullmatch(r"-?\d+\.\d{3}", label.text)]
     return [(float(x), float(y)) for x, y in zip(texts[::2], texts[1::2], strict=True)]
-
-
-def test_the_comparison_can_fail():
-    found = of(Spec(Wheel(6)))
-    on = found.measures[0].lines[0].start
-    wrong = found._replace(labels=(*found.labels, Label("on a line", on, 2.5)))
-    assert [text for text, _ in overlaps(wrong)] != []
-    m = found.measures[0]
-    with pytest.raises(AssertionError):
-        assert_measured(found._replace(measures=(m._replace(value=2.0 * m.value),)))
-    twice = (*found.measures, m._replace(label=m.label._replace(text="again")))
-    assert ("again", m.label.text) in crossings(found._replace(measures=twice))
-
-
-@pytest.mark.sampled(64)
-@pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
-def test_sheets_in_inches(path, sheets):
-    """At a scale of the same series; texts stand free, and each is its millimetres over 25.4."""
-    design, metric = sheets(path.stem)
-    found = design.sheet(TOLERANCE, units="inch")
-    assert overlaps(found) == []
-    assert beyond(found) == []
-    assert_measured(found)
-    texts = {label.text for label in found.texts}
-    assert "inch, degrees" in texts
-    assert "inch, degrees" not in {label.text for label in metric.texts}
-    # shorter texts may find a place for a larger scale
-    assert found.scale >= metric.scale
-    # a gear's module is in millimetres everywhere
-    assert not [text for text in texts if re.search(r"\d mm", text) and "m = " not in text]
-
-
-@pytest.mark.long
-def test_fits_and_masses_in_inches():
-    """H7 of 24 mm is +21 µm, 0.00083 in; ±0.02 mm is 0.0008 in; a pound is 0.45359237 kg."""
-    spec = load(str(repo.DESIGNS / "turret.toml")).spec
-    design = Design.of(spec.replace(tolerance=Tolerance(center_distance_mm=0.02)))
-    found = design.sheet(TOLERANCE, units="inch")
-    texts = {label.text for label in found.texts}
-    assert "8× 0.9449 H7 (+0.0008/0)" in texts
-    assert "9.8425 ±0.0008" in texts
-    rows = design.part_table("parts").to_rows()
-    kg = sum(row["mass_kg"] * row["count"] for row in rows if row["mass_kg"])
-    assert f"{kg / 0.45359237:.2f} lb" in texts
-    milled = Design.of(spec.with_("size.process", "mill")).sheet(TOLERANCE, units="inch")
-    assert "Ra 3.2 µm" in {label.text for label in milled.texts}
-    # another thread writes its own unit
-    assert "mm, degrees" in {label.text for label in design.sheet(TOLERANCE).texts}

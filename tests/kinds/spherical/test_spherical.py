@@ -1,16 +1,13 @@
 """Spherical wheels and cranks: in closed form, through a whole motion, laid flat, and as solids."""
 
 import math
-from collections import Counter
 
 import mpmath
 import numpy as np
 import pytest
 from drawing_witness import vertices
-from step_witness import File
 
 from geneva_cli import Crank, Design, Size, Spherical
-from geneva_cli.geometry.plates import solids
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.geometry.sphere import POLE
 from geneva_cli.geometry.sphere_arcs import SphereArcs
@@ -21,9 +18,7 @@ from geneva_cli.kinds.spherical.laid_flat import crank_cone, wheel_cone
 from geneva_cli.kinds.spherical.parts import wheel_shell
 from geneva_cli.kinds.spherical.sizes import ball
 from geneva_cli.kinds.spherical.wheel import edge_points, wheel_regions
-from geneva_cli.output.step import chunks
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.verdict.checks.all_checks import standing_checks
 
 CLEAR = Size(80.0, 5.0, slot_clearance_mm=0.05, lock_clearance_mm=0.04)
 MACHINES = {
@@ -295,57 +290,3 @@ def test_the_arm_laid_flat(name):
         seen = np.arccos(np.clip(rolled(hole) @ np.array(pin.axis), -1.0, 1.0))
         assert np.abs(seen - pin.angle(R)).max() < 0.0065 / R
     assert made.pins[0].radius == found.pin_mm - 0.005
-
-
-def test_bolts_for_a_dial():
-    """Holes to the centre, half-way from the hub's hole to the cap's edge, evenly amid slots."""
-    design = Design(Spherical(6), size=Size(80.0, 5.0, dial_bolts=3, dial_bolt_mm=4.0))
-    parts = parts_of(design.mechanism).built
-    found = parts.shells
-    _, *holes = wheel_shell(design.spec.size, found.ball).holes
-    hub = math.asin(found.ball.hub_mm / 76.0)
-    far = 0.5 * (hub + found.ball.inner)
-    ways = [math.pi / 6.0 + k * math.tau / 3.0 for k in range(3)]
-    wanted = [polar(far, way) for way in ways]
-    assert np.array([hole.axis for hole in holes]) == pytest.approx(np.array(wanted), abs=1e-15)
-    (wall,) = (c for c in standing_checks(parts) if c.name == "dial_wall_mm")
-    ends = found.ball.bottom - found.ball.half_width
-    least = min(far - hub, ends - far) - math.asin(2.0 / 76.0)
-    assert wall.value == pytest.approx(76.0 * least, rel=1e-12)
-    lighter = [wheel_shell(s, found.ball).volume for s in (Size(), design.spec.size)]
-    assert lighter[0] - lighter[1] == pytest.approx(3 * math.pi * 4.0 * 8.0, rel=1e-3)
-    for key, value, said in (
-        ("dial_bolt_circle_mm", 20.0, "they must lie between circles of"),
-        ("wheel_bore_mm", 0.0, "the wheel is open about its axis"),
-    ):
-        rows = standing_checks(parts_of(design.with_(f"size.{key}", value).mechanism).built)
-        (failing,) = (c for c in rows if not c.passes)
-        assert failing.name == "dial_wall_mm"
-        assert said in failing.why
-
-
-def test_solids_are_closed(machine):
-    """Each edge bounds two faces, once either way; circles pass through their ends."""
-    drawing = machine.drawing("assembly", 0.05)
-    file = File("".join(chunks(drawing, "mm")))
-    bodies, shells = file.all("MANIFOLD_SOLID_BREP"), solids(drawing.shells)
-    assert len(bodies) == len(set(shells))
-    used = Counter()
-    for face in file.all("ADVANCED_FACE"):
-        bounds = file.values(face)[1]
-        for bound in bounds:
-            for side in file.values(file.values(bound)[1])[1]:
-                _, _, _, edge, along = file.values(side, "ORIENTED_EDGE")
-                used[edge, along] += 1
-    edges = file.all("EDGE_CURVE")
-    assert used == Counter({(edge, way): 1 for edge in edges for way in (".T.", ".F.")})
-    for number in edges:
-        _, start, end, curve, _ = file.values(number)
-        if file.of[curve][0] != "CIRCLE":
-            continue
-        _, frame, radius = file.values(curve)
-        centre, axis, _ = (np.array(v) for v in file.frame(frame))
-        for vertex in (start, end):
-            arm = np.array(file.vertex(vertex)) - centre
-            assert math.hypot(*arm) == pytest.approx(radius, abs=1e-10)
-            assert abs(arm @ axis) < 1e-10

@@ -1,18 +1,13 @@
 """A Geneva stop: its closed form against the collision engine, and against polygons."""
 
-import json
 import math
-import re
 
 import numpy as np
 import pytest
-import repo
-from drawing_witness import polygon, vertices
+from drawing_witness import polygon
 from shapely.affinity import rotate, translate
-from typer.testing import CliRunner
 
 from geneva_cli import Design, External, Limits, Load, Size
-from geneva_cli.cli.app import app
 from geneva_cli.kinds.stop.parts import clearances_before, wheel_stop
 from geneva_cli.parts.turn.gaps import Gaps
 
@@ -117,31 +112,3 @@ def test_checks_can_fail():
         small = Size(lock_radius_mm=100.0 - rim + overlap_mm)
         checks = Design(External(5, stop=True), size=small).checks
         assert [c.name for c in checks if c.passes is False and "stop" in c.name] == failing
-
-
-def test_check_shows_both_ends_and_the_page_goes_back_and_forth(tmp_path):
-    spec = str(repo.DESIGNS / "geneva-stop.toml")
-    shown = CliRunner().invoke(app, ["check", spec])
-    assert shown.exit_code == 0
-    assert "blocks the crank at -0.8219 and 1440.82°" in " ".join(shown.stdout.split())
-    file = tmp_path / "page.html"
-    assert CliRunner().invoke(app, ["animate", spec, "-o", str(file)]).exit_code == 0
-    data = re.search(r'type="application/json">(.*?)</script>', file.read_text(), re.DOTALL)
-    scene = json.loads(data[1])
-    low, high = scene["stops"]
-    assert high - low == pytest.approx(4.004566 * 360.0, abs=1e-3)
-    # the turn of the page, from the middle engagement's entry, lies between the stops
-    assert low < 0.0
-    assert high > scene["turn"]
-
-
-def test_the_wheel_as_cut_has_one_convex_face():
-    """Only the face reaches the rim between two mouths, opposite the slot ahead."""
-    for z, design in STOPPED.items():
-        points = np.array(vertices(design.parts.outlines.wheel, 1e-3))
-        ahead = np.mod(np.arctan2(points[:, 1], points[:, 0]), math.tau)
-        rim = design.parts.sizes.rim
-        for k in range(z):
-            middle = (2 * k + 1) * math.pi / z
-            far = np.hypot(*points[np.abs(ahead - middle) < 0.3 * math.pi / z].T).max()
-            assert (far > rim - 1e-3) == (k == z // 2)
