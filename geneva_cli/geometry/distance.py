@@ -93,21 +93,6 @@ class Polyarc:
         out._name(self._columns[:, keep])
         return out
 
-    def near(self, points: Array, reach: float) -> Polyarc:
-        """The pieces that may lie within ``reach`` of one of the points; all pieces if none do.
-
-        For points farther away the result has no valid side of the outline.
-        """
-        # sixty points represent all of them here, where pieces are selected
-        grid = points[:: max(1, len(points) // 60)]
-        dx, dy = grid[:, :1] - self.ox, grid[:, 1:] - self.oy
-        away = np.sqrt((dx * dx + dy * dy).min(axis=0)) - self.size
-        # Points between those of the grid are no farther from it than its own spacing.
-        step = np.hypot(*np.diff(points, axis=0).T)
-        spare = float(step.max(initial=0.0)) * (len(points) // len(grid) + 1)
-        keep = np.flatnonzero(away <= reach + spare)
-        return self.subset(keep) if len(keep) else self
-
     def signed(self, points: Array) -> Array:
         """Distance of each of (n, 2) points from the boundary, negative inside the material."""
         size = max(1, BLOCK // len(self))

@@ -50,23 +50,6 @@ def test_random_contours_against_polygons(contour: Contour) -> None:
 
 
 @QUICK
-@given(contours("la"), st.integers(0, 400), st.floats(1.0, 60.0), st.floats(0.0, math.tau))
-def test_no_nearest_piece_is_lost(contour: Contour, count: int, reach: float, start: float) -> None:
-    """A way of points, few or many, smooth or with a leap: of all that come within reach of the
-    outline the distance is the same, and what lies farther is said to be farther."""
-    assume(polygon(contour, 1e-3).is_valid)
-    contour = counterclockwise(contour)
-    t = start + np.linspace(0.0, 2.5, count + 1)
-    way = np.column_stack((90.0 * np.cos(t), 70.0 * np.sin(2.0 * t)))
-    way[count // 2 :] -= [17.0, 9.0]
-    whole = Polyarc([contour])
-    wanted, found = whole.signed(way), whole.near(way, reach).signed(way)
-    close = np.abs(wanted) <= reach
-    assert np.array_equal(wanted[close], found[close])
-    assert (np.abs(found[~close]) > reach).all()
-
-
-@QUICK
 @given(contours("la"), st.floats(1e-3, 1.0), st.floats(0.5, 40.0))
 def test_samples_are_on_the_outline_and_dense(
     contour: Contour, sagitta: float, longest: float
