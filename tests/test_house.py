@@ -63,7 +63,7 @@ TYPER = {"streams", "__main__", "cli"}
 # What commands know besides designs and studies: laws alone, extras, templates, units and names of
 # parts; there is no machine yet.
 ALONE = {
-    "motion.law_values",
+    "study.law_values",
     "spec.load_named",
     "specfile.template",
     "specfile.designs",

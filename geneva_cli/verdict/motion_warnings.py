@@ -194,7 +194,7 @@ def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:
 @lru_cache(maxsize=128)
 def _law_turns_back(law: Law) -> bool:
     """Return True if a wheel turns back with a law, whatever its step and its motion angle."""
-    from geneva_cli.motion.law_motion import LawMotion
+    from geneva_cli.motion.path_and_motion import LawMotion
 
     with counted():  # the design that comes first is charged no more than the next
         return _least_velocity(LawMotion(-0.5, 0.5, 0.5, law)) is not None
