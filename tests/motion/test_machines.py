@@ -314,7 +314,7 @@ def test_hand_derived_forms_agree_with_the_witness(machine, witness, exact, case
                 assert abs(value - reference[k][j]) <= mp.mpf(10) ** -40 * (1 + abs(value))
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(16)
 @every
 def test_numbers_and_arrays_agree(machine, exact, case):
     for i, s in enumerate(machine(case).engagements):
