@@ -454,7 +454,7 @@ class Anchor(NamedTuple):
 
     def place(self, input_deg: Number, order: int) -> Vector:
         """Pin position (along the anchor's ray, across it) at an input angle in degrees."""
-        along, across = self.displacement_at(input_deg, order)
+        along, across = self.displacement(radians(input_deg - self.input_deg), order)
         return along + self.along, across
 
 

@@ -8,12 +8,11 @@ from __future__ import annotations
 from typing import ClassVar
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Anchor, Peak, Slot, WheelMotion, in_wheel
 from geneva_cli.motion.laws.law import Law, remaining
 from geneva_cli.motion.laws.law_peaks import greatest
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import SINGLE, Array, Batchable, all_true, ascending, library
+from geneva_cli.numerics.arrays import Batchable, all_true, ascending, library
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.numerics.latest import Latest
 
@@ -109,30 +108,9 @@ class LawMotion(WheelMotion):
             rest = self.law.second((self.exit_deg - x) / whole, order)
             return remaining(rest * step, self.half_step)
 
-        if not isinstance(input_deg, SINGLE) and input_deg.ndim == 1 and self._halves_alike:
-            s = self._at_once(input_deg, middle, order)
-        else:
-            s = piecewise(input_deg, (middle,), (first, second))
+        s = piecewise(input_deg, (middle,), (first, second))
         rate = 1.0 / (whole * (library(input_deg).pi / 180.0))
         return (Jet([c * rate**k if k else c for k, c in enumerate(s.c)]),)
-
-    @cached_property
-    def _halves_alike(self) -> bool:
-        """True if one formula serves both halves of the law, for a single design."""
-        varies = self.law.varies or not isinstance(self.exit_deg * self.half_step, float)
-        return self.law.halves_alike and not varies
-
-    def _at_once(self, x: Array, middle: float, order: int) -> Jet:
-        """Both halves at once, each from its own end, for a law with one formula for both."""
-        import numpy as np
-
-        before = x <= middle
-        fraction = np.where(before, x - self.entry_deg, self.exit_deg - x)
-        fraction /= self.exit_deg - self.entry_deg
-        s = self.law.first(fraction, order) * (2.0 * self.half_step)
-        after = remaining(s, self.half_step)
-        pairs = zip((s - self.half_step).c, after.c, strict=True)
-        return Jet([np.where(before, one, other) for one, other in pairs])
 
 
 def refuse_alpha0(alpha0_deg: float, natural_deg: float) -> None:
