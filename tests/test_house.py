@@ -260,8 +260,7 @@ CORE = {"numerics", "geometry", "motion", "drives", "loads", "parts", "drawings"
 # Where `Any` stands in the core's annotations, for what is no number of a formula: the cells of a
 # table, a key's value of any type, a class that is found by its name.
 ANY = {
-    # jets and values alike; what the searches of numerics hand back to whom they ask, unread
-    "numerics.smooth_pieces": {"at", "column", "rows", "evaluate", "_turn"},
+    # jets and values alike
     "loads.load_tables": {"_rows", "_cells"},
     "loads.vibration.vibration_answers": {"values"},
     "motion.records": {"families_of_kinds", "parts_class", "thing"},
