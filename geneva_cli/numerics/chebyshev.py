@@ -75,8 +75,7 @@ _SERIES = _to_series()
 _SLOPES = _to_slopes()
 _TERMS = at(np.eye(SERIES_DEGREE + 1)[..., None], GRID)
 _ON_GRID = _product(_SERIES, _TERMS)
-_TO_SLOPES = _product(_SERIES, _SLOPES)
-_SLOPES_ON_GRID = _product(_TO_SLOPES, _TERMS)
+_SLOPES_ON_GRID = _product(_product(_SERIES, _SLOPES), _TERMS)
 
 
 def series(values: Array) -> Array:
@@ -84,9 +83,9 @@ def series(values: Array) -> Array:
     return _product(values, _SERIES).T
 
 
-def slopes(values: Array) -> Array:
-    """The terms of the series of the slopes of values (m, points): (terms, m)."""
-    return _product(values, _TO_SLOPES).T
+def end_slopes(values: Array) -> Array:
+    """The slopes of the series of values (m, points) at both ends: (m, 2)."""
+    return _product(values, _SLOPES_ON_GRID[:, [0, -1]])
 
 
 def remainder(values: Array) -> Array:

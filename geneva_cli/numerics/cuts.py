@@ -8,7 +8,7 @@ halved if a series does not show where its zeros are.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -19,12 +19,15 @@ from geneva_cli.numerics.arrays import (
     Mask,
     Which,
     Whole,
+    blocks,
     columns_taken,
     joined,
     rows_taken,
 )
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
 
+BLOCK = 1024  # rows sampled at a time: that many fit in the processor's cache
+MOST_ROWS = 2000  # of a design at a time: more are rounding, as of laws by points
 AT_END = 1e-9  # fraction of a row: a zero this near to an end, such as a motion's, is the end's own
 LATER_TERMS = 4.0  # times the last terms of a series: a bound on all later terms
 NEWTON_STEPS = 6  # of Newton's method, from the zero of a series
@@ -124,6 +127,7 @@ class Cutter:
         # the greatest size so far of each function whose sign matters
         self.size = np.zeros((f.signs, len(w)))
         self.width = np.zeros(len(w))  # of all spans, in spread places
+        self.noisy = np.full(len(w), False)  # designs whose rows no halving resolves
 
     def rows(self, spans: Sequence[tuple[Array, Array]], start: int) -> Rows:
         """The rows of spans (n, 1) of designs from number ``start`` on, those that are not empty.
@@ -145,13 +149,25 @@ class Cutter:
         both = ((-every, 0.0 * every), (0.0 * every, every))
         return joined([rows.part(low, high, self.w) for low, high in both])
 
-    def is_narrow(self, rows: Rows) -> Mask:
-        """Masks of the rows that are too narrow for halving."""
-        # no row is narrower than 1e-11 of its design's spans
-        return np.asarray(rows.u[1] - rows.u[0] <= 1e-11 * self.width[rows.design])
+    def levels(self, rows: Rows) -> Iterator[list[Rows]]:
+        """Yield the rows in blocks to be sampled, then those in ``self.todo``, until none is left.
 
-    def sampled(self, rows: Rows) -> tuple[Pieces, list[Rows]]:
-        """Pieces of rows, cut where a sign changes, and the parts that must be sampled again."""
+        A kink or a pole leaves some rows at each level, noise twice as many as before.
+        """
+        while len(rows.design):
+            self.noisy |= np.bincount(rows.design, minlength=len(self.noisy)) > MOST_ROWS
+            self.todo: list[Rows] = []
+            yield [rows.take(block) for block in blocks(len(rows.design), BLOCK)]
+            rows = joined([rows.take(slice(0)), *self.todo])
+
+    def is_settled(self, rows: Rows) -> Mask:
+        """Masks of the rows that are too narrow for halving, or noise."""
+        # no row is narrower than 1e-11 of its design's spans
+        narrow = rows.u[1] - rows.u[0] <= 1e-11 * self.width[rows.design]
+        return np.asarray(narrow | self.noisy[rows.design])
+
+    def sampled(self, rows: Rows) -> Pieces:
+        """Pieces of rows, cut where a sign changes; parts with unknown zeros are sampled again."""
         f, which = self.f, rows.which
         # designs lie side by side in memory: each operation runs along all of them
         u = np.asfortranarray(rows.at(POINTS[:, None]).T)
@@ -164,7 +180,7 @@ class Cutter:
             sign = np.where(middle, 1.0, -1.0)
         value = f(x, which, 0, sign[..., None], self.requested)[1][0]
         part = np.array([[-1.0], [1.0]]).repeat(len(u), axis=1)
-        own, again = np.arange(len(u)), []
+        own = np.arange(len(u))
         for kind in range(f.signs):
             here = rows.take(own)
             # a pole is multiplied by the distance from it
@@ -172,10 +188,10 @@ class Cutter:
             if kind in f.poled:
                 q = q * np.abs(rows_taken(x, own))
             unsure, cut, t = self._zeros(kind, here, sign, part, q)
-            unsure &= ~self.is_narrow(here)
+            unsure &= ~self.is_settled(here)
             if unsure.any():
                 whole = (part[0] == -1.0) & (part[1] == 1.0)
-                again += self.again(here.part(*part, self.w), whole, unsure)
+                self.again(here.part(*part, self.w), whole, unsure)
             if len(cut):
                 number, part = _between(cut, t, part)
                 own, unsure, q = own[number], unsure[number], rows_taken(q, number)
@@ -190,12 +206,11 @@ class Cutter:
                 there, held = rows_taken(x, own[flip]), sign[:, flip, None]
                 value[:, flip] = f(there, rows.design[own[flip]], 0, held, self.requested)[1][0]
         cut_rows = rows.take(own).part(*part, self.w)
-        return Pieces(cut_rows, sign, part, rows_taken(x, own), value[f.signs :]), again
+        return Pieces(cut_rows, sign, part, rows_taken(x, own), value[f.signs :])
 
-    def again(self, rows: Rows, whole: Mask, which: Mask) -> list[Rows]:
-        """The rows to sample next: both halves of a whole row, or a part as a row of its own."""
-        halves, parts = self.halves(rows.take(which & whole)), rows.take(which & ~whole)
-        return [one for one in (halves, parts) if len(one.design)]
+    def again(self, rows: Rows, whole: Mask, which: Mask) -> None:
+        """Sample some rows again: both halves of a whole row, or a part as a row of its own."""
+        self.todo += [self.halves(rows.take(which & whole)), rows.take(which & ~whole)]
 
     def _zeros(
         self, kind: int, rows: Rows, sign: Array, part: Array, value: Array
@@ -316,6 +331,5 @@ def gathered(u: Array, w: Array) -> Array:
     >>> gathered(spread(np.array([6.0, 6.0]), w), w).round(12)
     array([6., 6.])
     """
-    grows = np.exp(u / w)  # a hyperbolic sine takes NumPy five times as long
-    x: Array = 0.5 * w * (grows - 1.0 / grows)
+    x: Array = w * np.sinh(u / w)
     return x

@@ -28,6 +28,7 @@ from geneva_cli.numerics.arrays import (
 )
 from geneva_cli.numerics.chebyshev import MIDDLE, POINTS
 from geneva_cli.numerics.cuts import (
+    BLOCK,
     LATER_TERMS,
     Cutter,
     Functions,
@@ -38,7 +39,6 @@ from geneva_cli.numerics.cuts import (
 from geneva_cli.numerics.tolerances import TIE
 
 GROUP = 1 << 15  # functions of designs that are searched together
-BLOCK = 1024  # rows sampled at a time: that many fit in the processor's cache
 UNFINISHED = 4.0 * LATER_TERMS  # times the last terms: the error of a series that has not ended
 PRECISE = 1e-5  # fraction of a size: the allowed error of a series near an extreme
 
@@ -136,11 +136,9 @@ def cuts(f: Functions, spans: Sequence[tuple[Array, Array]], w: Array | None = N
     with np.errstate(all="ignore"):
         cutter, out = Cutter(f, _widths(spans, w), ()), _no_pieces(f)
         for part in blocks(len(spans[0][0]), BLOCK):
-            todo = _blocks(cutter.rows([(a[part], b[part]) for a, b in spans], part.start))
-            while todo:
-                pieces, again = cutter.sampled(todo.pop())
-                out.append((pieces.rows, pieces.sign))
-                todo += [block for rows in again for block in _blocks(rows)]
+            rows = cutter.rows([(a[part], b[part]) for a, b in spans], part.start)
+            for level in cutter.levels(rows):
+                out += [(p.rows, p.sign) for p in map(cutter.sampled, level)]
         return _stretches(*joined(out))
 
 
@@ -230,15 +228,13 @@ class _Extremes:
 
     def sample(self, spans: Sequence[tuple[Array, Array]], start: int) -> None:
         """Sample spans of designs until every function's series has ended where that matters."""
-        todo = _blocks(self.cutter.rows(spans, start))
-        for depth in range(60):  # halvings: all rows are too narrow for more by then
-            every = [self.cutter.sampled(rows) for rows in todo]
-            for pieces, _ in every:
+        rows = self.cutter.rows(spans, start)
+        for depth, level in enumerate(self.cutter.levels(rows)):
+            every = [self.cutter.sampled(block) for block in level]
+            for pieces in every:
                 self._add_samples(pieces, depth)
-            again = [rows for pieces, parts in every for rows in (*parts, *self._judged(pieces))]
-            if not again:
-                break
-            todo = _blocks(joined(again))
+            for pieces in every:
+                self._judge(pieces)
 
     def _add_samples(self, pieces: Pieces, depth: int) -> None:
         """Add samples of pieces; only those within each piece count."""
@@ -261,8 +257,8 @@ class _Extremes:
             inner = np.abs(pieces.value[..., MIDDLE // 2 : MIDDLE + 5 : MIDDLE // 2]).max(axis=2)
             _raise(self.size, number, design, np.where(np.isfinite(inner), inner, 0.0))
 
-    def _judged(self, pieces: Pieces) -> list[Rows]:
-        """Keep candidates of pieces with precise series; return the rows to sample for the others.
+    def _judge(self, pieces: Pieces) -> None:
+        """Keep candidates of pieces with precise series, and sample the others again.
 
         Where a force is nearly 0, its square is only the rounding of the greatest force, and no
         halving ends its series.
@@ -273,10 +269,11 @@ class _Extremes:
         ended = curves.left <= np.maximum(PRECISE * size, noise)
         miss = np.full(len(design), False)
         miss[curves.piece[~ended]] = True
-        miss &= ~self.cutter.is_narrow(pieces.rows)
+        miss &= ~self.cutter.is_settled(pieces.rows)
         self._add_candidates(curves.take(~miss[curves.piece]), pieces)
         self.pieces.append((pieces.rows.take(~miss), pieces.sign[:, ~miss]))
-        return self.cutter.again(pieces.rows, pieces.whole, miss)
+        if miss.any():
+            self.cutter.again(pieces.rows, pieces.whole, miss)
 
     def _curves(self, pieces: Pieces) -> _Curves:
         """The functions that may have one of the greatest values on each piece."""
@@ -340,7 +337,7 @@ class _Extremes:
         ]
         some = joined([own.take(which) for own, which in zip(each, may, strict=True)])
         x, value, live = some.x.copy(), np.empty(len(some.x)), np.arange(len(some.x))
-        for _ in range(8):  # most take two
+        for _ in range(20):  # most take two
             if not len(live):
                 break
             v, slope, bend = self._jets(x[live], some.take(live))
@@ -417,14 +414,19 @@ def _turn(value: Array, point: Whole) -> Array:
         (16.0 * (a + b) - (c + d) - 30.0 * here) / 12.0,
     )
     third, fourth = 0.5 * (c - d) - (a - b), c + d - 4.0 * (a + b) + 6.0 * here
-    shift = np.clip(-first / second, -1.0, 1.0)
+    bend = a + b - 2.0 * here
+    shift = np.where(bend < 0.0, 0.5 * (b - a) / bend, 0.0)  # of the parabola through three
     for _ in range(2):  # Newton steps on the polynomial's slope
         slope = first + shift * (second + shift * (0.5 * third + shift * fourth / 6.0))
-        shift -= slope / (second + shift * (third + 0.5 * shift * fourth))
+        bend = second + shift * (third + 0.5 * shift * fourth)
+        shift += np.where(bend < 0.0, np.clip(-slope / bend, -0.25, 0.25), 0.0)
     last = len(POINTS) - 1
-    inside = np.where(second > 0.0, np.sqrt(-6.0 * second / fourth), 0.0)
-    shift = np.where(point == 0, inside, np.where(point == last, -inside, shift))
-    shift = np.clip(np.where(np.isfinite(shift), shift, 0.0), -1.0, 1.0)
+    ends = np.flatnonzero((point == 0) | (point == last))
+    inward = np.where(point[ends] == 0, 1.0, -1.0)
+    slopes = chebyshev.end_slopes(value[ends])
+    rises = inward * np.where(inward > 0.0, slopes[:, 0], slopes[:, 1]) > 0.0
+    turn = np.sqrt(-6.0 * second[ends] / fourth[ends])
+    shift[ends] = np.where(rises, inward * np.where(turn < 1.0, turn, 0.5), 0.0)
     return np.where(shift == 0.0, POINTS[point], -np.cos(np.pi / last * (point + shift)))
 
 
@@ -458,11 +460,6 @@ def first_greatest(value: Array, place: Array, size: Array) -> tuple[Array, Arra
         most = value.max(axis=0)
         first = np.argmax(value >= bar(most, size), axis=0)
     return most, np.take_along_axis(place, first[None], axis=0)[0]
-
-
-def _blocks(rows: Rows) -> list[Rows]:
-    """Rows in parts that are sampled together."""
-    return [rows.take(block) for block in blocks(len(rows.design), BLOCK) if len(rows.design)]
 
 
 def _stretches(rows: Rows, sign: Array) -> Stretches:

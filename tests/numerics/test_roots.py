@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from witness import near
 
-from geneva_cli.numerics.roots import Falsi, boundary, boundary_by_sections, root
+from geneva_cli.numerics.roots import Falsi, boundary, boundary_by_sections, find_roots, root
 
 
 def calls(f):
