@@ -202,13 +202,12 @@ def _law_turns_back(law: Law) -> bool:
 
 def _least_velocity(motion: WheelMotion) -> tuple[float, float] | None:
     """The least velocity of a motion and its place if it is below 0; else None."""
-    from geneva_cli.motion.peak_search import landmarks
+    from geneva_cli.motion.peak_search import curves, search_motion
 
-    _, x, velocity = landmarks(motion, "velocity", 1)
-    least = velocity.argmin()
+    result = search_motion(motion, curves(motion, ["velocity"]), sized=False)
+    most, back = result.most[:, 0].tolist()
     # Where a law stands still, rounding leaves a few units in the last place on either side of 0.
-    noise = 1e-12 * abs(velocity).max()
-    return (velocity[least].item(), x[least].item()) if velocity[least] < -noise else None
+    return (-back, result.x[1].item()) if back > 1e-12 * most else None
 
 
 def _off_the_mid_condition(mechanism: Mechanism) -> Notice:
