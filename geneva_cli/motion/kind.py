@@ -55,10 +55,12 @@ class Kind(NamedTuple):
     remedies: str = ""  # changes of the spec that may make its checks pass, by their names
     load_case: str = ""  # function that completes the load case of a mechanism
     quantities: tuple[Quantities, ...] = ()  # of the report
-    horns: str = ""  # function that returns the horns of designs, with their stress
+    # sizes of a mechanism's horns: half the slot's width, the recess (0 without a lock), and more
+    horn_sizes: str = ""
+    horns: str = ""  # function of a mechanism and them that returns horns of another shape
     cut_parts: str = ""  # class of the parts as they are cut within the tolerances
-    # functions that return families of synth, by where they are searched: beside "straight" slots
-    # of a wheel, "alone", or where wheels on a "carrier" are required
+    # functions that return families of synth, by where they are searched: those of a "wheel" alone,
+    # beside "straight" slots of any wheel, "alone", or where wheels on a "carrier" are required
     families: Mapping[str, str] = _NONE
     roller: str = ""  # function that returns the roller that suits a mechanism, for synth
     scene: str = ""  # class of what a page shows of the wheels

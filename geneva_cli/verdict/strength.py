@@ -3,28 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import lru_cache
-from typing import TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.errors import Notice
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.strength import horn, lock, shaft_stress
+from geneva_cli.loads.strength.horn import STOUT
+from geneva_cli.loads.strength.lock import held_torque_Nm
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Number
-from geneva_cli.parts.outlines.outline_sizes import sized
+from geneva_cli.parts.machine_sizes import sized
 from geneva_cli.verdict.quantities.batch_designs import single
 from geneva_cli.verdict.quantities.groups import REPORT, only
 from geneva_cli.verdict.quantities.under_load import under_load
 
 # The groups by the names of their tables, and by the whole names of their quantities.
 REPORT_GROUPS = {name: group for group in REPORT for name in (group.table, *group.names)}
-
-# A need: whether it is met, and its keys in words.
-Key: TypeAlias = tuple[bool, str]
-Keys: TypeAlias = Iterator[Sequence[Key]]
 
 
 class Strength:
@@ -38,10 +35,10 @@ class Strength:
 
     def __getitem__(self, name: str) -> float | None:
         """A value by its whole name, such as ``strength.pin.stress_MPa``; None if unknown."""
-        return only(self._column(name))
+        return only(self.column(name))
 
-    def _column(self, name: str) -> Number | None:
-        """A value as its group has it: infinite if it is unbounded."""
+    def column(self, name: str) -> Number | None:
+        """A value by its whole name as its group has it: infinite if it is unbounded."""
         table, _, own = name.rpartition(".")
         columns = (REPORT_GROUPS.get(name) or REPORT_GROUPS[table]).columns(self.design)
         return columns.get(own)
@@ -68,9 +65,8 @@ class Strength:
         """A note on the limits of a known stress."""
         if self["strength.horn.stress_MPa"] is None:
             return []
-        assert self.load.horns  # which have the stress
-        stout, recess = self.load.horns.stoutness()
-        if stout <= horn.STOUT:
+        stout, recess = self.load.stoutest_horn()
+        if stout <= STOUT:
             return []
         return [
             Notice(
@@ -86,11 +82,18 @@ class Strength:
 
         None for a known value, or for one that the machine lacks, such as a horn's without a lock.
         """
-        for keys in REASONS[name](self):
-            missing = [words for there, words in keys if not there]
-            if missing:  # without a load nothing else helps
-                needs_load = self.spec.load_keys
-                return needs_load if needs_load in missing else " and ".join(missing)
+        part = name.removesuffix("_stress_MPa").removesuffix("_pressure_MPa")
+        for step in REASONS[name].split("; "):
+            unmet = [need for one in step.split() if not (need := NEEDS[one]).met(self, part)]
+            if unmet:
+                each = [
+                    need.words if isinstance(need.words, str) else need.words(self)
+                    for need in unmet
+                ]
+                # without a load nothing else helps
+                load = self.spec.load_keys
+                words = load if load in each else " and ".join(each)
+                return words.replace("{part}", part.removesuffix("_shaft")) or None
         return None
 
     def missing(self, among: Sequence[str]) -> list[str]:
@@ -108,130 +111,112 @@ class Strength:
         ]
 
     @property
-    def _has_face(self) -> Key:
-        return self.spec.size.face_width_mm is not None, "face_width_mm in [size]"
+    def has_bound(self) -> bool:
+        """True if the roller's force has a bound."""
+        return math.isfinite(self.load.force_N[0])
 
-    @property
-    def _has_width(self) -> Key:
-        """The width of the contact: of the spec, or of the drawn wheel."""
-        return self.load.contact_mm is not None, "face_width_mm in [size]"
+    def has_part(self, part: str) -> bool:
+        """Return True unless the machine lacks an arm, a key or a shaft; unknown ones count."""
+        parts = self.load.parts
+        return parts is None or not np.isnan(getattr(parts, part)[0][0])
 
-    @property
-    def _has_load(self) -> Key:
-        return self.spec.is_loaded, self.spec.load_keys
-
-    @property
-    def has_bound(self) -> Key:
-        """True if the roller's force has a bound, and the words for it."""
-        return math.isfinite(self.load.force_N[0]), "a force with a bound: see the warnings"
-
-    def _drawn_parts(self) -> Sequence[Key]:
-        """The needs of a value that is computed from the parts."""
-        if not self.spec.is_flat:
-            return [(False, "a wheel that is drawn as a flat outline")]
-        return [(self._has_parts, "parts that can be cut: see `geneva check`")]
-
-    @cached_property
-    def _has_parts(self) -> bool:
-        return self.load.lock_sizes is not None or sized(self.mechanism) is not None
-
-    def _pin(self) -> Keys:
-        yield self._has_width, self._has_load
-        yield [self.has_bound]
-
-    def _horn(self) -> Keys:
-        if self.load.horns is None:
-            yield self._drawn_parts()
-        if self.load.has_horns:
-            yield from self._pin()
-
-    def _lock(self) -> Keys:
-        yield self._drawn_parts()
-        if self.load.lock_sizes is not None:
-            has_torque = bool(lock.held_torque_Nm(self.mechanism))
-            yield self._has_width, (has_torque, "dwell_torque_Nm in [load]")
-
-    def _contact(self) -> Keys:
-        """The needs of the lock's contact stress, which is unbounded on a sharp edge."""
-        yield from self._lock()
-        lock_load = self.load.lock
-        if lock_load is not None:
-            rounds = (
-                "lock_edge_mm in [size]"
-                if lock_load.on == "corner"
-                else "lock_clearance_mm = 0 in [size]: the end of a short locking disc is sharp"
-            )
-            yield [(not np.isnan(lock_load.approach_deg), rounds)]
-
-    def _wheel_shaft(self) -> Keys:
-        yield [(self.spec.output.turns, "a wheel that turns on a shaft")]
-        yield from self._shaft("wheel", shaft_stress.wheel_shaft(self.spec.shaft))
-
-    def _crank_shaft(self) -> Keys:
-        yield from self._shaft("crank", shaft_stress.crank_shaft(self.spec.shaft))
-
-    def _shaft(self, which: str, ends: shaft_stress.ShaftDimensions) -> Keys:
-        if self.spec.is_loaded:
-            yield [self.has_bound]
-        drawn = self.load.parts and getattr(self.load.parts, f"{which}_shaft")
-        has_shaft = drawn is not None and not np.isnan(drawn[0][0])
-        placed = (ends.overhang_mm is not None or drawn, f"{which}_overhang_mm in [shaft]")
-        thick = (ends.diameter_mm is not None or has_shaft, f"{which}_diameter_mm in [shaft]")
-        yield [(bool(met), keys) for met, keys in (placed, thick)] + [self._has_load]
-
-    def _part(self, name: str) -> Keys:
-        """The needs of an arm or a key, which a machine may lack."""
-        if self.load.parts is None or not np.isnan(getattr(self.load.parts, name)[0][0]):
-            yield [self._has_load]
-            yield [self.has_bound]
-
-    def _rated(self) -> Keys:
-        if self.spec.is_loaded:
-            yield [self.has_bound]
-        rated = self.spec.material_roller.dynamic_capacity_N is not None
-        yield (rated, "dynamic_capacity_N in [material.roller]"), self._has_load
-
-    def _bearing(self) -> Keys:
-        yield [self._has_load]
-        yield [self.has_bound]
-
-    def _friction(self) -> Keys:
-        yield (bool(self.spec.load.friction), "friction in [load]"), self._has_load
-
-    def _pressure_speed(self) -> Keys:
-        yield self._has_face, self._has_load
-        pv = self._column("life.pv_max_W_m2")
-        bounded = pv is not None and bool(np.all(np.isfinite(pv)))
-        yield [(bounded, "a stress with a bound: see the warnings")]
-
-    def _wear(self) -> Keys:
-        worn = self.spec.material_wheel.wear_mm3_Nm is not None
-        rubs = (self.spec.load.rubs_in_slot, 'friction_at = "slot" in [load]')
-        yield (worn, "wear_mm3_Nm in [material.wheel]"), rubs, self._has_face, self._has_load
-        yield [self.has_bound]
+    def has_shaft(self, part: str, key: str) -> bool:
+        """Return True if overhang or diameter of a shaft is known, of the spec or as drawn."""
+        drawn = self.load.parts is not None and (key == "overhang" or self.has_part(part))
+        own = f"{part.removesuffix('_shaft')}_{key}_mm"
+        return drawn or vars(self.spec.shaft)[own] is not None
 
 
-# The needs of each value, step by step, under its name in checks and in ``life``.
-REASONS: dict[str, Callable[[Strength], Keys]] = {
-    "pin_stress_MPa": Strength._pin,
-    "horn_stress_MPa": Strength._horn,
-    "lock_stress_max_MPa": Strength._contact,
-    "lock_deflection_max_deg": Strength._contact,
-    "lock_horn_stress_MPa": Strength._lock,
-    "wheel_shaft_stress_MPa": Strength._wheel_shaft,
-    "crank_shaft_stress_MPa": Strength._crank_shaft,
-    "arm_stress_MPa": lambda of: of._part("arm"),
-    "wheel_key_pressure_MPa": lambda of: of._part("wheel_key"),
-    "crank_key_pressure_MPa": lambda of: of._part("crank_key"),
-    "roller_life_min_h": Strength._rated,
-    "roller_life_turns": Strength._rated,
-    "roller_life_motions": Strength._rated,
-    "roller_life_h": Strength._rated,
-    "equivalent_force_N": Strength._bearing,
-    "friction_work_J": Strength._friction,
-    "pv_max_W_m2": Strength._pressure_speed,
-    "slot_wear_mm_per_million": Strength._wear,
-    "slot_wear_max_mm_per_million": Strength._wear,
+class Need(NamedTuple):
+    """What a value needs: whether it is met, and its keys in words.
+
+    Both are asked for the part that a check is named after. Without words the machine lacks the
+    part, and nothing more is needed.
+    """
+
+    met: Callable[[Strength, str], bool]
+    words: str | Callable[[Strength], str] = ""
+
+
+BOUND = "a force with a bound: see the warnings"
+_FLAT = "a wheel that is drawn as a flat outline"
+_CUT = "parts that can be cut: see `geneva check`"
+_WIDTH = "face_width_mm in [size]"
+
+
+def _edge(of: Strength) -> str:
+    """The keys of a finite contact stress of the lock: on a sharp edge it has no bound."""
+    if of.load.lock and of.load.lock.on == "corner":
+        return "lock_edge_mm in [size]"
+    return "lock_clearance_mm = 0 in [size]: the end of a short locking disc is sharp"
+
+
+def _pv_bounded(of: Strength, _: str) -> bool:
+    pv = of.column("life.pv_max_W_m2")
+    return pv is not None and bool(np.all(np.isfinite(pv)))
+
+
+NEEDS = {
+    "load": Need(lambda of, _: of.spec.is_loaded, lambda of: of.spec.load_keys),
+    "bound": Need(lambda of, _: of.has_bound, BOUND),
+    "bound_if_loaded": Need(lambda of, _: not of.spec.is_loaded or of.has_bound, BOUND),
+    "face": Need(lambda of, _: of.spec.size.face_width_mm is not None, _WIDTH),
+    # the width of the contact: of the spec, or of the drawn wheel
+    "width": Need(lambda of, _: of.load.contact_mm is not None, _WIDTH),
+    "flat": Need(lambda of, _: of.spec.is_flat, _FLAT),
+    "cut": Need(lambda of, _: bool(of.load.lock_sizes or sized(of.mechanism)), _CUT),
+    "horns_drawn": Need(lambda of, _: of.spec.is_flat or bool(of.load.horn_sizes), _FLAT),
+    "horns_cut": Need(lambda of, _: bool(of.load.horn_sizes or sized(of.mechanism)), _CUT),
+    "horns": Need(lambda of, _: of.load.has_horns),
+    "lock": Need(lambda of, _: of.load.lock_sizes is not None),
+    "held": Need(lambda of, _: bool(held_torque_Nm(of.mechanism)), "dwell_torque_Nm in [load]"),
+    "edge": Need(lambda of, _: not (of.load.lock and np.isnan(of.load.lock.approach_deg)), _edge),
+    "turns": Need(lambda of, _: of.spec.output.turns, "a wheel that turns on a shaft"),
+    "overhang": Need(
+        lambda of, part: of.has_shaft(part, "overhang"), "{part}_overhang_mm in [shaft]"
+    ),
+    "diameter": Need(
+        lambda of, part: of.has_shaft(part, "diameter"), "{part}_diameter_mm in [shaft]"
+    ),
+    "part": Need(lambda of, part: of.has_part(part)),
+    "rated": Need(
+        lambda of, _: of.spec.material_roller.dynamic_capacity_N is not None,
+        "dynamic_capacity_N in [material.roller]",
+    ),
+    "friction": Need(lambda of, _: bool(of.spec.load.friction), "friction in [load]"),
+    "pv": Need(_pv_bounded, "a stress with a bound: see the warnings"),
+    "worn": Need(
+        lambda of, _: of.spec.material_wheel.wear_mm3_Nm is not None,
+        "wear_mm3_Nm in [material.wheel]",
+    ),
+    "rubs": Need(lambda of, _: of.spec.load.rubs_in_slot, 'friction_at = "slot" in [load]'),
+}
+_LOCK = "flat; cut; lock; width held"
+_WEAR = "worn rubs face load; bound"
+_PART = "part; load; bound"
+_LIFE = "bound_if_loaded; rated load"
+# The needs of each value under its name in checks and in ``life``. Those of a step, up to a
+# semicolon, are given together, if the earlier ones are met.
+REASONS = {
+    "pin_stress_MPa": "width load; bound",
+    "horn_stress_MPa": "horns_drawn; horns_cut; horns; width load; bound",
+    "lock_stress_max_MPa": f"{_LOCK}; edge",
+    "lock_deflection_max_deg": f"{_LOCK}; edge",
+    "lock_horn_stress_MPa": _LOCK,
+    "wheel_shaft_stress_MPa": "turns; bound_if_loaded; overhang diameter load",
+    "crank_shaft_stress_MPa": "bound_if_loaded; overhang diameter load",
+    "arm_stress_MPa": _PART,
+    "wheel_key_pressure_MPa": _PART,
+    "crank_key_pressure_MPa": _PART,
+    "roller_life_min_h": _LIFE,
+    "roller_life_turns": _LIFE,
+    "roller_life_motions": _LIFE,
+    "roller_life_h": _LIFE,
+    "equivalent_force_N": "load; bound",
+    "friction_work_J": "friction load",
+    "pv_max_W_m2": "face load; pv",
+    "slot_wear_mm_per_million": _WEAR,
+    "slot_wear_max_mm_per_million": _WEAR,
 }
 # Values of ``life``, in the order in which `geneva loads` lists their needs.
 OF_LIFE = (

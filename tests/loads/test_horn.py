@@ -12,18 +12,17 @@ from plane_stress import horn as in_plane_stress
 from words import Motion, Spec, Wheel
 
 from geneva_cli import load as read
-from geneva_cli.loads.strength.horn import (
-    horn_stresses,
-    horns,
-    product,
-    single_horn_stresses,
-    stoutness,
-)
+from geneva_cli.loads.strength.horn import horns, product
+from geneva_cli.loads.strength.horn_search import greatest_stress, single_stress
 from geneva_cli.motion.mechanism import build
-from geneva_cli.parts.outlines.outline_sizes import sized
+from geneva_cli.parts.machine_sizes import sized
 from geneva_cli.spec.tables import Load, Size
 
 LOAD = Load(torque_Nm=10.0)
+
+
+def greatest(mechanism, half_width, recess, width):
+    return greatest_stress(horns, mechanism, (half_width, recess), width).single
 
 
 def machine(z, L, r, **load):
@@ -42,7 +41,7 @@ def test_a_straight_slot_s_horn_is_its_formula(z, L, r, h, f):
     stops where the stress is flat.
     """
     R = L * math.sin(math.pi / z) - r - h
-    found = horn_stresses(machine(z, L, r, torque_Nm=10.0, friction=f), r, R, 15.0).single
+    found = greatest(machine(z, L, r, torque_Nm=10.0, friction=f), r, R, 15.0)
     with mpmath.workdps(30):
         foot, M = L * mpmath.cos(mpmath.pi / z), mpmath.mpf(10000)
 
@@ -86,7 +85,7 @@ def test_plane_stress_agrees_with_the_beam(z, L, r, h):
     depth = L * math.cos(b) - (L - L * math.sin(b))
     s, along, _ = in_plane_stress(wall, wall - h, depth, math.pi - 2.0 * b, 0.15 * h)
     inside = (s > 0.8 * h) & (s < 0.75 * depth)
-    found = horn_stresses(machine(z, L, r), r, wall - h, 1.0).single
+    found = greatest(machine(z, L, r), r, wall - h, 1.0)
     force = 10000.0 / (L * math.cos(b))  # at the mouth
     assert h < wall / 6.0
     assert abs(along[inside]).max() == pytest.approx(found.stress_MPa / force, rel=0.02)
@@ -134,42 +133,39 @@ def test_plane_stress_agrees_on_internal_wheels(z, L, r, h, low, high):
     s, along, _ = in_plane_stress(wall, wall - h, depth, math.pi + 2.0 * b, 0.15 * h)
     inside = (s > 0.8 * h) & (s < 0.75 * depth)
     mechanism = build(Spec(Wheel(z, "internal"), size=Size(L, r), load=LOAD))
-    beam = horn_stresses(mechanism, r, wall - h, 1.0).single.stress_MPa / (
-        10000.0 / (L * math.cos(b))
-    )
+    beam = greatest(mechanism, r, wall - h, 1.0).stress_MPa / (10000.0 / (L * math.cos(b)))
     assert low < abs(along[inside]).max() / beam < high
-    assert stoutness(mechanism, r, wall - h) == pytest.approx(h / (wall - h), rel=1e-12)
+    for side in horns(mechanism, r, wall - h):
+        assert side.stoutness == pytest.approx(h / (wall - h), rel=1e-12)
 
 
 def test_a_thick_horn_is_no_beam():
     """A horn of 10 mm on a recess of 35: the formula has more than 2 % too little."""
     wall = 45.0
     s, along, _ = in_plane_stress(wall, 35.0, 36.6, math.radians(120.0), 1.5)
-    found = horn_stresses(machine(6, 100.0, 5.0), 5.0, 35.0, 1.0).single
+    found = greatest(machine(6, 100.0, 5.0), 5.0, 35.0, 1.0)
     most = abs(along[(s > 8.0) & (s < 0.75 * 36.6)]).max()
     assert most > 1.02 * found.stress_MPa / (10000.0 / 86.60254)
 
 
 def test_the_side_that_bears():
     """Inertia alone: the horn behind bears in the second half, as much as the other did."""
-    found = horn_stresses(machine(6, 100.0, 5.0, inertia_kgm2=0.01), 5.0, 40.0, 10.0).single
+    found = greatest(machine(6, 100.0, 5.0, inertia_kgm2=0.01), 5.0, 40.0, 10.0)
     assert abs(found.at_deg) == pytest.approx(60.0, abs=1.0)
-    heavy = horn_stresses(
-        machine(6, 100.0, 5.0, inertia_kgm2=0.01, torque_Nm=10.0), 5.0, 40.0, 10.0
-    ).single
-    light = horn_stresses(machine(6, 100.0, 5.0, torque_Nm=10.0), 5.0, 40.0, 10.0).single
+    heavy = greatest(machine(6, 100.0, 5.0, inertia_kgm2=0.01, torque_Nm=10.0), 5.0, 40.0, 10.0)
+    light = greatest(machine(6, 100.0, 5.0, torque_Nm=10.0), 5.0, 40.0, 10.0)
     assert heavy.stress_MPa > light.stress_MPa
 
 
 def test_without_a_lock_there_is_no_horn():
-    assert horn_stresses(machine(6, 100.0, 5.0), 5.0, 0.0, 10.0).single is None
+    assert greatest(machine(6, 100.0, 5.0), 5.0, 0.0, 10.0) is None
 
 
 def test_a_curved_slot_has_horns_too():
     """Near the mouth a matched cycloidal slot is nearly straight: of the same order as one."""
     motion = Motion("cycloidal", ratio="matched")
     spec = Spec(Wheel(6), motion=motion, size=Size(100.0, 5.0), load=LOAD)
-    found = horn_stresses(build(spec), 5.0, 35.0, 10.0).single
+    found = greatest(build(spec), 5.0, 35.0, 10.0)
     assert found.stress_MPa > 0.0
     assert found.thickness_mm < 35.0
 
@@ -178,7 +174,7 @@ def test_sizes_and_checks_share_one_search():
     """The wheel's thickness and the stress that is printed come from one search of the horns."""
     # a load of its own, so that no other test has sized this wheel
     design = read(str(repo.DESIGNS / "internal-z6.toml"), ["load.inertia_kgm2=0.0517"])
-    single_horn_stresses.cache_clear()
+    single_stress.cache_clear()
     stress = {check.name: check.value for check in design.checks}["horn_stress_MPa"]
-    known = single_horn_stresses.cache_info()
+    known = single_stress.cache_info()
     assert stress > 0.0 and known.misses == 1 and known.hits >= 1

@@ -34,7 +34,7 @@ KINDS = (
                 batch="kinds.linear.quantities:guide",
             ),
         ),
-        horns="kinds.linear.quantities:rack_horns",
+        horn_sizes="kinds.linear.stressed:horn_sizes",
         roller="kinds.linear.roller:rack_roller",
         load_case="kinds.linear.guide_friction:with_guide",
         scene="kinds.linear.scene:RackScene",

@@ -1,4 +1,4 @@
-"""Quantities of the guides of racks, and the horns of racks between slot and recess."""
+"""Quantities of the guides of racks."""
 
 from __future__ import annotations
 
@@ -11,9 +11,7 @@ from geneva_cli.kinds.linear.guide_forces import guide_force, locks_at_friction
 from geneva_cli.kinds.linear.motion import guided
 from geneva_cli.kinds.linear.rack import rack_sizes
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.verdict.part_sizes import as_numbers, batched
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
-from geneva_cli.verdict.quantities.horns import Horns
 
 
 def guide(of: Designs) -> Columns:
@@ -33,16 +31,3 @@ def _guide(machine: Mechanism) -> tuple[float, float, float, float]:
         return (math.inf,) * 4
     force = guide_force(machine) if machine.spec.is_loaded else (math.inf, math.inf)
     return 2.0 * sizes.guide.half, locks_at_friction(machine), *force
-
-
-def rack_horns(of: Designs) -> Horns:
-    """Return the horns of racks; sizes are NaN for one without a lock, or that cannot be cut."""
-    return Horns(of, batched([_horn(machine) for machine in of.each], as_numbers))
-
-
-def _horn(machine: Mechanism) -> tuple[float, float] | None:
-    try:
-        sizes = rack_sizes(machine)
-    except GenevaError:  # the check of the parts reports the error
-        return None
-    return (sizes.half_width, sizes.recess) if sizes.lock else None

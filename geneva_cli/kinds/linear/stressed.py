@@ -10,14 +10,16 @@ import math
 
 import numpy as np
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.linear.arm import crank_arm, rack_bore
 from geneva_cli.kinds.linear.frame import has_arm, rack_frame, shaft_radius
+from geneva_cli.kinds.linear.rack import rack_sizes
 from geneva_cli.loads.strength.arm_strength import ArmDimensions
 from geneva_cli.loads.strength.key_strength import KeyDimensions
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.shafts.bores import reach_or_bore
-from geneva_cli.parts.sizes.plain_sizes import pin_radius
-from geneva_cli.parts.sizes.stressed import ShaftEnd, ShaftSize, Stressed, key_of, shaft_of
+from geneva_cli.parts.sizes import pin_radius
+from geneva_cli.parts.stressed import ShaftEnd, ShaftSize, Stressed, key_of, shaft_of
 from geneva_cli.spec.default_sizes import value_or
 
 
@@ -50,3 +52,12 @@ def _arm(mechanism: Mechanism, contact: float) -> ArmDimensions:
     offset = 0.5 * (contact + thick) - heights.stands
     length = mechanism.center_distance_mm
     return ArmDimensions(*map(np.asarray, (length, arm.hub, arm.eye, bored, hole, thick, offset)))
+
+
+def horn_sizes(mechanism: Mechanism) -> tuple[float, float]:
+    """Return half the slot's width and the recess's radius, NaN for a rack that cannot be cut."""
+    try:
+        sizes = rack_sizes(mechanism)
+    except GenevaError:  # the check of the parts reports the error
+        return math.nan, math.nan
+    return sizes.half_width, sizes.recess

@@ -14,9 +14,8 @@ from geneva_cli.kinds.linkages.link_path import (
     PointDisplacement,
 )
 from geneva_cli.kinds.linkages.path_wheels import chosen, solved_wheels
-from geneva_cli.motion import path_and_slot
-from geneva_cli.motion.engagement import Anchor, Carrier, Engagement
-from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
+from geneva_cli.motion.engagement import Anchor, Engagement
+from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.wheels.poses import HalfStep
 from geneva_cli.numerics.arrays import Array, Complex, library, parameter
 from geneva_cli.numerics.jet import Jet, Number, sine_versine
@@ -81,9 +80,9 @@ def _engagement(
         anchors.append(Anchor(end * half, wheel, far / L, move))
     anchored = AnchoredPath(tuple(anchors), front)
     body = LinkRate(path, middle, s)
-    carrier = Carrier(-s, body, LinkReactions(*body, L, -x / L, -y / L))
+    reactions = LinkReactions(*body, L, -x / L, -y / L)
     motion = StraightSlotMotion(anchored, step.b, mirrored=False)
-    return path_and_slot.engagement(0.0, anchored, motion, carrier), L
+    return Engagement(0.0, anchored, RadialSlot(anchored), motion, body, reactions, -s), L
 
 
 def _point(path: LinkPath, phi: Array) -> tuple[Complex, Complex]:
@@ -101,7 +100,6 @@ class AlongRay(NamedTuple):
     y: float
     scale: float
     sense: float
-    cuts: tuple[float, ...] = ()
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """Displacement after ``tau`` radians of crank rotation."""

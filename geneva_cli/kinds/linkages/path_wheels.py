@@ -100,7 +100,7 @@ def _block(path: LinkPath, samples: PathSamples, found: Pairs) -> PathWheels:
         x[end] = 0.0  # without the rounding
     moment, short = course[0][:, :-1], course[2][:, :-1]
     right = np.where(inside, (moment >= 0.0) & (short >= 0.0), short <= 0.0)
-    good: Mask = right.all(axis=1)
+    good = np.all(right, axis=1)
     moments, shorts = bernstein(third, *course[:2]), bernstein(third, *course[2:])
     # A quotient of cubics is between the quotients of their Bernstein coefficients.
     square = wheels.square[:, None]

@@ -19,7 +19,8 @@ KINDS = (
         stressed="kinds.spherical.sizes:stressed",
         wheel_body="kinds.spherical.parts:shell_body",
         cut_parts="kinds.spherical.cut_shells:CutShells",
-        horns="kinds.spherical.horns:ball_horns",
+        horn_sizes="kinds.spherical.sizes:horn_sizes",
+        horns="kinds.spherical.horn:sphere_horns",
         roller="kinds.spherical.roller:ball_roller",
         parts_checks={
             "wall_between_slots_mm": "kinds.spherical.checks:between_slots",

@@ -27,27 +27,19 @@ taken as even through the shell, at L. On a large sphere the stress is that of t
 
 from __future__ import annotations
 
-import math
-from functools import lru_cache, partial
 from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.loads.strength.arm_strength import torsion_MPa
-from geneva_cli.loads.strength.horn_search import (
-    HornStress,
-    SlotEnd,
-    UnitStress,
-    greatest_stress,
-    slot_ends,
-    squeezed,
-)
+from geneva_cli.loads.strength.horn_search import SlotEnd, UnitStress, slot_ends, squeezed
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Number, parameter
 from geneva_cli.numerics.jet import Array
 
 
 class SphereHorn(NamedTuple):
-    """One horn of a slot; angles in radians."""
+    """One horn of a slot; angles in radians. Numbers are floats or (m, 1)."""
 
     at: SlotEnd
     radius_mm: float  # L, of the sphere
@@ -58,21 +50,32 @@ class SphereHorn(NamedTuple):
 
     @property
     def mouth(self) -> Array:
-        """The polar angle of the roller at this horn's mouth, (1, 1)."""
-        return self.polar(np.array([[self.at.mouth_deg]]))
+        """The polar angle of the roller at this horn's mouth, (m, 1)."""
+        return self.polar(self.at.mouth_deg)
+
+    @property
+    def recess_mm(self) -> Number:
+        """The recess's radius."""
+        return self.radius_mm * np.sin(self.recess)
+
+    @property
+    def stoutness(self) -> Array:
+        """Thickness at the mouth over the recess's radius, (m,)."""
+        return np.ravel(self.thickness(self.mouth) / self.recess_mm)
 
     def unit_stress(
         self, roller: Array, rub: Array, sections: Array, width_mm: float
     ) -> UnitStress:
         """Von Mises stress at sections under 1 N, as ``HornSide`` describes."""
-        L, w = self.radius_mm, self.half_width
         t0, t = self.polar(roller)[..., None], self.polar(sections)
         thick = self.thickness(t)
-        b, h = width_mm, thick[:, None]
+        every = self.radius_mm, self.half_width, width_mm
+        L, w, b = (np.atleast_2d(one)[..., None] for one in every)
+        h = thick[:, None]
         with np.errstate(all="ignore"):
             at, push = _at(t0, w), _across(t0, w)
             force = push + rub[..., None] * _along(t0)
-            middle = w + 0.5 * thick / L
+            middle = self.half_width + 0.5 * thick / self.radius_mm
             q, across, along = (
                 v[:, :, None] for v in (_at(t, middle), _across(t, middle), _along(t))
             )
@@ -86,7 +89,7 @@ class SphereHorn(NamedTuple):
             normal = 6.0 * in_shell / (b * h * h) + 6.0 * off_shell / (h * b * b) + pull / (b * h)
             shear = torsion_MPa(twist, b + 0.0 * h, h)
             stress = np.sqrt(np.maximum(normal, 0.0) ** 2 + 3.0 * shear**2)
-            inwards = L * math.cos(w) * (self.mouth - t)
+            inwards = self.radius_mm * np.cos(self.half_width) * (self.mouth - t)
             stress = np.where((t[:, None] < t0) & np.isfinite(stress), stress, 0.0)
         return UnitStress(stress, inwards, thick)
 
@@ -95,7 +98,7 @@ class SphereHorn(NamedTuple):
         x, y, z = self.crank_axis
         along = x * np.sin(t) + z * np.cos(t)
         with np.errstate(invalid="ignore"):
-            foot = np.arctan2(y, along) - np.arccos(math.cos(self.recess) / np.hypot(along, y))
+            foot = np.arctan2(y, along) - np.arccos(np.cos(self.recess) / np.hypot(along, y))
         azimuth = np.arctan2(np.sin(foot), np.cos(foot) * np.sin(t))
         own = azimuth < self.half_step  # False without a foot, too
         thick: Array = np.where(own, self.radius_mm * (foot - self.half_width), np.inf)
@@ -127,25 +130,7 @@ def sphere_horns(
     """Both horns of each kind of slot; slot, recess and the angle of the shafts in radians."""
     L, sides = mechanism.center_distance_mm, []
     for at in slot_ends(mechanism):
-        half, out = at.engagement.half_step, math.sin(axes)
-        axis = out * math.cos(half), out * math.sin(half), math.cos(axes)
+        half, out = at.engagement.half_step, np.sin(axes)
+        axis = parameter(out * np.cos(half)), parameter(out * np.sin(half)), np.cos(axes)
         sides.append(SphereHorn(at, L, axis, half_width, recess, half))
     return sides
-
-
-def sphere_stoutness(mechanism: Mechanism, half_width: float, recess: float, axes: float) -> float:
-    """Greatest thickness of a horn at its mouth over the recess's radius."""
-    sides = sphere_horns(mechanism, half_width, recess, axes)
-    most = max(side.thickness(side.mouth).item() for side in sides)
-    return most / (mechanism.center_distance_mm * math.sin(recess))
-
-
-@lru_cache(maxsize=64)
-def sphere_horn(
-    mechanism: Mechanism, half_width: float, recess: float, axes: float, width_mm: float
-) -> HornStress | None:
-    """Greatest stress in the horns of a single spherical machine; None without lock or load."""
-    if not recess:
-        return None
-    sides = partial(sphere_horns, axes=axes)
-    return greatest_stress(sides, mechanism, half_width, recess, width_mm).single

@@ -21,24 +21,15 @@ higher if h < R/6, and 5 % lower to 7 % higher at R/2.
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.loads.contact import NEAR_CUSP
-from geneva_cli.loads.strength.horn_search import (
-    HornStress,
-    SlotEnd,
-    UnitStress,
-    greatest_stress,
-    slot_ends,
-    squeezed,
-)
-from geneva_cli.motion.batch import taken
+from geneva_cli.loads.strength.horn_search import SlotEnd, UnitStress, slot_ends, squeezed
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pitch_curve import pitch
-from geneva_cli.numerics.arrays import Number, blocks, joined, parameter
+from geneva_cli.numerics.arrays import Number, parameter
 from geneva_cli.numerics.jet import Array
 
 STOUT = 0.5  # thickness at the mouth over the recess's radius, beyond which a horn is no beam
@@ -54,7 +45,7 @@ class Horn(NamedTuple):
     at: SlotEnd
     L: float
     half_width: float
-    recess: float
+    recess_mm: float
     centre: Array  # position of the recess's centre
     inwards: Array  # direction along the slot at its mouth
     across: Array  # direction perpendicular to that, from the recess's centre to the slot
@@ -88,7 +79,7 @@ class Horn(NamedTuple):
         """
         along = -product(wall, normal)
         with np.errstate(invalid="ignore"):
-            thick = along - np.sqrt(along * along - product(wall, wall) + self.recess**2)
+            thick = along - np.sqrt(along * along - product(wall, wall) + self.recess_mm**2)
             return thick, np.arctan2(*(wall + thick * normal))
 
     @property
@@ -130,7 +121,7 @@ class Horn(NamedTuple):
     @property
     def stoutness(self) -> Array:
         """Thickness at the mouth over the recess's radius, (m,)."""
-        return np.ravel(self.thickness(*self.wall(self.at.mouth_deg)) / self.recess)
+        return np.ravel(self.thickness(*self.wall(self.at.mouth_deg)) / self.recess_mm)
 
 
 def vector(x: Number, y: Number) -> Array:
@@ -164,34 +155,3 @@ def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[
         across = across * np.copysign(1.0, product(across, towards))
         sides.append(Horn(at, L, half_width_mm, recess_mm, centre, inwards, across, outwards))
     return sides
-
-
-def stoutness(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> Array:
-    """Greatest thickness at the mouth over the recess's radius of all horns, (m,)."""
-    every = [side.stoutness for side in horns(mechanism, half_width_mm, recess_mm)]
-    most: Array = np.max(np.broadcast_arrays(*every), axis=0)
-    return most
-
-
-def horn_stresses(
-    mechanism: Mechanism, half_width_mm: float, recess_mm: float, width_mm: float
-) -> HornStress:
-    """Greatest bending stress of m designs, whose sizes may be (m, 1).
-
-    NaN for a recess of 0, or without a load.
-    """
-    every = (mechanism, half_width_mm, recess_mm, 1.0)
-    m = mechanism.designs
-    if m == 1:
-        return greatest_stress(horns, *every).over(width_mm)
-    # the stresses of 16 designs stay in the cache
-    each = [greatest_stress(horns, *taken(every, block)) for block in blocks(m, 16)]
-    return joined(each).over(width_mm)
-
-
-@lru_cache(maxsize=16)
-def single_horn_stresses(
-    mechanism: Mechanism, half_width_mm: float, recess_mm: float
-) -> HornStress:
-    """Greatest bending stress of one design for 1 mm of width, cached for its sizes and checks."""
-    return horn_stresses(mechanism, half_width_mm, recess_mm, 1.0)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from functools import lru_cache
 from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
@@ -19,7 +20,7 @@ from geneva_cli.loads.load_case import load_case
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Number, Whole, array, parameter
+from geneva_cli.numerics.arrays import Number, Whole, array, blocks, joined, parameter
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import TIE
 
@@ -34,10 +35,6 @@ class HornStress(NamedTuple):
     at_deg: float  # input angle from the engagement's mid-motion
     inwards_mm: float  # of the section, from the mouth
     thickness_mm: float
-
-    def over(self, width_mm: float) -> HornStress:
-        """The result for a width of the contact, (m, 1) or a number, from that for 1 mm."""
-        return self._replace(stress_MPa=parameter(self.stress_MPa / np.ravel(width_mm)))
 
     @property
     def single(self) -> HornStress | None:
@@ -96,6 +93,14 @@ class HornSide(Protocol):
     def at(self) -> SlotEnd:
         """The end of the slot where this horn bears."""
 
+    @property
+    def recess_mm(self) -> Number:
+        """The recess's radius, (m, 1) of a batch."""
+
+    @property
+    def stoutness(self) -> Array:
+        """Thickness at the mouth over the recess's radius, (m,)."""
+
     def unit_stress(
         self, roller: Array, rub: Array, sections: Array, width_mm: float
     ) -> UnitStress:
@@ -105,7 +110,8 @@ class HornSide(Protocol):
         """
 
 
-Sides: TypeAlias = Callable[["Mechanism", float, float], Sequence[HornSide]]
+Sizes: TypeAlias = "tuple[float, ...]"  # half the slot's width, the recess, and what else differs
+Sides: TypeAlias = Callable[..., Sequence[HornSide]]  # of a mechanism and those sizes
 
 
 class _SamplePlaces(NamedTuple):
@@ -121,34 +127,43 @@ def squeezed(input_deg: Number) -> Array:
     return x[0] if len(x) == 1 else x
 
 
-def greatest_stress(
-    sides: Sides, mechanism: Mechanism, half_width: float, recess: float, width: float
+@lru_cache(maxsize=64)
+def single_stress(
+    sides: Sides, mechanism: Mechanism, sizes: Sizes, width: float = 1.0
 ) -> HornStress:
-    """Greatest stress of m designs that are searched together."""
-    m = mechanism.designs
-    best, which = np.full((4, m), np.nan), np.zeros(m, dtype=int)
-    next_, count = [], 61  # places and sections of the first sampling
-    for number, side in enumerate(sides(mechanism, half_width, recess)):
-        start = _SamplePlaces(
+    """Greatest stress of a single design, cached for its sizes and its checks."""
+    return greatest_stress(sides, mechanism, sizes, width)
+
+
+def greatest_stress(
+    sides: Sides, mechanism: Mechanism, sizes: Sizes, width: float = 1.0
+) -> HornStress:
+    """Greatest stress of m designs, for a width of the contact, mm; sizes may be (m, 1).
+
+    NaN for a recess of 0, or without a load.
+    """
+    every, m = (mechanism, sizes, width), mechanism.designs
+    if m == 1:
+        return _greatest(sides, *every)
+    # the stresses of 16 designs stay in the cache
+    return joined([_greatest(sides, *taken(every, block)) for block in blocks(m, 16)])
+
+
+def _greatest(sides: Sides, mechanism: Mechanism, sizes: Sizes, width: float) -> HornStress:
+    """Greatest stress of designs that are searched together."""
+    best = np.full((4, mechanism.designs), np.nan)
+    for side in sides(mechanism, *sizes):
+        count = 61  # places and sections of the first sampling
+        within = _SamplePlaces(
             _from(side.at.runs_from_deg, count), _from([side.at.mouth_deg], count)[:, 0]
         )
-        sample, around = _sampled(mechanism, side, start, width)
-        better = ~(sample[0] <= best[0] * (1.0 + TIE)) & ~np.isnan(sample[0])
-        best, which = np.where(better, sample, best), np.where(better, number, which)
-        next_.append((side, around))
-    for number, (side, around) in enumerate(next_):
-        own = np.flatnonzero((which == number) & ~np.isnan(best[0]))
-        if not len(own):
-            continue
-        some, one = (mechanism, half_width, recess, width), side
-        if len(own) < m:
-            some = taken(some, own)
-            one = sides(*some[:3])[number]
-            around = _SamplePlaces(*(places[own] for places in around))
-        for _ in range(3):  # the middle of the remaining places is the best so far
-            sample, around = _sampled(some[0], one, around, some[3])
-            best[:, own] = np.where(np.isnan(sample[0]), best[:, own], sample)
-        best[1, own] += np.ravel(one.at.whole.mid_deg - one.at.ahead_deg)
+        own = np.full_like(best, np.nan)
+        for _ in range(4):  # the middle of the remaining places is the best so far
+            sample, within = _sampled(mechanism, side, within, width)
+            own = np.where(np.isnan(sample[0]), own, sample)
+        own[1] += np.ravel(side.at.whole.mid_deg - side.at.ahead_deg)
+        better = ~(own[0] <= best[0] * (1.0 + TIE)) & ~np.isnan(own[0])
+        best = np.where(better, own, best)
     at_deg = np.ravel(mechanism.under_load.shown_deg(parameter(best[1][:, None])))
     return HornStress(*map(parameter, (best[0], at_deg, *best[2:])))
 

@@ -106,7 +106,7 @@ def strength_limit(name: str, mechanism: Mechanism) -> Check | None:
     if own is None and not (bound.allowed and mechanism.spec.is_loaded):
         return None
     # A spec without limits or loads is checked without NumPy.
-    from geneva_cli.verdict.strength import strength
+    from geneva_cli.verdict.strength import BOUND, strength
 
     of = strength(mechanism)
     limit = of[bound.allowed] if bound.shears or (bound.allowed and own is None) else own
@@ -117,7 +117,7 @@ def strength_limit(name: str, mechanism: Mechanism) -> Check | None:
         return check if check.passes else check._replace(why=_needed(bound, of, check))
     reason = of.reason(name)
     # without a limit in the spec, a value that needs another key is not asked for
-    if reason is None or (own is None and reason != of.has_bound[1]):
+    if reason is None or (own is None and reason != BOUND):
         return None
     return Check(name, None, bound.must_be, limit, None, f"not known: it needs {reason}")
 

@@ -2,38 +2,48 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.cycle_quantities import FORCE, PV
 from geneva_cli.loads.impacts.impacts import Impacts, reversal_impacts
 from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.load_peaks import load_peaks
-from geneva_cli.loads.strength import lock, shaft_stress
+from geneva_cli.loads.strength import lock
 from geneva_cli.loads.strength import pin as pins
+from geneva_cli.loads.strength.horn import horns
+from geneva_cli.loads.strength.horn_search import greatest_stress, single_stress
 from geneva_cli.loads.strength.pin import PinSize
+from geneva_cli.loads.tolerance.locking import Lock
+from geneva_cli.motion.batch import designs_in, taken
+from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.records import thing
-from geneva_cli.numerics.arrays import Array, Number, library, parameter
-from geneva_cli.parts.outlines.outline_sizes import Layout, sized
+from geneva_cli.numerics.arrays import Array, Number, Record, library, parameter, record_of
+from geneva_cli.parts.machine_sizes import Layout, sized
+from geneva_cli.parts.outlines.cut_outlines import cut_lock
+from geneva_cli.parts.stressed import Stressed, stressed
 from geneva_cli.spec.materials import roller_material
-from geneva_cli.verdict.part_sizes import (
-    LockSizes,
-    batched,
-    design_lock_sizes,
-    layouts_lock_sizes,
-    stressed_parts,
-)
-from geneva_cli.verdict.quantities.horns import Horns
 
 if TYPE_CHECKING:
+    from geneva_cli.loads.strength.horn_search import HornStress, Sides, Sizes
     from geneva_cli.loads.strength.lock import LockUnderTorque
     from geneva_cli.loads.strength.part_loads import PartLoads
-    from geneva_cli.parts.sizes.stressed import Stressed
+    from geneva_cli.motion.mechanism import Mechanism
     from geneva_cli.verdict.quantities.batch_designs import Designs
+
+
+class LockSizes(NamedTuple):
+    """Sizes of slot and lock, mm; (m, 1) for m designs, NaN for those without."""
+
+    half_width: float  # half the slot's width: roller and clearance
+    lock: Lock  # in its narrowest sector
 
 
 class UnderLoad:
@@ -76,25 +86,58 @@ class UnderLoad:
 
     @cached_property
     def lock_sizes(self) -> LockSizes | None:
-        """The sizes of horn and lock, (m, 1); None if no design has a lock."""
+        """The sizes of slot and lock, (m, 1); None if no design has a lock."""
         if self.designs.are_built:
-            return layouts_lock_sizes(self.layouts)
-        return design_lock_sizes(self.machine)
+            flat = self.layouts
+        else:  # no load changes them: designs that differ in loads only are sized once
+            spec = self.machine.spec
+            bare = Spec(
+                spec.wheel, spec.drive, spec.motion, spec.size, drive_before=spec.drive_before
+            )
+            flat = [sized(build(taken(bare, i))) for i in range(designs_in(bare))]
+        locks = [
+            LockSizes(one[1].half_width, cut_lock(*one)) if one and one[1].lock else None
+            for one in flat
+        ]
+        return batched(locks, as_numbers)
 
     @cached_property
-    def horns(self) -> Horns | None:
-        """The horns of the designs; None where no part is cut."""
-        of_kind: Callable[[Designs], Horns | None] | None
-        of_kind = thing(self.machine.spec.wheel.NAME, "horns")
+    def horn_sizes(self) -> Sizes | None:
+        """Half the slot's width, the recess and more for a sphere, (m, 1); None without parts."""
+        of_kind: Callable[[Mechanism], Sizes | None] | None
+        of_kind = thing(self.machine.spec.wheel.NAME, "horn_sizes")
         if of_kind:
-            return of_kind(self.designs)
+            return batched([of_kind(one) for one in self.designs.each], as_numbers)
         sizes = self.lock_sizes
-        return Horns(self.designs, (sizes.half_width, sizes.lock.recess)) if sizes else None
+        return (sizes.half_width, sizes.lock.recess) if sizes else None
 
     @property
     def has_horns(self) -> bool:
         """True if a design has horns: a locking disc and its recesses."""
-        return bool(self.horns and self.horns.exist)
+        return self.horn_sizes is not None and bool(np.any(np.asarray(self.horn_sizes[1]) > 0.0))
+
+    @property
+    def _sides(self) -> Sides:
+        """The function that returns the horns; those of a flat wheel for most kinds."""
+        sides: Sides = thing(self.machine.spec.wheel.NAME, "horns") or horns
+        return sides
+
+    def horn_stress(self, width: float) -> HornStress:
+        """The greatest stress in the horns under the roller, for a width of its contact."""
+        assert self.horn_sizes
+        search = single_stress if self.designs.single else greatest_stress
+        if self._sides is not horns:
+            one = self.designs.single
+            wide = float(np.ravel(width)[0]) if one else width  # to be hashed
+            return search(self._sides, self.machine, self.horn_sizes, wide)
+        bent = search(horns, self.machine, self.horn_sizes)  # for 1 mm, as the parts are sized
+        return bent._replace(stress_MPa=parameter(bent.stress_MPa / np.ravel(width)))
+
+    def stoutest_horn(self) -> tuple[float, float]:
+        """A single design's greatest thickness at the mouth over the recess's radius, and that."""
+        assert self.horn_sizes
+        each = self._sides(self.machine, *self.horn_sizes)
+        return max((float(one.stoutness[0]), float(one.recess_mm)) for one in each)
 
     @cached_property
     def layouts(self) -> Sequence[Layout | None]:
@@ -125,7 +168,7 @@ class UnderLoad:
         if not self.machine.spec.is_loaded:
             return None
         each = zip(self.designs.each, self.layouts, strict=True)
-        return batched([stressed_parts(*one) for one in each])
+        return batched([_stressed(*one) for one in each])
 
     @property
     def contact_mm(self) -> float | None:
@@ -175,14 +218,50 @@ class UnderLoad:
         return (own_loads if self.designs.single else part_loads)(self.machine)
 
     @cached_property
-    def held(self) -> shaft_stress.Held | None:
-        """What the lock holds in the dwell; None without a torque there."""
+    def held(self) -> tuple[Array, Array] | None:
+        """Force and torque that the lock holds in the dwell, (m,) both; None without a torque."""
         torque = lock.dwell_torque_Nm(self.machine)
         if not torque.any():
             return None
         sizes = self.lock_sizes  # without a disc something else holds the wheel, by a couple
         force = lock.held_force_N(torque[:, None], sizes.lock) if sizes else 0.0 * torque
-        return shaft_stress.Held(np.nan_to_num(np.ravel(force)), torque)
+        return np.nan_to_num(np.ravel(force)), torque
+
+
+def _stressed(machine: Mechanism, layout: Layout | None) -> Stressed | None:
+    """The stressed parts of a design, flat ones by their layout; None if they do not fit."""
+    if layout or machine.spec.is_flat or not machine.spec.has_parts:
+        return stressed(*layout) if layout else None
+    try:
+        own = thing(machine.spec.wheel.NAME, "stressed")
+        return own(machine) if own else None
+    except GenevaError:  # the check of the parts reports the error
+        return None
+
+
+def batched(
+    records: Sequence[Record | None], column: Callable[[Array], object] = np.asarray
+) -> Record | None:
+    """The records of m designs as one; None if no design has one.
+
+    Each number of it is ``column`` of the (m,) numbers of the designs, NaN for those without.
+    """
+    like = next((one for one in records if one is not None), None)
+    if like is None:
+        return None
+
+    def member(k: int) -> object:
+        each = [None if one is None else one[k] for one in records]
+        if isinstance(like[k], tuple):
+            return batched(cast("Sequence[tuple[object, ...] | None]", each), column)
+        return column(np.array([math.nan if one is None else one for one in each], dtype=float))
+
+    return record_of(like, [member(k) for k in range(len(like))])
+
+
+def as_numbers(values: Array) -> float:
+    """Numbers (m,) as those of a machine: (m, 1), or one number."""
+    return parameter(values[:, None]) if len(values) > 1 else values.item()
 
 
 def under_load(of: Designs) -> UnderLoad:

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from geneva_cli import Design, External, Internal, Linear, Load, Size
-from geneva_cli.loads.strength.horn import horn_stresses
+from geneva_cli.loads.strength.horn import horns
+from geneva_cli.loads.strength.horn_search import greatest_stress
 from geneva_cli.motion.many import many
 from geneva_cli.verdict.quantities.batch_designs import Designs
 from geneva_cli.verdict.quantities.part_strength import horn as horn_of
@@ -60,8 +61,8 @@ def test_wheels_of_many_slots_have_the_horns_of_a_rack(wheel):
     L = R / math.sin(math.pi / z)
     load = Load(torque_Nm=FORCE * L / 1000.0)
     machine = Design(wheel(z), size=Size(center_distance_mm=L, roller_radius_mm=r), load=load)
-    true = horn_stresses(RACK.mechanism, HALF, RECESS, WIDTH).single
-    near = horn_stresses(machine.mechanism, HALF, RECESS, WIDTH).single
+    true = greatest_stress(horns, RACK.mechanism, (HALF, RECESS), WIDTH).single
+    near = greatest_stress(horns, machine.mechanism, (HALF, RECESS), WIDTH).single
     assert near.stress_MPa == pytest.approx(true.stress_MPa, rel=2e-3)
     assert near.inwards_mm == pytest.approx(true.inwards_mm, rel=2e-2)
 
@@ -69,9 +70,13 @@ def test_wheels_of_many_slots_have_the_horns_of_a_rack(wheel):
 def test_inertia_bends_the_horn_behind_the_roller_too():
     """Mass alone: at exit the other horn bears the same force; the first one is named."""
     moved = Design(Linear(6), size=SIZE, load=Load(mass_kg=4.0))
-    at_entry = horn_stresses(moved.mechanism, HALF, RECESS, WIDTH).single
+    at_entry = greatest_stress(horns, moved.mechanism, (HALF, RECESS), WIDTH).single
     force = 4.0 * 0.05 * (2.0 * math.pi) ** 2
-    bent = horn_stresses(RACK.mechanism, HALF, RECESS, WIDTH).single.stress_MPa * force / FORCE
+    bent = (
+        greatest_stress(horns, RACK.mechanism, (HALF, RECESS), WIDTH).single.stress_MPa
+        * force
+        / FORCE
+    )
     assert at_entry.at_deg == pytest.approx(-90.0, abs=1e-6)
     assert at_entry.stress_MPa == pytest.approx(bent, rel=1e-9)
 

@@ -8,9 +8,10 @@ from mpmath import mp
 from shell_stress import horn as in_the_shell
 
 from geneva_cli import External, Spherical
-from geneva_cli.kinds.spherical.horn import sphere_horn, sphere_horns, sphere_stoutness
+from geneva_cli.kinds.spherical.horn import sphere_horns
 from geneva_cli.kinds.spherical.sizes import ball
-from geneva_cli.loads.strength.horn import horn_stresses, stoutness
+from geneva_cli.loads.strength.horn import horns
+from geneva_cli.loads.strength.horn_search import greatest_stress
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.tables import Load, Size
@@ -39,13 +40,14 @@ def test_on_a_large_sphere_it_is_the_flat_horn(z, r, h):
     """
     flat = build(Spec(External(z), size=Size(100.0, r), load=LOAD))
     recess = 100.0 * math.sin(math.pi / z) - r - h
-    bent = horn_stresses(flat, r, recess, 10.0).single
+    bent = greatest_stress(horns, flat, (r, recess), 10.0).single
     for axes_deg, near in ((0.1, 3e-5), (1.0, 3e-4)):
         L = 100.0 / math.radians(axes_deg)
         shape = angles(z, axes_deg, L, r, h)
-        own = sphere_horn(machine(z, axes_deg, L, r), *shape, width_mm=10.0)
-        stout = sphere_stoutness(machine(z, axes_deg, L, r), *shape)
-        assert stout == pytest.approx(stoutness(flat, r, recess)[0], rel=near)
+        mechanism = machine(z, axes_deg, L, r)
+        own = greatest_stress(sphere_horns, mechanism, shape, 10.0).single
+        stout = sphere_horns(mechanism, *shape)[0].stoutness
+        assert stout == pytest.approx(horns(flat, r, recess)[0].stoutness, rel=near)
         assert own.stress_MPa == pytest.approx(bent.stress_MPa, rel=near)
         # where the stress is flat the search stops within a thousandth of a section's place
         assert own.inwards_mm == pytest.approx(bent.inwards_mm, rel=2e-3)
@@ -149,7 +151,8 @@ def test_the_wheel_is_as_thick_as_its_horns_need():
     assert thick == 25.0
     found = {check.name: check for check in checks(mechanism, turned=False)}
     assert found["horn_stress_MPa"].passes
-    held = sphere_horn(mechanism, own.half_width, own.recess, own.axes, thick)
+    shape = own.half_width, own.recess, own.axes
+    held = greatest_stress(sphere_horns, mechanism, shape, thick).single
     assert found["horn_stress_MPa"].value == pytest.approx(held.stress_MPa, rel=1e-12)
-    thinner = sphere_horn(mechanism, own.half_width, own.recess, own.axes, 22.0)
+    thinner = greatest_stress(sphere_horns, mechanism, shape, 22.0).single
     assert held.stress_MPa <= 165.0 < thinner.stress_MPa
