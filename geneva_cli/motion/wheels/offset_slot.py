@@ -20,7 +20,7 @@ from geneva_cli.motion.wheels.classic import gap, half_motion_deg
 from geneva_cli.motion.wheels.poses import HalfStep, PinPose, Skew, middle
 from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.numerics.arrays import choose, enclosed, library
-from geneva_cli.numerics.jet import Array, Jet, Number, integral, moment, piecewise, sqrt
+from geneva_cli.numerics.jet import Jet, Number, integral, moment, piecewise, sqrt
 
 
 class OffsetSlot(Slot):
@@ -58,10 +58,6 @@ class OffsetSlotMotion(StraightSlotMotion):
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
         """Rate at which the slot's direction turns, computed without an arc tangent."""
         return self._angle_or_rate(input_deg, order + 1, angle=False)
-
-    def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
-        """Speed and its derivatives at arrays of angles, computed from mid-motion only."""
-        return self._inside(input_deg, order + 1, angle=False).arrays()
 
     def _angle_or_rate(self, input_deg: Number, order: int, *, angle: bool) -> Jet:
         """Wheel angle, or its rate, which is one order lower."""
