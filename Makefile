@@ -10,8 +10,8 @@ PIP = $(BIN)/pip install --quiet --disable-pip-version-check --no-compile
 # some hundred times.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test pytest lint docs web web-test stress stress-numbers stress-windows \
-  certify jam cad editors page fuzz bench bench-start dist clean
+.PHONY: demo test pytest lint docs web web-test stress stress-numbers \
+  certify jam cad fuzz bench bench-start dist clean
 
 demo: .venv/demo
 	@mkdir -p build
@@ -39,47 +39,30 @@ lint: .venv/dev
 docs: .venv/dev
 	$(DOCS)
 
-# Run time against error, tables and plots in build/bench; an hour.
+# Run time against error, tables in build/bench; half an hour.
 bench: .venv/dev
 	@mkdir -p build/bench
-	PYTHONPATH=tests $(BIN)/python -m bench --plots build/bench -o build/bench/bench.md
+	PYTHONPATH=tests $(BIN)/python -m bench -o build/bench/bench.md
 
 # Numerical stress against mpmath, random machines turned, then every case of the tests, of which
 # `make test` takes a sample (tests/sampling.py): sweeps of every key of all designs are among them,
 # and their certificates (`make certify` adds random machines); an hour and a half on two cores.
-# Screens take six windows of twelve: see the text of stress_windows.py.
-# Each script has one process, so two of them run side by side; their lines mix.
-stress: .venv/dev
-	$(MAKE) --jobs=2 stress-numbers stress-windows
+stress: stress-numbers
 	GENEVA_STRESS=1 $(BIN)/pytest -n logical --dist worksteal
 
 stress-numbers: .venv/dev
 	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/stress.py
 	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/stress_outline.py
+	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/schema_agrees.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_many.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_synth.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_loads_many.py --designs 5000
 
-stress-windows: .venv/dev
-	PYTHONPATH=tests $(BIN)/python tests/stress/stress_windows.py
-
-# Proved bounds of every peak: all designs, and 1,000 random machines of each kind; two hours. `make
-# stress` takes the designs alone.
+# Proved bounds of every peak of 1,000 random machines of each kind; two hours. `make stress` takes
+# the designs.
 certify: .venv/dev
 	@mkdir -p build
-	PYTHONPATH=tests:tests/motion:tests/parts:tests/stress $(BIN)/python tests/stress/certify.py --runs 10500 --jobs 2 --state build/certify.json
-
-# 2,000 mutated specs before the reader, JSON Schema, and the checkers of two editors; two minutes.
-editors: .venv/dev
-	$(PIP) "taplo>=0.9,<1" "tombi>=1,<2"
-	PATH="$(CURDIR)/$(BIN):$$PATH" PYTHONPATH=tests:tests/motion:tests/stress python tests/stress/schema_agrees.py taplo tombi
-
-# The page of every design in a headless Chromium, which must be installed: the slider, the console,
-# frames a second, and pictures in build/page to look at; some minutes.
-page: .venv/dev
-	@mkdir -p build/page
-	$(PIP) "websocket-client>=1.8,<2"
-	PYTHONPATH=tests:tests/output $(BIN)/python tests/stress/page_in_browser.py build/page
+	$(FUZZ) certificates --runs 10500 --state build/certify.json
 
 # A static folder, build/web, on which geneva runs in a browser; needs npm and its registry. To try
 # it: python3 -m http.server -d build/web
@@ -107,17 +90,16 @@ jam: .venv/dev
 	$(PIP) "pymunk>=7,<8"
 	PYTHONPATH=tests $(BIN)/python tests/stress/jam.py
 
-# A million random specs, 20,000 machines with parts, 10,000 drawing sheets, 100,000 wheels of ever
-# larger clearance, 2,000 wheels with curved slots, 20,000 outlines with a kerf; hours.
-# Stopped, it goes on from there; another seed, or new code, begins again: rm build/fuzz-*.json.
+# A million random specs, 20,000 machines with parts, 10,000 drawing sheets, 2,000 wheels with curved
+# slots; hours. Stopped, it goes on from there; another seed, or new code, begins again: rm
+# build/fuzz-*.json.
+FUZZ = PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/fuzz.py --jobs 2
 fuzz: .venv/dev
 	@mkdir -p build
-	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/fuzz_spec.py --runs 1000000 --jobs 2 --state build/fuzz-specs.json
-	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/fuzz_parts.py --runs 20000 --jobs 2 --state build/fuzz-parts.json
-	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/fuzz_sheets.py --runs 10000 --jobs 2 --state build/fuzz-sheets.json
-	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/fuzz_play.py --runs 4000 --jobs 2 --state build/fuzz-play.json
-	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/fuzz_stops.py --runs 2000 --jobs 2 --state build/fuzz-stops.json
-	PYTHONPATH=tests:tests/motion:tests/geometry $(BIN)/python tests/stress/fuzz_kerf.py --runs 20000 --jobs 2 --state build/fuzz-kerf.json
+	$(FUZZ) specs --runs 1000000 --state build/fuzz-specs.json
+	$(FUZZ) parts --runs 20000 --state build/fuzz-parts.json
+	$(FUZZ) sheets --runs 10000 --state build/fuzz-sheets.json
+	$(FUZZ) stops --runs 2000 --state build/fuzz-stops.json
 
 # Start-up of every command against `import typer` alone: whole processes in pairs, processor time.
 # The budget of `geneva table --z 6` is 1.05.

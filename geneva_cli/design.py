@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from functools import wraps
 from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self, TypeVar
 
@@ -83,14 +84,17 @@ def load(path: str, settings: Iterable[str] = (), reverse: bool = False) -> Desi
     return design.backwards if reverse else design
 
 
-def answer(make: Callable[[Any], T]) -> cached_property[T]:
+class answer(cached_property[T]):
     """A result that is computed once; its errors are located at the spec's line."""
 
-    def located(design: Design) -> T:
-        return design._located(lambda: make(design))
-
-    located.__doc__ = make.__doc__
-    return cached_property(located)
+    def __get__(self, design: Any, owner: type | None = None) -> Any:
+        if design is None:
+            return self
+        kept = vars(design)
+        if self.attrname not in kept:
+            with design._located:
+                kept[self.attrname] = self.func(design)
+        return kept[self.attrname]
 
 
 def question(ask: Callable[Concatenate[Any, P], T]) -> Callable[Concatenate[Any, P], T]:
@@ -104,7 +108,8 @@ def question(ask: Callable[Concatenate[Any, P], T]) -> Callable[Concatenate[Any,
     def method(design: Any, /, *values: P.args, **named: P.kwargs) -> T:
         refuse_keywords(f"{ask.__name__}()", named, known)
         keywords = {name: plain(value) for name, value in named.items()}
-        return design._located(lambda: ask(design, *map(plain, values), **keywords))
+        with design._located:
+            return ask(design, *map(plain, values), **keywords)
 
     return method
 
@@ -215,11 +220,10 @@ class Design:
         """
         return Design.of(self.spec.with_(key, plain(value)))
 
-    def _located(self, make: Callable[[], T]) -> T:
-        if self._text is None:
-            return make()
-        with self._text.located():
-            return make()
+    @property
+    def _located(self) -> AbstractContextManager[None]:
+        """Context in which errors that name a key get the line of the spec's file."""
+        return self._text.located() if self._text else nullcontext()
 
     @answer
     def with_units(self) -> list[str]:

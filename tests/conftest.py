@@ -168,7 +168,7 @@ def made_once():
 @pytest.fixture
 def no_advice(monkeypatch):
     """Omit the search for advice on failing checks, which takes seconds."""
-    monkeypatch.setattr(advice, "WORK", 0)
+    monkeypatch.setattr(advice, "TRIALS", 0)
 
 
 @pytest.fixture(scope="module")

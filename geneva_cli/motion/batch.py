@@ -19,10 +19,15 @@ T = TypeVar("T")
 Change: TypeAlias = "Callable[[Array], object]"
 
 
-def taken(thing: T, which: Which) -> T:
-    """Reduce an object of a batch to some designs; ``which`` is a mask or their numbers."""
+def taken(thing: T, which: Which | int) -> T:
+    """Reduce an object of a batch to some designs: a mask, their numbers, or a slice.
+
+    With the number of one design, numbers stand in place of arrays.
+    """
     if isinstance(which, slice):
         return cast("T", _changed(thing, lambda array: array[which], {}))
+    if isinstance(which, int):
+        return cast("T", _changed(thing, lambda array: array[which, 0].item(), {}))
     numbers = numbers_of(which)
     return cast("T", _changed(thing, lambda array: array.take(numbers, axis=0), {}))
 
@@ -37,53 +42,45 @@ def selection(thing: T) -> Callable[[Which], T]:
     return partial(taken, thing)
 
 
-def alone(thing: T, i: int) -> T:
-    """The i-th design of an object of a batch, with numbers in place of arrays."""
-    return cast("T", _changed(thing, lambda array: array[i, 0].item(), {}))
-
-
 def designs_in(thing: object) -> int:
     """Number of designs in an object; 1 without an array along a design axis."""
-    lengths = {1}
-
-    def note(array: Array) -> Array:
-        lengths.add(len(array))
-        return array
-
-    _changed(thing, note, {})
+    lengths = [1]
+    _changed(thing, lambda array: lengths.append(len(array)), {})
     return max(lengths)
 
 
 def _changed(thing: object, change: Change, done: dict[int, object]) -> object:
-    """Copy an object and change every array (n, 1) in it; return it unchanged if it has none."""
+    """Copy a record and change the columns in it; the record itself if it has none.
+
+    What several records share is copied once, in ``done``: it stays shared.
+    """
     if isinstance(thing, np.ndarray):
         return change(thing) if thing.ndim == 2 and thing.shape[1] == 1 else thing
     kind: type = type(thing)
-    if not _may_hold(kind):
+    if not _is_record(kind):
         return thing
-    if id(thing) not in done:
-        done[id(thing)] = _anew(thing, change, done)
-    return done[id(thing)]
-
-
-def _anew(thing: object, change: Change, done: dict[int, object]) -> object:
+    if id(thing) in done:
+        return done[id(thing)]
+    copy: object = thing
     if isinstance(thing, (tuple, list)):
         parts = [_changed(part, change, done) for part in thing]
-        if all(a is b for a, b in zip(parts, thing, strict=True)):
-            return thing
-        return parts if isinstance(thing, list) else record_of(thing, parts)
-    old = vars(thing)
-    values = {name: _changed(value, change, done) for name, value in old.items()}
-    if all(values[name] is value for name, value in old.items()):
-        return thing
-    new: object = object.__new__(type(thing))
-    for name, value in values.items():  # a stored result belongs to the old set of designs
-        vars(new)[name] = Latest() if isinstance(value, Latest) else value
-    return new
+        if any(a is not b for a, b in zip(parts, thing, strict=True)):
+            copy = parts if isinstance(thing, list) else record_of(thing, parts)
+    else:
+        old = vars(thing)
+        new = {}
+        for name, value in old.items():
+            new[name] = _changed(value, change, done)
+        if any(new[name] is not value for name, value in old.items()):
+            fresh: object = object.__new__(kind)
+            for name, part in new.items():  # a stored result belongs to the old set of designs
+                vars(fresh)[name] = Latest() if isinstance(part, Latest) else part
+            copy = fresh
+    done[id(thing)] = copy
+    return copy
 
 
 @cache  # by type: most of what a machine holds is None or a number
-def _may_hold(kind: type) -> bool:
+def _is_record(kind: type) -> bool:
     """True for tables of a spec, for what is built from them, and for records of both."""
-    holders = SpecTable, Batchable, tuple, list
-    return issubclass(kind, holders) and not issubclass(kind, Points)
+    return issubclass(kind, (SpecTable, Batchable, tuple, list)) and not issubclass(kind, Points)

@@ -73,6 +73,7 @@ def face(shape):
     return polygon(shape, 1e-6)
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("shafts", ["plain", "turned"])
 @pytest.mark.parametrize("bore", ["D", "hex", "DIN 6885-1"])
 @pytest.mark.parametrize(

@@ -101,6 +101,7 @@ def test_check_compares_it_with_the_load(gearing, size):
     assert "wheel_clamp_Nm" not in {c.name for c in Design(gearing, size=keys).checks}
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("size", "said"),
     [

@@ -231,6 +231,7 @@ def test_a_bridge_bears_the_crank_of_a_side_crank(A):
     assert lever == pytest.approx(middle, rel=1e-12)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("name", "keys", "said"),
     [

@@ -451,6 +451,7 @@ def test_a_low_mouth_is_raised_by_a_fifth():
     ]
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize(
     ("wheel", "passed"),
     [

@@ -1,4 +1,4 @@
-"""Stops and plays of wheels with curved slots: `tests/stress/fuzz_stops.py --runs 2000 --jobs 2`.
+"""Stops and plays of wheels with curved slots, for ``fuzz.py``.
 
 Each wheel has a random law, extra dwell and clearance, and walls fitted with other places of the
 joints, so that arcs at an inflection get any radius. No parts overlap before a stop, and some do
@@ -7,11 +7,9 @@ is that of a dense scan.
 """
 
 import math
-import sys
 from unittest import mock
 
 import numpy as np
-from fuzzing import campaign, in_time
 from test_outline import made
 from words import Motion
 
@@ -21,7 +19,6 @@ from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.pairs import smallest_clearance
 from geneva_cli.parts.turn.play import windows
 
-SECONDS = 30  # of one machine
 LAWS = ("modified-sine", "cycloidal", "modified-trapezoid", "3-4-5", "harmonic")
 PLACES, DENSE = 80, 1500  # positions of the wheel in each motion and dwell
 TURNS = 40  # angles of the wheel that are tried before a stop
@@ -60,10 +57,10 @@ def require_largest_plays(parts):
     assert play.max() <= max(SCAN * either, noise), (turn.ahead, turn.behind)
 
 
-def one(arguments):
+def stops(arguments):
     """Return the result of a case: a seed, the step of the joints' weights, the machine's keys."""
     seed, step, case = arguments
-    with in_time(SECONDS), mock.patch("geneva_cli.geometry.fit.path.WEIGHT", step):
+    with mock.patch("geneva_cli.geometry.fit.path.WEIGHT", step):
         try:
             parts = made.__wrapped__(**case)
         except GenevaError:
@@ -90,7 +87,3 @@ def case(rng):
         "motion": Motion(rng.choice(LAWS), alpha0_deg=alpha0, ratio="matched"),
     }
     return rng.getrandbits(32), 2.0 ** -rng.randint(5, 12), keys | size
-
-
-if __name__ == "__main__":
-    sys.exit(campaign("wheels with curved slots", case, one, batch=20))

@@ -10,7 +10,7 @@ from words import Motion
 import geneva_cli
 from geneva_cli import Design, External, Load, SideCrank
 from geneva_cli.design import load
-from geneva_cli.motion.batch import alone, taken
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many, may_vary
 from geneva_cli.study.sweep.best import best_spec
@@ -207,7 +207,7 @@ def test_a_batch_knows_how_many_it_has():
     assert found.machine.designs == 3
     assert taken(found.machine, slice(1, 3)).designs == 2
     assert taken(found.machine, np.array([1])).designs == 1
-    assert alone(found.machine, 1).designs == 1
-    assert alone(found.machine, 1).design == 2
+    assert taken(found.machine, 1).designs == 1
+    assert taken(found.machine, 1).design == 2
     plain = Spec(External(6), SideCrank(A=0.5), motion=Motion(None))
     assert many(plain, {"size.pin_mm": np.array([4.0, 4.0])}).machine.designs == 2

@@ -9,7 +9,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kept import cached_property
-from geneva_cli.motion.batch import alone
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.numerics.latest import Known
@@ -70,7 +70,7 @@ class Designs:
         """The machines of the single designs."""
         if self.single:
             return [self.machine]
-        return self._each or [build(alone(self.spec, i)) for i in range(self.machine.designs)]
+        return self._each or [build(taken(self.spec, i)) for i in range(self.machine.designs)]
 
     @cached_property
     def load_case(self) -> LoadCase:

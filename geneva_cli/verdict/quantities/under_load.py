@@ -21,7 +21,7 @@ from geneva_cli.loads.strength.horn import horns
 from geneva_cli.loads.strength.horn_search import greatest_stress, single_stress
 from geneva_cli.loads.strength.pin import PinSize
 from geneva_cli.loads.tolerance.locking import Lock
-from geneva_cli.motion.batch import alone, designs_in
+from geneva_cli.motion.batch import designs_in, taken
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.records import thing
@@ -94,7 +94,7 @@ class UnderLoad:
             bare = Spec(
                 spec.wheel, spec.drive, spec.motion, spec.size, drive_before=spec.drive_before
             )
-            flat = [sized(build(alone(bare, i))) for i in range(designs_in(bare))]
+            flat = [sized(build(taken(bare, i))) for i in range(designs_in(bare))]
         locks = [
             LockSizes(one[1].half_width, cut_lock(*one)) if one and one[1].lock else None
             for one in flat

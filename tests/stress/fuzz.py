@@ -1,7 +1,8 @@
-"""Shared by the fuzzers: a case with a time limit, and long runs that can be stopped and resumed.
+"""Random cases before the program, for hours: `tests/stress/fuzz.py NAME --runs 20000 --jobs 2`.
 
-A run is of numbered cases; each makes its own random numbers from its number, so that any of them
-is made again by `--first N --runs 1`, in any order and by any process.
+NAME is one of ``FUZZERS``. A run is of numbered cases; each makes its own random numbers from its
+number, so that any of them is made again by `--first N --runs 1`, in any order and by any process.
+A run with `--state` can be stopped and resumed.
 """
 
 import argparse
@@ -17,12 +18,47 @@ import sys
 import tempfile
 import time
 import warnings
+from collections.abc import Callable
+from typing import NamedTuple
+
+import fuzz_checks
+import fuzz_stops
+from fuzz_machines import machine_text
+from fuzz_texts import text_of
 
 LAW = "".join(f"{i / 10},{(i / 10) ** 2 * (3 - i / 5)}\n" for i in range(11))
 # i = 1 - 0.3 cos(input), to what a person writes
 RATIOS = "".join(f"{x},{1 - 0.3 * math.cos(math.radians(x)):.9f}\n" for x in range(0, 361, 15))
 FILES = {"law.csv": LAW, "ratio.csv": RATIOS}  # which a spec may name
 MEMORY = 2**30  # bytes of data that a process of a long run may hold
+
+
+class Fuzzer(NamedTuple):
+    """Random cases and what must be true of each."""
+
+    make: Callable  # a case from random numbers
+    check: Callable  # returns how a case ended, in a word; raises for a fault
+    seconds: float  # of one case, at most
+    batch: int  # cases of a process between two lines of the state
+    strict: bool = True  # warnings are errors
+
+    def one(self, case):
+        """Try a case in time."""
+        with in_time(self.seconds), warnings.catch_warnings():
+            if self.strict:
+                warnings.simplefilter("error")
+            return self.check(case)
+
+
+FUZZERS = {
+    "specs": Fuzzer(text_of, fuzz_checks.motion, 10, 500),
+    "parts": Fuzzer(machine_text, fuzz_checks.parts, 30, 20),
+    "sheets": Fuzzer(machine_text, fuzz_checks.sheet, 60, 20),
+    "stops": Fuzzer(fuzz_stops.case, fuzz_stops.stops, 30, 20, strict=False),
+    "certificates": Fuzzer(
+        fuzz_checks.machine_of_each_kind, fuzz_checks.certified, 60, 50, strict=False
+    ),
+}
 
 
 @contextlib.contextmanager
@@ -39,14 +75,6 @@ def in_time(seconds):
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
         signal.signal(signal.SIGPROF, before)
-
-
-@contextlib.contextmanager
-def strictly(seconds):
-    """Limit the time as ``in_time`` does, and turn warnings into errors."""
-    with in_time(seconds), warnings.catch_warnings():
-        warnings.simplefilter("error")
-        yield
 
 
 @contextlib.contextmanager
@@ -79,50 +107,46 @@ def _place(error):
 
 def _batch(job):
     """Run cases one after another; return the number of each result, and the first failures."""
-    make, one, seed, start, count, bounded = job
-    if bounded:  # for the process of a long run, not for the one of the tests
-        resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, MEMORY))
+    name, seed, start, count = job
+    resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, MEMORY))
     ends, failed = {}, {}
     with folder():
-        for case in range(start, start + count):
-            text = make(numbers(seed, case))
+        for number in range(start, start + count):
+            case = FUZZERS[name].make(numbers(seed, number))
             try:
-                end = one(text)
+                end = FUZZERS[name].one(case)
             except Exception as error:
                 # the place of a time-out is random
                 slow = isinstance(error, TimeoutError)
                 what = "TimeoutError" if slow else f"{type(error).__name__} in {_place(error)}"
-                first = failed.setdefault(what, [0, case, str(error)[:400], repr(text)])
+                first = failed.setdefault(what, [0, number, str(error)[:400], repr(case)])
                 first[0] += 1
                 end = "failed"
             ends[end] = ends.get(end, 0) + 1
     return ends, failed
 
 
-def campaign(name, make, one, batch):
-    """Parse the command line and run: ``make(rng)`` is a case's text, ``one(text)`` tries it.
-
-    ``one`` returns the result in a word, and raises for a failure. Returns the exit status.
-    """
+def main():
+    """Run one fuzzer; the exit status is 1 if a case failed."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("--runs", type=int, default=10 * batch)
+    parser.add_argument("name", choices=FUZZERS)
+    parser.add_argument("--runs", type=int, default=1000)
     parser.add_argument("--first", type=int, default=0, help="number of the first case")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1, help="processes")
-    parser.add_argument("--seconds", type=float, help="stop after so long, at a batch's end")
     parser.add_argument("--state", help="file to take the run up from, and to keep it in")
     options = parser.parse_args()
-    state = {"seed": options.seed, "next": options.first, "seconds": 0.0, "ends": {}, "failed": {}}
+    state = {"seed": options.seed, "next": options.first, "ends": {}, "failed": {}}
     if options.state and os.path.exists(options.state):
         with open(options.state) as file:
             state = json.load(file)
-    start, before, stop = time.perf_counter(), state["seconds"], options.first + options.runs
+    start, stop = time.perf_counter(), options.first + options.runs
+    batch = FUZZERS[options.name].batch
     places = range(state["next"], stop, batch)
-    jobs = [(make, one, state["seed"], at, min(batch, stop - at), True) for at in places]
+    jobs = [(options.name, state["seed"], at, min(batch, stop - at)) for at in places]
     with multiprocessing.get_context("spawn").Pool(options.jobs, maxtasksperchild=20) as pool:
         for at, (ends, failed) in zip(places, pool.imap(_batch, jobs), strict=True):
             state["next"] = min(at + batch, stop)
-            state["seconds"] = before + time.perf_counter() - start
             for end, count in ends.items():
                 state["ends"][end] = state["ends"].get(end, 0) + count
             for what, first in failed.items():
@@ -135,11 +159,12 @@ def campaign(name, make, one, batch):
                 with open(options.state + ".new", "w") as file:
                     json.dump(state, file, indent=1)
                 os.replace(options.state + ".new", options.state)
-            if options.seconds and time.perf_counter() - start > options.seconds:
-                pool.terminate()
-                break
+    seconds = time.perf_counter() - start
+    print(f"{options.name}: {stop - options.first} cases, {seconds:.0f} s; {state['ends']}")
     counts = {what: first[0] for what, first in state["failed"].items()}
-    done = state["next"] - options.first
-    print(f"{name}: {done} of {options.runs} cases, {state['seconds']:.0f} s; {state['ends']}")
     print(f"failures: {counts}", file=sys.stderr if counts else sys.stdout)
     return int(bool(counts))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

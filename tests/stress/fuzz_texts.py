@@ -1,38 +1,18 @@
-"""Random specs, and the requirements on each: `python tests/stress/fuzz_spec.py --runs 1000000`.
+"""Random texts for the fuzzers: specs of any keys, mutated specs, and TOML words."""
 
-Text goes through the program's own reader, as from standard input: it either makes a machine, whose
-motion is then computed, or is refused in one printable line that begins with its place. Four kinds
-of text: machines as a designer writes them, specs put together from the keys that the program knows
-(often at the very ends of their ranges), such specs with letters, lines and values mutated, and
-TOML words thrown together.
-"""
-
-import io
-import math
 import re
-import sys
 from functools import cache
-from types import SimpleNamespace
 from typing import get_origin
 
-import numpy as np
 from fuzz_machines import in_range, machine_text
-from fuzzing import campaign, strictly
 
-from geneva_cli import design
-from geneva_cli.errors import GenevaError
 from geneva_cli.motion import registry
-from geneva_cli.motion.motion_table import motion_table
-from geneva_cli.motion.peaks import peaks_table
 from geneva_cli.motion.registry import DRIVES, GEARINGS, LAWS
 from geneva_cli.spec.rules import OneOf, Words
 from geneva_cli.spec.schema import REQUIRED, fields
 from geneva_cli.spec.tables import LISTS
 from geneva_cli.specfile.writer import keys_of
-from geneva_cli.table import flat
 
-SECONDS = 10  # for one spec; one takes some milliseconds
-PLACE = re.compile(r"(<stdin>|law\.csv|ratio\.csv)(:(\d+))?: ", re.DOTALL)
 # fmt: off
 ODD = ["nan", "inf", "-inf", "0", "-0.0", "1e308", "1e-300", "-1", '"x"', "true", "[]", "[1, [2]]",
        "{}", "{a = 1}", "2001-02-03", "1" + "0" * 400, '""', '"\\u001b[31m"', "0x1F", "1_0"]
@@ -139,69 +119,3 @@ def text_of(rng):
     if how < 0.7:
         return spec_text(rng)
     return mutated(rng, spec_text(rng, 0.1)) if how < 0.95 else garbage(rng)
-
-
-def read(data):
-    """The machine that the bytes describe, or the message that refuses them; anything else raises.
-
-    The folder holds law.csv, which a spec may name.
-    """
-    stdin, sys.stdin = sys.stdin, SimpleNamespace(buffer=io.BytesIO(data))
-    try:
-        return design.load("-").mechanism
-    except GenevaError as error:
-        message = str(error)
-        place = PLACE.match(message)
-        assert place, f"no place in: {message}"
-        # errors.clean makes it printable; its length and its line are checked here
-        assert len(message) < 2000, f"{len(message)} characters: {message[:200]}"
-        lines = max(data.count(b"\n"), data.count(b"\r")) + 2
-        assert int(place[3] or 0) <= max(lines, 20), message
-        return message
-    finally:
-        sys.stdin = stdin
-
-
-def consistent(mechanism):
-    """Check what every machine has: rest at both ends, a whole step, an ascending window."""
-    for engagement in mechanism.engagements:
-        assert engagement.entry_deg < engagement.exit_deg
-        b = engagement.half_step
-        for x, wheel in ((engagement.entry_deg, -b), (engagement.exit_deg, b)):
-            p = engagement.motion(x, 3).derivatives()
-            assert all(math.isfinite(v) for v in p), f"not finite at {x!r}: {p}"
-            # a law given as points ends where its spline does: rounding of sums of such terms
-            assert abs(p[0] - wheel) <= 1e-9 * b, f"wheel at {x!r}: {p[0]!r}, not {wheel!r}"
-    for i in range(len(mechanism.engagements)):
-        assert math.isfinite(mechanism.dwell_deg(i))
-
-
-def sound(table, boundless=()):
-    """Check that no number of a table is NaN, and that only ``boundless`` columns are infinite."""
-    for name, column in zip(table.names, table.columns, strict=True):
-        values = [v for v in np.asarray(column, dtype=object).ravel() if isinstance(v, float)]
-        assert not any(v != v for v in values), f"{name} is nan"
-        if name not in boundless:
-            assert all(map(math.isfinite, values)), f"{name} is infinite"
-
-
-def sound_motion(mechanism, samples=()):
-    """Check the numbers of peaks and motion, which are finite."""
-    for table in (flat(peaks_table(mechanism)), *(motion_table(mechanism, n) for n in samples)):
-        sound(table)
-
-
-def one(text):
-    """Compute the motion of one spec; return how it ended, in a word."""
-    data = text if isinstance(text, bytes) else text.encode("utf-8", "surrogatepass")
-    with strictly(SECONDS):
-        machine = read(data)
-        if isinstance(machine, str):
-            return "refused"
-        consistent(machine)
-        sound_motion(machine, (33, 50))  # with mid-motion among them, and without
-        return "machine"
-
-
-if __name__ == "__main__":
-    sys.exit(campaign("specs", text_of, one, batch=500))
