@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
@@ -34,24 +34,15 @@ from geneva_cli.parts.sizes import (
     within_hub,
 )
 from geneva_cli.parts.slots.roller_paths import RollerPaths, mouth, roller_paths, roller_reaches
+from geneva_cli.parts.stressed import Unloaded
 from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
     from geneva_cli.loads.strength.part_loads import PartLoads
-    from geneva_cli.loads.tolerance.locking import Lock
 
 Layout: TypeAlias = tuple[Assembly, Sizes]  # of one machine
-
-
-class Unloaded(NamedTuple):
-    """The parts of a machine as they are without a load."""
-
-    assembly: Assembly
-    sizes: Sizes
-    space: float  # radius about the crank's axis inside the relief, mm
-    lock: Lock | None  # as it is cut, which no load changes
 
 
 def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> Layout | None:

@@ -19,7 +19,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from functools import lru_cache
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
@@ -56,13 +56,10 @@ from geneva_cli.parts.sizes import (
     wheel_reach_and_hub,
     within_hub,
 )
-from geneva_cli.parts.stressed import ShaftSize, Stressed, stressed
+from geneva_cli.parts.stressed import ShaftSize, Stressed, Unloaded, stressed
 from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.materials import roller_material, wheel_material
 from geneva_cli.spec.tables import Load, Size
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.machine_sizes import Unloaded
 
 T = TypeVar("T")
 

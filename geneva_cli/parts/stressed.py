@@ -36,6 +36,15 @@ from geneva_cli.spec.keyways import key
 from geneva_cli.spec.least_wall import eye_about
 
 
+class Unloaded(NamedTuple):
+    """The parts of a machine as they are without a load."""
+
+    assembly: Assembly
+    sizes: Sizes
+    space: float  # radius about the crank's axis inside the relief, mm
+    lock: Lock | None  # as it is cut, which no load changes
+
+
 class ShaftSize(NamedTuple):
     """Diameter and overhang of a shaft, mm; NaN for none."""
 

@@ -19,8 +19,8 @@ from geneva_cli.loads.strength.roller import (
     lives,
     passage,
     passages,
+    wears_mm,
 )
-from geneva_cli.loads.strength.wear import wears_mm
 from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.arrays import only_of
 from geneva_cli.spec.tables import Load, RollerMaterial, Size, WheelMaterial
@@ -220,7 +220,7 @@ def test_one_wall_takes_all_the_wear_of_a_torque_that_never_reverses():
     spec = CASE.replace(material_wheel=WORN, load=Load(0.0, 15.0))
     (way,) = passages(build(spec))
     expected = way.work / (0.5 * way.travel_m) / (20.0 * 1000.0)
-    assert worn_mm(spec) == pytest.approx([expected], rel=1e-12)
+    assert worn_mm(spec) == pytest.approx(expected, rel=1e-12)
     # an inertia alone presses on one wall on the way in, and on the other on the way out
     (way,) = passages(build(spec.replace(load=Load(0.4, 0.0))))
     walls = expected_walls(build(spec.replace(load=Load(0.4, 0.0))))
