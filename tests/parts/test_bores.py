@@ -233,14 +233,6 @@ def test_refused(size, key, said):
     assert caught.value.key == ("size", key)
 
 
-def test_sheets_say_what_they_are():
-    design = of(crank_bore="D", wheel_bore="hex", crank_bore_mm=10.0, wheel_bore_mm=16.0)
-    texts = [label.text for label in design.sheet().texts]
-    assert "hexagon 16 across flats" in texts
-    assert texts.count("flat, 9 to the far side") == 3  # arm, disc and shaft
-    assert not [text for text in texts if text.startswith("Ø 16 H7")][1:]  # the frame's alone
-
-
 def test_edges_are_a_note_and_take_some_of_the_thickness():
     """8 mm of contact and two edges of 0.5 mm make a wheel of 9 mm."""
     design = of(edge_chamfer_mm=0.5, face_width_mm=8.0)
@@ -252,22 +244,6 @@ def test_edges_are_a_note_and_take_some_of_the_thickness():
     assert "rounded R 1" in texts
 
 
-@pytest.mark.parametrize(
-    ("size", "said"),
-    [
-        ({"edge_chamfer_mm": 0.5, "edge_fillet_mm": 0.5}, "either chamfered or rounded"),
-        ({"edge_chamfer_mm": 5.0}, "edge_chamfer_mm = 5: it must be below 5, half"),
-        (
-            {"edge_fillet_mm": 1.0, "face_width_mm": 9.0, "wheel_thickness_mm": 10.0},
-            "use at least face_width_mm = 9 and two edges of 1",
-        ),
-    ],
-)
-def test_edges_that_are_refused(size, said):
-    with pytest.raises(GenevaError, match=said):
-        of(**size).drawing("wheel")
-
-
 HUBS = {
     "wheel_hub_mm": 26.0,
     "wheel_bore_mm": 16.0,
@@ -275,15 +251,6 @@ HUBS = {
     "crank_bore_mm": 10.0,
     "crank_hub_length_mm": 20.0,
 }
-
-
-def test_set_screws_are_noted():
-    design = of(**HUBS, wheel_bore="D", wheel_screw_mm=5.0, crank_screw_mm=4.0)
-    texts = [label.text for label in design.sheet().texts]
-    assert texts.count("set screw M5 (ISO 4026), radial, onto the flat") == 1
-    assert texts.count("set screw M4 (ISO 4026), radial, onto the shaft") == 1
-    rows = {row["name"]: row for row in design.part_table("parts").to_rows()}
-    assert rows["crank's set screw"]["value"] == 4.0
 
 
 @pytest.mark.parametrize(
