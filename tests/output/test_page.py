@@ -119,7 +119,7 @@ def test_the_roller_runs_in_the_slot_that_is_drawn(name):
         slot = np.column_stack([c.c[0] + 0.0 * local for c in e.slot(local, 0)])
         c, s = math.cos(e.apart), math.sin(e.apart)  # of a pair of slots the first
         slot = slot @ np.array(((c, s), (-s, c)))
-        first = local < -e.ahead_deg[0] if e.apart else local == local
+        first = local < -e.passages[0][1] if e.apart else local == local
         L = design.mechanism.center_distance_mm
         assert first.any() and np.abs(own - L * slot)[first].max() < 1e-5 * L
 

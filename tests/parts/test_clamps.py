@@ -14,7 +14,7 @@ from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.mass import mass_properties
 from geneva_cli.geometry.plates import plates
 from geneva_cli.output.mesh.solids import bodies
-from geneva_cli.parts.shafts.clamps import Clamp
+from geneva_cli.parts.shafts.held_hubs import Clamp
 from geneva_cli.parts.shafts.screws import screw
 
 SIZE = {"wheel_hub_mm": 44.0, "wheel_bore_mm": 16.0, "wheel_clamp_mm": 5.0}
