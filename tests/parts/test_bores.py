@@ -205,6 +205,17 @@ def test_refused(size, key, said):
     assert caught.value.key == ("size", key)
 
 
+def test_edges_are_a_note_and_take_some_of_the_thickness():
+    """8 mm of contact and two edges of 0.5 mm make a wheel of 9 mm."""
+    design = of(edge_chamfer_mm=0.5, face_width_mm=8.0)
+    assert design.parts.sizes.wheel_thickness == 9.0
+    assert "chamfered 0.5 × 45°" in [label.text for label in design.sheet().texts]
+    rows = {row["name"]: row for row in design.part_table("parts").to_rows()}
+    assert rows["chamfer of all edges"]["value"] == 0.5
+    texts = [label.text for label in of(edge_fillet_mm=1.0).sheet().texts]
+    assert "rounded R 1" in texts
+
+
 HUBS = {
     "wheel_hub_mm": 26.0,
     "wheel_bore_mm": 16.0,
