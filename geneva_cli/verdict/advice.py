@@ -22,7 +22,6 @@ from geneva_cli.verdict.both_directions import worst_checks
 from geneva_cli.verdict.checks import checks_at_rest, single_check
 from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, TURNING, check_named, turn_checks
 from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
-from geneva_cli.verdict.remedies import remedies
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts
@@ -130,7 +129,7 @@ class Trial:
         """The turns at few positions: what fails there fails in the whole turn."""
         from geneva_cli.parts.turn.full_turn import full_turn
 
-        return [full_turn(parts.turned, refined=False) for parts in self.ways]
+        return [full_turn(parts.turned, False) for parts in self.ways]
 
     def spare(self, name: str) -> float:
         """The least margin of a check, negative where it fails; of a turn at few positions."""
@@ -173,6 +172,8 @@ class Adviser:
 
         Without one, None and the reason.
         """
+        from geneva_cli.verdict.remedies import remedies
+
         self.stop = self.left - trials
         by_cost = sorted(wanted, key=lambda c: (c.name in TURNING, c.name not in QUICK))
         self.units = {c.name: -c.spare if c.spare > -math.inf else 1.0 for c in by_cost}

@@ -5,13 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from geneva_cli.loads.cycle import cycle_of
-from geneva_cli.loads.load_tables import summaries
-from geneva_cli.loads.sizing import WHEEL_INERTIA, sizing
 from geneva_cli.verdict.both_directions import worst_checks
 from geneva_cli.verdict.checks import Check, proofs
 from geneva_cli.verdict.checks.all_checks import checks_before_turn, checks_of_turn
-from geneva_cli.verdict.quantities.load_quantities import summary_ends
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts
@@ -51,17 +47,3 @@ def _values(names: Sequence[str], rows: Sequence[Check]) -> Values:
 def proved(parts: Parts) -> Values:
     """The gap that is proved."""
     return {c.name: c.value for c in proofs(parts)}
-
-
-def cycle(parts: Parts) -> Values:
-    """Greatest and least values of the loads with their signs, means and root mean squares."""
-    values: Values = {}
-    for load, one in summaries(cycle_of(parts.mechanism)).items():
-        values |= {f"{load}.{end}": getattr(one, end) for end in summary_ends(load)}
-    return values
-
-
-def motor_sizing(parts: Parts) -> Values:
-    """Motor, flywheel and the cam-indexer formula, without the wheel's own inertia."""
-    values, _ = sizing(cycle_of(parts.mechanism))
-    return {name: value for name, value in values.items() if name != WHEEL_INERTIA}
