@@ -17,8 +17,8 @@ from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli import extras, kinds, load, study
 from geneva_cli.motion.mechanism import build
+from geneva_cli.parts import machine_sizes as own_sizes
 from geneva_cli.parts.outlines import cut_outlines as outline
-from geneva_cli.parts.outlines import outline_sizes as own_sizes
 from geneva_cli.parts.outlines.walls import chain as walls_chain
 from geneva_cli.parts.outlines.walls import curved as curved_walls
 from geneva_cli.parts.outlines.walls import path_walls

@@ -59,8 +59,8 @@ class Kind(NamedTuple):
     horn_sizes: str = ""
     horns: str = ""  # function of a mechanism and them that returns horns of another shape
     cut_parts: str = ""  # class of the parts as they are cut within the tolerances
-    # functions that return families of synth, by where they are searched: beside "straight" slots
-    # of a wheel, "alone", or where wheels on a "carrier" are required
+    # functions that return families of synth, by where they are searched: those of a "wheel" alone,
+    # beside "straight" slots of any wheel, "alone", or where wheels on a "carrier" are required
     families: Mapping[str, str] = _NONE
     roller: str = ""  # function that returns the roller that suits a mechanism, for synth
     scene: str = ""  # class of what a page shows of the wheels

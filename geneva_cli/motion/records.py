@@ -53,6 +53,7 @@ _CORE = (
         name="external",
         synonyms=("outer", "outside"),
         wheel="motion.wheels.external:External",
+        families={"wheel": "study.synth.families.straight_slots:offset_slots"},
     ),
     _FLAT._replace(
         name="internal",
@@ -66,6 +67,7 @@ _CORE = (
         front=_FRONT,
         drawings=_DRAWINGS,
         tables=_TABLES,
+        families={"wheel": "study.synth.families.straight_slots:inclined"},
     ),
     Kind("crank", drive=CRANK, refuses="drives.refuses:of_crank"),
     Kind("side-crank", drive="drives.side_crank:SideCrank", refuses=_CRANK),
@@ -131,3 +133,8 @@ def parts_class(wheel: str) -> Any:
 def families_of_kinds(where: str) -> list[Any]:
     """Functions that return families of synth, of the kinds that are searched there."""
     return [load_named(kind.families[where]) for kind in KINDS if where in kind.families]
+
+
+def families_of_wheel(name: str) -> list[Any]:
+    """Functions that return the families of synth that only a kind of wheel has."""
+    return [load_named(path) for kind in of_wheel(name) if (path := kind.families.get("wheel"))]

@@ -63,7 +63,7 @@ def batch_machines(specs: Sequence[Spec]) -> Iterator[Batch]:
     keys: dict[Any, list[BatchKey]] = {}
     shapes = []
     for spec in specs:
-        shape, own = _split(spec, keys)
+        shape, own = split(spec, keys)
         wide.append(own)
         shapes.append(shape)
     for members in _alike(range(len(specs)), shapes.__getitem__):
@@ -141,7 +141,7 @@ class BatchKey(NamedTuple):
     varies: bool
 
 
-def _split(spec: Spec, keys: dict[Any, list[BatchKey]]) -> tuple[Any, dict[str, float]]:
+def split(spec: Spec, keys: dict[Any, list[BatchKey]]) -> tuple[Any, dict[str, float]]:
     """The values that specs of one batch must share, and the spec's own numbers.
 
     ``keys`` caches the keys of each kind.

@@ -191,6 +191,7 @@ def test_fewer_bolts_are_advised(tmp_path: Path) -> None:
     assert int(most) == max(passing)
 
 
+@pytest.mark.long
 def test_a_limit_has_its_advice_although_the_parts_cannot_be_built(tmp_path: Path) -> None:
     text = LOADED.replace("[size]\n", "[size]\nedge_chamfer_mm = 0.5\nedge_fillet_mm = 0.5\n")
     rows = judged(read(tmp_path, f"{text}pin_force_max_N = 250\n"))
@@ -294,6 +295,7 @@ def test_rounding_leaves_what_fails(good: float, far: float) -> None:
     assert abs(shown - good) <= 0.02 * abs(good - bad)
 
 
+@pytest.mark.long
 def test_a_key_of_several_tables_is_named_with_its_table(tmp_path: Path) -> None:
     """The first table that has the key needs no name: a reader looks for L in [size]."""
     text = (DESIGNS / "tolerances.toml").read_text()
@@ -344,6 +346,7 @@ KEPT = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", KEPT)
 def test_no_requirement_is_broken_for_a_part(name: str, tmp_path: Path) -> None:
     """Each failing part has its own size, and with all of them at once all checks pass."""

@@ -15,7 +15,6 @@ from geneva_cli.study.synth.families.family import (
     is_compatible,
     machine,
     natural_deg,
-    only,
     rollers,
 )
 from geneva_cli.study.target import Target
@@ -37,7 +36,7 @@ def carousels(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
                 if count == 1 or (fingers == 1 and count <= rollers_max(natural)):
                     spec = _carousel(target, wheel, fingers, count)
                     if is_compatible(spec):
-                        yield only(spec)
+                        yield Family(spec)
 
 
 def _carousel(target: Target, wheel: Gearing, fingers: int, wheels: int) -> Spec:

@@ -6,19 +6,24 @@ import math
 from collections.abc import Callable, Iterator
 from functools import partial
 
+import numpy as np
+
 from geneva_cli.kinds.gear_sector.motion import GearSector
-from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.roots import boundary
+from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.synth.families.family import (
     BARE,
     Family,
     allowed_motions,
     closed_span,
     is_compatible,
+    line,
     machine,
     natural_deg,
+    speeds,
 )
 from geneva_cli.study.target import Target
 
@@ -43,14 +48,21 @@ def sectors(target: Target, wheel: Gearing) -> Iterator[Family]:
     low = max(ends[0], slot(sector_deg, 330.0))
     high = min(ends[1], slot(sector_deg, 1e-3))
     if low <= high:
-        make = partial(_with_sectors, target, wheel)
-        yield Family(make, low, high, wheel.step.b, wheel.step.b)
+
+        def drive(n: float) -> GearSector:
+            return GearSector(sector_deg=90.0, n_rpm=n)
+
+        spec = machine(target, wheel, drive, 1, natural_deg(wheel))
+        keys, plain = partial(_sectors, target, z), (wheel.step.b,)
+        yield line(spec, keys, AllowedSpan(low, high), known=plain, plain=plain)
 
 
-def _with_sectors(target: Target, wheel: Gearing, b: float) -> Spec:
-    """Gear sectors between slots of half angle b."""
-    angle, motion = sector_deg(wheel.z, b), sector_motion(wheel.z, b)
-    return machine(target, wheel, lambda n: GearSector(sector_deg=angle, n_rpm=n), 1, motion)
+def _sectors(target: Target, z: int, at: Array) -> dict[str, Array]:
+    """Gear sectors between slots of half angles b."""
+    half = at[:, 0].tolist()
+    motions = [sector_motion(z, b) for b in half]
+    sectors = np.array([sector_deg(z, b) for b in half])
+    return {"drive.sector_deg": sectors, **speeds(target, 1, motions)}
 
 
 def sector_deg(z: int, b: float) -> float:

@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterator, Sequence
 from functools import partial
 from itertools import islice
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -25,8 +25,8 @@ from geneva_cli.kinds.linkages.four_bar import FourBar
 from geneva_cli.kinds.linkages.four_bar_search import (
     OTHERS,
     Goal,
-    Pool,
     WheelGoal,
+    four_bars_at,
     search_four_bars,
 )
 from geneva_cli.motion.machine_spec import Spec
@@ -41,8 +41,8 @@ from geneva_cli.study.synth.families.family import (
     is_compatible,
     machine,
     natural_deg,
-    only,
 )
+from geneva_cli.study.synth.optimiser import Places
 from geneva_cli.study.target import Target
 
 
@@ -56,12 +56,21 @@ def four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     tasks = [task for wheel in wheels if (task := _task(target, wheel))]
     names = [target.sort.name if target.sort else target.peak, *(b.name for b in target.limits)]
     count = 1 if all(map(is_known, names)) else 1 + OTHERS
-    for task, pool in zip(tasks, _pools(target, tuple(tasks)), strict=True):
-        if pool and (n := len(pool.cost)):
-            every = Family(partial(_spec, target, task.wheel, pool), 0.0, n - 1.0, several=n)
-            machines = ((x, spec) for x in every.places(n) if (spec := every.at(x)))
-            for x, spec in islice(machines, count):
-                yield every._replace(best=x) if count == 1 else only(spec)
+    for found in _searched(target, tasks):
+        if found and (n := len(found.places.of)):
+            make = partial(_spec, target, found)
+            machines = ((i, spec) for i in range(n) if (spec := make(i)))
+            for i, spec in islice(machines, count):
+                alone = Family(spec)
+                listed = alone._replace(make=make, several=n, best=float(i))
+                yield listed if count == 1 else alone
+
+
+class _Found(NamedTuple):
+    """The search that found four-bars of a wheel, the best first."""
+
+    goal: Goal
+    places: Places
 
 
 def _task(target: Target, wheel: Gearing) -> WheelGoal | None:
@@ -80,30 +89,28 @@ def _task(target: Target, wheel: Gearing) -> WheelGoal | None:
     )
 
 
-def _pools(target: Target, tasks: tuple[WheelGoal, ...]) -> Sequence[Pool | None]:
+def _searched(target: Target, tasks: Sequence[WheelGoal]) -> Sequence[_Found | None]:
     """The best four-bars, if any, of each wheel.
 
     If any motion is allowed and there is no goal, the gentlest ones with the plain crank's motion
     are taken; if none of these keeps the bounds, those of any motion.
     """
-    if not tasks:
-        return []
     bounds = tuple(b for b in target.limits if is_known(b.name))
-    goal = Goal(target, tasks, bounds, target.peak)
-    if target.sort:
-        sign, least = target.sort
-        return search_four_bars(goal._replace(least=least, sign=sign) if is_known(least) else goal)
-    if not target.any_motion:
-        return search_four_bars(goal)
-    by_wheel: dict[int, Pool] = {}
+    goal = Goal(target, (), bounds, target.peak)
+    if target.sort and is_known(target.sort.name):
+        goal = goal._replace(least=target.sort.name, sign=target.sort.sign)
+    every = dict(enumerate(tasks))
     same = {
-        i: task for i, task in enumerate(map(_as_plain, tasks)) if _in_time(target, task, bounds)
+        i: plain for i, plain in enumerate(map(_as_plain, tasks)) if _in_time(target, plain, bounds)
     }
-    for goals in (same, dict(enumerate(tasks))):
-        left = {i: task for i, task in goals.items() if i not in by_wheel}
-        pools = search_four_bars(goal._replace(wheels=tuple(left.values()))) if left else []
-        by_wheel |= {i: pool for i, pool in zip(left, pools, strict=True) if len(pool.cost)}
-    return [by_wheel.get(i) for i in range(len(tasks))]
+    by_wheel: dict[int, _Found] = {}
+    for tried in (same, every) if target.any_motion and not target.sort else (every,):
+        left = {i: task for i, task in tried.items() if i not in by_wheel}
+        own = goal._replace(wheels=tuple(left.values()))
+        for i, found in zip(left, search_four_bars(own) if left else [], strict=True):
+            if len(found.of):
+                by_wheel[i] = _Found(own, found)
+    return [by_wheel.get(i) for i in every]
 
 
 def _as_plain(task: WheelGoal) -> WheelGoal:
@@ -122,16 +129,19 @@ def _in_time(target: Target, task: WheelGoal, bounds: Sequence[Constraint]) -> b
 _EXAMPLE: Any = FourBar.EXAMPLE.tables["drive"]
 
 
-def _spec(target: Target, wheel: Gearing, pool: Pool, x: float) -> Spec | None:
-    """The machine of a number in a pool, scaled to the frame's size.
+def _spec(target: Target, found: _Found, number: int) -> Spec | None:
+    """The machine of a number in a search, scaled to the frame's size.
 
     None if its links differ too much in length, or if the roller leaves its slot.
     """
-    one = pool.select(np.array([int(x)]))
-    links, (entry, motion, sense, _) = one.links, one.drive
+    one = found.places.take(slice(number, number + 1))
+    with np.errstate(all="ignore"):
+        machine = four_bars_at(found.goal, one.of, one.at)
+    links, (entry, motion, sense, _) = machine.links, machine.drive
+    wheel = found.goal.wheels[one.of[0]].wheel
     b, required, wide = wheel.step.b, float(motion[0, 0]), motion
     own = _machine(target, wheel, FourBar(**_EXAMPLE), math.degrees(required))
-    scale = (target.frame or BARE).given_distance_mm / float(one.distance[0])
+    scale = (target.frame or BARE).given_distance_mm / float(machine.distance[0])
     for _ in range(4):  # until the motion has its digits
         w = complex(coupler_drive(links, entry, wide, b, sense).w[0, 0]) * scale
         crank, ground, coupler, rocker = (float(x[0, 0]) * scale for x in links)

@@ -7,7 +7,7 @@ cube, equal in every run. The next ones are ever closer to the best.
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.sweep.constraints import Constraint
+from geneva_cli.study.synth.optimiser import Places, Zoom, sampled, zoom
 from geneva_cli.study.target import Target
 
 SAMPLES = (256, 2048)  # least and most four-bars that are sampled for one wheel
@@ -48,54 +49,51 @@ class WheelGoal(NamedTuple):
     roller: float
 
 
-class Pool(NamedTuple):
-    """Places in the unit cube, and their linkages and costs."""
+class FourBars(NamedTuple):
+    """Machines of the search: which of the places have one, and their links, drive and costs."""
 
-    of: Whole  # the number of the wheel, (n,)
-    unit: Array  # (n, 5): two proportions, crank, angle, and the motion in a range
+    which: Whole
     links: FourBarLinks
     drive: CouplerDrive
-    broken: Array  # violation of the bounds; infinite without a machine
-    cost: Array  # the quantity to minimise
     distance: Array
-
-    def best(self, count: int) -> Pool:
-        """The best places of each wheel that are machines."""
-        order = np.lexsort((self.cost, self.broken, self.of))
-        of = self.of[order]
-        place = np.arange(len(of)) - np.searchsorted(of, of)
-        return self.select(order[(place < count) & np.isfinite(self.broken[order])])
-
-    def select(self, which: Any) -> Pool:
-        """Some of the places."""
-        return Pool(*(_select(part, which) for part in self))
+    violation: Array
+    cost: Array
 
 
-def search_four_bars(goal: Goal) -> list[Pool]:
-    """For each wheel the four-bars that keep the bounds, the best first."""
+def search_four_bars(goal: Goal) -> list[Places]:
+    """For each wheel the places of four-bars that keep the bounds, the best first.
+
+    A place is a point of the unit cube: two proportions, the crank, its angle, the motion in a
+    range, and the wheel's sense.
+    """
     wheels, slots = len(goal.wheels), len(goal.target.z)
     # all wheels of a requirement together have about 6000 samples, and 300 closer samplings
     count = min(max(6000 // slots, SAMPLES[0]), SAMPLES[1])
     samplings = min(max(300 // slots, SAMPLINGS[0]), SAMPLINGS[1])
     parents, children = 4, 12  # the best places of a wheel, and the closer samples near each
-    every = np.arange(wheels)
+
+    def coarse(of: Whole, at: Array) -> tuple[Array, Array]:
+        return _costs(goal, of, at, COARSE)
+
+    def fine(of: Whole, at: Array) -> tuple[Array, Array]:
+        return _costs(goal, of, at, FINE)
+
+    def offsets(number: int) -> Array:
+        return np.column_stack((_spread(children, number) - 0.5, np.zeros(children)))
+
     with np.errstate(all="ignore"):
-        unit, sense = np.repeat(_spread(count), 2, axis=0), np.resize([1.0, -1.0], 2 * count)
-        tried = [_pool(goal, np.full(2 * count, i), unit, sense, COARSE) for i in every]
-        first = _joined(*(one.best(OTHERS) for one in tried))
-        best, width = first.best(parents), 0.3  # of the cube's side
-        for number in range(samplings):
-            offset = (_spread(children, number) - 0.5) * width
-            unit = (best.unit[:, None] + offset).reshape(-1, unit.shape[1])
-            of, sense = (np.repeat(x, children) for x in (best.of, best.drive.sense[:, 0]))
-            best = _joined(best, _pool(goal, of, _inside(unit), sense, COARSE)).best(parents)
-            width *= 3e-3 ** (1.0 / samplings)
+        points = np.repeat(_spread(count), 2, axis=0)
+        at = np.column_stack((points, np.resize([1.0, 0.0], 2 * count)))
+        each = [sampled(coarse, np.full(2 * count, i), at).best(OTHERS) for i in range(wheels)]
+        first = each[0].joined(*each[1:])
+        first = first.take(np.isfinite(first.violation))
+        closer = 3e-3 ** (1.0 / samplings)
+        near = Zoom(offsets, 0.3, closer, closer, samplings, around=(3,))
+        several = zoom(coarse, first.best(parents), near, keep=parents).joined(first)
         # fine samples remove those that fail between the coarse ones
-        several = _joined(best, first)
-        sense = several.drive.sense[:, 0]
-        fine = _pool(goal, several.of, several.unit, sense, FINE).best(parents + OTHERS)
-    kept = fine.select(fine.broken == 0.0)
-    return [kept.select(kept.of == i) for i in every]
+        kept = sampled(fine, several.of, several.at)
+        kept = kept.take(kept.violation == 0.0).best(parents + OTHERS)
+    return [kept.take(kept.of == i) for i in range(wheels)]
 
 
 def _spread(count: int, start: int = 0) -> Array:
@@ -105,24 +103,27 @@ def _spread(count: int, start: int = 0) -> Array:
     """
     g = 1.1347241384015194
     powers = g ** -np.arange(1.0, 6.0)
-    points: Array = (
-        0.5 + np.arange(1 + start * count, 1 + (start + 1) * count)[:, None] * powers
-    ) % 1
+    numbers = np.arange(1 + start * count, 1 + (start + 1) * count)
+    points: Array = (0.5 + numbers[:, None] * powers) % 1
     return points
 
 
-def _inside(unit: Array) -> Array:
-    """Places with the angle wrapped and the other coordinates clipped to the cube."""
-    inside = np.clip(unit, 0.0, 1.0)
-    inside[:, 3] = unit[:, 3] % 1.0
-    return inside
+def _costs(goal: Goal, of: Whole, at: Array, places: int) -> tuple[Array, Array]:
+    """Violations and costs of places; infinite without a machine."""
+    found = four_bars_at(goal, of, at, places)
+    out = np.full((2, len(of)), np.inf)
+    out[:, found.which] = found.violation, found.cost
+    return out[0], out[1]
 
 
-def _pool(goal: Goal, of: Whole, unit: Array, sense: Array, places: int) -> Pool:
-    """The machines at places of the cube, for wheels by their numbers and senses."""
+def four_bars_at(goal: Goal, of: Whole, at: Array, places: int = FINE) -> FourBars:
+    """The machines at places of the cube, for wheels by their numbers.
+
+    Their motion is sampled at ``places``.
+    """
     half, low, high, radius, slots = (row[of][:, None] for row in _rows(goal))
-    u = unit.T[:, :, None]
-    g = np.ones(u[0].shape)
+    u = at.T[:, :, None]
+    g, sense = np.ones(u[0].shape), np.where(u[5] > 0.5, 1.0, -1.0)
     # coupler and rocker are 1/4 to 4 times as long as the ground link
     b, c = (4.0 ** (2.0 * x - 1.0) for x in u[:2])
     longest = np.minimum(
@@ -133,21 +134,21 @@ def _pool(goal: Goal, of: Whole, unit: Array, sense: Array, places: int) -> Pool
     # the gentlest is often at an end of a range: a sixth of all places is at either
     fraction = np.clip(1.5 * u[4] - 0.25, 0.0, 1.0)
     degrees = low + (high - low) * fraction
-    drive = coupler_drive(links, math.tau * u[3], np.radians(degrees), half, sense[:, None])
+    drive = coupler_drive(links, math.tau * u[3], np.radians(degrees), half, sense)
     # the further tests run on few places
-    at = np.flatnonzero((longest > 0.0) & np.isfinite(drive.w))
-    links, drive = links.select(at), drive.select(at)
+    able = np.flatnonzero((longest > 0.0) & np.isfinite(drive.w))
+    links, drive = links.select(able), drive.select(able)
     # coarse samples miss the nearest places, which a larger roller makes up for
-    roller = radius[at] * (1.15 if places < FINE else 1.0)
+    roller = radius[able] * (1.15 if places < FINE else 1.0)
     names = (goal.least, *(bound.name for bound in goal.bounds))
-    passing = driven_wheels(links, drive, half[at], roller, order(names), places)
+    passing = driven_wheels(links, drive, half[able], roller, order(names), places)
     within = passing.reach <= goal.target.space * passing.distance
-    at = at[passing.which]
-    costs = Costs(goal.target, (360.0 / slots[at])[:, 0], passing.derivatives, degrees[at, 0])
+    able = able[passing.which]
+    costs = Costs(goal.target, (360.0 / slots[able])[:, 0], passing.derivatives, degrees[able, 0])
     cost = goal.sign * costs.of(goal.least)
-    broken = np.where(within & np.isfinite(cost), costs.broken(goal.bounds), np.inf)
+    violation = np.where(within & np.isfinite(cost), costs.broken(goal.bounds), np.inf)
     kept = links.select(passing.which), drive.select(passing.which)
-    return Pool(of[at], unit[at], *kept, broken, cost, passing.distance)
+    return FourBars(able, *kept, passing.distance, violation, cost)
 
 
 def _rows(goal: Goal) -> list[Array]:
@@ -156,16 +157,3 @@ def _rows(goal: Goal) -> list[Array]:
         (task.wheel.step.b, *task.motion, task.roller, float(task.wheel.z)) for task in goal.wheels
     ]
     return [*np.array(rows).T]
-
-
-def _joined(*pools: Any) -> Any:
-    """Several pools, or parts of them, joined into one."""
-    if isinstance(pools[0], tuple):
-        return type(pools[0])(*map(_joined, *pools))
-    return np.concatenate(pools)
-
-
-def _select(part: Any, which: Any) -> Any:
-    if isinstance(part, tuple):
-        return type(part)(*(_select(x, which) for x in part))
-    return part[which]

@@ -15,7 +15,6 @@ from geneva_cli.study.synth.families.family import (
     is_compatible,
     machine,
     natural_deg,
-    only,
 )
 from geneva_cli.study.target import Target
 
@@ -36,4 +35,4 @@ def pairs(target: Target, wheel: Gearing) -> Iterator[Family]:
             def drive(n: float, first_z: int = first_z) -> GenevaPair:
                 return GenevaPair(first_z=first_z, n_rpm=n)
 
-            yield only(machine(target, wheel, drive, m, natural))
+            yield Family(machine(target, wheel, drive, m, natural))

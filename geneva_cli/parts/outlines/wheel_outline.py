@@ -14,7 +14,7 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.outlines.walls.straight import straight_walls
-from geneva_cli.parts.sizes.plain_sizes import Sizes
+from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.slots.roller_paths import least_mouth
 from geneva_cli.parts.turn.machine_parts import CONTACT
 

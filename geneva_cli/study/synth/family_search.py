@@ -1,25 +1,59 @@
 """The best machine of each family that keeps the bounds, or the one nearest to them.
 
 The best has the least peak acceleration (in rad/s² if times are required), or the least of the
-goal's quantity. If any motion is allowed, it is the nearest to the plain crank. All families are
-sampled as batches: first evenly between their ends, then ever closer to the places of each that are
-better than their neighbours, or to the place where a bound is just kept.
+goal's quantity. If any motion is allowed, it is the nearest to the plain crank. Where its parts
+cannot be built, the best that can be built is searched between it and worse ones.
 """
 
 from __future__ import annotations
 
 import math
-from bisect import bisect_left, insort
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple, TypeAlias
 
+import numpy as np
+
+from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.study.batches import numbers
+from geneva_cli.motion.many import many
+from geneva_cli.numerics.arrays import Array, Mask, Whole
+from geneva_cli.numerics.tolerances import ROUNDED
+from geneva_cli.study.batches import BatchKey, columns, numbers, split
 from geneva_cli.study.sweep.constraints import Objective
 from geneva_cli.study.synth.families.family import Family
+from geneva_cli.study.synth.fast_parts import has_no_obstacle
+from geneva_cli.study.synth.machine_rows import MachineRow, rows, with_peak_limit
+from geneva_cli.study.synth.optimiser import (
+    KEPT,
+    Places,
+    Zoom,
+    accepted,
+    sampled,
+    tops,
+    zoom,
+)
+from geneva_cli.study.synth.parts_data import compute_parts_data
 from geneva_cli.study.target import Target
 
-INTERVALS = 24  # intervals of a family's span that are sampled first
+# A function that turns a machine's parts and returns its row, None if they fail. It uses the sizes
+# of another row that passes or, without one, the first sizes that do.
+Turn: TypeAlias = Callable[[MachineRow, MachineRow | None], MachineRow | None]
+
+GRID = 24  # intervals of the span of one number, sampled first
+QUARTERS = np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])[:, None] / 4.0
+# Of one number: samples on both sides of the best, each time four times as close.
+LINE = Zoom(lambda number: QUARTERS, 1.0 / GRID, 0.25, 0.25, 20)
+
+
+def _ring(number: int) -> Array:
+    """Places about the best at its step, half and a quarter of it, rotated each time."""
+    count = np.arange(24)
+    turn, far = math.tau * (count + 0.382 * number) / 24, 0.5 ** (count % 3)
+    return np.stack((far * np.cos(turn), far * np.sin(turn)), axis=-1)
+
+
+MIDDLES = (np.arange(10) + 0.5) / 10  # places of the second of two numbers, sampled first
+RING = Zoom(_ring, 0.1, 1.4, 0.5, 40)
 
 
 class FamilyMachine(NamedTuple):
@@ -36,187 +70,223 @@ def best(
 
     The others break the bounds least, with ``how_near`` to the last digit.
     """
-    free = [f for f in families if f.is_free and math.isnan(f.best)]
-    chosen = {id(f): at for f, at in zip(free, _places(free, target, how_near), strict=True)}
+    chosen: dict[int, tuple[Sequence[float], bool]] = {}
+    for freedom in (1, 2):
+        some = [i for i, f in enumerate(families) if len(f.low) == freedom and _is_searched(f)]
+        if some:
+            free = FamilyCosts([families[i] for i in some], target)
+            found = _best_places(free, freedom, how_near)
+            for of, at, broken in zip(found.of.tolist(), found.at, found.violation, strict=True):
+                if broken < KEPT or freedom == 1:
+                    chosen[some[of]] = free.place(of, at), bool(broken < KEPT)
     kept: list[FamilyMachine] = []
-    broken: list[FamilyMachine] = []
-    for f in families:
-        sure = f.low if math.isnan(f.best) else f.best
-        place = chosen.get(id(f), Trial(0.0, 0.0, sure))
-        is_known = abs(place.x - f.known) <= 1e-4 * (f.high - f.low)  # by another family
-        if not is_known and (spec := f.at(place.x)):
-            (kept if place.keeps else broken).append(FamilyMachine(spec, f))
-    return kept, broken
+    broken_ones: list[FamilyMachine] = []
+    for i, f in enumerate(families):
+        if i not in chosen and _is_searched(f):
+            continue
+        place, keeps = chosen.get(i, (f.low if math.isnan(f.best) else (f.best,), True))
+        alike = zip(place, f.known, f.low, f.high, strict=False)
+        is_known = f.known and all(abs(x - y) <= 1e-4 * (b - a) for x, y, a, b in alike)
+        if not is_known and (spec := f.at(place)):  # known: of another family
+            (kept if keeps else broken_ones).append(FamilyMachine(spec, f))
+    return kept, broken_ones
 
 
-def _places(free: Sequence[Family], target: Target, how_near: bool) -> list[Trial]:
-    """The best place of each family; ``NONE`` where there is no machine."""
-    search = FamilySearch(free, target, how_near)
-    if search.nearest:
-        search.sample([(i, f.plain) for i, f in enumerate(free) if f.low <= f.plain <= f.high])
-    search.sample([(i, x) for i, f in enumerate(free) if not search.done(i) for x in _first(f)])
-    search.start_tracks()
-    for number in range(8):  # enough for a minimum, which is flat
-        search.refine(number)
-    return [search.best_trials.get(i, NONE) for i in range(len(free))]
+def _is_searched(f: Family) -> bool:
+    return f.keys is not None and f.is_free and math.isnan(f.best)
 
 
-def _first(f: Family) -> list[float]:
-    """The places of a family that are sampled first, including the plain crank."""
-    plain = [f.plain] if f.low < f.plain < f.high else []
-    return [*(f.low + _step(f) * j for j in range(INTERVALS)), f.high, *plain]
+def _best_places(free: FamilyCosts, freedom: int, how_near: bool) -> Places:
+    """The best place of each family that has a machine."""
+    every = np.arange(len(free.families))
+    plain, inside = free.plain
+    nearest = sampled(free, every[inside], plain[inside])
+    done = nearest.take((nearest.cost == 0.0) & (nearest.violation == 0.0) & free.nearest)
+    if len(done.of) == len(every):
+        return done
+    if freedom == 1:
+        axes, how, most = [np.arange(GRID + 1) / GRID], LINE, 3
+    else:
+        is_exact = (free.low == free.high)[:, 0].all()
+        axes = [np.array([1.0]) if is_exact else np.array([0.0, *MIDDLES, 1.0]), MIDDLES]
+        # a bound, or another goal than the peak, may have several minima
+        how, most = RING, 3 if free.bounds or free.goal.name != free.peak else 1
+    left = np.setdiff1d(every, done.of)
+    first = tops(lambda of, at: free(left[of], at), len(left), axes, most)
+    first = first._replace(of=left[first.of])
+    tracks = first.joined(nearest.take(np.isin(nearest.of, left))).best(most)
+    return zoom(free, tracks, how, patient=how_near).joined(done).best(1)
 
 
-class Trial(NamedTuple):
-    """A machine of a family: its violation of the bounds, its cost, and its place.
+class FamilyCosts:
+    """Violations of a requirement's bounds, and costs, at places of families in the unit cube.
 
-    ``cost`` is the quantity to minimise, or the distance from the plain crank.
+    The bounds and the goal are those that a batch can compute. The cost is the quantity to
+    minimise, or the distance from the plain crank.
     """
 
-    violation: float
-    cost: float
-    x: float
-
-    @property
-    def keeps(self) -> bool:
-        """Return True if the machine keeps the bounds apart from rounding."""
-        return self.violation < 1e-200  # each violation by rounding adds 1e-300
-
-
-NONE = Trial(math.inf, math.inf, math.nan)
-
-
-class Sample(NamedTuple):
-    """A sampled place of a family, and its margin to the bounds."""
-
-    x: float
-    margin: float
-    trial: Trial
-
-
-class FamilySearch:
-    """The best place so far of each family, by its number.
-
-    The bounds and the goal are those quantities of the requirement that a batch can compute.
-    """
-
-    def __init__(self, families: Sequence[Family], target: Target, patient: bool = False) -> None:
-        self.families, self.bounds = families, target.known_bounds
-        self.patient = patient  # also samples near places where no small step can keep the bounds
+    def __init__(self, families: Sequence[Family], target: Target) -> None:
+        self.families, self.bounds, self.peak = families, target.known_bounds, target.peak
         sort = target.known_sort
         self.nearest = target.any_motion and not sort
-        self.peak = target.peak
-        self.sign, self.least = sort or Objective(1.0, self.peak)
-        self.best_trials: dict[int, Trial] = {}
-        # of each family, in order of their places
-        self.samples: list[list[Sample]] = [[] for _ in families]
-        self.tracks: list[tuple[int, Trial]] = []
+        self.goal = sort or Objective(1.0, self.peak)
+        self.low = np.array([f.low or (0.0,) for f in families])
+        self.high = np.array([f.high or (f.several - 1.0,) for f in families])
+        missing = (math.nan,) * self.low.shape[1]
+        self._plain = np.array([f.plain or missing for f in families])
+        self._scale = np.array([f.scale for f in families])
+        keys: dict[Any, list[BatchKey]] = {}
+        own = [split(f.spec, keys) for f in families]
+        shapes = {shape: i for i, (shape, _) in enumerate(own)}
+        self._own = [values for _, values in own]
+        self._shape = np.array([shapes[shape] for shape, _ in own])
 
-    def done(self, i: int) -> bool:
-        """Return True if a family's best place cannot be improved."""
-        place = self.best_trials.get(i, NONE)
-        return self.nearest and not place.violation and place.cost == 0.0
+    @property
+    def plain(self) -> tuple[Array, Mask]:
+        """The places of the plain crank, and a mask of the families that have one inside."""
+        with np.errstate(all="ignore"):
+            unit = (self._plain - self.low) / (self.high - self.low)
+        return unit, ((unit >= 0.0) & (unit <= 1.0)).all(axis=1)
 
-    def start_tracks(self) -> None:
-        """Start tracks at the three best places of each family that beat their neighbours."""
-        for i, samples in enumerate(self.samples):
-            trials = [one.trial for one in samples]
-            neighbours = zip(trials, [NONE, *trials], [*trials[1:], NONE], strict=False)
-            tops = [at for at, one, two in neighbours if at <= min(one, two)]
-            self.tracks += [(i, at) for at in sorted(tops)[:3]]
+    def place(self, i: int, at: Array) -> Sequence[float]:
+        """The numbers of a family at a place of the unit cube."""
+        return self._places(np.array([i]), at[None])[0].tolist()  # type: ignore[no-any-return]
 
-    def refine(self, number: int) -> None:
-        """Sample near the best place of every track, closer for a greater ``number``."""
-        places = [self._nearby(i, at, number) for i, at in self.tracks]
-        trials = iter(
-            self.sample(
-                [(i, x) for (i, _), xs in zip(self.tracks, places, strict=True) for x in xs]
-            )
-        )
-        self.tracks = [
-            (i, min([at, *(next(trials) for _ in xs)]))
-            for (i, at), xs in zip(self.tracks, places, strict=True)
+    def _places(self, of: Whole, at: Array) -> Array:
+        low, high = self.low[of], self.high[of]
+        inside: Array = np.where(at == 1.0, high, low + (high - low) * at)
+        plain = self._plain[of]
+        # without the rounding of the unit cube
+        return np.where(abs(inside - plain) <= 1e-15 * (high - low), plain, inside)
+
+    def __call__(self, of: Whole, at: Array) -> tuple[Array, Array]:
+        """Violations and costs at places (n, d) of families, (n,) each."""
+        places = self._places(of, at)
+        values = self._numbers(of, places)
+        cost = self.goal.sign * values[:, 0]
+        if self.nearest:
+            off = (places - self._plain[of]) / self._scale[of]
+            far = np.sqrt((off * off).sum(axis=1))
+            cost = np.where(np.isnan(far), cost, far)
+        violation = np.zeros(len(of))
+        for bound, value in zip(self.bounds, values[:, 1:].T, strict=True):
+            margin = bound.margin(value)
+            rounding = np.where(margin >= -ROUNDED * (bound.bound != 0.0), 1e-300, -margin)
+            violation += np.where(margin >= 0.0, 0.0, rounding)
+        known = np.isfinite(values[:, 0]) & ~np.isnan(violation)
+        return np.where(known, violation, math.inf), np.where(known, cost, math.inf)
+
+    def _numbers(self, of: Whole, places: Array) -> Array:
+        """The goal and the bounded quantities at places, (n, names); NaN without a machine."""
+        names = [self.goal.name, *(b.name for b in self.bounds)]
+        out = np.full((len(of), len(names)), math.nan)
+        shape = self._shape[of]
+        for kind in np.unique(shape).tolist():
+            which = np.flatnonzero(shape == kind)
+            if self.families[of[which[0]]].make:
+                specs = {i: self.families[of[i]].at(places[i]) for i in which.tolist()}
+                some = {i: spec for i, spec in specs.items() if spec}
+                found = [*zip(some, numbers([*some.values()], names), strict=True)]
+                out[[i for i, row in found if row]] = [row for _, row in found if row]
+                continue
+            varied = self._varied(of[which], places[which])
+            able = np.isfinite(list(varied.values())).all(axis=0)
+            which = which[able]
+            if len(which):
+                spec = self.families[of[which[0]]].spec
+                alike, values = self._batch(spec, {k: v[able] for k, v in varied.items()}, names)
+                out[which[alike]] = values
+        return out
+
+    def _varied(self, of: Whole, places: Array) -> dict[str, Array]:
+        """The keys of places of families that are one batch, (n,) each."""
+        varied = {key: np.array([self._own[i][key] for i in of]) for key in self._own[of[0]]}
+        for i in np.unique(of).tolist():
+            own, keys = of == i, self.families[i].keys
+            assert keys
+            for key, value in keys(places[own]).items():
+                varied[key] = varied[key].astype(float)
+                varied[key][own] = value
+        return varied
+
+    def _batch(
+        self, spec: Spec, varied: dict[str, Array], names: Sequence[str]
+    ) -> tuple[Whole, Array]:
+        """The numbers of those machines of a batch that can be built, and their quantities."""
+        same = {key for key, value in varied.items() if not (value != value[0]).any()}
+        same -= {next(iter(varied))} if len(same) == len(varied) else set()
+        try:
+            batch = many(spec, {k: v[0].item() if k in same else v for k, v in varied.items()})
+        except GenevaError:  # a frame that allows no such machine
+            return np.zeros(0, dtype=int), np.zeros((0, len(names)))
+        count, values = len(batch.which), None
+        if batch.machine:
+            values = columns(batch.machine, names, count)
+            if values is None and (peak := columns(batch.machine, [self.peak], count)):
+                # what no batch computes is computed later: it keeps its bounds so far
+                values = [*peak, *(np.full(count, b.bound) for b in self.bounds)]
+        return batch.which, np.reshape(values or [], (len(names), -1)).T
+
+
+def replacement_rows(
+    target: Target, first: Sequence[MachineRow], ranked: Sequence[MachineRow]
+) -> list[MachineRow]:
+    """Replacements for the ``first`` rows that cannot be built: the best of their families.
+
+    Rows that break a limit of the frame are left out; another search replaces them.
+    """
+    able = {row.family for row in ranked if not row.is_impossible}
+    stuck = [row.family for row in first if row.is_impossible and not row.breaks_limit]
+    families = [*dict.fromkeys(family for family in stuck if family and family not in able)]
+    known = {row.spec for row in ranked}
+    others = buildable_rows(target, families) if families else []
+    return [row._replace(is_replacement=True) for row in others if row and row.spec not in known]
+
+
+def buildable_rows(
+    target: Target, families: Sequence[Family], turn: Turn | None = None
+) -> list[MachineRow | None]:
+    """For each family the row of its best machine that may be built; None for a family without.
+
+    The place is precise to some thousandths of the span. With ``turn`` the machine passes a full
+    turn, which takes a hundred times as long as a test: only a few are turned.
+    """
+    free = FamilyCosts(families, target)
+    known: dict[tuple[int, float], MachineRow] = {}
+    best_rows: dict[int, MachineRow] = {}
+
+    def accept(places: Places) -> Mask:
+        each = [*zip(places.of.tolist(), places.at[:, 0].tolist(), strict=True)]
+        specs = [
+            families[i].at(free.place(i, at)) for i, at in zip(places.of, places.at, strict=True)
         ]
+        limited = [spec and with_peak_limit(target, spec) for spec in specs]
+        compute_parts_data(spec for spec in limited if spec)
+        drawn = [k for k, spec in enumerate(limited) if spec and has_no_obstacle(spec)]
+        for k, row in zip(drawn, rows(target, [limited[k] for k in drawn], []), strict=True):
+            i, _ = each[k]
+            if row and not row.is_impossible:
+                own = row._replace(family=families[i])
+                passing = turn(own, best_rows.get(i)) if turn else own
+                if passing:
+                    known[each[k]] = passing
+        return np.array([one in known for one in each], dtype=bool)
 
-    def _nearby(self, i: int, best: Trial, number: int) -> list[float]:
-        """Places near the best of a track; empty where it cannot improve."""
-        f, (violation, _, x) = self.families[i], best
-        if self.done(i):
-            return []
-        if self.nearest and f.plain == f.plain and not violation:
-            return self._crossing(i, x)
-        end = x in (f.low, f.high)
-        if number or not end:
-            places = self.samples[i]
-            at = bisect_left(places, (x, -math.inf))
-            violations = [one.trial.violation for one in places[max(at - 1, 0) : at + 2]]
-            # no bound can be kept nearby if its violation is twice the decrease between neighbours
-            is_hopeless = violation > 2.0 * (max(violations) - violation)
-            if violation and not self.patient and is_hopeless:
-                return []
-            # a place at an end of its span that stays the best in close samples is the best
-            if end and not any(violations):
-                return []
-        step = _step(f) / 3**number
-        near = [x + step * j / 3 for j in (-2, -1, 1, 2)]
-        return [at for at in near if f.low <= at <= f.high]
-
-    def _crossing(self, i: int, x: float) -> list[float]:
-        """Places near the one where the bounds are just kept, on the way to the plain crank."""
-        f, places = self.families[i], self.samples[i]
-        at = bisect_left(places, (x, -math.inf))
-        neighbour = at + (1 if f.plain > x else -1)
-        if not 0 <= neighbour < len(places):
-            return []
-        (a, kept, _), (b, broken, _) = places[at], places[neighbour]
-        wide = (b - a) / (f.high - f.low)
-        if abs(wide) <= 1e-12 or not broken < 0.0 <= kept < math.inf:
-            return []
-        secant = a + (b - a) * kept / (kept - broken) if broken > -math.inf else math.nan
-        about = (b - a) * min(0.05, 2.0 * abs(wide))  # on either side of the secant's root
-        low, high = min(a, b), max(a, b)
-        nearby = {secant - about, secant, secant + about, 0.5 * (a + b)}
-        return [at for at in nearby if low < at < high]
-
-    def sample(self, places: Sequence[tuple[int, float]]) -> list[Trial]:
-        """Sample these places of the families: their machines, or ``NONE`` where there is none."""
-        specs = [self.families[i].at(x) for i, x in places]
-        rows = iter(self._numbers([spec for spec in specs if spec]))
-        trials = []
-        for (i, x), spec in zip(places, specs, strict=True):
-            row = next(rows) if spec else None
-            trials.append(self._add(i, x, row) if row and row[0] == row[0] else NONE)
-        return trials
-
-    def _numbers(self, specs: Sequence[Spec]) -> Sequence[Sequence[float] | None]:
-        rows = numbers(specs, [self.least, *(b.name for b in self.bounds)])
-        if self.bounds or self.least != self.peak:
-            # other machines get their peak: what no batch computes is computed later
-            others = [spec for spec, row in zip(specs, rows, strict=True) if not row]
-            peaks = iter(numbers(others, [self.peak]))
-            rows = [row or next(peaks) for row in rows]
-        return rows
-
-    def _add(self, i: int, x: float, row: Sequence[float]) -> Trial:
-        plain = self.families[i].plain
-        cost = abs(x - plain) if self.nearest and plain == plain else self.sign * row[0]
-        violation, margin = self._violation(row[1:])
-        trial = Trial(violation, cost, x)
-        self.best_trials[i] = min(self.best_trials.get(i, NONE), trial)
-        insort(self.samples[i], Sample(x, margin, trial))
-        return trial
-
-    def _violation(self, values: Sequence[float]) -> tuple[float, float]:
-        """The sum of the relative violations of the bounds, and the least margin."""
-        total, least = 0.0, math.inf
-        for b, value in zip(self.bounds, values, strict=False):
-            margin = b.margin(value)
-            least = min(least, margin if margin == margin else -math.inf)
-            if not margin >= 0.0:
-                is_rounding = b.kept(value)
-                total += 1e-300 if is_rounding else -margin
-        return total, least
-
-
-def _step(family: Family) -> float:
-    return (family.high - family.low) / INTERVALS
+    intervals, parts, samplings, ahead = (8, 2, 4, 1) if turn else (16, 4, 4, 4)
+    counts = [f.several or intervals + 1 for f in families]
+    at = np.concatenate([np.linspace(0.0, 1.0, count) for count in counts])[:, None]
+    every = sampled(free, np.repeat(np.arange(len(families)), counts), at)
+    good = accepted(every, accept, ahead)
+    for number in range(samplings + 1):
+        best_rows |= {
+            i: known[i, x] for i, (x,) in zip(good.of.tolist(), good.at.tolist(), strict=True)
+        }
+        if number == samplings:
+            break
+        step = np.arange(-parts + 1, parts) / (intervals * parts ** (number + 1))
+        refined = good.take(~np.isin(good.of, [i for i, f in enumerate(families) if f.several]))
+        near = np.clip(refined.at + step, 0.0, 1.0).reshape(-1, 1)
+        samples = sampled(free, np.repeat(refined.of, len(step)), near)
+        better = samples.take(samples.cost < np.repeat(refined.cost, len(step)))
+        good = accepted(better, accept, ahead).joined(good).best(1)
+    return [best_rows.get(i) for i in range(len(families))]

@@ -17,7 +17,7 @@ from geneva_cli.study.sweep.constraints import Constraint, is_number
 from geneva_cli.study.synth.families import closed
 from geneva_cli.study.synth.families.every import Kind, families, kinds
 from geneva_cli.study.synth.families.family import natural_deg, pieces
-from geneva_cli.study.synth.family_search import best
+from geneva_cli.study.synth.family_search import best, replacement_rows
 from geneva_cli.study.synth.limited import (
     first_of_each,
     frame_limits,
@@ -25,7 +25,6 @@ from geneva_cli.study.synth.limited import (
 )
 from geneva_cli.study.synth.machine_rows import MachineRow, rows
 from geneva_cli.study.synth.quantities import bounded, with_batch_values
-from geneva_cli.study.synth.replacements import replacement_rows
 from geneva_cli.study.target import TURNS, Target
 from geneva_cli.verdict.quantities.quantity_names import in_batch
 
@@ -144,7 +143,7 @@ def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) 
     )
     shown = [*kept, *broken, *(one.spec for one in near)] if how_near else kept
     built_rows = [
-        row._replace(family=of[spec].whole) if of[spec].is_free else row
+        row._replace(family=of[spec].whole) if of[spec].can_vary else row
         for spec, row in zip(shown, rows(target, shown, errors), strict=True)
         if row
     ]

@@ -10,6 +10,8 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import cache, partial
 from typing import NamedTuple
 
+import numpy as np
+
 from geneva_cli.drives.cam import Cam
 from geneva_cli.drives.crank import Crank
 from geneva_cli.motion import registry
@@ -19,6 +21,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import MARGIN
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.synth.families import closed
@@ -28,11 +31,12 @@ from geneva_cli.study.synth.families.family import (
     allowed_motions,
     allows,
     closed_span,
+    line,
     longest_deg,
     machine,
     natural_deg,
-    only,
     rollers,
+    speeds,
 )
 from geneva_cli.study.synth.fast_parts import has_no_obstacle
 from geneva_cli.study.synth.parts_data import compute_parts_data
@@ -53,15 +57,15 @@ def with_laws(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     alone, the motion nearest to the plain crank's is best; the law's peak gives it in closed form.
     """
     lines = [
-        line
+        own
         for wheel in wheels
         if wheel.FLAT
         for law in target.laws
-        for line in _lines(target, wheel, law)
+        for own in _lines(target, wheel, law)
     ]
-    several = more_rollers(target, [(line.natural, line.some) for line in lines])
-    for line, more in zip(lines, several, strict=True):
-        yield from line.families(more)
+    several = more_rollers(target, [(own.natural, own.some) for own in lines])
+    for own, more in zip(lines, several, strict=True):
+        yield from own.families(more)
 
 
 def _lines(target: Target, wheel: Gearing, law: str) -> tuple[_LawMachines, _LawMachines]:
@@ -114,7 +118,7 @@ class _LawMachines(NamedTuple):
             plain = AllowedSpan(self.natural, self.natural)
             yield self._free(m, plain if own and free.exact else free)
             if own:
-                yield only(self.make(m, self.natural))
+                yield Family(self.make(m, self.natural))
         for spec in more:
             m = spec.drive.rollers
             yield self._free(m, self._motions(m) or AllowedSpan(self.natural, self.natural))
@@ -133,8 +137,7 @@ class _LawMachines(NamedTuple):
         """The machines below a limit of acceleration; the nearest to the plain crank is best."""
         most = longest_deg(m)
         best = self.possible(max(self.least, min(self.natural, most)))
-        family = partial(self.make, m)
-        return Family(family, self.least, max(most, best), plain=self.natural, best=best)
+        return self._line(m, AllowedSpan(self.least, max(most, best)), best)
 
     def _motions(self, m: int) -> AllowedSpan | None:
         allowed = closed_span(allowed_motions(self.target, m, self.natural), m)
@@ -143,7 +146,11 @@ class _LawMachines(NamedTuple):
     def _free(self, m: int, motion: AllowedSpan) -> Family:
         """The machines of a range of motions, the longest of which is the gentlest."""
         best = math.nan if self.target.bounds or self.target.sort else motion.high
-        return Family(partial(self.make, m), *motion, plain=self.natural, best=best)
+        return self._line(m, motion, best)
+
+    def _line(self, m: int, motion: AllowedSpan, best: float) -> Family:
+        keys = partial(_motions, self.target, self.natural, m)
+        return line(self.make(m, motion.high), keys, motion, plain=(self.natural,), best=best)
 
 
 def _until_parallel(wheel: Gearing, motion: AllowedSpan) -> AllowedSpan:
@@ -180,19 +187,27 @@ def more_rollers(
 
 
 def curved(target: Target, wheel: Gearing, law: str, m: int, motion: float) -> Spec:
-    """Curved slots, with the shortest alpha_0 that makes the motion."""
-    law_motion = Motion(standard(law), alpha0_deg=_alpha0(target, wheel, motion), ratio="matched")
+    """Curved slots, with the motion's alpha_0."""
+    law_motion = Motion(
+        standard(law), alpha0_deg=_alpha0(target, natural_deg(wheel), motion), ratio="matched"
+    )
     return machine(target, wheel, lambda n: Crank(n_rpm=n, rollers=m), m, motion, law_motion)
 
 
 def cam(target: Target, wheel: Gearing, law: str, m: int, motion: float) -> Spec:
     """A cam: straight slots with the law's motion, made by a groove along the crank."""
-    law_motion = Motion(standard(law), alpha0_deg=_alpha0(target, wheel, motion))
+    law_motion = Motion(standard(law), alpha0_deg=_alpha0(target, natural_deg(wheel), motion))
     return machine(target, wheel, lambda n: Cam(n_rpm=n, rollers=m), m, motion, law_motion)
 
 
-def _alpha0(target: Target, wheel: Gearing, motion: float) -> float:
-    natural = natural_deg(wheel)
+def _motions(target: Target, natural: float, m: int, at: Array) -> dict[str, Array]:
+    motions = at[:, 0].tolist()
+    alpha0 = np.array([_alpha0(target, natural, motion) for motion in motions])
+    return {"motion.alpha0_deg": alpha0, **speeds(target, m, motions)}
+
+
+def _alpha0(target: Target, natural: float, motion: float) -> float:
+    """The shortest alpha_0 that makes a motion."""
     alpha0 = natural - motion
     spare = 2e-15 * natural  # the rounding of a difference of two angles
     # A motion that is shorter, by however little, would break a limit that it just keeps.

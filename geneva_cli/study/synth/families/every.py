@@ -15,7 +15,6 @@ from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.study.synth.families.curved_slots import with_laws
 from geneva_cli.study.synth.families.family import Family
 from geneva_cli.study.synth.families.straight_slots import straight
-from geneva_cli.study.synth.families.two_numbers import two_numbers
 from geneva_cli.study.target import Target
 
 Kind: TypeAlias = Callable[[Target, Sequence[Gearing]], Iterator[Family]]
@@ -64,4 +63,3 @@ def families(kind: Kind, target: Target) -> Iterator[Family]:
 def _straight(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     for wheel in wheels:
         yield from straight(target, wheel)
-    yield from two_numbers(target, wheels)

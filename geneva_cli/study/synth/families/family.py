@@ -1,20 +1,24 @@
-"""A family: machines of one kind that differ in one free number, or a single machine."""
+"""A family: machines of one kind that differ in free numbers, or a single machine."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion import registry
 from geneva_cli.motion.compatible import refuse_conflicts
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.many import changed
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.target import Target
 
@@ -23,43 +27,52 @@ OPEN_END = 0.01
 BARE = Spec(registry.gearing("external")(3))  # the tables of a machine without a frame
 
 
-class Family(NamedTuple):
-    """Machines that differ in one number x from ``low`` to ``high``, or a list of machines.
+Keys: TypeAlias = Callable[[Array], dict[str, Array]]
 
-    ``make(x)`` is the spec of one; it can be passed to another process. With ``several`` machines,
-    x is their number from 0 on. At ``plain`` the machine moves as the plain crank does. At
-    ``known`` it is a machine of another family that meets the requirement. At ``best`` it is the
-    best, if that is known. Each may be NaN.
+
+class Family(NamedTuple):
+    """Machines that differ in one number or more, a list of machines, or a single one.
+
+    ``spec`` is one of them. ``keys`` returns the values (n,) of its keys at places (n, d) between
+    ``low`` and ``high``; NaN where there is no machine. The machines of a list are returned by
+    ``make``, by their numbers. At ``plain`` a machine moves as the plain crank does; the distance
+    of other places from it is measured in ``scale``. At ``known`` it is a machine of another
+    family. At ``best`` it is the best, if that is not NaN. All can be passed to another process.
     """
 
-    make: Callable[[float], Spec | None]
-    low: float = 0.0
-    high: float = 0.0
-    known: float = math.nan
-    plain: float = math.nan
+    spec: Spec
+    keys: Keys | None = None
+    low: tuple[float, ...] = ()
+    high: tuple[float, ...] = ()
+    plain: tuple[float, ...] = ()
+    scale: tuple[float, ...] = (1.0,)
+    known: tuple[float, ...] = ()
     best: float = math.nan
+    make: Callable[[int], Spec | None] | None = None
     several: int = 0
-    ends: tuple[float, float] | None = None  # of the whole family, if this is a piece of it
+    ends: tuple[tuple[float, ...], tuple[float, ...]] | None = None  # of the whole of this piece
 
     @property
     def is_free(self) -> bool:
         """Return True if the family has more than one machine."""
-        return self.low < self.high
+        return self.low < self.high or self.several > 1
 
-    def at(self, x: float) -> Spec | None:
+    @property
+    def can_vary(self) -> bool:
+        """Return True if another of its machines may replace one whose parts cannot be built."""
+        return self.is_free and len(self.low) < 2
+
+    def at(self, place: Sequence[float]) -> Spec | None:
         """The machine at a place; None if it cannot be built."""
         try:
-            return self.make(x)
+            if self.make:
+                return self.make(round(place[0]))
+            if self.keys is None:
+                return self.spec
+            values = self.keys(np.array([place]))
+            return changed(self.spec, {key: float(value[0]) for key, value in values.items()})
         except GenevaError:
             return None
-
-    def places(self, parts: int) -> list[float]:
-        """Places in order, in equal steps and the plain crank's; or all numbers of a list."""
-        if self.several:
-            return [float(i) for i in range(self.several)]
-        places = [self.low + (self.high - self.low) * k / parts for k in range(parts)]
-        plain = [self.plain] if self.low < self.plain < self.high else []
-        return sorted({*places, self.high, *plain})
 
     @property
     def whole(self) -> Family:
@@ -68,28 +81,40 @@ class Family(NamedTuple):
         return self._replace(low=low, high=high, ends=None)
 
 
+def line(spec: Spec, keys: Keys, span: AllowedSpan, **places: Any) -> Family:
+    """A family of one free number, in a range."""
+    return Family(spec, keys, (span.low,), (span.high,), **places)
+
+
 def pieces(families: Sequence[Family], most: int) -> list[Family]:
-    """The families, with free ones divided into equal pieces, about ``most`` in all.
+    """The families, with those of one free number divided into equal pieces, about ``most`` in all.
 
     No family has more than 8 pieces.
     """
-    free = sum(f.is_free for f in families)
-    count = max(1, min(8, most // max(free, 1)))
-    return [part for f in families for part in (_cut(f, count) if f.is_free else [f])]
-
-
-def _cut(family: Family, count: int) -> list[Family]:
-    ends = [family.low + (family.high - family.low) * k / count for k in range(count)]
+    free = [f.keys is not None and len(f.low) == 1 and f.is_free for f in families]
+    count = max(1, min(8, most // max(sum(free), 1)))
     return [
-        family._replace(low=low, high=high, ends=(family.low, family.high))
-        for low, high in pairwise([*ends, family.high])
-        if low < high
+        part
+        for f, cut in zip(families, free, strict=True)
+        for part in (_cut(f, count) if cut else [f])
     ]
 
 
-def only(spec: Spec) -> Family:
-    """A family of one machine."""
-    return Family(lambda x: spec)
+def _cut(family: Family, count: int) -> list[Family]:
+    (low,), (high,) = family.low, family.high
+    ends = [low + (high - low) * k / count for k in range(count)]
+    return [
+        family._replace(low=(a,), high=(b,), ends=(family.low, family.high))
+        for a, b in pairwise([*ends, high])
+        if a < b
+    ]
+
+
+def speeds(target: Target, m: float, motion_deg: Sequence[float]) -> dict[str, Array]:
+    """The key of the input speeds for m motions of these angles in a turn; none without times."""
+    if not target.timed:
+        return {}
+    return {"drive.n_rpm": np.array([target.n_rpm(m, x) for x in motion_deg])}
 
 
 def machine(

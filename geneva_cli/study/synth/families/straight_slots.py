@@ -1,24 +1,31 @@
 """Straight slots: the plain crank, also with offset slots, and drives in front of the crank.
 
 A side-crank, gears and a planet with the roller have one roller: several would move the wheel
-differently. On a sphere the angle between the shafts determines the motion.
+differently. On a sphere the angle between the shafts determines the motion. With a side-crank in
+front of inclined shafts, two free numbers are gentler than either alone. With elliptical gears the
+motion depends on its length only, not on the shafts' angle, as the tangents of the quarters of both
+angles have a constant ratio: they are tried if more than times and peaks is required.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import partial
+from typing import NamedTuple
+
+import numpy as np
 
 from geneva_cli.drives.crank import Crank
 from geneva_cli.drives.elliptical_gears import EllipticalGears
 from geneva_cli.drives.epicyclic import Epicyclic
 from geneva_cli.drives.side_crank import SideCrank
+from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.records import families_of_kinds
+from geneva_cli.motion.records import families_of_kinds, families_of_wheel
 from geneva_cli.motion.wheels.classic import half_motion_deg, rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import sin_cos_pi
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.synth.families import closed
 from geneva_cli.study.synth.families.family import (
@@ -28,25 +35,61 @@ from geneva_cli.study.synth.families.family import (
     center_distance_mm,
     closed_span,
     is_compatible,
+    line,
     machine,
     natural_deg,
-    only,
     rollers,
+    speeds,
 )
 from geneva_cli.study.target import Target
+from geneva_cli.verdict.quantities.quantity_names import is_motion
+
+MOST = closed.PARAMETER_MAX
+
+
+class _InFront(NamedTuple):
+    """A drive before the crank: its key, and its parameter for two motion angles."""
+
+    example: Drive
+    key: str
+    parameter: Callable[[float, float], float]
+    motion: Callable[[float, float], float]
+    low: float = -MOST
+    high: float = MOST
+
+    def spec(self, target: Target, wheel: Gearing) -> Spec:
+        """A machine with the drive, with one roller.
+
+        The axes of gears are as far apart as the wheel's and the crank's.
+        """
+        drive = self.example
+        if isinstance(drive, EllipticalGears) and (distance := center_distance_mm(target)):
+            drive = drive.replace(gear_distance_mm=distance)
+        return machine(target, wheel, lambda n: drive.replace(n_rpm=n), 1, natural_deg(wheel))
+
+
+def _gears(phase: str, low: float, high: float) -> _InFront:
+    gears = EllipticalGears(eccentricity=0.1, phase=phase)
+    return _InFront(
+        gears, "drive.eccentricity", closed.eccentricity, closed.gears_motion, low, high
+    )
+
+
+SIDE_CRANK = _InFront(SideCrank(A=0.0), "drive.A", closed.side_crank, closed.side_crank_motion)
+GEARS = _gears("slow", 0.0, MOST), _gears("quick", -MOST, 0.0)  # eccentricity below 0: quick
 
 
 def straight(target: Target, wheel: Gearing) -> Iterator[Family]:
     """The families with straight slots."""
     natural = natural_deg(wheel)
     for m in rollers(target, natural):
-        motion = allowed_motions(target, m, natural)
-        if allows(motion, natural):
-            yield only(plain(target, wheel, m))
-            yield from offset_slots(target, wheel, m)
+        if allows(allowed_motions(target, m, natural), natural):
+            yield Family(plain(target, wheel, m))
             if m == 1:
                 yield from planets(target, wheel)
     yield from driven(target, wheel)
+    for own in families_of_wheel(wheel.NAME):
+        yield from own(target, wheel)
     if target.rollers in (None, 1):
         for kind in families_of_kinds("straight"):
             yield from kind(target, wheel)
@@ -58,71 +101,83 @@ def plain(target: Target, wheel: Gearing, m: int) -> Spec:
     return machine(target, wheel, lambda n: Crank(n_rpm=n, rollers=m), m, natural)
 
 
-def offset_slots(target: Target, wheel: Gearing, m: int) -> Iterator[Family]:
+def offset_slots(target: Target, wheel: Gearing) -> Iterator[Family]:
     """Offset slots, which miss the wheel's centre by a tenth of L, for a gentler entry.
 
     With bounds or another goal, every other offset is possible too.
     """
-    if "offset_mm" not in wheel.as_dict():
-        return
-    make = partial(_offset, plain(target, wheel, m))
-    tenth = 0.1
-    yield Family(make, tenth, tenth)
-    if target.limits or target.sort:
-        widest = closed.PARAMETER_MAX * wheel.step.sin_cos[1] ** 2
-        yield Family(make, -widest, widest, known=0.0, plain=tenth)
+    natural, tenth = natural_deg(wheel), 0.1
+    for m in rollers(target, natural):
+        if allows(allowed_motions(target, m, natural), natural):
+            spec = plain(target, wheel, m)
+            keys = partial(_offset, spec.given_distance_mm)
+            yield line(spec, keys, AllowedSpan(tenth, tenth))
+            if target.limits or target.sort:
+                widest = MOST * wheel.step.sin_cos[1] ** 2
+                span = AllowedSpan(-widest, widest)
+                yield line(spec, keys, span, known=(0.0,), plain=(tenth,))
 
 
-def _offset(spec: Spec, fraction: float) -> Spec:
-    """A spec with slots offset by a fraction of the centre distance."""
-    return spec.with_("wheel.offset_mm", spec.given_distance_mm * fraction)
+def _offset(distance_mm: float, at: Array) -> dict[str, Array]:
+    return {"wheel.offset_mm": distance_mm * at[:, 0]}
 
 
 def planets(target: Target, wheel: Gearing) -> Iterator[Family]:
     """A roller on a planet: without a jump at entry, and with a free crank of the planet."""
-    z = wheel.z
+    z, natural = wheel.z, natural_deg(wheel)
     if z not in (3, 4, 6):
         return
+
+    def planet(fixed: str, ratio: float | str) -> Spec:
+        def drive(n: float) -> Epicyclic:
+            return Epicyclic(planet_ratio=ratio, fixed=fixed, n_rpm=n)
+
+        return machine(target, wheel, drive, 1, natural)
+
     for fixed in ("sun", "ring"):
-        make = partial(_on_planet, target, wheel, fixed)
-        shockless = make("shockless")
+        shockless = planet(fixed, "shockless")
         if not is_compatible(shockless):
             return
-        yield only(shockless)
+        yield Family(shockless)
         l, teeth = sin_cos_pi(1, z)[0], 2 * z // (z - 2)
         c = 1.0 + teeth if fixed == "sun" else 1.0 - teeth
-        least = -l / (1.0 + c if c > 0.0 else teeth)
-        inside = least * (1.0 - 1e-6), l / (c * c - 1.0) * (1.0 - 1e-9)
-        yield Family(make, *inside, known=0.0)
+        least = -l / (1.0 + c if c > 0.0 else teeth) * (1.0 - 1e-6)
+        span = AllowedSpan(least, l / (c * c - 1.0) * (1.0 - 1e-9))
+        yield line(planet(fixed, span.high), _planet, span, known=(0.0,))
 
 
-def _on_planet(target: Target, wheel: Gearing, fixed: str, ratio: float | str) -> Spec:
-    """A roller on a planet with a given ratio."""
-
-    def drive(n: float) -> Epicyclic:
-        return Epicyclic(planet_ratio=ratio, fixed=fixed, n_rpm=n)
-
-    return machine(target, wheel, drive, 1, natural_deg(wheel))
+def _planet(at: Array) -> dict[str, Array]:
+    return {"drive.planet_ratio": at[:, 0]}
 
 
 def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
-    """Changes of the plain crank's motion: a drive in front of it, or the angle of the shafts."""
+    """Changes of the plain crank's motion by a drive in front of it."""
     natural = natural_deg(wheel)
     has_one = target.rollers in (None, 1)
     motion = closed_span(allowed_motions(target, 1, natural), 1) if has_one else None
-    if motion is not None and not (motion.exact and allows(motion, natural)):
-        plain_too = 0.0 if allows(motion, natural) else math.nan
-        limits = AllowedSpan(-closed.PARAMETER_MAX, closed.PARAMETER_MAX)
-        for make, parameter in ((side_crank, closed.side_crank), (gears, closed.eccentricity)):
-            span = AllowedSpan(*(parameter(natural, x) for x in motion)).within(limits)
-            if not span.empty:
-                yield Family(partial(make, target, wheel), *span, known=plain_too, plain=0.0)
-    if "axes_deg" in wheel.as_dict():
-        yield from _inclined(target, wheel)
+    if motion is None or (motion.exact and allows(motion, natural)):
+        return
+    known = (0.0,) if allows(motion, natural) else ()
+    for drive in (SIDE_CRANK, *GEARS):
+        limits = AllowedSpan(drive.low, drive.high)
+        span = AllowedSpan(*(drive.parameter(natural, x) for x in motion)).within(limits)
+        if not span.empty:
+            keys = partial(_in_front, target, natural, drive)
+            yield line(drive.spec(target, wheel), keys, span, known=known, plain=(0.0,))
 
 
-def _inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
-    """Plain cranks on shafts that are not at right angles."""
+def _in_front(target: Target, natural: float, drive: _InFront, at: Array) -> dict[str, Array]:
+    motions = [drive.motion(natural, x) for x in at[:, 0].tolist()]
+    return {drive.key: _size(drive, at[:, 0]), **speeds(target, 1, motions)}
+
+
+def _size(drive: _InFront, parameter: Array) -> Array:
+    """The value of the drive's key: the size of an eccentricity, whose sign is the phase."""
+    return parameter if drive.low * drive.high else abs(parameter)
+
+
+def inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
+    """Plain cranks on shafts that are not at right angles, and drives in front of them."""
     z = wheel.z
     least = 2.0 * half_motion_deg(1.0, 1, z)
     for m in [target.rollers] if target.rollers else range(1, rollers_max(least) + 1):
@@ -131,31 +186,27 @@ def _inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
             continue
         span = AllowedSpan(*(closed.axes(z, x) for x in free)).within(closed.AXES)
         if not span.empty:
-            right = 90.0 if allows(free, 180.0) else math.nan
-            yield Family(partial(_on_axes, target, wheel, m), *span, known=right, plain=90.0)
+            right = (90.0,) if allows(free, 180.0) else ()
+            keys = partial(_on_axes, target, z, m)
+            yield line(plain(target, wheel, m), keys, span, known=right, plain=(90.0,))
+    motion = closed_span(allowed_motions(target, 1, natural_deg(wheel)), 1)
+    if target.rollers in (None, 1) and motion:
+        low, high = zip(motion, closed.AXES, strict=True)
+        moved = all(map(is_motion, target.quantities))
+        for drive in (SIDE_CRANK,) if moved else (SIDE_CRANK, *GEARS):
+            keys, spec = partial(_both, target, z, drive), drive.spec(target, wheel)
+            scale, right = (180.0, closed.AXES.high - closed.AXES.low), (natural_deg(wheel), 90.0)
+            yield Family(spec, keys, low, high, right, scale, known=right)
 
 
-def _on_axes(target: Target, wheel: Gearing, m: int, axes: float) -> Spec:
-    """A plain crank on shafts at a given angle, degrees."""
-    inclined, motion = wheel.with_key("axes_deg", axes), closed.axes_motion(wheel.z, axes)
-    return machine(target, inclined, lambda n: Crank(n_rpm=n, rollers=m), m, motion)
+def _on_axes(target: Target, z: int, m: int, at: Array) -> dict[str, Array]:
+    motions = [closed.axes_motion(z, x) for x in at[:, 0].tolist()]
+    return {"wheel.axes_deg": at[:, 0], **speeds(target, m, motions)}
 
 
-def side_crank(target: Target, wheel: Gearing, A: float) -> Spec:
-    """A side-crank in front of a wheel, with one roller."""
-    motion = closed.side_crank_motion(natural_deg(wheel), A)
-    return machine(target, wheel, lambda n: SideCrank(A=A, n_rpm=n), 1, motion)
-
-
-def gears(target: Target, wheel: Gearing, e: float) -> Spec:
-    """Elliptical gears in front of a wheel, in the phase given by the sign of e.
-
-    Their axes are as far apart as the wheel's and the crank's: gears grow with the machine.
-    """
-    size, phase = closed.phased(e)
-    distance = center_distance_mm(target) or EllipticalGears.gear_distance_mm
-
-    def drive(n: float) -> EllipticalGears:
-        return EllipticalGears(eccentricity=size, phase=phase, gear_distance_mm=distance, n_rpm=n)
-
-    return machine(target, wheel, drive, 1, closed.gears_motion(natural_deg(wheel), e))
+def _both(target: Target, z: int, drive: _InFront, at: Array) -> dict[str, Array]:
+    """A drive in front of inclined shafts, at motion angles and angles of the shafts."""
+    x = np.array([drive.parameter(closed.axes_motion(z, axes), m) for m, axes in at.tolist()])
+    x = np.where((x >= drive.low) & (x <= drive.high), x, np.nan)
+    motions = speeds(target, 1, at[:, 0].tolist())
+    return {drive.key: _size(drive, x), "wheel.axes_deg": at[:, 1], **motions}

@@ -1,0 +1,176 @@
+"""One search for the best places of many tasks at once: a grid, then samples ever closer.
+
+The places of a task are points of a unit cube. A place is better if it violates its bounds less or,
+at equal violations, if it costs less. All tasks are sampled as one batch.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+
+from geneva_cli.numerics.arrays import Array, Mask, Whole
+
+SETTLED = 1e-11  # fraction of a cost: samples nearer to the best than this are equally good
+# Violations, and costs, of places (n, d) of tasks by their numbers; infinite without a machine.
+Evaluate: TypeAlias = Callable[[Whole, Array], "tuple[Array, Array]"]
+Accept: TypeAlias = Callable[["Places"], Mask]
+
+
+class Places(NamedTuple):
+    """Sampled places: the number of the task of each, its point, violation and cost."""
+
+    of: Whole
+    at: Array  # (n, d)
+    violation: Array
+    cost: Array
+
+    def take(self, which: Any) -> Places:
+        """Some of the places."""
+        return Places(*(part[which] for part in self))
+
+    def best(self, count: int) -> Places:
+        """The best places of each task, at most ``count``, in order of the tasks."""
+        return self.take(_first(self, self.of, count))
+
+    def joined(self, *others: Places) -> Places:
+        """These places and others."""
+        return Places(*map(np.concatenate, zip(self, *others, strict=True)))
+
+
+class Zoom(NamedTuple):
+    """Samplings near the best places.
+
+    ``offsets`` returns those of a sampling by its number, (k, d) in steps. The first step is a
+    fraction of the cube's side; after each sampling it is multiplied by ``better`` if the place was
+    improved, and else by ``worse``. ``around`` are the coordinates that wrap round.
+    """
+
+    offsets: Callable[[int], Array]
+    step: float
+    better: float
+    worse: float
+    most: int  # samplings
+    around: Sequence[int] = ()
+
+
+def sampled(evaluate: Evaluate, of: Whole, at: Array) -> Places:
+    """The places of tasks by their numbers, with violations and costs."""
+    return Places(of, at, *evaluate(of, at))
+
+
+def tops(evaluate: Evaluate, tasks: int, axes: Sequence[Array], most: int) -> Places:
+    """The places of a grid that are better than their neighbours, at most ``most`` of each task."""
+    points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+    shape, count = points.shape[:-1], math.prod(points.shape[:-1])
+    at = np.tile(points.reshape(count, -1), (tasks, 1))
+    every = sampled(evaluate, np.repeat(np.arange(tasks), count), at)
+    rank = np.empty(len(at), dtype=int)
+    rank[np.lexsort((every.cost, every.violation))] = np.arange(len(at))
+    wide = np.pad(rank.reshape(tasks, *shape), [(0, 0)] + [(1, 1)] * len(shape),
+                  constant_values=len(at))  # fmt: skip
+    around = sliding_window_view(wide, (1, *[3] * len(shape)))
+    least = around.min(axis=tuple(range(-len(shape) - 1, 0)))
+    return every.take((rank == least.ravel()) & np.isfinite(every.violation)).best(most)
+
+
+def zoom(
+    evaluate: Evaluate, best: Places, how: Zoom, keep: int = 0, patient: bool = False
+) -> Places:
+    """Improve places by samples ever closer to them.
+
+    Each place is improved alone until samples near it are equally good. With ``keep`` that many
+    places of each task are kept together, and all samplings are made. Without ``patient`` a place
+    is given up where no small step can keep the bounds.
+    """
+    track = best.of if keep else np.arange(len(best.of))
+    step, live = np.full(len(track), how.step), np.full(len(track), True)
+    for number in range(how.most):
+        if not live.any():
+            break
+        parents, offsets = best.take(live), how.offsets(number)
+        k, d = offsets.shape
+        at = (parents.at[:, None] + step[live][:, None, None] * offsets).reshape(-1, d)
+        inside = np.clip(at, 0.0, 1.0)
+        for i in how.around:
+            inside[:, i] = at[:, i] % 1.0
+        near = sampled(evaluate, np.repeat(parents.of, k), inside)
+        tracks = np.concatenate((track, np.repeat(track[live], k)))
+        steps = np.concatenate((step * how.worse, np.repeat(step[live] * how.better, k)))
+        every = best.joined(near)
+        kept = _first(every, tracks, keep or 1)
+        best, track, step = every.take(kept), tracks[kept], steps[kept]
+        if keep:
+            live = np.full(len(track), True)
+        else:
+            violation, cost = near.violation.reshape(-1, k), near.cost.reshape(-1, k)
+            with np.errstate(invalid="ignore"):
+                done = _settled(best.take(live), violation, cost)
+                done |= _beaten(best, live, cost)
+                if not patient:
+                    done |= _hopeless(best.violation[live], violation)
+            live[np.flatnonzero(live)[done]] = False
+    return best
+
+
+def accepted(places: Places, accept: Accept, ahead: int) -> Places:
+    """For each task the best of its places without a violation that is accepted.
+
+    The best ``ahead`` places of each task are tested at once, until one is accepted.
+    """
+    left = places.take(np.isfinite(places.cost) & (places.violation < KEPT))
+    found = [left.take(slice(0))]
+    while len(left.of):
+        which = _first(left, left.of, ahead)
+        tested = left.take(which)
+        passed = tested.take(accept(tested)).best(1)
+        found.append(passed)
+        rest = np.full(len(left.of), True)
+        rest[which] = False
+        left = left.take(rest & ~np.isin(left.of, passed.of))
+    return found[0].joined(*found[1:]).best(1)
+
+
+KEPT = 1e-200  # a violation below it is rounding; each bound that is kept by rounding adds 1e-300
+
+
+def _first(places: Places, group: Whole, count: int) -> Whole:
+    """Numbers of the best ``count`` places of each group, in order of groups."""
+    order = np.lexsort((places.cost, places.violation, group))
+    own = group[order]
+    which: Whole = order[np.arange(len(own)) - np.searchsorted(own, own) < count]
+    return which
+
+
+def _settled(best: Places, violation: Array, cost: Array) -> Mask:
+    """Mask of places whose samples (n, k) are as good, or which stay the best in a corner."""
+    kept = (violation < KEPT).all(axis=1) & (best.violation < KEPT)
+    off = np.abs(cost - best.cost[:, None]).max(axis=1)
+    corner = np.isin(best.at, (0.0, 1.0)).all(axis=1)
+    flat = (off <= SETTLED * np.abs(best.cost)) | corner
+    alike = np.abs(violation - best.violation[:, None]).max(axis=1) <= SETTLED * best.violation
+    settled: Mask = (kept & flat) | (alike & (best.violation > KEPT))
+    return settled
+
+
+def _beaten(best: Places, live: Mask, cost: Array) -> Mask:
+    """Mask of live places that another place of their task beats by more than samples differ."""
+    least = np.full(best.of.max() + 1, math.inf)
+    np.minimum.at(least, best.of, np.where(best.violation < KEPT, best.cost, math.inf))
+    own = best.take(live)
+    spread = np.abs(cost - own.cost[:, None]).max(axis=1)
+    beaten: Mask = own.cost - 4.0 * spread > least[own.of]
+    return beaten | ((own.violation > KEPT) & np.isfinite(least[own.of]))
+
+
+def _hopeless(best: Array, violation: Array) -> Mask:
+    """Mask of places where no step as small can keep the bounds.
+
+    The violation is more than twice what a step near them changes.
+    """
+    hopeless: Mask = (best > KEPT) & (best > 2.0 * (violation.max(axis=1) - best))
+    return hopeless
