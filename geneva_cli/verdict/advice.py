@@ -19,8 +19,15 @@ from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.verdict.both_directions import worst_checks
-from geneva_cli.verdict.checks import checks_at_rest, single_check
-from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, TURNING, check_named, turn_checks
+from geneva_cli.verdict.checks import single_check
+from geneva_cli.verdict.checks.all_checks import (
+    LIMITS,
+    MOTION,
+    TURNING,
+    check_named,
+    standing,
+    untold,
+)
 from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
 
 if TYPE_CHECKING:
@@ -147,10 +154,13 @@ class Trial:
     def rows(self, parts: bool, turn: bool) -> Iterator[Check]:
         """All checks in all directions, the quick ones first."""
         for way in self.ways:
-            built = parts and way.mechanism.spec.is_turned
-            yield from checks_at_rest(way.mechanism, way if built else None)
-            if built and turn:
-                yield from turn_checks(way, way.turned.turn)
+            spec = way.mechanism.spec
+            for among in (MOTION, LIMITS):
+                yield from untold(among, way.mechanism)
+            if parts and spec.is_turned and spec.has_parts:
+                yield from untold(standing(way.mechanism), way.built)
+            if parts and spec.is_turned and turn:
+                yield from untold(TURNING, way, way.turned.turn)
 
 
 class Adviser:

@@ -13,7 +13,7 @@ from geneva_cli.motion.records import KINDS, of_wheel
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, WheelMaterial
-from geneva_cli.verdict.checks.all_checks import PROOFS, checks_before_turn, checks_of_turn
+from geneva_cli.verdict.checks.all_checks import BEFORE_TURN, OF_TURN, PROOFS
 
 if TYPE_CHECKING:
     from geneva_cli.motion.machine_spec import Spec
@@ -374,13 +374,13 @@ STUDY = (
     ),
     QuantityGroup(
         "checks",
-        checks_before_turn(),
+        BEFORE_TURN,
         "verdict.quantities.single:values_before_turn",
         makes_parts=True,
     ),
     QuantityGroup(
         "checks",
-        (*checks_of_turn(), "passes", "failed"),
+        (*OF_TURN, "passes", "failed"),
         "verdict.quantities.single:check_values",
         makes_parts=True,
     ),

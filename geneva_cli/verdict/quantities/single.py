@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.verdict.both_directions import worst_checks
 from geneva_cli.verdict.checks import Check, proofs
-from geneva_cli.verdict.checks.all_checks import checks_before_turn, checks_of_turn
+from geneva_cli.verdict.checks.all_checks import BEFORE_TURN, OF_TURN
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts
@@ -29,13 +29,13 @@ def machine(parts: Parts) -> Values:
 
 def values_before_turn(parts: Parts) -> Values:
     """The value of each check but those of the turn."""
-    return _values(checks_before_turn(), worst_checks(parts.mechanism, parts, turned=False))
+    return _values(BEFORE_TURN, worst_checks(parts.mechanism, parts, turned=False))
 
 
 def check_values(parts: Parts) -> Values:
     """The value of each check of the turn, and whether all checks pass."""
     rows = worst_checks(parts.mechanism, parts)
-    values = _values(checks_of_turn(), rows)
+    values = _values(OF_TURN, rows)
     failed = [c.name for c in rows if c.passes is False]
     return values | {"passes": not failed, "failed": " ".join(failed) or None}
 
