@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.load_tables import summaries
 from geneva_cli.loads.sizing import WHEEL_INERTIA, sizing
-from geneva_cli.verdict.both_directions import worst_checks
+from geneva_cli.verdict.both_directions import passes_both_ways, worst_checks
 from geneva_cli.verdict.checks import Check, proofs
 from geneva_cli.verdict.checks.all_checks import checks_before_turn, checks_of_turn
 from geneva_cli.verdict.quantities.load_quantities import summary_ends
@@ -42,6 +42,11 @@ def check_values(parts: Parts) -> Values:
     values = _values(checks_of_turn(), rows)
     failed = [c.name for c in rows if c.passes is False]
     return values | {"passes": not failed, "failed": " ".join(failed) or None}
+
+
+def passes(parts: Parts) -> Values:
+    """Whether all checks pass, computed until the first that fails."""
+    return {"passes": passes_both_ways(parts)}
 
 
 def _values(names: Sequence[str], rows: Sequence[Check]) -> Values:

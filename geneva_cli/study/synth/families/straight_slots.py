@@ -56,6 +56,7 @@ class _InFront(NamedTuple):
     motion: Callable[[float, float], float]
     low: float = -MOST
     high: float = MOST
+    distance: str = ""  # the key of its own centre distance
 
     def spec(self, target: Target, wheel: Gearing) -> Spec:
         """A machine with the drive, with one roller.
@@ -63,15 +64,16 @@ class _InFront(NamedTuple):
         The axes of gears are as far apart as the wheel's and the crank's.
         """
         drive = self.example
-        if isinstance(drive, EllipticalGears) and (distance := center_distance_mm(target)):
-            drive = drive.replace(gear_distance_mm=distance)
+        if self.distance and (distance := center_distance_mm(target)):
+            drive = drive.replace(**{self.distance: distance})
         return machine(target, wheel, lambda n: drive.replace(n_rpm=n), 1, natural_deg(wheel))
 
 
 def _gears(phase: str, low: float, high: float) -> _InFront:
     gears = EllipticalGears(eccentricity=0.1, phase=phase)
+    parameter, motion = closed.eccentricity, closed.gears_motion
     return _InFront(
-        gears, "drive.eccentricity", closed.eccentricity, closed.gears_motion, low, high
+        gears, "drive.eccentricity", parameter, motion, low, high, distance="gear_distance_mm"
     )
 
 
