@@ -21,7 +21,7 @@ from geneva_cli.drives.epicyclic import Epicyclic
 from geneva_cli.drives.side_crank import SideCrank
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.records import families_of_kinds, families_of_wheel
+from geneva_cli.motion.records import families_of_kinds
 from geneva_cli.motion.wheels.classic import half_motion_deg, rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import sin_cos_pi
@@ -90,7 +90,7 @@ def straight(target: Target, wheel: Gearing) -> Iterator[Family]:
             if m == 1:
                 yield from planets(target, wheel)
     yield from driven(target, wheel)
-    for own in families_of_wheel(wheel.NAME):
+    for own in families_of_kinds("wheel", wheel.NAME):
         yield from own(target, wheel)
     if target.rollers in (None, 1):
         for kind in families_of_kinds("straight"):
