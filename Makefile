@@ -10,8 +10,8 @@ PIP = $(BIN)/pip install --quiet --disable-pip-version-check --no-compile
 # some hundred times.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test pytest lint docs web web-test stress stress-numbers stress-windows \
-  certify jam cad editors page fuzz bench bench-start dist clean
+.PHONY: demo test pytest lint docs web web-test stress stress-numbers \
+  certify jam cad fuzz bench bench-start dist clean
 
 demo: .venv/demo
 	@mkdir -p build
@@ -39,47 +39,30 @@ lint: .venv/dev
 docs: .venv/dev
 	$(DOCS)
 
-# Run time against error, tables and plots in build/bench; an hour.
+# Run time against error, tables in build/bench; half an hour.
 bench: .venv/dev
 	@mkdir -p build/bench
-	PYTHONPATH=tests $(BIN)/python -m bench --plots build/bench -o build/bench/bench.md
+	PYTHONPATH=tests $(BIN)/python -m bench -o build/bench/bench.md
 
 # Numerical stress against mpmath, random machines turned, then every case of the tests, of which
 # `make test` takes a sample (tests/sampling.py): sweeps of every key of all designs are among them,
 # and their certificates (`make certify` adds random machines); an hour and a half on two cores.
-# Screens take six windows of twelve: see the text of stress_windows.py.
-# Each script has one process, so two of them run side by side; their lines mix.
-stress: .venv/dev
-	$(MAKE) --jobs=2 stress-numbers stress-windows
+stress: stress-numbers
 	GENEVA_STRESS=1 $(BIN)/pytest -n logical --dist worksteal
 
 stress-numbers: .venv/dev
 	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/stress.py
 	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/stress_outline.py
+	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/schema_agrees.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_many.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_synth.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_loads_many.py --designs 5000
-
-stress-windows: .venv/dev
-	PYTHONPATH=tests $(BIN)/python tests/stress/stress_windows.py
 
 # Proved bounds of every peak of 1,000 random machines of each kind; two hours. `make stress` takes
 # the designs.
 certify: .venv/dev
 	@mkdir -p build
 	$(FUZZ) certificates --runs 10500 --state build/certify.json
-
-# 2,000 mutated specs before the reader, JSON Schema, and the checkers of two editors; two minutes.
-editors: .venv/dev
-	$(PIP) "taplo>=0.9,<1" "tombi>=1,<2"
-	PATH="$(CURDIR)/$(BIN):$$PATH" PYTHONPATH=tests:tests/motion:tests/stress python tests/stress/schema_agrees.py taplo tombi
-
-# The page of every design in a headless Chromium, which must be installed: the slider, the console,
-# frames a second, and pictures in build/page to look at; some minutes.
-page: .venv/dev
-	@mkdir -p build/page
-	$(PIP) "websocket-client>=1.8,<2"
-	PYTHONPATH=tests:tests/output $(BIN)/python tests/stress/page_in_browser.py build/page
 
 # A static folder, build/web, on which geneva runs in a browser; needs npm and its registry. To try
 # it: python3 -m http.server -d build/web

@@ -274,7 +274,7 @@ class Design:
         >>> size.center_distance_mm, size.wheel_thickness_mm
         (100.0, 10.0)
         """
-        from geneva_cli.parts.outlines.outline_sizes import built
+        from geneva_cli.parts.machine_sizes import built
 
         return built(self.mechanism)
 

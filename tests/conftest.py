@@ -17,8 +17,8 @@ from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli import extras, kinds, load, study
 from geneva_cli.motion.mechanism import build
+from geneva_cli.parts import machine_sizes as own_sizes
 from geneva_cli.parts.outlines import cut_outlines as outline
-from geneva_cli.parts.outlines import outline_sizes as own_sizes
 from geneva_cli.parts.outlines.walls import chain as walls_chain
 from geneva_cli.parts.outlines.walls import curved as curved_walls
 from geneva_cli.parts.outlines.walls import path_walls
@@ -168,7 +168,7 @@ def made_once():
 @pytest.fixture
 def no_advice(monkeypatch):
     """Omit the search for advice on failing checks, which takes seconds."""
-    monkeypatch.setattr(advice, "WORK", 0)
+    monkeypatch.setattr(advice, "TRIALS", 0)
 
 
 @pytest.fixture(scope="module")

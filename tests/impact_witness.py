@@ -6,7 +6,7 @@ from geneva_cli.loads.impacts.change_of_sides import WallImpacts, changes, impac
 from geneva_cli.loads.impacts.shock import FirstContacts, first_contacts
 from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.strength.pin import PinSize, pin_diameter_mm
-from geneva_cli.parts.outlines.outline_sizes import built
+from geneva_cli.parts.machine_sizes import built
 
 
 def contact_of(engagement, crank, center=0.0):

@@ -57,9 +57,3 @@ def test_an_example_does_what_the_page_says(example, command, tmp_path):
         (tmp_path / "spec.toml").write_text("[wheel]\nz = 6\n[limits]\ndwell_min_s = 0.7\n")
     shown = run(tmp_path, "geneva_cli", command, "spec.toml").stdout
     assert shown.startswith(parts[-2])
-
-
-def test_files_of_the_table_are_there():
-    table = PAGE.partition("\n| new |")[2].partition("\n\n")[0]
-    for name in PATH.findall(table):
-        assert (ROOT / "geneva_cli" / name).exists() or (ROOT / name).exists(), name

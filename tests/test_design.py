@@ -24,7 +24,6 @@ from geneva_cli import (
     External,
     GenevaError,
     Harmonic,
-    Internal,
     Limits,
     Load,
     Motion,
@@ -138,22 +137,9 @@ def test_the_same_parts_and_verdicts():
 
 WRONG = [
     ("[wheel]\nz = 2", lambda: External(2)),
-    ("[wheel]\nz = 6.5", lambda: External(6.5)),
     ('[wheel]\nz = "six"', lambda: External("six")),
     ("[wheel]\nz = 6\nsteps_deg = [72, 40]", lambda: External(6, steps_deg=(72, 40))),
-    ("[wheel]\nz = 6\noffset_mm = nan", lambda: External(6, offset_mm=math.nan)),
-    ('[wheel]\nz = 6\nheld_by = "break"', lambda: External(6, held_by="break")),
-    (
-        '[wheel]\nz = 6\ngearing = "spherical"\naxes_deg = 180',
-        lambda: Spherical(6, axes_deg=180),
-    ),
-    ("[wheel]\nz = 6\n[drive]\nn_rpm = 0", lambda: Crank(n_rpm=0)),
-    ("[wheel]\nz = 6\n[drive]\nrollers = 0", lambda: Crank(rollers=0)),
     ('[wheel]\nz = 6\n[drive]\nkind = "side-crank"\nA = 1', lambda: SideCrank(A=1)),
-    (
-        '[wheel]\nz = 6\n[drive]\nkind = "elliptical-gears"\neccentricity = 0.3\nphase = "fast"',
-        lambda: EllipticalGears(eccentricity=0.3, phase="fast"),
-    ),
     (
         '[wheel]\nz = 6\n[drive]\nkind = "four-bar"\ncrank_mm = 90\nground_mm = 40\n'
         "coupler_mm = 100\nrocker_mm = 100\npoint_mm = 100\npoint_deg = 0",
@@ -165,13 +151,6 @@ WRONG = [
         '[wheel]\nz = 6\n[motion]\nlaw = "sine-group"\nlambda = 11',
         lambda: Motion(SineGroup(lambda_=11)),
     ),
-    (
-        '[wheel]\nz = 6\n[motion]\nlaw = "cycloidal"\nratio = "match"',
-        lambda: Motion(Cycloidal(), ratio="match"),
-    ),
-    ("[wheel]\nz = 6\n[size]\nslot_clearance_mm = -1", lambda: Size(slot_clearance_mm=-1)),
-    ('[wheel]\nz = 6\n[size]\nrelief = "are"', lambda: Size(relief="are")),
-    ("[wheel]\nz = 6\n[load]\nefficiency = 1.1", lambda: Load(efficiency=1.1)),
     ("[wheel]\nz = 6\n[load]\ntorque_Nm = true", lambda: Load(torque_Nm=True)),
     (
         "[wheel]\nz = 6\n[limits]\npressure_angle_max_deg = 91",
@@ -187,11 +166,6 @@ WRONG = [
         "[wheel]\nz = 6\n[drive]\nrollers = 3",
         lambda: Design(External(6), Crank(rollers=3)).mechanism,
     ),
-    (
-        '[wheel]\nz = 6\ngearing = "internal"\n[drive]\nrollers = 2',
-        lambda: Design(Internal(6), Crank(rollers=2)).peaks,
-    ),
-    ('[wheel]\nz = 6\n[drive]\nkind = "cam"', lambda: Design(External(6), Cam()).timings),
     (
         '[wheel]\nz = 6\n[motion]\nlaw = "harmonic"\nalpha0_deg = 300',
         lambda: Design(External(6), motion=Motion(Harmonic(), 300)).motion(),
@@ -222,15 +196,10 @@ def test_a_wrong_value_raises_what_a_file_with_it_gets(text, make, tmp_path):
         lambda: Motion("cycloidal"),
         lambda: Motion(Cycloidal),
         lambda: Design(6),
-        lambda: Design(External),
-        lambda: Design(External(6), Cycloidal()),
-        lambda: Design(External(6), "cam"),
-        lambda: Design(External(6), motion=Cycloidal()),
         lambda: Design(External(6), size=100.0),
         lambda: Design(External(6), load=Limits(velocity_max=1)),
-        lambda: Design(External(6), limits=Load(torque_Nm=1)),
     ],
-    ids=range(10),
+    ids=range(5),
 )
 def test_another_object_is_refused_where_it_is_given(make):
     """A word of the file, a class or a number would else fail late, or be taken for nothing."""
@@ -243,17 +212,12 @@ def test_another_object_is_refused_where_it_is_given(make):
     [
         (lambda d: d.drawing("whel"), '--part whel: .*did you mean "wheel"'),
         (lambda d: d.drawing("gears"), "--part gears: .*crank.* has no gears"),
-        (lambda d: d.drawing("wheel", curves="spine"), "--curves spine: it must be arcs or spline"),
-        (lambda d: d.drawing("wheel", math.nan), "--tolerance nan: must be above 0, at most 5 mm"),
         (lambda d: d.part_table("whel"), '--part whel: .*did you mean "wheel"'),
         (lambda d: d.part_table("crank"), "--part crank is a drawing"),
         (lambda d: d.slot(-1.0), "--tolerance -1: must be above 0, at most 5 mm"),
-        (lambda d: d.drawing("wheel", math.inf), "inf: must be .* at most 5 mm, the roller's radi"),
-        (lambda d: d.slot(5.1), "--tolerance 5.1: must be above 0, at most 5 mm"),
-        (lambda d: d.slot(samples=1), "--samples 1: must be at least 2"),
         (lambda d: d.motion(1), "--samples 1: must be at least 2"),
     ],
-    ids=range(11),
+    ids=range(6),
 )
 def test_a_wrong_question_is_refused(ask, said):
     with pytest.raises(GenevaError, match=said):
@@ -274,15 +238,10 @@ FULL = Design(
     ("key", "value", "default"),
     [
         ("wheel.z", 8, None),
-        ("wheel.held_by", "brake", None),
         ("drive.n_rpm", 90.0, 60.0),
-        ("drive.rollers", 2, 1),
         ("motion.lambda", 0.05, 0.0),
-        ("motion.alpha0_deg", 5.0, 0.0),
         ("motion.ratio", 0.45, None),
         ("size.center_distance_mm", 160.0, None),
-        ("size.slot_clearance_mm", 0.1, None),
-        ("load.inertia_kgm2", 0.02, 0.0),
         ("limits.velocity_max", 1.0, None),
     ],
 )
@@ -315,33 +274,16 @@ def test_a_change_is_the_machine_made_with_it():
     assert slow.with_("drive.A", 0.3).peaks == Design(External(6), SideCrank(A=0.3)).peaks
 
 
-def test_a_change_of_what_a_file_says(tmp_path):
-    path = file('[wheel]\nz = 6\n[drive]\nkind = "side-crank"\nA = 0.6\n', tmp_path)
-    read = load(path)
-    assert read.with_("drive.A", 0.3).peaks == Design(External(6), SideCrank(A=0.3)).peaks
-    with pytest.raises(GenevaError) as told:  # the line of the file says something else
-        read.with_("drive.A", 1.5)
-    assert str(told.value).startswith("A = 1.5 must be")
-
-
 @pytest.mark.parametrize(
     ("key", "value", "said"),
     [
         ("wheel.zz", 8, r"unknown key zz in \[wheel\] .*known: z, held_by"),
         ("wheel.axes_deg", 80, r"unknown key axes_deg in \[wheel\]"),
-        ("drive.A", 0.5, r"unknown key A in \[drive\]; known: n_rpm"),
-        ("drive.n_rmp", 50, r'unknown key n_rmp in \[drive\] \(did you mean "n_rpm"\?\)'),
         ("motion.lamda", 0.2, r'unknown key lamda in \[motion\] \(did you mean "lambda"\?\)'),
         ("motion.lambda_", 0.2, r'unknown key lambda_ in \[motion\] \(did you mean "lambda"\?\)'),
-        ("size.radius_mm", 5, r"unknown key radius_mm in \[size\]"),
-        ("load.torque", 5, r'unknown key torque in \[load\] \(did you mean "torque_Nm"\?\)'),
-        ("limits.velocity", 1, r"unknown key velocity in \[limits\]"),
         ("driver.n_rpm", 50, r"this spec has no \[driver\]"),
         ("n_rpm", 50, r"this spec has no \[n_rpm\]"),
         ("drive.n_rpm", -1, r"n_rpm = -1 must be above 0"),
-        ("wheel.z", 2, r"z = 2 must be at least 3"),
-        ("motion.lambda", 11, r"lambda = 11 must be at least -10"),
-        ("limits.pressure_angle_max_deg", 91, r"pressure_angle_max_deg = 91 must be"),
         ("limits.contact_stress_max_MPa", 500, r"set face_width_mm in \[size\]"),
     ],
 )
@@ -350,31 +292,7 @@ def test_a_key_or_value_that_cannot_be_changed_to(key, value, said):
         FULL.with_(key, value)
 
 
-def test_no_motion_to_change():
-    with pytest.raises(GenevaError, match=r"motion\.ratio: this spec has no \[motion\]"):
-        Design(External(6)).with_("motion.ratio", 0.5)
-
-
 # From several threads
-
-THREADS = """
-import sys
-from concurrent.futures import ThreadPoolExecutor
-from geneva_cli import load
-
-with ThreadPoolExecutor(len(sys.argv) - 1) as pool:
-    for peak in pool.map(lambda path: load(path).peaks.velocity.max, sys.argv[1:]):
-        print(repr(peak))
-"""
-
-
-def test_the_first_use_may_be_from_threads():
-    """One thread imported NumPy, and the others asked for what its module had not yet."""
-    files = sorted(map(str, repo.DESIGNS.glob("*.toml")))[:6]
-    command = [sys.executable, "-c", THREADS, *files]
-    found = subprocess.run(command, capture_output=True, text=True, timeout=60)
-    assert found.returncode == 0, found.stderr
-    assert [*map(float, found.stdout.split())] == [load(f).peaks.velocity.max for f in files]
 
 
 def test_one_design_serves_several_threads():
@@ -435,18 +353,6 @@ def test_a_design_with_answers_can_be_pickled():
 # What a program may use
 
 
-def members():
-    return [name for name in vars(Design) if not name.startswith("_")]
-
-
-def test_every_member_says_what_it_is():
-    for name in members():
-        said = inspect.getdoc(inspect.getattr_static(Design, name))
-        assert said, name
-        prose, _, _ = said.partition("\n\n>>>")  # what follows is the example
-        assert prose.rstrip().endswith("."), name
-
-
 def test_every_name_can_be_imported():
     for name in geneva_cli.__all__:
         scope = {}
@@ -473,17 +379,6 @@ def test_a_design_shows_itself_as_python_writes_it():
             assert eval(shown, names).spec == made.spec, shown
     assert repr(Design(External(6))) == "Design(External(z=6), Crank())"
     assert max(len(repr(made)) for made in every) < 500
-
-
-def test_a_table_shows_ten_rows_no_wider_than_a_page():
-    made = Design(External(6), load=Load(0.4, 15))
-    lines = repr(made.load_cycle(500)).splitlines()
-    assert (len(lines), max(map(len, lines))) == (12, pytest.approx(90, abs=10))
-    assert lines[0].split()[:2] == ["time_s", "input_deg"]
-    assert lines[-1].startswith("... 490 more rows and ")
-    assert repr(made.motion(3)).count("\n") == 3
-    shown = repr(made.peaks_table)
-    assert "velocity.max         1\n" in shown and "None" not in shown
 
 
 def test_a_column_is_an_array_that_stays_as_it_is():
@@ -522,22 +417,15 @@ def test_numbers_of_numpy_are_numbers(kind):
     assert made.vibration(kind(5), kind(0))["period_ratio"] == 5.0
 
 
-def test_lists_of_numpy_are_lists():
-    steps = External(6, steps_deg=np.array([72.0, 48.0]))
-    assert steps == External(6, steps_deg=[np.float32(72), np.int64(48)])
-
-
 @pytest.mark.parametrize(
     ("ask", "said"),
     [
         (lambda: Size(centre_distance_mm=100), 'Size has no centre_distance_mm .*"center_dist'),
         (lambda: Design(External(6), sizes=Size()), r'Design has no sizes \(did you mean "size"'),
         (lambda: SideCrank(A=0.1, n_rmp=60), r'SideCrank has no n_rmp \(did you mean "n_rpm"'),
-        (lambda: Size().replace(widht=1), "Size has no widht"),
         (lambda: Design(External(6)).motion(sample=3), r"motion\(\) has no sample .*samples"),
-        (lambda: Motion(Cycloidal(), ration=0.5), r'Motion has no ration \(did you mean "ratio"'),
     ],
-    ids=range(6),
+    ids=range(4),
 )
 def test_a_wrong_keyword_is_refused_with_the_nearest(ask, said):
     with pytest.raises(GenevaError, match=said):

@@ -68,13 +68,6 @@ def test_everything_public_has_an_example(name, monkeypatch):
         assert not doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(example).failed
 
 
-@pytest.mark.parametrize(
-    "name", ["Design.peaks", "Design.checks", "SpecTable.replace", "load", "Cam"]
-)
-def test_what_is_public_is_found(name):
-    assert name in PUBLIC
-
-
 def test_what_is_offered_is_there_and_typed():
     """What a type checker sees is what runs: each name once in either list, and the same thing."""
     with open(geneva_cli.__file__, encoding="utf-8") as text:

@@ -59,7 +59,6 @@ SHARED = {
     "verdict.report": set(),
 }
 STREAMS = {"streams", "__main__", "specfile", "output", "manual", "cli"}
-TYPER = {"streams", "__main__", "cli"}
 # What commands know besides designs and studies: laws alone, extras, templates, units and names of
 # parts; there is no machine yet.
 ALONE = {
@@ -256,62 +255,6 @@ def far(nodes):
             yield node.value
 
 
-CORE = {"numerics", "geometry", "motion", "drives", "loads", "parts", "drawings"}
-# Where `Any` stands in the core's annotations, for what is no number of a formula: the cells of a
-# table, a key's value of any type, a class that is found by its name.
-ANY = {
-    # jets and values alike; what the searches of numerics hand back to whom they ask, unread
-    "numerics.smooth_pieces": {"at", "column", "rows", "evaluate", "_turn"},
-    "loads.load_tables": {"_rows", "_cells"},
-    "loads.vibration.vibration_answers": {"values"},
-    "motion.records": {"families_of_kinds", "parts_class", "thing"},
-    "motion.registry": {"_load_kind"},
-    "motion.machine_spec": {"replace", "table"},
-    "drawings.sheet.composed": {"on_paper", "_composed", "_items"},
-    "drawings.sheet.content": {"rows"},
-}
-
-
-def untyped(nodes):
-    """The names of functions, fields and aliases that are annotated with ``Any``."""
-    for node in nodes:
-        if isinstance(node, ast.FunctionDef):
-            given = node.args
-            every = [*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg]
-            name, said = node.name, [one.annotation for one in every if one] + [node.returns]
-        elif isinstance(node, ast.AnnAssign):
-            name, said = ast.unparse(node.target), [node.annotation, node.value]
-        else:
-            continue
-        # an alias may be a text
-        words = " ".join(ast.unparse(one) for one in said if one)
-        if re.search(r"\bAny\b", words):
-            yield name
-
-
-MOST_PARAMETERS = 6
-# Functions with more: each has one keyword a table of a spec, or one an option of a command.
-MANY_PARAMETERS = {
-    "design": {"__init__", "drawing"},
-    "study.sweep.request": {"request"},
-    "study.synth.reading": {"read_target"},
-}
-
-
-def long_lists(nodes):
-    """The names of functions with more parameters than six, a method's self left out."""
-    for owner in nodes:
-        for node in ast.iter_child_nodes(owner):
-            if not isinstance(node, ast.FunctionDef):
-                continue
-            given = node.args
-            every = [*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg]
-            static = "staticmethod" in map(named, node.decorator_list)
-            bound = isinstance(owner, ast.ClassDef) and not static
-            if len([one for one in every if one]) - bound > MOST_PARAMETERS:
-                yield node.name
-
-
 CLASSES = {
     path.partition(":")[2]
     for kinds in (registry.DRIVES, registry.GEARINGS, registry.LAWS)
@@ -336,8 +279,6 @@ class Read(NamedTuple):
     streams: list
     asks: list
     far: set
-    untyped: set
-    long_lists: set
 
 
 @functools.cache
@@ -352,8 +293,6 @@ def read(text):
         list(streams(run)),
         list(asks(every)),
         set(far(every)),
-        set(untyped(every)),
-        set(long_lists(every)),
     )
 
 
@@ -441,13 +380,6 @@ def test_few_rooms_touch_streams():
     assert broken(lambda m: read(source(m)).streams, others) == {}
 
 
-def test_few_rooms_know_typer():
-    def typer(module):
-        return [n for n in read(source(module)).imports if n.startswith(("typer", "click"))]
-
-    assert broken(typer, [m for m in MODULES if room(m) not in TYPER]) == {}
-
-
 # What a class of drives or wheels says in words: names, an example, and what a message is made of.
 WORDS = {
     "TABLE",  # of the file
@@ -478,28 +410,6 @@ def test_nobody_asks_which_machine_it_is():
 def test_the_core_names_no_kind():
     core = [m for m in MODULES if room(m).partition(".")[0] not in ("kinds",)]
     assert broken(lambda m: read(source(m)).far, core) == NAMED
-
-
-def test_no_number_of_the_core_is_any():
-    """A number of a formula is a float, an array, or one of both, to the type checker too."""
-    core = [m for m in MODULES if room(m) in CORE]
-    assert broken(lambda m: read(source(m)).untyped, core) == ANY
-
-
-def test_few_parameters():
-    """At most six, but for a command's own function, whose parameters are its options."""
-    others = [m for m in MODULES if not m.startswith("cli.commands.")]
-    wrong = {m: read(source(m)).long_lists - MANY_PARAMETERS.get(m, set()) for m in others}
-    assert {module: names for module, names in wrong.items() if names} == {}
-
-
-def test_no_result_waits_for_a_lock():
-    """Python 3.11's own cached property holds one, which a forked process waits for (kept)."""
-
-    def locked(module):
-        return "cached_property" if re.search(r"functools.*cached_property", source(module)) else ""
-
-    assert broken(locked, [m for m in MODULES if m != "kept"]) == {}
 
 
 def named_alike(module):

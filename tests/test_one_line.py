@@ -6,7 +6,6 @@ type checkers.
 """
 
 import json
-import math
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -19,17 +18,11 @@ from words import Spec, Wheel
 from geneva_cli.cli.app import app
 from geneva_cli.drawings.catalogue import PARTS, Part
 from geneva_cli.motion import registry
-from geneva_cli.motion.engagement import Displacement, Slot
 from geneva_cli.motion.laws.law import Law, from_velocity
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
-from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
-from geneva_cli.motion.wheels.poses import HalfStep, PinPose
 from geneva_cli.numerics.jet import Jet, Number
-from geneva_cli.numerics.roots import boundary
 from geneva_cli.output.formats import FORMATS
 from geneva_cli.spec.rules import Range
-from geneva_cli.spec.schema import Example
 from geneva_cli.specfile import template
 from geneva_cli.table import Table, rows_table
 from geneva_cli.verdict.advice import judged
@@ -75,104 +68,6 @@ def new(kind: str) -> str:
     shown = CliRunner().invoke(app, ["new", kind, "--all"])
     assert shown.exit_code == 0, shown.stderr
     return shown.stdout
-
-
-class Leaning(Gearing):
-    """A wheel with grooves, whose crank's shaft leans about the line of centres, above it.
-
-    The pin's circle, seen along the wheel's axis, is (1 - l cos a, d + k l sin a), with k the
-    cosine of the lean and d the crank's height over the centre distance.
-    """
-
-    NAME: ClassVar[str] = "leaning"
-    FLAT: ClassVar[bool] = False
-    EXAMPLE: ClassVar[Example] = Example(
-        "a crank at an angle and offset", {"wheel": {"z": 6, "lean_deg": 20.0, "height_mm": 3.0}}
-    )
-    lean_deg: Annotated[float, Range(-80.0, 80.0), "angle between the shafts"] = 0.0
-    height_mm: Annotated[float, Range(-50.0, 50.0), "crank's axis above the line of centres"] = 0.0
-
-    @property
-    def skewed(self) -> bool:
-        """Its motion is not symmetric."""
-        return self.height_mm != 0.0
-
-    def half_motion_deg(self, step: HalfStep) -> float:
-        """Of the level crank."""
-        return 90.0 - math.degrees(step.b)
-
-    def ends(self, l: float, d: float) -> tuple[float, float]:
-        """Where the pin moves towards the wheel's axis: k cos a - d sin a = k l."""
-        k = math.cos(math.radians(self.lean_deg))
-        ahead, half = math.atan2(d, k), math.acos(k * l / math.hypot(k, d))
-        return -ahead - half, -ahead + half
-
-    def at(self, a: float, l: float, d: float) -> tuple[float, float]:
-        """The pin's place."""
-        k = math.cos(math.radians(self.lean_deg))
-        return 1.0 - l * math.cos(a), d + k * l * math.sin(a)
-
-    def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
-        """The arm with which the wheel turns by its step between the two ends."""
-        d = self.height_mm / center_distance_mm
-        k = math.cos(math.radians(self.lean_deg))
-
-        def turn(l: float) -> tuple[float, float]:
-            first, last = (math.atan2(*self.at(a, l, d)[::-1]) for a in self.ends(l, d))
-            return first, last
-
-        def short(l: float) -> bool:
-            first, last = turn(l)
-            return last - first <= 2.0 * step.b
-
-        l = boundary(short, abs(d) / k + 1e-9, 1.0)
-        first, last = turn(l)
-        crossing = -math.asin(d / (k * l))
-
-        def pose(a: float, wheel: float) -> PinPose:
-            x, y = self.at(a, l, d)
-            r = math.hypot(x, y)
-            c, s = x / r, y / r
-            u, v = l * math.sin(a), k * l * math.cos(a)
-            p, q = l * math.cos(a), -k * l * math.sin(a)
-            across = c * v - s * u if a == crossing else 0.0
-            slope, bend = (c * u + s * v, across), (c * p + s * q, c * q - s * p)
-            return PinPose(math.degrees(a - crossing), wheel, r, slope, bend)
-
-        entry, leave = self.ends(l, d)
-        middle = pose(crossing, -0.5 * (first + last))
-        poses = (pose(entry, -step.b), middle, pose(leave, step.b))
-        return RollerPlace(step, math.degrees(0.5 * (leave - entry)), poses, l)
-
-    def follow(
-        self, path: AnchoredPath, place: RollerPlace, turn: Displacement
-    ) -> tuple[Slot, StraightSlotMotion]:
-        """A groove towards the axis; the two halves of the motion differ."""
-        return RadialSlot(path), StraightSlotMotion(path, place.step.b, mirrored=not self.skewed)
-
-
-def test_a_wheel_whose_crank_is_at_an_angle_and_offset(add: Add, run: Callable[..., Any]) -> None:
-    add(registry.GEARINGS, "leaning", "motion.wheels.added:Leaning", "motion.wheels")
-    text = new("leaning")
-    assert 'gearing = "leaning"' in text and "lean_deg = 20.0" in text
-    rows = run("motion", text)["rows"]
-    wheel = Leaning(6, lean_deg=20.0, height_mm=3.0)
-    place = wheel.place(wheel.step, 100.0)
-    crossing = -math.asin(0.03 / (math.cos(math.radians(20.0)) * place.ratio))
-    for row in rows:  # the angle of the pin about the wheel's axis, from half-way
-        a = math.radians(row["input_deg"]) + crossing
-        x, y = wheel.at(a, place.ratio, 0.03)
-        if row["velocity"]:
-            angle = math.degrees(math.atan2(y, x) + place.poses[1].wheel)
-            assert row["wheel_deg"] == pytest.approx(angle, abs=1e-12)
-    moved = [row for row in rows if row["velocity"]]
-    assert 100 < len(moved) < len(rows)
-    # level, and on the line of centres, it is an external wheel
-    level = 'z = 6\ngearing = "leaning"\n'
-    flat = [run("peaks", f"[wheel]\n{keys}")["velocity"]["max"] for keys in (level, "z = 6")]
-    assert flat[0] == pytest.approx(flat[1], rel=1e-9)
-    assert run("check", text)["rows"]  # and exit status 0
-    assert run("report", text)["timing"]["index_deg"] == 60.0
 
 
 class Flattened(Law):

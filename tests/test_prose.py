@@ -39,9 +39,3 @@ def test_docstrings_begin_with_what_is_returned_or_done():
     docs = [doc for path in CODE for doc in prose.texts(path)[0]]
     poor = [f"{doc.where}: {doc.text.splitlines()[0]}" for doc in docs if doc.poor_start]
     assert len(poor) <= POOR * len(docs), poor
-
-
-def test_the_measures_find_what_is_long_and_poor():
-    doc = prose.Docstring("a file", "Whether it holds. One " + "word " * 49 + "more.")
-    assert doc.poor_start
-    assert [s.words for s in prose.docstring_sentences(doc)] == [3, 51]

@@ -19,12 +19,12 @@ from sampling import some
 from geneva_cli import extras, kinds
 from geneva_cli.spec.load_named import load_named
 
-ROOMS = ["numerics", "geometry", "motion", "drives", "loads", "specfile", "output", "parts"]
-ROOMS += ["verdict", "study", "cli", "test_design.py"]
+ROOMS = ["motion", "verdict", "loads", "test_design.py"]
+ROOMS += some(["numerics", "geometry", "drives", "specfile", "output", "parts", "study", "cli"], [])
 MANUAL = ["test_manual.py", "test_reference_pages.py", "test_explain.py"]
 # A machine of each sort that the core has: what `check` says of it needs all rooms.
 CHECKED = ("press-straight", "press-curved", "internal-z6", "side-crank-z6", "cam-geneva")
-ONE_OF = some(10, 20)  # tests, so that a kind takes at most a minute
+ONE_OF = some(10, 20)  # tests, so that a kind takes a minute, or 10 s
 LEFT_OUT = "GENEVA_LEFT_OUT"  # what names the kind that a copy lacks, as a regular expression
 
 
@@ -92,9 +92,7 @@ def run(folder, *words, **more):
 EVERY = [("kinds", name) for name in kinds.FOLDERS] + [("extras", name) for name in extras.FOLDERS]
 
 
-@pytest.mark.parametrize(
-    ("room", "folder"), some(EVERY, [("kinds", "linear"), ("kinds", "spherical")])
-)
+@pytest.mark.parametrize(("room", "folder"), some(EVERY, [("kinds", "spherical")]))
 def test_the_core_works_without(room, folder, tmp_path):
     copy_without(room, folder, tmp_path)
     checked = run(tmp_path, "geneva_cli", "check", *(f"designs/{d}.toml" for d in CHECKED))

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, ClassVar
 from geneva_cli.drives.pin_path import PinPath
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.engagement import Carrier, ConstantRate, Engagement, Vector, cross
+from geneva_cli.motion.engagement import ConstantRate, Engagement, Vector, cross
 from geneva_cli.motion.law_motion import LawMotion, refuse_alpha0
 from geneva_cli.motion.slot_and_motion import SolvedPath, SolvedPathSlot
 from geneva_cli.numerics.angles import radians
@@ -63,8 +63,8 @@ class Cam(PinPath, kw_only=True):
         path = SolvedPath(turned, wheel.SIGN)
         _refuse_unreachable(turned, wheel.SIGN)
         body = ConstantRate(-wheel.SIGN)  # the roller slides along the crank and turns with it
-        carrier = Carrier(body=body, reactions=Slide(), groove=path)
-        engagement = Engagement(0.0, path, SolvedPathSlot(path), turned, carrier)
+        slot = SolvedPathSlot(path)
+        engagement = Engagement(0.0, path, slot, turned, body, Slide(), groove=path)
         ratio = parameter(path.crossing)
         return self.planned(engagement, ratio, L, wheel.SIGN < 0.0)
 

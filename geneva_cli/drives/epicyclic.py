@@ -14,10 +14,9 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
 from geneva_cli.drives.pin_path import PinPath
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.motion import path_and_slot
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.engagement import Anchor, Carrier, ConstantRate, Vector, cross
-from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
+from geneva_cli.motion.engagement import Anchor, ConstantRate, Engagement, Vector, cross
+from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, Teeth
 from geneva_cli.motion.wheels.classic import gap
 from geneva_cli.numerics.angles import radians
@@ -96,9 +95,8 @@ class Epicyclic(PinPath, kw_only=True):
         followed = StraightSlotMotion(path, step.b)
         # The roller sits on the planet, which turns c times as fast as the carrier.
         reactions = PlanetReactions(R0, rp, c)
-        engagement = path_and_slot.engagement(
-            0.0, path, followed, Carrier(1.0, ConstantRate(-c), reactions)
-        )
+        slot, body = RadialSlot(path), ConstantRate(-c)
+        engagement = Engagement(0.0, path, slot, followed, body, reactions, 1.0)
         return self.planned(engagement, R0 + rp, L)
 
     def layout(self, plan: Plan, sign: float) -> Layout:

@@ -19,12 +19,10 @@ from geneva_cli.drives.driven_shaft import DrivenShaft, ShaftPath
 from geneva_cli.motion.drive import Drive, Plan
 from geneva_cli.motion.engagement import (
     Anchor,
-    Carrier,
     Displacement,
     Engagement,
     Level,
     Path,
-    PinDisplacement,
     Reactions,
     Slot,
     SlotAxis,
@@ -64,9 +62,7 @@ def _engagement(own: Engagement, timing: Timing, spec: Spec, L: float) -> Retime
     reactions: Reactions | None = push  # of a crank that carries its rollers
     if own.reactions:
         reactions = DrivenShaft(own, timing, push, spec.wheel.SIGN)
-    rate = RetimedRate(own, timing)
-    carrier = Carrier(own.crank_sense, rate, reactions, own.groove, own.hub)
-    return RetimedEngagement(own, timing, carrier)
+    return RetimedEngagement(own, timing, reactions)
 
 
 class Rotation(NamedTuple):
@@ -154,9 +150,8 @@ class Timing(Batchable):
 class ComposedDisplacement(NamedTuple):
     """A pin's displacement by the input's rotation, through the driven shaft's."""
 
-    displacement: PinDisplacement
+    displacement: Displacement
     advance: Displacement
-    cuts: Sequence[float] = ()
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """Displacement along the anchor's ray and across it, ``tau`` input radians later."""
@@ -305,9 +300,18 @@ class RetimedRate(NamedTuple):
 class RetimedEngagement(Engagement):
     """An engagement of a drive's own, behind another drive."""
 
-    def __init__(self, own: Engagement, timing: Timing, carrier: Carrier) -> None:
-        path, slot = RetimedPath(own.path, timing), RetimedSlot(own.slot, timing)
-        super().__init__(timing.mid_deg, path, slot, RetimedMotion(own.motion, timing), carrier)
+    def __init__(self, own: Engagement, timing: Timing, reactions: Reactions | None = None) -> None:
+        super().__init__(
+            timing.mid_deg,
+            RetimedPath(own.path, timing),
+            RetimedSlot(own.slot, timing),
+            RetimedMotion(own.motion, timing),
+            body=RetimedRate(own, timing),
+            reactions=reactions,
+            crank_sense=own.crank_sense,
+            groove=own.groove,
+            hub=own.hub,
+        )
         self._own, self.timing = own, timing
 
     def shaft_rate(self, input_deg: Number, order: int = 0) -> Jet:
@@ -334,18 +338,7 @@ class RetimedEngagement(Engagement):
         if own is self._own:
             return self, 0.0
         timing = self.timing.of(own, ahead_deg)
-        body = Carrier(own.crank_sense, RetimedRate(own, timing), None, own.groove, own.hub)
-        return RetimedEngagement(own, timing, body), self.mid_deg - timing.mid_deg
-
-    @property
-    def through(self) -> Engagement:
-        """Passage of its first roller through the whole slot: itself, except for gear sectors."""
-        return self.passages[0][0]
-
-    @property
-    def ahead_deg(self) -> tuple[float, ...]:
-        """Input angles by which its rollers lead; (0,) for one roller."""
-        return tuple(ahead for _, ahead in self.passages)
+        return RetimedEngagement(own, timing), self.mid_deg - timing.mid_deg
 
     @property
     def overtaking(self) -> float:

@@ -11,7 +11,6 @@ from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive, Plan
 from geneva_cli.motion.engagement import (
     Anchor,
-    Carrier,
     CarrierVelocity,
     ClosedPeaks,
     ConstantRate,
@@ -57,7 +56,6 @@ class PinTravel(NamedTuple):
 
     pose: PinPose
     advance: Displacement
-    cuts: Sequence[float] = ()  # of ``advance``
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """Displacement along the pose's ray and across it, ``tau`` input radians later."""
@@ -132,9 +130,8 @@ class Transmission(Drive, kw_only=True):
         first, second, third = (self._anchor(pose, place.crank_deg) for pose in place.poses)
         path = AnchoredPath((first, second, third))
         slot, motion = wheel.follow(path, place, here.advance)
-        closed = wheel.closed_form(place) if self.direct else None
-        if closed:
-            motion = ClassicMotion(path, place.step.b, *closed)
+        if place.closed and self.direct:
+            motion = ClassicMotion(path, place.step.b, *place.closed)
         else:
             motion.closed_peaks = self.closed_peaks(wheel, place)
             motion.mirrored = motion.mirrored and here.even
@@ -142,9 +139,7 @@ class Transmission(Drive, kw_only=True):
         body = body or self.turning(place.crank_deg, -wheel.SIGN)
         mid = here.input_deg
         reactions = self.reactions(wheel, path, mid, L) if wheel.FLAT else None
-        hub = wheel.hub(place)
-        carrier = Carrier(body=body, reactions=reactions, hub=hub)
-        return Engagement(mid, path, slot, motion, carrier)
+        return Engagement(mid, path, slot, motion, body, reactions, hub=place.hub)
 
     def turning(self, crank_deg: float, sense: float) -> CarrierVelocity | None:
         """Rate of the crank from a crank angle on; None if only its pin's path gives it.
@@ -157,7 +152,8 @@ class Transmission(Drive, kw_only=True):
         """A pose as an anchor by the input angle; the roller is ``crank_deg`` behind the first."""
         here = self.about(crank_deg + pose.crank_deg)
         from_mid = here.input_deg - self.about(crank_deg).input_deg
-        return Anchor(from_mid, pose.wheel, pose.along, PinTravel(pose, here.advance, here.cuts))
+        travel = PinTravel(pose, here.advance)
+        return Anchor(from_mid, pose.wheel, pose.along, travel, here.cuts)
 
     def _curved(self, wheel: Gearing, motion: Motion, L: float) -> Plan:
         """Plan of curved slots, solved for from a law and the crank's circle."""
@@ -177,8 +173,7 @@ class Transmission(Drive, kw_only=True):
         turned = LawMotion(-0.5 * motion_deg, 0.5 * motion_deg, wheel.step.b, motion.law)
         reactions = self.reactions(wheel, path, 0.0, L) if wheel.FLAT else None
         body = self.turning(0.0, -wheel.SIGN)
-        carrier = Carrier(body=body, reactions=reactions)
-        engagement = Engagement(0.0, path, SolvedSlot(path, turned), turned, carrier)
+        engagement = Engagement(0.0, path, SolvedSlot(path, turned), turned, body, reactions)
         period = 360.0 * self.turns / self.rollers
         most = rollers_max(motion_deg)
         return Plan((engagement,), period, ratio, most, L)

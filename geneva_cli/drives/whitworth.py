@@ -55,7 +55,7 @@ class SideCrankPeak(NamedTuple):
 
 def closed_peaks(A: float, wheel: Gearing, place: RollerPlace) -> SideCrankPeak | None:
     """Peaks of a wheel with closed forms and equal steps, at its first roller; else None."""
-    closed = wheel.closed_form(place)
+    closed = place.closed
     plain = isinstance(place.crank_deg, float) and place.crank_deg == 0.0
     if closed is None or wheel.steps or not plain:
         return None

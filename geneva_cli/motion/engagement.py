@@ -11,6 +11,7 @@ import copy
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 from geneva_cli.kept import cached_property
@@ -22,47 +23,41 @@ K = TypeVar("K", float, "Array")
 
 BLOCK = 12288  # angles: their jets stay in the processor's cache
 
+Vector: TypeAlias = tuple[Jet, Jet]
+
 
 class Path(Protocol):
     """The roller centre's position in the fixed frame, as the input turns."""
 
-    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+    def __call__(self, input_deg: Number, order: int = 3) -> Vector:
         """Pin (x, y) with its derivatives by the input angle in radians."""
 
 
-class SlotAxis(NamedTuple):
-    """Lever of a straight slot's normal about the wheel's axis, and the pin's speed along the slot.
+class Displacement(Protocol):
+    """The displacement of a pin, or of a crank as its sine and versine, since a place."""
 
-    Both are over L.
-    """
-
-    lever: Jet
-    along: Jet
+    def __call__(self, tau: Number, order: int) -> Vector:
+        """Displacement along a ray and across it, ``tau`` input radians later."""
 
 
 class Groove(Protocol):
     """A fixed groove about the crank's axis, which guides the roller along the crank."""
 
-    @property
-    def sign(self) -> float:
-        """1.0 for an external wheel, -1.0 for an internal one."""
+    sign: float  # 1 for an external wheel, -1 for an internal one
 
     @property
     def motion(self) -> WheelMotion:
         """Motion of the wheel, from which the groove follows."""
 
-    def distances(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+    def distances(self, input_deg: Number, order: int = 3) -> Vector:
         """Roller distances from the wheel's axis and from the crank's, in units of L."""
 
-    def groove(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+    def groove(self, input_deg: Number, order: int = 3) -> Vector:
         """Pitch curve (x, y) of the groove about the crank's axis."""
 
     @property
     def ends(self) -> tuple[Sequence[Number], Sequence[Number]]:
-        """Roller distance from the crank's axis with two derivatives, at entry and exit.
-
-        Derivatives are by the input angle in radians.
-        """
+        """Roller distance from the crank's axis with two derivatives, at entry and exit."""
 
 
 class CarrierVelocity(Protocol):
@@ -70,9 +65,6 @@ class CarrierVelocity(Protocol):
 
     def __call__(self, tau: Number, order: int) -> Jet:
         """Rate in radians per input radian, positive with the wheel, ``tau`` after mid-motion."""
-
-
-Vector: TypeAlias = tuple[Jet, Jet]
 
 
 class Reactions(Protocol):
@@ -88,6 +80,16 @@ class Reactions(Protocol):
         fixed gear. Forces are in any unit, couples in that unit times L. Meshing gears push along
         the common tangent of their pitch circles.
         """
+
+
+class SlotAxis(NamedTuple):
+    """Lever of a straight slot's normal about the wheel's axis, and the pin's speed along the slot.
+
+    Both are over L.
+    """
+
+    lever: Jet
+    along: Jet
 
 
 def cross(a: Vector, b: Vector) -> Jet:
@@ -136,7 +138,7 @@ class Slot(Batchable, ABC):
         return not (self.curved or self.relieved)
 
     @abstractmethod
-    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+    def __call__(self, input_deg: Number, order: int = 3) -> Vector:
         """Pin (x, y) in the wheel's frame; on a sphere its polar angle in the flat development."""
 
     @property
@@ -191,7 +193,6 @@ class WheelMotion(Batchable, ABC):
 
     # False if the two halves of the path differ
     mirrored = True
-    # peaks that need no general search
     closed_peaks: ClosedPeaks | None = None
     # Greatest error of ``rough_rates``, as a fraction of the greatest rate; 0 for exact ones.
     ROUGH_TO: ClassVar[float] = 0.0
@@ -289,40 +290,28 @@ class WheelMotion(Batchable, ABC):
         return [array(rates[k - 1]) for k in orders]
 
 
-class Carrier(NamedTuple):
-    """Body and guide of a roller; by default the crank's arm alone.
-
-    ``body`` carries the roller where the crank's arm does not, and ``reactions`` hold that body.
-    ``crank_sense`` is then the crank's direction: -1 with the wheel, 1 against it. It is 0 if the
-    roller is on the arm. ``groove`` is the path if a fixed groove guides the roller along the
-    crank. ``hub`` is the arm's centre of rotation on the line of centres: 1, except on a sphere.
-    """
-
-    crank_sense: float = 0.0
-    body: CarrierVelocity | None = None
-    reactions: Reactions | None = None
-    groove: Groove | None = None
-    hub: float = 1.0
-
-
-ARM = Carrier()
-
-
+@dataclass(eq=False)
 class Engagement(Batchable):
     """Pin path, slot and motion of one roller in one slot.
 
-    ``mid_deg`` is the machine's input angle at its mid-motion. ``mid_angle`` is the wheel's angle
-    there, radians from the first mid-motion, if the loads depend on it (``Mechanism.unbalanced``).
+    ``mid_deg`` is the machine's input angle at its mid-motion. The crank's arm carries the roller,
+    or else ``body`` does, which ``reactions`` hold; ``crank_sense`` is then the crank's direction:
+    -1 with the wheel, 1 against it. ``groove`` is the path if a fixed groove guides the roller
+    along the crank. ``hub`` is the arm's centre of rotation on the line of centres: 1, except on a
+    sphere. ``mid_angle`` is the wheel's angle at mid-motion, radians from the first mid-motion, if
+    the loads depend on it (``Mechanism.unbalanced``).
     """
 
+    mid_deg: float
+    path: Path
+    slot: Slot
+    motion: WheelMotion
+    body: CarrierVelocity | None = None
+    reactions: Reactions | None = None
+    crank_sense: float = 0.0
+    groove: Groove | None = None
+    hub: float = 1.0
     mid_angle: float | None = None
-
-    def __init__(
-        self, mid_deg: float, path: Path, slot: Slot, motion: WheelMotion, carrier: Carrier = ARM
-    ) -> None:
-        self.mid_deg = mid_deg
-        self.path, self.slot, self.motion = path, slot, motion
-        self.crank_sense, self.body, self.reactions, self.groove, self.hub = carrier
 
     @property
     def entry_deg(self) -> float:
@@ -415,27 +404,23 @@ class Engagement(Batchable):
         return self
 
     @property
+    def passages(self) -> tuple[tuple[Engagement, float], ...]:
+        """Passage of each roller through a whole slot, and the input angle by which it leads.
+
+        There is one, this engagement itself, but for gear sectors: if gears drive between them, one
+        roller starts the wheel and another stops it.
+        """
+        return ((self, 0.0),)
+
+    @property
     def through(self) -> Engagement:
         """Engagement whose roller runs through the whole slot: itself, except for gear sectors."""
-        return self
-
-    @property
-    def ahead_deg(self) -> tuple[float, ...]:
-        """Angles by which each of its rollers leads the input in ``through``; (0,) for one roller.
-
-        If gears drive between them, one roller starts the wheel and another stops it.
-        """
-        return (0.0,)
-
-    @property
-    def passages(self) -> tuple[tuple[Engagement, float], ...]:
-        """Passage of each roller through a whole slot, and the input angle by which it leads."""
-        return tuple((self.through, ahead) for ahead in self.ahead_deg)
+        return self.passages[0][0]
 
     @property
     def paired(self) -> bool:
         """True if one roller starts the wheel and another stops it, each in its own slot."""
-        return len(self.ahead_deg) > 1
+        return len(self.passages) > 1
 
     @property
     def apart(self) -> float:
@@ -454,39 +439,26 @@ class Anchor(NamedTuple):
     input_deg: float
     wheel: float  # direction of the ray from the wheel's axis to the pin there, radians
     along: float  # distance from the wheel's axis to the pin there
-    displacement: PinDisplacement
+    displacement: Displacement  # since then, along the ray and across it
+    # input radians since then, in order, at which another formula of the displacement takes over
+    cuts: Sequence[float] = ()
 
     @property
     def seams_deg(self) -> list[float]:
         """Input angles at which another formula of the displacement takes over, degrees."""
-        return [self.input_deg + math.degrees(cut) for cut in self.displacement.cuts]
+        return [self.input_deg + math.degrees(cut) for cut in self.cuts]
 
-    def displacement_at(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
+    def displacement_at(self, input_deg: Number, order: int) -> Vector:
         """Pin displacement (along the ray, across it) at an input angle in degrees."""
         return self.displacement(radians(input_deg - self.input_deg), order)
 
-    def place(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
+    def place(self, input_deg: Number, order: int) -> Vector:
         """Pin position (along the anchor's ray, across it) at an input angle in degrees."""
         along, across = self.displacement_at(input_deg, order)
         return along + self.along, across
 
 
-class Displacement(Protocol):
-    """The pin's displacement since an anchor."""
-
-    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
-        """Displacement along the anchor's ray and across it, ``tau`` input radians later."""
-
-
-class PinDisplacement(Displacement, Protocol):
-    """A displacement with the places where another formula takes over."""
-
-    @property
-    def cuts(self) -> Sequence[float]:
-        """Input radians since the anchor, in order; none for one formula throughout."""
-
-
-def in_wheel(path: tuple[Jet, Jet], wheel: Jet) -> tuple[Jet, Jet]:
+def in_wheel(path: Vector, wheel: Jet) -> Vector:
     """Transform a vector from the fixed frame to that of a wheel at angle ``wheel``, radians."""
     x, y = path
     s, c = sin_cos(wheel)

@@ -364,6 +364,11 @@ class Spec(Batchable):
         return self.size.roller_radius(center_distance_mm)
 
     @property
+    def moving(self) -> tuple[object, ...]:
+        """The values from which engagements are made."""
+        return self.wheel, self.drive, self.drive_before, self.motion, self.given_distance_mm
+
+    @property
     def given_distance_mm(self) -> float:
         """Centre distance L in millimetres from the spec, or its default.
 

@@ -256,15 +256,18 @@ class Mechanism(NamedTuple):
         return out
 
 
-def build(spec: Spec) -> Mechanism:
-    """Build the mechanism of a spec.
+def build(spec: Spec, like: Mechanism | None = None) -> Mechanism:
+    """Build the mechanism of a spec, which takes the engagements of ``like`` if it moves alike.
 
     Raises GenevaError, naming the key, if the values do not make a machine together.
     """
     compatible.refuse_conflicts(spec)
-    plan = spec.drive.plan(spec.wheel, spec.motion, spec.given_distance_mm)
-    if spec.drive_before:
-        plan = load_named(IN_FRONT)(plan, spec, spec.drive_before)
+    if like and spec.moving == like.spec.moving:
+        plan = Plan(*like[1:-1])
+    else:
+        plan = spec.drive.plan(spec.wheel, spec.motion, spec.given_distance_mm)
+        if spec.drive_before:
+            plan = load_named(IN_FRONT)(plan, spec, spec.drive_before)
     refuse_sizes(spec, plan.center_distance_mm, plan.ratio)
     refuse_tolerances(spec, plan.center_distance_mm, plan.ratio)
     return Mechanism(spec, *plan)

@@ -9,8 +9,6 @@ from typing import ClassVar
 
 from geneva_cli.motion.engagement import (
     Anchor,
-    Carrier,
-    Engagement,
     Level,
     Peak,
     Slot,
@@ -258,13 +256,6 @@ class ClassicMotion(StraightSlotMotion):
         speed = 2.0 * self.l * np.sin(0.5 * tau) * np.sin(half)
         velocity: Array = speed / (along * along + across * across)
         return velocity
-
-
-def engagement(
-    mid_deg: float, path: AnchoredPath, motion: StraightSlotMotion, carrier: Carrier
-) -> Engagement:
-    """Build the engagement of a radial slot in a plane."""
-    return Engagement(mid_deg, path, RadialSlot(path), motion, carrier)
 
 
 def _length(vector: tuple[Jet, Jet]) -> Jet:

@@ -9,88 +9,55 @@ slides by its pinion's radius a radian. Lengths are in the unit of the points.
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
 
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array, N
 
 
-class PlaneMotion(ABC):
-    """The motion of a body in its plane, for angles in radians; arrays of points are (n, 2)."""
+class PlaneMotion:
+    """The motion of a body in its plane: here a wheel that turns about the origin.
+
+    Angles are in radians; arrays of points are (n, 2).
+
+    >>> PlaneMotion().into(np.array([[0.0, 2.0]]), np.array([0.5 * math.pi])).round(9)
+    array([[2., 0.]])
+    """
 
     # change of the place after which a body meets itself, radians; infinite for a rack
-    PERIOD: float
+    PERIOD = math.tau
 
-    @abstractmethod
     def into(self, points: Array, turn: Array) -> Array:
         """Return points in the frame of the body, which has moved by n angles.
 
         With the angles negated it is the way back into the fixed frame.
         """
-
-    @abstractmethod
-    def angle(self, turn: Array) -> Array:
-        """Return the direction of the body's x axis."""
-
-    @abstractmethod
-    def level(self, points: Array) -> Array:
-        """Return the coordinate of points that the motion leaves as it is, (n,)."""
-
-    @abstractmethod
-    def place(self, points: Array) -> Array:
-        """Return the coordinate of points that the motion changes, radians (n,)."""
-
-    @abstractmethod
-    def outwards(self, points: Array) -> Array:
-        """Return directions (n, 2) out of the body at points: those in which the level rises."""
-
-    @abstractmethod
-    def lever(self, level: N) -> N:
-        """Return how far points at a level move a radian."""
-
-    @abstractmethod
-    def half_span(self, reach: float, level: float) -> float:
-        """Return half of the range of places that a disc of radius ``reach`` covers."""
-
-
-class Turning(PlaneMotion):
-    """The rotation of a wheel about the origin.
-
-    >>> Turning().into(np.array([[0.0, 2.0]]), np.array([0.5 * math.pi])).round(9)
-    array([[2., 0.]])
-    """
-
-    PERIOD = math.tau
-
-    def into(self, points: Array, turn: Array) -> Array:
-        """Return points, turned back about the origin."""
         return turned_points(points, -turn)
 
     def angle(self, turn: Array) -> Array:
-        """Return the angle itself."""
+        """Return the direction of the body's x axis."""
         return turn
 
     def level(self, points: Array) -> Array:
-        """Return the distance of points from the axis."""
+        """Return the coordinate of points that the motion leaves as it is, (n,)."""
         out: Array = np.hypot(points[..., 0], points[..., 1])
         return out
 
     def place(self, points: Array) -> Array:
-        """Return the polar angle of points."""
+        """Return the coordinate of points that the motion changes, radians (n,)."""
         out: Array = np.arctan2(points[..., 1], points[..., 0])
         return out
 
     def outwards(self, points: Array) -> Array:
-        """Return the points, as seen from the axis."""
+        """Return directions (n, 2) out of the body at points: those in which the level rises."""
         return points
 
     def lever(self, level: N) -> N:
-        """Return the distance from the axis."""
+        """Return how far points at a level move a radian."""
         return level
 
     def half_span(self, reach: float, level: float) -> float:
-        """Return half the angle that a disc spans, seen from the axis."""
+        """Return half of the range of places that a disc of radius ``reach`` covers."""
         return math.asin(reach / level) if reach < level else math.pi
 
 

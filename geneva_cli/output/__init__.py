@@ -121,7 +121,7 @@ def _chunks(table: Table, output: str, name: str) -> Iterator[str]:
 
     table = checked(table, is_seen(output))
     if choice.columns:
-        from geneva_cli.output.chosen import only
+        from geneva_cli.output.finite import only
 
         table = only(table, choice.columns)
     if name not in ("table", "md"):
@@ -131,8 +131,8 @@ def _chunks(table: Table, output: str, name: str) -> Iterator[str]:
 
         table = table_in_inches(table)
     if name == "table" and is_seen(output):
+        from geneva_cli.output.terminal.layout import window
         from geneva_cli.output.terminal.terminal_tables import chunks
-        from geneva_cli.output.terminal.window import window
 
         return chunks(table, window(bool(choice.columns), choice.wide))
     return importlib.import_module(f"geneva_cli.output.{FORMATS[name]}").chunks(table)
@@ -311,8 +311,8 @@ def show_markdown(text: str) -> None:
     if not is_seen("-"):
         sys.stdout.write(text)
         return
+    from geneva_cli.output.terminal.layout import window
     from geneva_cli.output.terminal.page_reader import chunks
-    from geneva_cli.output.terminal.window import window
 
     _put(chunks(text, window(False, choice.wide)), "-", ())
 

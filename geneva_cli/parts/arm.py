@@ -22,10 +22,9 @@ from geneva_cli.geometry.shapes import Circle, Contour, Shape
 from geneva_cli.parts.outlines.crank_circles import crank_circles
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.reliefs import is_whole, keyway_direction, reliefs, sectors
-from geneva_cli.parts.shafts.bolt_holes import bolt_radius, refuse_no_screw, tapped
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
-from geneva_cli.parts.sizes.arm_sizes import (
-    arm_passing,
+from geneva_cli.parts.shafts.screws import bolt_radius, refuse_no_screw, tapped
+from geneva_cli.parts.sizes import (
     hub_and_eye,
     lock_bolt_directions,
     pin_hole,
@@ -64,7 +63,7 @@ def crank_arm(parts: Outlines) -> CrankArm:
     centres, hole = roller_centres(assembly), pin_hole(spec.size, sizes.pin)
     away = [math.hypot(*c) for c in centres]
     # the wheel's hub stands on the roller's side, where the arm's end passes below the wheel
-    passing = arm_passing(assembly, sizes, max(away))
+    passing = sizes.passing_eye(assembly.L - max(away))
     free = 0.0 if spec.size.has_hub("wheel") else max(sizes.wheel_hub - sizes.wheel_bore, 0.0)
     standing = 0.0 if is_whole(assembly, sizes) else sizes.lock  # the sectors stand on the hub
     radius, wall = sizes.arm_bore, sizes.wall_min

@@ -24,11 +24,9 @@ from geneva_cli.parts.links.link_positions import is_bridged, links_at, turn_deg
 from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.links.links import Links
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.shafts.bolt_holes import bolt_radius
-from geneva_cli.parts.shafts.screws import SCREWS
+from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius
 from geneva_cli.parts.shafts.shaft import Shaft
-from geneva_cli.parts.sizes.arm_sizes import HUB
-from geneva_cli.parts.sizes.plain_sizes import bridge_low
+from geneva_cli.parts.sizes import HUB, bridge_low
 from geneva_cli.spec.least_wall import wall_min
 
 

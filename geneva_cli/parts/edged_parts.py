@@ -15,7 +15,7 @@ from geneva_cli.parts.parts import Parts
 if TYPE_CHECKING:
     from geneva_cli.geometry.gear_teeth import Writer
     from geneva_cli.parts.framed import FrameAndShafts, Unborne
-    from geneva_cli.parts.shafts.bolt_holes import Screws
+    from geneva_cli.parts.shafts.screws import Screws
 
 
 class EdgedParts(Parts):

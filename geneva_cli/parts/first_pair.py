@@ -19,7 +19,7 @@ from geneva_cli.parts.links.links import Links, drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.projection import titled
 from geneva_cli.parts.shafts.bores import has_shape, round_bore
-from geneva_cli.parts.sizes.first_sizes import first_spec
+from geneva_cli.parts.sized_by_load import first_spec
 from geneva_cli.parts.wheel import wheel_plate
 from geneva_cli.spec.least_wall import wall_min
 

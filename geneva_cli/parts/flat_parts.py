@@ -23,12 +23,12 @@ from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.links.link_shafts import links_to_fix
-from geneva_cli.parts.outlines.outline_sizes import machine_sizes, outlines
+from geneva_cli.parts.machine_sizes import machine_sizes, outlines
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.reliefs import is_whole
 from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
 from geneva_cli.parts.parts import NamedBuilds
-from geneva_cli.parts.sizes.plain_sizes import Sizes, drawn_thicknesses, pin_radius
+from geneva_cli.parts.sizes import Sizes, drawn_thicknesses, pin_radius
 from geneva_cli.parts.slots.roller_paths import roller_centres
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from geneva_cli.parts.gears.gear_blanks import Gear
     from geneva_cli.parts.links.links import Links
     from geneva_cli.parts.missing import NamedParts
-    from geneva_cli.parts.shafts.bolt_holes import Screws
+    from geneva_cli.parts.shafts.screws import Screws
     from geneva_cli.parts.turn.bounds import FlatPairs
     from geneva_cli.parts.turn.gaps import Gaps
 
@@ -357,7 +357,7 @@ class FlatParts(EdgedParts):
             return framed
         from geneva_cli.parts.arm import bolts
         from geneva_cli.parts.outlines.wheel_circles import dial_bolts
-        from geneva_cli.parts.shafts.bolt_holes import Screws
+        from geneva_cli.parts.shafts.screws import Screws
 
         own = []
         for fixed, holes, thread in (

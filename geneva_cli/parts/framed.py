@@ -7,7 +7,7 @@ from typing import NamedTuple
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.parts.mounted_plate import mounts_of
-from geneva_cli.parts.shafts.bolt_holes import Screws, tapped
+from geneva_cli.parts.shafts.screws import Screws, tapped
 
 
 class Unborne(NamedTuple):

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from geneva_cli.parts.gears.gear_blanks import Gear
     from geneva_cli.parts.missing import NamedParts
     from geneva_cli.parts.outlines.outlines import Outlines
-    from geneva_cli.parts.shafts.bolt_holes import Screws
+    from geneva_cli.parts.shafts.screws import Screws
     from geneva_cli.parts.turn.full_turn import FullTurn
     from geneva_cli.parts.turn.pairs import Pairs
 

@@ -7,7 +7,7 @@ from geneva_cli.geometry.shapes import Contour
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.outlines.wheel_circles import wheel_circles
 from geneva_cli.parts.outlines.wheel_hub import wheel_hub
-from geneva_cli.parts.sizes.plain_sizes import Sizes
+from geneva_cli.parts.sizes import Sizes
 
 
 def wheel_plate(assembly: Assembly, sizes: Sizes, contour: Contour) -> Plate:

@@ -19,6 +19,11 @@ def value_or(value: float | None, default: float) -> float:
     return default if value is None else value
 
 
+def half_or(diameter: float | None, default: float) -> float:
+    """Return half of a diameter, or the default radius if that is None."""
+    return default if diameter is None else 0.5 * diameter
+
+
 def unrounded(length: float) -> float:
     """Return a length as it is: a batch has arrays of sizes, which nobody rounds."""
     return length

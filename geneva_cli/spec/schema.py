@@ -111,6 +111,8 @@ class SpecTable:
 
     def __init__(self, *values: object, **named: object) -> None:
         own, kind = vars(self), type(self)
+        if named:
+            refuse_keywords(kind.__name__, named, _names(kind))
         if values:
             named = _by_name(kind, values, named)
         for one in _parameters(kind):
@@ -124,11 +126,6 @@ class SpecTable:
 
     def __delattr__(self, name: str) -> None:
         raise dataclasses.FrozenInstanceError(f"cannot delete field {name!r}")
-
-    def __new__(cls, *_: object, **named: object) -> Self:
-        """Refuse a keyword that is no field, with the nearest."""
-        refuse_keywords(cls.__name__, named, _names(cls))
-        return super().__new__(cls)
 
     def __post_init__(self) -> None:
         for field in fields(type(self)):
@@ -263,7 +260,8 @@ def without_hash(record: object) -> dict[str, object]:
 
 
 _parameters_of: dict[type, tuple[dataclasses.Field[object], ...]] = {}
-_names_of: dict[type, tuple[str, ...]] = {}
+_names_of: dict[type, list[str]] = {}
+_fields_of: dict[type, tuple[Field, ...]] = {}
 
 
 def _parameters(kind: type) -> tuple[dataclasses.Field[object], ...]:
@@ -273,42 +271,33 @@ def _parameters(kind: type) -> tuple[dataclasses.Field[object], ...]:
     return _parameters_of[kind]
 
 
-def _names(kind: type) -> tuple[str, ...]:
+def _names(kind: type) -> list[str]:
     """Names of a dataclass's fields."""
     if kind not in _names_of:
-        _names_of[kind] = tuple(one.name for one in _parameters(kind))
+        _names_of[kind] = [one.name for one in _parameters(kind)]
     return _names_of[kind]
-
-
-_fields_of: dict[type[SpecTable], tuple[Field, ...]] = {}
 
 
 def fields(table: type[SpecTable]) -> tuple[Field, ...]:
     """Keys of a table, in their order."""
-    if table not in _fields_of:
-        _fields_of[table] = _fields(table)
-    return _fields_of[table]
-
-
-def _fields(table: type[SpecTable]) -> tuple[Field, ...]:
-    bases = (base for base in table.__bases__ if issubclass(base, SpecTable) and base != SpecTable)
-    known = {field.attribute: field for base in bases for field in fields(base)}
+    if table in _fields_of:
+        return _fields_of[table]
+    known: dict[str, Field] = {}
+    for base in table.__bases__:
+        if issubclass(base, SpecTable) and base is not SpecTable:
+            known |= {field.attribute: field for field in fields(base)}
     own = inspect.get_annotations(table, eval_str=True)
-    known |= {
-        one.name: _field(one, own[one.name])
-        for one in _parameters(table)
+    for one in _parameters(table):
+        annotation = own.get(one.name)
         # others are no keys: objects with their own keys, such as a motion's law
-        if get_origin(own.get(one.name)) is Annotated
-    }
-    return tuple(known[one.name] for one in _parameters(table) if one.name in known)
-
-
-def _field(one: dataclasses.Field[object], annotation: object) -> Field:
-    annotated, rule, meaning = get_args(annotation)
-    # an alternative (a | b) by its parts, anything else as it is; tuple[...] stays whole
-    types = get_args(annotated) if isinstance(annotated, UnionType) else (annotated,)
-    key = rule.key if isinstance(rule, Csv) else one.name.rstrip("_")
-    return Field(key, one.name, types, rule, one.default, meaning)
+        if get_origin(annotation) is Annotated:
+            annotated, rule, meaning = get_args(annotation)
+            # an alternative (a | b) by its parts, anything else as it is; tuple[...] stays whole
+            types = get_args(annotated) if isinstance(annotated, UnionType) else (annotated,)
+            key = rule.key if isinstance(rule, Csv) else one.name.rstrip("_")
+            known[one.name] = Field(key, one.name, types, rule, one.default, meaning)
+    _fields_of[table] = tuple([known[name] for name in _names(table) if name in known])
+    return _fields_of[table]
 
 
 def checked(table: str, field: Field, value: Any) -> Any:
@@ -322,18 +311,19 @@ def checked(table: str, field: Field, value: Any) -> Any:
         return value
     if isinstance(field.rule, Csv):
         return _points(place, field, value)
-    numeric = [t for t in field.types if t in (int, float)]
+    whole = int in field.types
+    numeric = whole or float in field.types
     if isinstance(value, (int, float)) and not isinstance(value, bool) and numeric:
-        return _number(place, field, value, whole=numeric[0] is int)
+        return _number(place, field, value, whole)
     if numeric and is_array(value):
-        return _numbers(place, field, value, whole=numeric[0] is int)
+        return _numbers(place, field, value, whole)
     if is_array(value) and LIST in field.types:
         value = value.tolist()
     if isinstance(value, (list, tuple)) and LIST in field.types:
         return _list(table, field, value)
     if isinstance(value, str) and {str, float} & set(field.types):
         if str in field.types:
-            return _word(place, field, value, numeric=bool(numeric))
+            return _word(place, field, value, numeric)
         return checked(table, field, _with_unit(place, field, value))
     expected = " or ".join(_NAMES[t] for t in field.types if t in _NAMES)
     raise GenevaError(f"{field.key} must be {expected}, not {shown(value)}", place)

@@ -16,6 +16,9 @@ from geneva_cli.spec.schema import SpecTable
 from geneva_cli.spec.workshops import workshop
 
 Rounding = Callable[[float], float]
+# types of usual keys
+Positive = Annotated[float | None, POSITIVE]
+NotNegative = Annotated[float | None, NOT_NEGATIVE]
 
 DISTANCE_MM = 100.0  # the centre distance of a spec that gives none
 Z_DRAWN = 360  # slots of a wheel that is drawn: one a degree
@@ -34,43 +37,34 @@ class Size(SpecTable):
     TABLE: ClassVar[str] = "size"
 
     center_distance_mm: Annotated[
-        float | None,
-        POSITIVE,
+        Positive,
         "centre distance L; spherical: sphere radius; linear: crank radius; default 100; linkages "
         "solve for it",
     ] = None
-    roller_radius_mm: Annotated[float | None, POSITIVE, "roller radius r; default L/20"] = None
+    roller_radius_mm: Annotated[Positive, "roller radius r; default L/20"] = None
     process: Annotated[
-        str | None,
-        OneOf(PROCESSES),
-        "manufacturing process; sets clearances, fits and limits",
+        str | None, OneOf(PROCESSES), "manufacturing process; sets clearances, fits and limits"
     ] = None
     slot_clearance_mm: Annotated[
-        float | None, NOT_NEGATIVE, "clearance per side, roller to slot; default 0, or by process"
+        NotNegative, "clearance per side, roller to slot; default 0, or by process"
     ] = None
     lock_clearance_mm: Annotated[
-        float | None, NOT_NEGATIVE, "clearance per side, disc to wheel; default 0, or by process"
+        NotNegative, "clearance per side, disc to wheel; default 0, or by process"
     ] = None
-    face_width_mm: Annotated[
-        float | None, POSITIVE, "length of the contact line between roller and slot"
-    ] = None
+    face_width_mm: Annotated[Positive, "length of the contact line between roller and slot"] = None
     wheel_radius_mm: Annotated[
-        float | None,
-        POSITIVE,
+        Positive,
         "rim radius (internal: of the opening; linear: distance of the edge); default: roller at "
         "entry",
     ] = None
     wheel_outer_radius_mm: Annotated[
-        float | None,
-        POSITIVE,
-        "internal: outer radius of the wheel; default: slots plus a roller's width",
+        Positive, "internal: outer radius of the wheel; default: slots plus a roller's width"
     ] = None
     slot_bottom_clearance_mm: Annotated[
-        float | None, NOT_NEGATIVE, "straight slots: roller's clearance at their ends; default r/20"
+        NotNegative, "straight slots: roller's clearance at their ends; default r/20"
     ] = None
     lock_radius_mm: Annotated[
-        float | None,
-        NOT_NEGATIVE,
+        NotNegative,
         "radius of the locking disc, 0 for none; default: horns as thick as r, if possible",
     ] = None
     relief: Annotated[
@@ -79,23 +73,19 @@ class Size(SpecTable):
         "locking disc's relief; default: the one that clears wheel, bore and hub",
     ] = None
     relief_clearance_mm: Annotated[
-        float | None, NOT_NEGATIVE, "clearance from wheel to bottom of the relief; default L/200"
+        NotNegative, "clearance from wheel to bottom of the relief; default L/200"
     ] = None
     wall_min_mm: Annotated[
-        float | None,
-        NOT_NEGATIVE,
-        "least wall that passes `check`; default L/200, or by process",
+        NotNegative, "least wall that passes `check`; default L/200, or by process"
     ] = None
     wheel_bore_mm: Annotated[
-        float | None,
-        NOT_NEGATIVE,
-        "diameter of the wheel's shaft in its bore; default up to L/6, or by load",
+        NotNegative, "diameter of the wheel's shaft in its bore; default up to L/6, or by load"
     ] = None
     wheel_hub_mm: Annotated[
-        float | None, NOT_NEGATIVE, "diameter of the wheel's hub, on the side of the crank arm"
+        NotNegative, "diameter of the wheel's hub, on the side of the crank arm"
     ] = None
     wheel_hub_length_mm: Annotated[
-        float | None, POSITIVE, "wheel's hub: length below the wheel; default: past the crank arm"
+        Positive, "wheel's hub: length below the wheel; default: past the crank arm"
     ] = None
     wheel_shaft_low_mm: Annotated[
         float | None, LENGTH, "lower end of the wheel's shaft, from the wheel's lower face"
@@ -104,17 +94,12 @@ class Size(SpecTable):
         float | None, LENGTH, "upper end of the wheel's shaft, from the wheel's lower face"
     ] = None
     crank_bore_mm: Annotated[
-        float | None,
-        NOT_NEGATIVE,
+        NotNegative,
         "diameter of the crank's shaft in its bore; default arm_bore_mm; 0: the shaft ends below",
     ] = None
-    crank_hub_mm: Annotated[
-        float | None, NOT_NEGATIVE, "diameter of the crank's hub in the wheel's plane"
-    ] = None
+    crank_hub_mm: Annotated[NotNegative, "diameter of the crank's hub in the wheel's plane"] = None
     crank_hub_length_mm: Annotated[
-        float | None,
-        POSITIVE,
-        "length of the crank's hub, from the arm up; default: to the wheel's upper face",
+        Positive, "length of the crank's hub, from the arm up; default: to the wheel's upper face"
     ] = None
     crank_shaft_low_mm: Annotated[
         float | None, LENGTH, "lower end of the crank's shaft, from the wheel's lower face"
@@ -122,32 +107,26 @@ class Size(SpecTable):
     crank_shaft_high_mm: Annotated[
         float | None, LENGTH, "upper end of the crank's shaft, from the wheel's lower face"
     ] = None
-    pin_mm: Annotated[
-        float | None, NOT_NEGATIVE, "diameter of the roller's pin; default r, or by load"
-    ] = None
+    pin_mm: Annotated[NotNegative, "diameter of the roller's pin; default r, or by load"] = None
     press_fit_mm: Annotated[
-        float | None,
-        NOT_NEGATIVE,
+        NotNegative,
         "diameter of the pin minus that of its hole in the crank arm; default 0, or by process",
     ] = None
     shaft_fit_mm: Annotated[
-        float | None,
-        NOT_NEGATIVE,
+        NotNegative,
         "diameter by which bores are wider than their shafts and pins; default 0, or by process",
     ] = None
     shafts: Annotated[
         str, OneOf(("plain", "turned")), "turned: with bearing seat, shoulder and circlip grooves"
     ] = "plain"
     arm_bore_mm: Annotated[
-        float | None,
-        POSITIVE,
-        "diameter of the crank's shaft in the arm; default crank_bore_mm, or by load",
+        Positive, "diameter of the crank's shaft in the arm; default crank_bore_mm, or by load"
     ] = None
-    arm_hub_mm: Annotated[
-        float | None, POSITIVE, "width of the crank arm round its bore; default 1.6 bores"
-    ] = None
+    arm_hub_mm: Annotated[Positive, "width of the crank arm round its bore; default 1.6 bores"] = (
+        None
+    )
     arm_eye_mm: Annotated[
-        float | None, POSITIVE, "width of the crank arm round a pin; default up to 2 pin diameters"
+        Positive, "width of the crank arm round a pin; default up to 2 pin diameters"
     ] = None
     crank_keyway: Annotated[
         str | None,
@@ -160,7 +139,7 @@ class Size(SpecTable):
         "shape of the bores on the crank's shaft; a hex bore is across flats",
     ] = "round"
     crank_flat_mm: Annotated[
-        float | None, POSITIVE, "depth of the flat in the crank's D bore; default bore/10"
+        Positive, "depth of the flat in the crank's D bore; default bore/10"
     ] = None
     wheel_keyway: Annotated[
         str | None, OneOf(("DIN 6885-1",)), "keyway in the bores on the wheel's shaft"
@@ -171,29 +150,29 @@ class Size(SpecTable):
         "shape of the bores on the wheel's shaft; a hex bore is across flats",
     ] = "round"
     wheel_flat_mm: Annotated[
-        float | None, POSITIVE, "depth of the flat in the wheel's D bore; default bore/10"
+        Positive, "depth of the flat in the wheel's D bore; default bore/10"
     ] = None
     wheel_screw_mm: Annotated[
-        float | None, POSITIVE, "set screw through the wheel's hub: its thread's diameter"
+        Positive, "set screw through the wheel's hub: its thread's diameter"
     ] = None
     crank_screw_mm: Annotated[
-        float | None, POSITIVE, "set screw through the crank's hub: its thread's diameter"
+        Positive, "set screw through the crank's hub: its thread's diameter"
     ] = None
     wheel_clamp_mm: Annotated[
-        float | None, POSITIVE, "clamp screw of the wheel's slit hub: its thread's diameter"
+        Positive, "clamp screw of the wheel's slit hub: its thread's diameter"
     ] = None
     crank_clamp_mm: Annotated[
-        float | None, POSITIVE, "clamp screw of the crank's slit hub: its thread's diameter"
+        Positive, "clamp screw of the crank's slit hub: its thread's diameter"
     ] = None
     dial_bolts: Annotated[int, Range(0, 100), "number of bolts between dial and wheel"] = 0
     dial_bolt_mm: Annotated[
-        float | None, POSITIVE, "dial's bolt holes: diameter; default for a screw, up to L/40"
+        Positive, "dial's bolt holes: diameter; default for a screw, up to L/40"
     ] = None
     dial_bolt_circle_mm: Annotated[
-        float | None, POSITIVE, "dial's bolt circle: diameter; default: amid bore and slots"
+        Positive, "dial's bolt circle: diameter; default: amid bore and slots"
     ] = None
     gear_module_mm: Annotated[
-        float | None, POSITIVE, "module of gear teeth; default: pitch curves without teeth"
+        Positive, "module of gear teeth; default: pitch curves without teeth"
     ] = None
     gear_teeth: Annotated[
         int | None, Range(3, 1000), "teeth of the smaller gear; default: nearest by module"
@@ -204,18 +183,16 @@ class Size(SpecTable):
         "smaller gear's profile shift, in modules; default: half of the sum, without undercut",
     ] = None
     gear_backlash_mm: Annotated[
-        float | None,
-        NOT_NEGATIVE,
-        "backlash of gear teeth along their pitch circles; default 0, or by process",
+        NotNegative, "backlash of gear teeth along their pitch circles; default 0, or by process"
     ] = None
     gear_bolts: Annotated[
         int, Range(0, 100), "number of screws between a fixed gear and the frame, evenly spaced"
     ] = 4
-    gear_bolt_mm: Annotated[
-        float | None, POSITIVE, "fixed gear's screw holes: diameter; default up to L/40"
-    ] = None
+    gear_bolt_mm: Annotated[Positive, "fixed gear's screw holes: diameter; default up to L/40"] = (
+        None
+    )
     gear_bolt_circle_mm: Annotated[
-        float | None, POSITIVE, "fixed gear's screw circle; default: amid bore and pitch circle"
+        Positive, "fixed gear's screw circle; default: amid bore and pitch circle"
     ] = None
     lock_bolts: Annotated[
         int | None,
@@ -223,10 +200,10 @@ class Size(SpecTable):
         "bolts through each sector of the locking disc and the arm; default 2 where they fit",
     ] = None
     lock_bolt_mm: Annotated[
-        float | None, POSITIVE, "lock's bolt holes: diameter; default for a screw, up to L/40"
+        Positive, "lock's bolt holes: diameter; default for a screw, up to L/40"
     ] = None
     lock_bolt_circle_mm: Annotated[
-        float | None, POSITIVE, "locking disc's bolt circle; default: where the disc is widest"
+        Positive, "locking disc's bolt circle; default: where the disc is widest"
     ] = None
     pin_held: Annotated[
         str,
@@ -234,43 +211,35 @@ class Size(SpecTable):
         "support of the roller's pin: fixed in one plate, loose in two, or fixed in two",
     ] = "cantilever"
     pin_gap_mm: Annotated[
-        float | None,
-        NOT_NEGATIVE,
-        "gap from a pin's plate to the contact line; default 0, or by process",
+        NotNegative, "gap from a pin's plate to the contact line; default 0, or by process"
     ] = None
     lock_edge_mm: Annotated[
-        float | None,
-        POSITIVE,
-        "rounding radius at recesses' ends; with stop, also at the disc's",
+        Positive, "rounding radius at recesses' ends; with stop, also at the disc's"
     ] = None
     wheel_thickness_mm: Annotated[
-        float | None,
-        POSITIVE,
-        "thickness of wheel and rollers; default face_width_mm, L/10 or by load",
+        Positive, "thickness of wheel and rollers; default face_width_mm, L/10 or by load"
     ] = None
     lock_thickness_mm: Annotated[
-        float | None, POSITIVE, "thickness of the locking disc; default: wheel plus pin_gap_mm"
+        Positive, "thickness of the locking disc; default: wheel plus pin_gap_mm"
     ] = None
     arm_thickness_mm: Annotated[
-        float | None, POSITIVE, "thickness of the crank arm; default: the wheel's, or by load"
+        Positive, "thickness of the crank arm; default: the wheel's, or by load"
     ] = None
-    link_pin_mm: Annotated[
-        float | None, POSITIVE, "diameter of the pins between links; default up to L/20"
-    ] = None
+    link_pin_mm: Annotated[Positive, "diameter of the pins between links; default up to L/20"] = (
+        None
+    )
     link_bore_mm: Annotated[
-        float | None,
-        POSITIVE,
-        "diameter of shafts that carry links only; default up to L/10, or by load",
+        Positive, "diameter of shafts that carry links only; default up to L/10, or by load"
     ] = None
     link_width_mm: Annotated[
-        float | None, POSITIVE, "width of the links round their pins; default 2 pin diameters"
+        Positive, "width of the links round their pins; default 2 pin diameters"
     ] = None
     link_thickness_mm: Annotated[
-        float | None, POSITIVE, "thickness of the links; default: the crank arm's, or by load"
+        Positive, "thickness of the links; default: the crank arm's, or by load"
     ] = None
     washer_mm: Annotated[float, NOT_NEGATIVE, "thickness of washers between stacked links"] = 0.0
-    edge_chamfer_mm: Annotated[float | None, POSITIVE, "chamfer of all edges, at 45 degrees"] = None
-    edge_fillet_mm: Annotated[float | None, POSITIVE, "rounding radius of all edges"] = None
+    edge_chamfer_mm: Annotated[Positive, "chamfer of all edges, at 45 degrees"] = None
+    edge_fillet_mm: Annotated[Positive, "rounding radius of all edges"] = None
 
     @property
     def edge_mm(self) -> float:
@@ -360,11 +329,11 @@ class Load(SpecTable):
     mass_kg: Annotated[float, NOT_NEGATIVE, "linear: mass of the rack and all it moves"] = 0.0
     force_N: Annotated[float, NOT_NEGATIVE, "linear: force that resists the rack's motion"] = 0.0
     dwell_torque_Nm: Annotated[
-        float | None, NOT_NEGATIVE, "torque that the lock holds during the dwell; default torque_Nm"
+        NotNegative, "torque that the lock holds during the dwell; default torque_Nm"
     ] = None
-    winding_torque_Nm: Annotated[
-        float | None, POSITIVE, "with stop: torque of the crank against its stops"
-    ] = None
+    winding_torque_Nm: Annotated[Positive, "with stop: torque of the crank against its stops"] = (
+        None
+    )
     efficiency: Annotated[float, Range(0.0, 1.0, "(]"), "efficiency eta of the wheel"] = 1.0
     friction: Annotated[float, NOT_NEGATIVE, "friction coefficient between roller and slot"] = 0.0
     friction_at: Annotated[
@@ -373,7 +342,7 @@ class Load(SpecTable):
         "place of sliding: in the slot (roller fixed to its pin), or on the pin",
     ] = "slot"
     guide_friction: Annotated[
-        float | None, NOT_NEGATIVE, "linear: friction coefficient of the guide; default friction"
+        NotNegative, "linear: friction coefficient of the guide; default friction"
     ] = None
 
     @property
@@ -392,13 +361,13 @@ class Mass(SpecTable):
     TABLE: ClassVar[str] = "mass"
 
     shape: Annotated[str, OneOf(("disc", "ring", "block", "point")), "shape of the body"]
-    mass_kg: Annotated[float | None, POSITIVE, "mass of one; or density_kgm3 and all sizes"] = None
-    density_kgm3: Annotated[float | None, POSITIVE, "density; the sizes then give the mass"] = None
-    diameter_mm: Annotated[float | None, POSITIVE, "disc and ring: outer diameter D"] = None
-    bore_mm: Annotated[float | None, POSITIVE, "ring: inner diameter d"] = None
-    length_mm: Annotated[float | None, POSITIVE, "block: side a, perpendicular to the axis"] = None
-    width_mm: Annotated[float | None, POSITIVE, "block: side c, perpendicular to the axis"] = None
-    thickness_mm: Annotated[float | None, POSITIVE, "thickness; required with a density"] = None
+    mass_kg: Annotated[Positive, "mass of one; or density_kgm3 and all sizes"] = None
+    density_kgm3: Annotated[Positive, "density; the sizes then give the mass"] = None
+    diameter_mm: Annotated[Positive, "disc and ring: outer diameter D"] = None
+    bore_mm: Annotated[Positive, "ring: inner diameter d"] = None
+    length_mm: Annotated[Positive, "block: side a, perpendicular to the axis"] = None
+    width_mm: Annotated[Positive, "block: side c, perpendicular to the axis"] = None
+    thickness_mm: Annotated[Positive, "thickness; required with a density"] = None
     count: Annotated[int, Range(1, 1000), "number of equal bodies"] = 1
     radius_mm: Annotated[float, NOT_NEGATIVE, "distance from the wheel's axis to the body's"] = 0.0
     angle_deg: Annotated[
@@ -502,9 +471,9 @@ class Motor(SpecTable):
     TABLE: ClassVar[str] = "motor"
 
     service_factor: Annotated[float, Range(1.0, 100.0), "service factor of the makers"] = 1.0
-    gear_ratio: Annotated[
-        float | None, POSITIVE, "turns of the motor per turn of the input shaft; default 1"
-    ] = None
+    gear_ratio: Annotated[Positive, "turns of the motor per turn of the input shaft; default 1"] = (
+        None
+    )
     gear_efficiency: Annotated[float, Range(0.0, 1.0, "(]"), "efficiency of the reducer"] = 1.0
     inertia_kgm2: Annotated[float, NOT_NEGATIVE, "inertia of rotor and reducer"] = 0.0
     speed_variation: Annotated[
@@ -528,26 +497,20 @@ class Shaft(SpecTable):
 
     TABLE: ClassVar[str] = "shaft"
 
-    stiffness_Nm_rad: Annotated[float | None, POSITIVE, "stiffness between wheel and load"] = None
+    stiffness_Nm_rad: Annotated[Positive, "stiffness between wheel and load"] = None
     damping_ratio: Annotated[float, Range(0.0, 1.0, "[)"), "shaft's damping over critical"] = 0.0
-    wheel_diameter_mm: Annotated[float | None, POSITIVE, "diameter of the wheel's shaft"] = None
-    crank_diameter_mm: Annotated[float | None, POSITIVE, "diameter of the crank's shaft"] = None
+    wheel_diameter_mm: Annotated[Positive, "diameter of the wheel's shaft"] = None
+    crank_diameter_mm: Annotated[Positive, "diameter of the crank's shaft"] = None
     wheel_overhang_mm: Annotated[
-        float | None,
-        NOT_NEGATIVE,
-        "wheel's shaft: slots' mid-plane (a sphere's radius L) to the nearer bearing",
+        NotNegative, "wheel's shaft: slots' mid-plane (a sphere's radius L) to the nearer bearing"
     ] = None
-    wheel_span_mm: Annotated[float | None, POSITIVE, "wheel's shaft: bearing to bearing"] = None
+    wheel_span_mm: Annotated[Positive, "wheel's shaft: bearing to bearing"] = None
     crank_overhang_mm: Annotated[
-        float | None,
-        NOT_NEGATIVE,
-        "crank's shaft: roller's mid-plane (a sphere's radius L) to the nearer bearing",
+        NotNegative, "crank's shaft: roller's mid-plane (a sphere's radius L) to the nearer bearing"
     ] = None
-    crank_span_mm: Annotated[float | None, POSITIVE, "crank's shaft: bearing to bearing"] = None
+    crank_span_mm: Annotated[Positive, "crank's shaft: bearing to bearing"] = None
     shear_stress_max_MPa: Annotated[
-        float | None,
-        POSITIVE,
-        "allowable; ASME B17c: 0.3 yield or 0.18 tensile; default 82.5 (C45+N)",
+        Positive, "allowable; ASME B17c: 0.3 yield or 0.18 tensile; default 82.5 (C45+N)"
     ] = None
     bending_factor: Annotated[float, Range(1.0, 10.0), "ASME B17c: shock factor in bending"] = 1.5
     torsion_factor: Annotated[float, Range(1.0, 10.0), "ASME B17c: shock factor in torsion"] = 1.0
@@ -558,20 +521,16 @@ class Material(SpecTable):
     """Material of a part; without its keys steel, or PLA for a printed plate."""
 
     youngs_modulus_GPa: Annotated[
-        float | None, POSITIVE, "Young's modulus E; default of steel 210, of prints 2.4 (PLA)"
+        Positive, "Young's modulus E; default of steel 210, of prints 2.4 (PLA)"
     ] = None
     poisson_ratio: Annotated[
         float | None,
         Range(0.0, 0.5),
         "Poisson's ratio nu; default of steel 0.3, of prints 0.36 (PLA)",
     ] = None
-    density_kgm3: Annotated[
-        float | None, POSITIVE, "density; default of steel 7850, of prints 1240 (PLA)"
-    ] = None
+    density_kgm3: Annotated[Positive, "density; default of steel 7850, of prints 1240 (PLA)"] = None
     stress_max_MPa: Annotated[
-        float | None,
-        POSITIVE,
-        "allowable stress; default of steel 165 (C45+N, 0.6 yield), of prints 8.2 (PLA)",
+        Positive, "allowable stress; default of steel 165 (C45+N, 0.6 yield), of prints 8.2 (PLA)"
     ] = None
     grade: Annotated[str | None, None, "grade, as drawings name it"] = None
 
@@ -586,7 +545,7 @@ class WheelMaterial(Material):
     TABLE: ClassVar[str] = "material.wheel"
 
     wear_mm3_Nm: Annotated[
-        float | None, POSITIVE, "Archard: volume worn per force and distance, against the roller"
+        Positive, "Archard: volume worn per force and distance, against the roller"
     ] = None
 
 
@@ -600,7 +559,7 @@ class RollerMaterial(Material):
     TABLE: ClassVar[str] = "material.roller"
 
     dynamic_capacity_N: Annotated[
-        float | None, POSITIVE, "dynamic capacity C of the roller as a bearing (ISO 281)"
+        Positive, "dynamic capacity C of the roller as a bearing (ISO 281)"
     ] = None
 
 
@@ -642,17 +601,13 @@ class Product(SpecTable):
 
     TABLE: ClassVar[str] = "product"
 
-    radius_mm: Annotated[float | None, POSITIVE, "distance of the product from the axis"] = None
+    radius_mm: Annotated[Positive, "distance of the product from the axis"] = None
     sprocket_teeth: Annotated[
         int | None, Range(3, 10000), "chain, belt or film: teeth of its sprocket on the wheel"
     ] = None
-    pitch_mm: Annotated[float | None, POSITIVE, "pitch of chain, belt or film"] = None
-    friction: Annotated[
-        float | None, POSITIVE, "friction coefficient between product and its seat"
-    ] = None
-    swing_Hz: Annotated[
-        float | None, POSITIVE, "natural frequency of a product that hangs or sloshes"
-    ] = None
+    pitch_mm: Annotated[Positive, "pitch of chain, belt or film"] = None
+    friction: Annotated[Positive, "friction coefficient between product and its seat"] = None
+    swing_Hz: Annotated[Positive, "natural frequency of a product that hangs or sloshes"] = None
     swing_damping: Annotated[float, Range(0.0, 1.0, "[)"), "its damping over critical"] = 0.0
 
     def __post_init__(self) -> None:
@@ -692,11 +647,9 @@ class TitleBlock(SpecTable):
     revision: Annotated[str | None, None, "revision of the drawing"] = None
     author: Annotated[str | None, None, "author of the drawing"] = None
     date: Annotated[str | None, None, 'date of issue, as text: "2026-11-27"'] = None
-    roughness_um: Annotated[
-        float | None, POSITIVE, "roughness Ra of all other faces; default by process"
-    ] = None
+    roughness_um: Annotated[Positive, "roughness Ra of all other faces; default by process"] = None
     flank_roughness_um: Annotated[
-        float | None, POSITIVE, "roughness Ra of the faces that roll, slide or lock"
+        Positive, "roughness Ra of the faces that roll, slide or lock"
     ] = None
     flank_hardness_HRC: Annotated[
         float | None, Range(20.0, 70.0), "hardness of the faces that roll, slide or lock"
@@ -713,26 +666,26 @@ class Limits(SpecTable):
 
     TABLE: ClassVar[str] = "limits"
 
-    velocity_max: Annotated[float | None, POSITIVE, "velocity dpsi/dtheta"] = None
-    acceleration_max: Annotated[float | None, POSITIVE, "acceleration d2psi/dtheta2"] = None
-    acceleration_entry_max: Annotated[float | None, POSITIVE, "acceleration at entry"] = None
-    jerk_max: Annotated[float | None, POSITIVE, "jerk d3psi/dtheta3"] = None
-    pin_force_max_N: Annotated[float | None, POSITIVE, "greatest force of roller on slot"] = None
-    input_torque_max_Nm: Annotated[float | None, POSITIVE, "greatest torque on input shaft"] = None
+    velocity_max: Annotated[Positive, "velocity dpsi/dtheta"] = None
+    acceleration_max: Annotated[Positive, "acceleration d2psi/dtheta2"] = None
+    acceleration_entry_max: Annotated[Positive, "acceleration at entry"] = None
+    jerk_max: Annotated[Positive, "jerk d3psi/dtheta3"] = None
+    pin_force_max_N: Annotated[Positive, "greatest force of roller on slot"] = None
+    input_torque_max_Nm: Annotated[Positive, "greatest torque on input shaft"] = None
     pressure_angle_max_deg: Annotated[float | None, Range(0.0, 90.0, "(]"), "pressure angle"] = None
-    contact_stress_max_MPa: Annotated[float | None, POSITIVE, "Hertz stress, roller on slot"] = None
-    pv_max_W_m2: Annotated[float | None, POSITIVE, "contact stress times sliding speed"] = None
-    roller_life_min_h: Annotated[float | None, POSITIVE, "least L10 life of the roller"] = None
+    contact_stress_max_MPa: Annotated[Positive, "Hertz stress, roller on slot"] = None
+    pv_max_W_m2: Annotated[Positive, "contact stress times sliding speed"] = None
+    roller_life_min_h: Annotated[Positive, "least L10 life of the roller"] = None
     slot_wear_max_mm_per_million: Annotated[
-        float | None, POSITIVE, "greatest wear depth of a slot's walls in a million passages"
+        Positive, "greatest wear depth of a slot's walls in a million passages"
     ] = None
-    lock_stress_max_MPa: Annotated[float | None, POSITIVE, "Hertz stress, disc on wheel"] = None
-    stop_stress_max_MPa: Annotated[float | None, POSITIVE, "Hertz stress at a stop"] = None
+    lock_stress_max_MPa: Annotated[Positive, "Hertz stress, disc on wheel"] = None
+    stop_stress_max_MPa: Annotated[Positive, "Hertz stress at a stop"] = None
     lock_deflection_max_deg: Annotated[
-        float | None, POSITIVE, "greatest deflection of the locked wheel under dwell_torque_Nm"
+        Positive, "greatest deflection of the locked wheel under dwell_torque_Nm"
     ] = None
     product_acceleration_max_m_s2: Annotated[
-        float | None, POSITIVE, "greatest acceleration of the product, in m/s²"
+        Positive, "greatest acceleration of the product, in m/s²"
     ] = None
 
 

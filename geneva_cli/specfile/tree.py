@@ -125,27 +125,24 @@ def _plain(tree: dict[str, Any], files: _Files) -> dict[str, Any]:
     out: dict[str, Any] = {}
     for name, cls in PLAIN.items():
         table, _, part = name.partition(".")
-        values = tree.get(table, {})
-        if name in LISTS:
-            out[name] = tuple(_one(cls, name, i, one, files) for i, one in enumerate(values or ()))
+        values = tree.get(table)
+        if values is None:
             continue
         if part:
             _refuse_part(table, values)
             values = values.get(part, {})
-        out[attribute(name)] = cls(**_values(cls, values, files))
+        if name not in LISTS:
+            out[attribute(name)] = cls(**_values(cls, values, files))
+            continue
+        several = []
+        for i, one in enumerate(values):
+            try:
+                several.append(cls(**_values(cls, one, files)))
+            except GenevaError as error:
+                where = f"[[{name}]] number {i + 1}"
+                raise GenevaError(f"{where}: {error}", (name, i, *error.key[1:])) from None
+        out[name] = tuple(several)
     return out
-
-
-def _one(
-    cls: type[SpecTable], name: str, i: int, values: dict[str, Any], files: _Files
-) -> SpecTable:
-    """The i-th table of a list; error messages contain its number."""
-    try:
-        return cls(**_values(cls, values, files))
-    except GenevaError as error:
-        raise GenevaError(
-            f"[[{name}]] number {i + 1}: {error}", (name, i, *error.key[1:])
-        ) from None
 
 
 def _refuse_part(table: str, values: dict[str, Any]) -> None:

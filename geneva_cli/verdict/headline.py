@@ -9,7 +9,7 @@ from geneva_cli.answer import FAILS, PASSES, WARNS, SummaryLine
 from geneva_cli.errors import Notice, is_warning
 from geneva_cli.names import spoken
 from geneva_cli.output import shown, shown_text
-from geneva_cli.output.document.printed_values import value_text
+from geneva_cli.output.document.blocks import value_text
 from geneva_cli.table import Table, record_table
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.parts import Parts
-from geneva_cli.parts.sizes.plain_sizes import Sizes
+from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.full_turn import SAME, FullTurn
 from geneva_cli.spec.workshops import workshop
 from geneva_cli.verdict.checks.play_checks import motion_play_max, slips_deg

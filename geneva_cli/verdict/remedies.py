@@ -1,346 +1,282 @@
-"""Remedies for failing checks: the keys to change, and how far.
+"""The keys that move each check, with their directions: what the adviser tries (see ``advice``).
 
-They are candidates only, the likeliest first; the adviser tries them (see ``advice``).
+A check has words, the likeliest first. A word is a key, by default of ``[size]``, and what becomes
+of its present value:
+
+    key*2     larger values up to the double, or smaller ones below a factor of 1
+    key>5     values towards 5; of a count, larger ones up to 5; towards another size by its key
+    key<1     smaller counts, down to 1
+    key+180   values up to 180 more
+    key~      values towards the default, at last the default
+    key=a,b   these values, the nearest first; an empty one is the default
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterator
+from typing import NamedTuple, TypeAlias
 
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import KINDS
-from geneva_cli.parts.shafts.screws import SCREWS
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.tables import Z_USUAL, Size
-from geneva_cli.verdict.changes import (
-    SIZE_STEPS,
-    Change,
-    Value,
-    fewer,
-    increased,
-    left_out,
-    replaced,
-    scaled,
-    set_to,
-    size_now,
-    sized,
-    towards,
-)
 from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, TOLERANCES
 from geneva_cli.verdict.checks.check import Check
 
+NEARLY = 0.01  # fraction of a change by which the value advised may exceed the least one
+Value: TypeAlias = float | int | str | None  # None: the key is left out
 
-def remedies(check: Check, mechanism: Mechanism) -> Iterator[Change]:
-    """Changes of the spec that may make a failing check pass, the likeliest first.
-
-    A centre distance that the spec gives is changed for its limits only, and not for its parts.
-    """
-    spec = mechanism.spec
-    kept = spec.size.center_distance_mm is not None
-    if kept and spec.limits.as_dict().get(check.name) is None:
-        yield from (change for change in _candidates(check, mechanism) if change is not _LARGER)
-    else:
-        yield from _candidates(check, mechanism)
-
-
-def _candidates(check: Check, mechanism: Mechanism) -> Iterator[Change]:
-    name = check.name
-    is_known = name in MOTION or name in LIMITS or name in TOLERANCES
-    own = {} if is_known else _own_sizes(mechanism)
-    # a size that the reason names, such as "wheel_bore_mm = 30: it must be below 20"
-    yield from (change for key, changes in own.items() if key in check.why for change in changes)
-    known = REMEDIES if name in REMEDIES else of_kinds(name)
-    if name in known:
-        if name in ("crank_shaft_mm", "crank_hub_mm", "wheel_shaft_mm"):
-            yield from _hub(mechanism, name.partition("_")[0])
-        has_law = mechanism.spec.motion is not None
-        yield from (change for change in known[name] if has_law or change not in _MOTION)
-    else:
-        if mechanism.engagements[0].overtaking > 0.0:
-            yield set_to("drive", "gear_ratio", "shockless")
-        yield from _defaults(mechanism)
-        yield from (
-            scaled("size", "lock_clearance_mm", 0.0),
-            scaled("size", "slot_clearance_mm", 0.0),
-            scaled("size", "roller_radius_mm", 0.4),
-            towards("wheel", "offset_mm", 0.0, SIZE_STEPS),
-        )
-    for changes in own.values():
-        yield from changes
-
-
-def of_kinds(name: str) -> Mapping[str, tuple[Change, ...]]:
-    """The remedies of the kind that has a check; none without one."""
-    paths = [kind.remedies for kind in KINDS if kind.remedies and name in kind.parts_checks]
-    own: Mapping[str, tuple[Change, ...]] = load_named(paths[0]) if paths else {}
-    return own
-
-
-def _hub(mechanism: Mechanism, part: str) -> Iterator[Change]:
-    """A hub as thin as its bore, if it is thicker."""
-    bore, hub = (size_now(mechanism, f"{part}_{what}_mm") for what in ("bore", "hub"))
-    if bore is not None and hub is not None and hub > bore:
-        yield towards("size", f"{part}_hub_mm", bore, SIZE_STEPS)
-
-
-def _own_sizes(mechanism: Mechanism) -> dict[str, tuple[Change, ...]]:
-    """Smaller values, larger values and the default of each size that the spec sets, by its key."""
-    usual = Size().as_dict()
-    # Requirements on the machine's size, process and walls, which no advice reduces.
-    required = ("center_distance_mm", "face_width_mm", "process", "wall_min_mm")
-    own: dict[str, tuple[Change, ...]] = {}
-    for key, value in mechanism.spec.size.as_dict().items():
-        if value == usual[key] or key in required:
-            continue
-        if isinstance(value, int):
-            own[key] = (fewer("size", key, 0),)
-        elif isinstance(value, float):
-            own[key] = sized("size", key)
-        else:
-            own[key] = (left_out("size", key),)
-    return own
-
-
-def _defaults(mechanism: Mechanism) -> Iterator[Change]:
-    """Steps from each size that the spec sets to its default, then the default."""
-    present, usual_sizes = mechanism.spec.size.as_dict(), Size().as_dict()
-    # Sizes whose defaults free a machine that jams.
-    keys = (
-        "wheel_radius_mm",
-        "lock_radius_mm",
-        "relief",
-        "relief_clearance_mm",
-        "slot_bottom_clearance_mm",
-        "wheel_outer_radius_mm",
-        "roller_radius_mm",
+# The centre distance is changed for its own limits only, where the spec gives it. The speed is a
+# requirement: it is changed where a limit forbids it, not for a part's size.
+LARGER, SLOWER = "center_distance_mm*20", "drive.n_rpm*0.001"
+LESS_LOAD = f"{SLOWER} {LARGER}"
+MOTION_ANGLE = "motion.alpha0_deg+-180 motion.alpha0_deg+180"
+MORE_SLOTS = f"wheel.z>{Z_USUAL}"
+MILDER = " ".join(
+    (
+        "drive.A>0.99 drive.A>-0.99 drive.eccentricity>0.99 drive.eccentricity>0",
+        "drive.before.A>0.99 drive.before.A>-0.99",
+        "drive.before.eccentricity>0.99 drive.before.eccentricity>0",
+        MOTION_ANGLE,
+        MORE_SLOTS,
     )
-    for key in keys:
-        usual = usual_sizes[key]
-        if present[key] == usual:
-            continue
-        without = mechanism.spec.with_(f"size.{key}", None)
-        default = size_now(mechanism._replace(spec=without), key) if usual is None else usual
-        if isinstance(default, float):
-            yield towards("size", key, default, SIZE_STEPS)
-        yield set_to("size", key, usual)
-
-
-def _wider_screws(now: float | None) -> list[Value]:
-    """Return the threads above a screw's, of the next sizes."""
-    return [screw.thread for screw in SCREWS if now and screw.thread > now]
-
-
-def _sine(now: float) -> list[Value]:
-    return [math.copysign(0.125, now)] if now else []
-
-
-_SLOTS = Change("wheel", "z", lambda z: list(range(z + 1, Z_USUAL + 1)))
-_MOTION = (increased("motion", "alpha0_deg", -180.0), increased("motion", "alpha0_deg", 180.0))
-_MILDER = (
-    *(
-        towards(table, key, end)
-        for table in ("drive", "drive.before")
-        for key, end in (("A", 0.99), ("A", -0.99), ("eccentricity", 0.99), ("eccentricity", 0.0))
-    ),
-    *_MOTION,
-    _SLOTS,
 )
-# The speed is a requirement: it is changed where a limit forbids it, not for a part's size.
-_SLOWER = scaled("drive", "n_rpm", 1e-3)
-_LARGER = scaled("size", "center_distance_mm", 20.0)
-_LESS_LOAD = (_SLOWER, _LARGER)
-_TIGHTER = scaled("size", "slot_clearance_mm", 0.0)
-_WIDER_FACE = scaled("size", "face_width_mm", 10.0)
-BLUNTER = (scaled("size", "lock_edge_mm", 10.0), _WIDER_FACE, _LARGER)
-OTHER_LOCK = sized("size", "lock_radius_mm")
-SMALLER = scaled("size", "roller_radius_mm", 0.2)
-_CRANK = (scaled("size", "crank_bore_mm", 0.2), replaced("size", "crank_bore_mm", 0.0))
-_WIDER = (scaled("size", "roller_radius_mm", 3.0), *_MOTION)
-_CONVEX = (towards("drive", "eccentricity", 0.0), towards("drive", "A", 0.0), _SLOTS)
-REMEDIES: dict[str, tuple[Change, ...]] = {
-    "velocity_max": _MILDER,
-    "acceleration_max": _MILDER,
-    "acceleration_entry_max": _MILDER,
-    "jerk_max": _MILDER,
-    "pin_force_max_N": (_SLOWER, _LARGER, *_MILDER),
-    "input_torque_max_Nm": (_SLOWER, *_MILDER),
-    "contact_stress_max_MPa": (_SLOWER, _WIDER_FACE, _LARGER, *_MILDER),
-    "product_acceleration_max_m_s2": (_SLOWER, *_MILDER),
-    "product_slip": (_SLOWER, *_MILDER),
-    "stopping_torque_Nm": (scaled("drive", "n_rpm", 30.0),),
-    "entry_shock_N": (
-        scaled("tolerance", "crank_radius_mm", 0.0),
-        scaled("tolerance", "center_distance_mm", 0.0),
-        _SLOWER,
-    ),
-    "reversal_shock_N": (_TIGHTER, _SLOWER),
-    "reversal_stress_MPa": (_TIGHTER, _SLOWER, _WIDER_FACE, _LARGER),
-    "pv_max_W_m2": (_SLOWER, _WIDER_FACE, _LARGER),
-    "roller_life_min_h": (scaled("material.roller", "dynamic_capacity_N", 10.0), *_LESS_LOAD),
-    "slot_wear_max_mm_per_million": (_WIDER_FACE, *_LESS_LOAD),
-    "pin_stress_MPa": (
-        scaled("size", "pin_mm", 1.9),
-        scaled("size", "roller_radius_mm", 3.0),
-        set_to("size", "pin_held", "fixed"),
-        left_out("size", "pin_mm"),
-        _TIGHTER,
-        _LARGER,
-    ),
-    "horn_stress_MPa": (_WIDER_FACE, scaled("size", "lock_radius_mm", 0.5), _LARGER),
-    "lock_horn_stress_MPa": (_WIDER_FACE, scaled("size", "lock_radius_mm", 0.5), _LARGER),
+WIDER, TIGHTER = "face_width_mm*10", "slot_clearance_mm>0"
+BLUNTER = f"lock_edge_mm*10 {WIDER} {LARGER}"
+OTHER_LOCK = "lock_radius_mm*0.3 lock_radius_mm*3 lock_radius_mm="
+CRANK = "crank_bore_mm*0.2 crank_bore_mm=0"
+THICK = " ".join(
+    f"{key}*0.3 {key}*3 {key}="
+    for key in ("wheel_thickness_mm", "face_width_mm", "lock_thickness_mm", "arm_thickness_mm")
+)
+SCREWS = "2,2.5,3,4,5,6,8,10,12,16,20"  # threads, mm
+# Sizes whose defaults free a machine that jams, and what else may free it.
+FREER = (
+    "drive.gear_ratio=shockless wheel_radius_mm~ lock_radius_mm~ relief~ relief_clearance_mm~ "
+    "slot_bottom_clearance_mm~ wheel_outer_radius_mm~ lock_clearance_mm>0 "
+    f"{TIGHTER} roller_radius_mm~ roller_radius_mm*0.4 wheel.offset_mm>0"
+)
+REMEDIES: dict[str, str] = {
+    "velocity_max": MILDER,
+    "acceleration_max": MILDER,
+    "acceleration_entry_max": MILDER,
+    "jerk_max": MILDER,
+    "pin_force_max_N": f"{LESS_LOAD} {MILDER}",
+    "input_torque_max_Nm": f"{SLOWER} {MILDER}",
+    "contact_stress_max_MPa": f"{SLOWER} {WIDER} {LARGER} {MILDER}",
+    "product_acceleration_max_m_s2": f"{SLOWER} {MILDER}",
+    "product_slip": f"{SLOWER} {MILDER}",
+    "stopping_torque_Nm": "drive.n_rpm*30",
+    "entry_shock_N": f"tolerance.crank_radius_mm>0 tolerance.center_distance_mm>0 {SLOWER}",
+    "reversal_shock_N": f"{TIGHTER} {SLOWER}",
+    "reversal_stress_MPa": f"{TIGHTER} {SLOWER} {WIDER} {LARGER}",
+    "pv_max_W_m2": f"{SLOWER} {WIDER} {LARGER}",
+    "roller_life_min_h": f"material.roller.dynamic_capacity_N*10 {LESS_LOAD}",
+    "slot_wear_max_mm_per_million": f"{WIDER} {LESS_LOAD}",
+    "pin_stress_MPa": f"pin_mm*1.9 roller_radius_mm*3 pin_held=fixed pin_mm= {TIGHTER} {LARGER}",
+    "horn_stress_MPa": f"{WIDER} lock_radius_mm*0.5 {LARGER}",
+    "lock_horn_stress_MPa": f"{WIDER} lock_radius_mm*0.5 {LARGER}",
     "lock_stress_max_MPa": BLUNTER,
-    "lock_deflection_max_deg": (scaled("size", "lock_clearance_mm", 0.1), _WIDER_FACE, _LARGER),
-    "wheel_shaft_stress_MPa": (
-        scaled("shaft", "wheel_diameter_mm", 5.0),
-        scaled("shaft", "wheel_overhang_mm", 0.1),
-        scaled("size", "wheel_bore_mm", 5.0),
-        left_out("size", "wheel_bore_mm"),
-        _LARGER,
-    ),
-    "crank_shaft_stress_MPa": (
-        scaled("shaft", "crank_diameter_mm", 5.0),
-        scaled("shaft", "crank_overhang_mm", 0.1),
-        scaled("size", "arm_bore_mm", 5.0),
-        left_out("size", "arm_bore_mm"),
-        left_out("size", "crank_bore_mm"),
-        _LARGER,
-    ),
-    "arm_stress_MPa": (
-        scaled("size", "arm_thickness_mm", 10.0),
-        scaled("size", "arm_eye_mm", 3.0),
-        scaled("size", "arm_hub_mm", 3.0),
-        left_out("size", "arm_thickness_mm"),
-        _LARGER,
-    ),
+    "lock_deflection_max_deg": f"lock_clearance_mm*0.1 {WIDER} {LARGER}",
+    "wheel_shaft_stress_MPa": "shaft.wheel_diameter_mm*5 shaft.wheel_overhang_mm*0.1 "
+    f"wheel_bore_mm*5 wheel_bore_mm= {LARGER}",
+    "crank_shaft_stress_MPa": "shaft.crank_diameter_mm*5 shaft.crank_overhang_mm*0.1 "
+    f"arm_bore_mm*5 arm_bore_mm= crank_bore_mm= {LARGER}",
+    "arm_stress_MPa": "arm_thickness_mm*10 arm_eye_mm*3 arm_hub_mm*3 arm_thickness_mm= " + LARGER,
     # a first wheel is as thick as its crank, which is a link
-    "first_pin_stress_MPa": (
-        scaled("size", "roller_radius_mm", 3.0),
-        scaled("size", "pin_mm", 1.9),
-        _LARGER,
+    "first_pin_stress_MPa": f"roller_radius_mm*3 pin_mm*1.9 {LARGER}",
+    "first_horn_stress_MPa": f"link_thickness_mm*10 {LARGER}",
+    "first_crank_shaft_stress_MPa": f"link_bore_mm*5 {LARGER}",
+    "first_arm_stress_MPa": f"link_thickness_mm*10 {LARGER}",
+    "wheel_clamp_Nm": f"wheel_hub_mm*5 wheel_clamp_mm={SCREWS} {LARGER}",
+    "crank_clamp_Nm": f"crank_hub_mm*5 crank_clamp_mm={SCREWS} {LARGER}",
+    "wheel_key_pressure_MPa": f"wheel_thickness_mm*10 wheel_bore_mm*5 {LARGER}",
+    "crank_key_pressure_MPa": f"arm_thickness_mm*10 arm_bore_mm*5 {LARGER}",
+    "pressure_angle_deg": f"motion.ratio=matched {MOTION_ANGLE} {MORE_SLOTS}",
+    "driven_fraction": f"drive.n_rpm*30 {MOTION_ANGLE}",
+    "undercut_mm": f"roller_radius_mm*0.2 {MOTION_ANGLE}",
+    "velocity_min": "motion.lambda=0.125,-0.125",
+    "dwell_deg": f"drive.rollers<1 {MOTION_ANGLE}",
+    "driver_gear_convexity": f"drive.eccentricity>0 drive.A>0 {MORE_SLOTS}",
+    "driven_gear_convexity": f"drive.eccentricity>0 drive.A>0 {MORE_SLOTS}",
+    "dwell_hold": "lock_radius_mm= wheel.held_by=detent",
+    "tolerance_slot_mm": "slot_clearance_mm+1",
+    "tolerance_lock_mm": "lock_clearance_mm+1",
+    "tolerance_turns": "",
+    "wall_between_slots_mm": f"roller_radius_mm*0.2 {TIGHTER}",
+    "horn_mm": f"{OTHER_LOCK} roller_radius_mm*0.2 lock_clearance_mm>0 {TIGHTER}",
+    "wheels_apart_mm": f"roller_radius_mm*0.2 {LARGER} drive.wheels<1",
+    "rollers_apart_mm": "roller_radius_mm*0.2 drive.sector_deg+30",
+    "crank_shaft_mm": f"crank_hub_mm>crank_bore_mm {CRANK}",
+    "crank_hub_mm": f"crank_hub_mm>crank_bore_mm {CRANK}",
+    "crank_bore_wall_mm": CRANK,
+    "wheel_shaft_mm": "wheel_hub_mm>wheel_bore_mm wheel_bore_mm*0.2 wheel_bore_mm=0",
+    "beside_shafts_mm": " ".join(
+        (
+            "wheel_hub_mm*0.5 crank_hub_mm*0.5 wheel_bore_mm*0.5 arm_eye_mm*0.5 crank_bore_mm=0",
+            *(
+                f"{part}_{key}_mm*0.3 {part}_{key}_mm*3 {part}_{key}_mm="
+                for part in ("wheel", "crank")
+                for key in ("hub", "hub_length", "shaft_low", "shaft_high")
+            ),
+        )
     ),
-    "first_horn_stress_MPa": (scaled("size", "link_thickness_mm", 10.0), _LARGER),
-    "first_crank_shaft_stress_MPa": (scaled("size", "link_bore_mm", 5.0), _LARGER),
-    "first_arm_stress_MPa": (scaled("size", "link_thickness_mm", 10.0), _LARGER),
-    "wheel_clamp_Nm": (
-        scaled("size", "wheel_hub_mm", 5.0),
-        Change("size", "wheel_clamp_mm", _wider_screws),
-        _LARGER,
-    ),
-    "crank_clamp_Nm": (
-        scaled("size", "crank_hub_mm", 5.0),
-        Change("size", "crank_clamp_mm", _wider_screws),
-        _LARGER,
-    ),
-    "wheel_key_pressure_MPa": (
-        scaled("size", "wheel_thickness_mm", 10.0),
-        scaled("size", "wheel_bore_mm", 5.0),
-        _LARGER,
-    ),
-    "crank_key_pressure_MPa": (
-        scaled("size", "arm_thickness_mm", 10.0),
-        scaled("size", "arm_bore_mm", 5.0),
-        _LARGER,
-    ),
-    "pressure_angle_deg": (set_to("motion", "ratio", "matched"), *_MOTION, _SLOTS),
-    "driven_fraction": (scaled("drive", "n_rpm", 30.0), *_MOTION),
-    "undercut_mm": (SMALLER, *_MOTION),
-    "velocity_min": (Change("motion", "lambda", _sine),),
-    "dwell_deg": (fewer("drive", "rollers", 1), *_MOTION),
-    "driver_gear_convexity": _CONVEX,
-    "driven_gear_convexity": _CONVEX,
-    "dwell_hold": (
-        Change("size", "lock_radius_mm", lambda now: [None] if now == 0.0 else []),
-        set_to("wheel", "held_by", "detent"),
-    ),
-    "tolerance_slot_mm": (increased("size", "slot_clearance_mm", 1.0),),
-    "tolerance_lock_mm": (increased("size", "lock_clearance_mm", 1.0),),
-    "tolerance_turns": (),
-    "wall_between_slots_mm": (SMALLER, scaled("size", "slot_clearance_mm", 0.0)),
-    "horn_mm": (
-        *OTHER_LOCK,
-        SMALLER,
-        scaled("size", "lock_clearance_mm", 0.0),
-        scaled("size", "slot_clearance_mm", 0.0),
-    ),
-    "wheels_apart_mm": (SMALLER, _LARGER, fewer("drive", "wheels", 1)),
-    "rollers_apart_mm": (SMALLER, increased("drive", "sector_deg", 30.0)),
-    "crank_shaft_mm": _CRANK,
-    "crank_hub_mm": _CRANK,
-    "crank_bore_wall_mm": _CRANK,
-    "wheel_shaft_mm": (
-        scaled("size", "wheel_bore_mm", 0.2),
-        replaced("size", "wheel_bore_mm", 0.0),
-    ),
-    "beside_shafts_mm": (
-        scaled("size", "wheel_hub_mm", 0.5),
-        scaled("size", "crank_hub_mm", 0.5),
-        scaled("size", "wheel_bore_mm", 0.5),
-        scaled("size", "arm_eye_mm", 0.5),
-        replaced("size", "crank_bore_mm", 0.0),
-        *(
-            change
-            for part in ("wheel", "crank")
-            for what in ("hub", "hub_length", "shaft_low", "shaft_high")
-            for change in sized("size", f"{part}_{what}_mm")
-        ),
-    ),
-    "gear_gap_mm": (
-        *(
-            scaled(table, key, 0.3)
-            for table in ("drive", "drive.before")
-            for key in ("gear_distance_mm", "eccentricity", "A")
-        ),
-        set_to("size", "wheel_hub_mm", 0.0),
-        scaled("size", "arm_bore_mm", 0.3),
-    ),
-    "wheel_bore_wall_mm": (
-        scaled("size", "wheel_hub_mm", 0.2),
-        scaled("size", "wheel_bore_mm", 0.2),
-        replaced("size", "wheel_bore_mm", 0.0),
-        left_out("size", "wheel_hub_mm"),
-    ),
-    "arm_wall_mm": (
-        *(c for key in ("arm_hub_mm", "arm_eye_mm") for c in sized("size", key)),
-        scaled("size", "arm_bore_mm", 0.3),
-        scaled("size", "lock_bolt_mm", 0.2),
-        *sized("size", "lock_bolt_circle_mm"),
-        fewer("size", "lock_bolts", 0),
-        left_out("size", "crank_keyway"),
-        set_to("size", "crank_bore", "round"),
-    ),
-    "arm_to_hub_mm": (scaled("size", "arm_eye_mm", 0.2),),
-    "link_wall_mm": tuple(
-        change
-        for key in ("link_bore_mm", "link_pin_mm", "link_width_mm", "pin_mm")
-        for change in sized("size", key)
-    ),
-    "link_gap_mm": (
-        *(c for key in ("link_width_mm", "link_pin_mm") for c in sized("size", key)),
-        left_out("size", "crank_shaft_low_mm"),
-        scaled("drive.before", "input_crank_mm", 0.2),
-        scaled("size", "wheel_hub_mm", 0.5),
-        set_to("size", "wheel_hub_mm", 0.0),
-    ),
-    "dial_wall_mm": (
-        *sized("size", "dial_bolt_circle_mm"),
-        *sized("size", "dial_bolt_mm"),
-        fewer("size", "dial_bolts", 0),
-        scaled("size", "wheel_bore_mm", 0.3),
-        left_out("size", "wheel_keyway"),
-        set_to("size", "wheel_bore", "round"),
-    ),
-    "outer_wall_mm": sized("size", "wheel_outer_radius_mm"),
-    "cut_plate_mm": tuple(
-        change
-        for key in ("wheel_thickness_mm", "face_width_mm", "lock_thickness_mm", "arm_thickness_mm")
-        for change in sized("size", key)
-    ),
-    "cut_slot_mm": (
-        *sized("size", "roller_radius_mm"),
-        *sized("size", "wheel_thickness_mm"),
-        *sized("size", "face_width_mm"),
-    ),
-    "branches_apart_mm": _WIDER,
-    "branches_crossed_mm": _WIDER,
+    "gear_gap_mm": "drive.gear_distance_mm*0.3 drive.eccentricity*0.3 drive.A*0.3 "
+    "drive.before.gear_distance_mm*0.3 drive.before.eccentricity*0.3 drive.before.A*0.3 "
+    "wheel_hub_mm=0 arm_bore_mm*0.3",
+    "wheel_bore_wall_mm": "wheel_hub_mm*0.2 wheel_bore_mm*0.2 wheel_bore_mm=0 wheel_hub_mm=",
+    "arm_wall_mm": "arm_hub_mm*0.3 arm_hub_mm*3 arm_hub_mm= arm_eye_mm*0.3 arm_eye_mm*3 "
+    "arm_eye_mm= arm_bore_mm*0.3 lock_bolt_mm*0.2 lock_bolt_circle_mm*0.3 lock_bolt_circle_mm*3 "
+    "lock_bolt_circle_mm= lock_bolts<0 crank_keyway= crank_bore=round",
+    "arm_to_hub_mm": "arm_eye_mm*0.2",
+    "link_wall_mm": "link_bore_mm*0.3 link_bore_mm*3 link_bore_mm= link_pin_mm*0.3 link_pin_mm*3 "
+    "link_pin_mm= link_width_mm*0.3 link_width_mm*3 link_width_mm= pin_mm*0.3 pin_mm*3 pin_mm=",
+    "link_gap_mm": "link_width_mm*0.3 link_width_mm*3 link_width_mm= link_pin_mm*0.3 link_pin_mm*3 "
+    "link_pin_mm= crank_shaft_low_mm= drive.before.input_crank_mm*0.2 wheel_hub_mm*0.5 "
+    "wheel_hub_mm=0",
+    "dial_wall_mm": "dial_bolt_circle_mm*0.3 dial_bolt_circle_mm*3 dial_bolt_circle_mm= "
+    "dial_bolt_mm*0.3 dial_bolt_mm*3 dial_bolt_mm= dial_bolts<0 wheel_bore_mm*0.3 wheel_keyway= "
+    "wheel_bore=round",
+    "outer_wall_mm": "wheel_outer_radius_mm*0.3 wheel_outer_radius_mm*3 wheel_outer_radius_mm=",
+    "cut_plate_mm": THICK,
+    "cut_slot_mm": f"roller_radius_mm*0.3 roller_radius_mm*3 roller_radius_mm= {THICK}",
+    "branches_apart_mm": f"roller_radius_mm*3 {MOTION_ANGLE}",
+    "branches_crossed_mm": f"roller_radius_mm*3 {MOTION_ANGLE}",
 }
+# Requirements on the machine's size, process and walls, which no advice reduces.
+REQUIRED = ("center_distance_mm", "face_width_mm", "process", "wall_min_mm")
+_WORD = re.compile(r"(?:([\w.]+)\.)?(\w+)([*><+~=])(.*)")
+
+
+class Remedy(NamedTuple):
+    """Values of one key: a list of them, or all from the present one ``now`` to ``end``."""
+
+    table: str
+    key: str
+    values: tuple[Value, ...]
+    now: float = 0.0
+    end: float = 0.0
+    even: bool = True  # or in one ratio
+
+    @property
+    def way(self) -> tuple[object, ...]:
+        """The key and the direction of its change, or its values."""
+        return self.table, self.key, self.values or self.end > self.now
+
+    def at(self, fraction: float) -> float | int:
+        """The value at a fraction of the way from the present one, with the digits shown."""
+        if not self.even:
+            return float(f"{self.now * (self.end / self.now) ** fraction:.12g}")
+        value = self.now + (self.end - self.now) * fraction
+        return round(value) if isinstance(self.now, int) else float(f"{value:.12g}")
+
+    def rounded(self, fraction: float) -> float | int:
+        """The value at a fraction, with few digits, and not nearer to the present one."""
+        value = self.at(fraction)
+        return value if isinstance(value, int) else rounded(value, self.end, self.now)
+
+
+def rounded(good: float, far: float, bad: float) -> float:
+    """``good``, rounded away from ``bad`` to as few digits as keep it near.
+
+    >>> rounded(12.3456, 20.0, 10.0)
+    12.35
+    """
+    for digits in range(3, 12):
+        step = 10.0 ** (math.floor(math.log10(abs(good) or 1.0)) + 1 - digits)
+        count = math.ceil(good / step) if far > bad else math.floor(good / step)
+        shown = float(f"{count * step:.{digits + 1}g}")
+        if abs(shown - good) <= NEARLY * abs(good - bad):
+            return shown
+    return good
+
+
+def remedies(check: Check, mechanism: Mechanism) -> Iterator[Remedy]:
+    """Changes of the spec that may make a failing check pass, the likeliest first."""
+    spec, name = mechanism.spec, check.name
+    own = {} if {name} & {*MOTION, *LIMITS, *TOLERANCES} else dict(_own_sizes(spec.size))
+    known = REMEDIES.get(name)
+    if known is None:
+        path = next((k.remedies for k in KINDS if k.remedies and name in k.parts_checks), "")
+        known = load_named(path)[name] if path else FREER
+    # first a size that the reason names, such as "wheel_bore_mm = 30: it must be below 20"
+    words = [words for key, words in own.items() if key in check.why] + [known, *own.values()]
+    limited = spec.limits.as_dict().get(name) is not None
+    for word in " ".join(words).split():
+        if word == LARGER and spec.size.center_distance_mm is not None and not limited:
+            continue
+        yield from _remedies(word, mechanism)
+
+
+def _own_sizes(size: Size) -> Iterator[tuple[str, str]]:
+    """The sizes that the spec sets, each with its words."""
+    usual = Size().as_dict()
+    for key, value in size.as_dict().items():
+        if value == usual[key] or key in REQUIRED:
+            continue
+        if isinstance(value, bool | str):
+            yield key, f"{key}="
+        else:
+            yield key, f"{key}<0" if isinstance(value, int) else f"{key}*0.1 {key}*10 {key}="
+
+
+def _remedies(word: str, mechanism: Mechanism) -> Iterator[Remedy]:
+    match = _WORD.fullmatch(word)
+    assert match, word
+    table, key, how, end = match[1] or "size", match[2], match[3], match[4]
+    spec = mechanism.spec
+    if key not in spec.table(table):
+        return
+    if how == "=":
+        values = tuple(map(_value, end.split(",")))
+        now = value_now(mechanism, table, key) if len(values) > 1 else None
+        if isinstance(now, float):
+            values = tuple(sorted(values, key=lambda v: abs(float(v or 0.0) - now)))
+        yield Remedy(table, key, values)
+        return
+    if how == "~" and spec.table(table)[key] == Size().as_dict()[key]:
+        return
+    now = value_now(mechanism, table, key)
+    if isinstance(now, float | int) and not isinstance(now, bool):
+        last = _end(now, how, end, mechanism, key)
+        count = isinstance(now, int)
+        up, down = count and how == ">", how == "<"
+        if last not in (None, now) and not (up and last < now) and not (down and last > now):
+            yield Remedy(table, key, (), now, last, how != "*")
+    if how == "~":
+        yield Remedy(table, key, (None,))
+
+
+def _end(now: float, how: str, end: str, mechanism: Mechanism, key: str) -> float | None:
+    if how == "~":
+        default = mechanism._replace(spec=mechanism.spec.with_(f"size.{key}", None))
+        usual = value_now(default, "size", key)
+        return usual if isinstance(usual, float) else None
+    number = _value(end)
+    if isinstance(number, str):
+        number = value_now(mechanism, "size", number)
+    if not isinstance(number, float | int):
+        return None
+    return now * number if how == "*" else now + number if how == "+" else number
+
+
+def _value(text: str) -> Value:
+    try:
+        return float(text)
+    except ValueError:
+        return text or None
+
+
+def value_now(mechanism: Mechanism, table: str, key: str) -> Value:
+    """A key's present value; the machine's for a size that the spec leaves out; else None."""
+    spec = mechanism.spec
+    value: Value = spec.table(table)[key]
+    if value is not None or table != "size":
+        return value
+    from geneva_cli.parts.machine_sizes import built, sized
+
+    flat = sized(mechanism) if key == "arm_bore_mm" else None
+    of_machine: Value = 2.0 * flat[1].arm_bore if flat else built(mechanism).as_dict()[key]
+    return of_machine

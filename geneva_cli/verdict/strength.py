@@ -15,7 +15,7 @@ from geneva_cli.loads.strength.horn import STOUT
 from geneva_cli.loads.strength.lock import held_torque_Nm
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Number
-from geneva_cli.parts.outlines.outline_sizes import sized
+from geneva_cli.parts.machine_sizes import sized
 from geneva_cli.verdict.quantities.batch_designs import single
 from geneva_cli.verdict.quantities.groups import REPORT, only
 from geneva_cli.verdict.quantities.under_load import under_load

@@ -9,14 +9,13 @@ from bench.timing_pairs import processor_s
 
 
 class Method(NamedTuple):
-    """One way to do a task. ``size`` is its parameter: points, pieces or tolerance."""
+    """One way to do a task. ``size`` is its parameter: a number of points, say."""
 
     name: str
     size: float | None
     run: Callable[[], Any]
     ours: bool = False
     times: float = 1.0  # the run is that part of the task: a loop over a sample of the designs
-    pieces: Callable[[Any], int] | None = None  # number of pieces in the answer
     memory: Callable[[], float] | None = None  # peak of a run, MB
 
 
@@ -35,10 +34,10 @@ class Task(NamedTuple):
 
 
 class Subject(NamedTuple):
-    """A subject of the bench: its tasks, and the texts of its plot."""
+    """A subject of the bench: what is compared, the kind of error and its reference, the tasks."""
 
     title: str
-    error: str  # kind of error, and its reference
+    error: str
     tasks: Sequence[Task]
     slack: float = 0.1  # a method is faster if it takes less than 1 - slack of another's time
     floor: float = 1e-15  # relative errors below this count as equal
@@ -69,7 +68,6 @@ class BenchRow(NamedTuple):
     task: str
     method: str
     size: float | None
-    pieces: int | None
     error: float | None
     time_ratio: float
     memory_MB: float | None
@@ -81,12 +79,11 @@ class BenchRow(NamedTuple):
 
 
 def beats(one: BenchRow, other: BenchRow, slack: float, floor: float) -> bool:
-    """Return True if ``one`` is faster and as accurate, with as few pieces if pieces count."""
+    """Return True if ``one`` is faster and as accurate."""
     if one.error is None or other.error is None:
         return False
     faster = one.time_ratio < (1.0 - slack) * other.time_ratio
-    fewer = one.pieces is None or other.pieces is None or one.pieces <= other.pieces
-    return faster and fewer and max(one.error, floor) <= max(other.error, floor)
+    return faster and max(one.error, floor) <= max(other.error, floor)
 
 
 def with_frontier(rows: Sequence[BenchRow], slack: float, floor: float) -> list[BenchRow]:

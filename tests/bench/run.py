@@ -1,8 +1,8 @@
 """Run time against error, subject by subject, as one table.
 
 Times are ratios to a baseline in the same run: the median over rounds in which baseline and methods
-take turns. A method is on the frontier unless another one of its task is faster, as accurate, and
-needs no more pieces where answers have pieces. A tenth of the time counts as noise.
+take turns. A method is on the frontier unless another one of its task is faster and as accurate. A
+tenth of the time counts as noise.
 """
 
 from __future__ import annotations
@@ -13,38 +13,20 @@ from typing import cast
 
 from bench.method import BenchRow, Subject, Task, with_frontier
 from bench.timing_pairs import exponent, ratios
-from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.table import Table, rows_table
 
 # The registry: a subject is a module of ``bench.subjects`` with a function ``subject(quick)``.
 SUBJECTS = (
     "peaks",
-    "cranks",
     "many",
     "sweep",
     "motion",
-    "loads",
-    "slot",
     "tolerance",
-    "vibration",
-    "turn",
     "synth",
     "start",
     "export",
     "growth",
 )
-
-
-def names(word: str) -> tuple[str, ...]:
-    """The subject of this name, or all subjects for "all". Raises GenevaError for other words."""
-    if word == "all":
-        return SUBJECTS
-    if word not in SUBJECTS:
-        known = few(word, ("all", *SUBJECTS))
-        raise GenevaError(
-            f'SUBJECT "{cut(word)}": unknown{nearest(word, SUBJECTS)}; it must be one of {known}'
-        )
-    return (word,)
 
 
 def measure(name: str, quick: bool) -> tuple[Subject, list[BenchRow]]:
@@ -56,9 +38,7 @@ def measure(name: str, quick: bool) -> tuple[Subject, list[BenchRow]]:
 
 
 def _rows(name: str, subject: Subject, task: Task, quick: bool) -> Iterator[BenchRow]:
-    yield BenchRow(
-        name, task.name, f"baseline: {task.baseline}", None, None, None, 1.0, None, False
-    )
+    yield BenchRow(name, task.name, f"baseline: {task.baseline}", None, None, 1.0, None, False)
     answers, times = ratios(
         task.baseline_run,
         [m.run for m in task.methods],
@@ -71,7 +51,6 @@ def _rows(name: str, subject: Subject, task: Task, quick: bool) -> Iterator[Benc
             task.name,
             method.name,
             method.size,
-            method.pieces(answer) if method.pieces else None,
             task.error(answer),
             time.ratio * method.times,
             method.memory() if method.memory else None,
@@ -93,13 +72,13 @@ def _with_exponents(rows: list[BenchRow]) -> list[BenchRow]:
     return [*others, largest._replace(time_exponent=time, memory_exponent=memory)]
 
 
-def bench_table(rows: list[BenchRow], for_people: bool) -> Table:
-    """Rows as the bench writes them, without columns that are all empty.
+def bench_table(rows: list[BenchRow]) -> Table:
+    """Rows as a table of texts, without columns that are all empty.
 
-    People get errors in powers of ten. A table for them shows numbers as 0 that are small compared
-    with the column's largest, and here the smallest ones count.
+    A table of numbers shows as 0 what is small compared with the column's largest; here the
+    smallest errors count.
     """
-    shown = rows_table(BenchRow._fields, [_spelled(row) if for_people else row for row in rows])
+    shown = rows_table(BenchRow._fields, [_spelled(row) for row in rows])
     kept = [i for i, c in enumerate(shown.columns) if any(v is not None for v in c)]
     return Table(tuple(shown.names[i] for i in kept), [list(shown.columns[i]) for i in kept])
 

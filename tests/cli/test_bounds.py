@@ -8,7 +8,6 @@ import sys
 
 import pytest
 from repo import GENEVA, put
-from sampling import some
 
 WHEEL = "[wheel]\nz = 6\n"
 CURVED = WHEEL + '[motion]\nlaw = "cycloidal"\n'
@@ -89,11 +88,6 @@ def test_too_much_is_refused_at_once(arguments):
     refused(arguments, option)
 
 
-def test_a_range_of_slots_that_is_refused_says_how_many_go():
-    said = refused(["table", "--z", "3..1000000000"], "--z")
-    assert "at most" in said or "more than" in said
-
-
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("L", "share"), [(1.0, 1e-9), (1e6, 1e-12), (1.0, 1e-16), (1e6, 1e-16)], ids="{:g}".format
@@ -117,50 +111,6 @@ def test_a_spec_of_a_gigabyte():
     refused(["peaks", "huge.toml"], "huge.toml: ", "larger than")
 
 
-def test_a_law_of_a_gigabyte():
-    with open("law.csv", "wb") as file:
-        file.truncate(1 << 30)
-    put("spec.toml", WHEEL + '[motion]\nlaw = "table"\nfile = "law.csv"\n')
-    refused(["peaks", "spec.toml"], "law.csv: ", "larger than")
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize(("rows", "line"), [(5_001, 0), (20_001, 2)])
-def test_a_law_of_too_many_points(rows, line):
-    """Points that lie closer than the derivatives of a spline can tell are too many."""
-    put("law.csv", "".join(f"{i / (rows - 1)!r},{i / (rows - 1)!r}\n" for i in range(rows)))
-    put("spec.toml", WHEEL + '[motion]\nlaw = "table"\nfile = "law.csv"\n')
-    if line:
-        refused(["peaks", "spec.toml"], f"law.csv:{line}: ", "at least 9e-05", "use fewer points")
-        return
-    status, said, _, seconds = run("peaks", "spec.toml")
-    assert status == 0, said
-    assert seconds < CPU
-
-
-def test_ratios_of_too_many_points():
-    """As of laws: no more than 18,001 points of a turn can be told apart."""
-    put("ratio.csv", "".join(f"{i / 500!r},1\n" for i in range(180_001)))
-    gears = '[drive]\nkind = "noncircular-gears"\nratio_file = "ratio.csv"\n'
-    put("spec.toml", WHEEL + gears)
-    refused(["peaks", "spec.toml"], "ratio.csv:2: ", "at least 0.0199", "use fewer points")
-
-
-def test_too_many_rollers_and_slots():
-    put("spec.toml", "[wheel]\nz = 1000000\n[drive]\nrollers = 1000000\n")
-    refused(["peaks", "spec.toml"], "spec.toml:4: ")
-
-
-@pytest.mark.sampled(5)
-@pytest.mark.parametrize("command", ["peaks", "motion", "profile", "report", "check"])
-def test_the_most_slots_are_no_trouble(command):
-    put("spec.toml", "[wheel]\nz = 1000000\n")
-    status, said, megabytes, seconds = run(command, "spec.toml", "--format", "csv")
-    assert status == 0, said
-    assert megabytes < 200.0
-    assert seconds < CPU
-
-
 # 36,000 rows of three numbers and a text are 9 MB as Python's objects; pyarrow reads and writes
 # ahead in blocks of 4 MB, and keeps what it has had
 @pytest.mark.sampled(2)
@@ -181,12 +131,3 @@ def test_a_sweep_holds_no_rows(file, how, more):
         used.append(megabytes)
         os.remove(file)
     assert used[1] < used[0] + more
-
-
-def test_many_specs_at_once():
-    names = [f"{i}.toml" for i in range(some(200, 40))]
-    for name in names:
-        put(name, "[wheel]\nz = 400\n")  # no parts to turn: many, and quick
-    status, said, megabytes, _ = run("check", *names, "--format", "csv", timeout=120)
-    assert status in (0, 1), said
-    assert megabytes < 200.0

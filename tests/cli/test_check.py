@@ -1,14 +1,6 @@
 """`geneva check`: a headline that counts warnings, what to change, and one list of warnings."""
 
-import fcntl
 import json
-import os
-import pty
-import re
-import struct
-import subprocess
-import sys
-import termios
 from pathlib import Path
 from typing import Any
 
@@ -102,14 +94,6 @@ def test_a_warning_is_printed_once(format: str) -> None:
     assert ("leaves it" in found.stderr) is (format == "csv")
 
 
-def test_csv_is_the_rows_alone() -> None:
-    found = run(TURRET, "--format", "csv").stdout.splitlines()
-    assert found[0] == "spec,check,value,at_deg,must_be,limit,passes,nearest,why"
-    assert len(found) == 23
-    both = run(TURRET, "--set", "drive.both_ways=true", "--format", "csv").stdout.splitlines()
-    assert both[0] == found[0] + ",direction"
-
-
 def test_what_fails_says_what_to_change(fails: str) -> None:
     """The change that is named passes."""
     found = run(fails)
@@ -130,14 +114,6 @@ def test_parts_that_cannot_be_built_are_named(watched: None) -> None:
     assert shown.count("the slots reach down to") == 1  # the text; the note is the change alone
 
 
-def test_a_window_gets_the_answer_and_the_table_on_request(watched: None) -> None:
-    short, whole = run(TURRET).stdout, run(TURRET, "-v").stdout
-    assert "tightest  crank shaft stress 61.41 MPa at -17.24°, at most 82.5" in short
-    assert short.count(TURRET) == 1
-    assert "dwell_hold" not in short
-    assert "dwell_hold" in whole
-
-
 def test_several_specs_are_counted_before_their_details(fails: str) -> None:
     found = run(PLAIN, fails, TURRET).stdout
     heads, *details = found.split("\n\n")
@@ -147,63 +123,7 @@ def test_several_specs_are_counted_before_their_details(fails: str) -> None:
     assert details[2] == TURRET
 
 
-def test_signs_need_neither_colour_nor_unicode(monkeypatch: pytest.MonkeyPatch) -> None:
-    from geneva_cli.output.terminal.summary import style_of
-
-    class Ascii:
-        encoding = "ascii"
-
-        @staticmethod
-        def isatty() -> bool:
-            return True
-
-    monkeypatch.setattr(sys, "stdout", Ascii)
-    monkeypatch.setenv("TERM", "dumb")
-    look = style_of("-", True)
-    assert (look.styled, look.unicode) == (False, False)
-
-
-def test_proof_sets_the_tolerance() -> None:
-    found = run(TURRET, "--proof", "0.0001", "--format", "json")
-    row = json.loads(found.stdout)["rows"][-1]
-    assert (row["check"], row["limit"], row["passes"]) == ("gap_proved_mm", -0.0001, True)
-    assert -0.0001 <= row["value"] <= 0.0
-    for bad in ("0", "-1", "nan", "inf", "13"):
-        found = run(TURRET, "--proof", bad)
-        assert found.exit_code == 2
-        assert "--proof" in found.stderr
-        assert "must be above 0, at most 12 mm" in found.stderr
-
-
 def test_standard_input_is_read_once() -> None:
     twice = CliRunner().invoke(app, ["check", "-", PLAIN, "-"], input="[wheel]\nz = 6\n")
     assert twice.exit_code == 2 and not twice.stdout
     assert twice.stderr == "<stdin>: given twice, but it can be read only once; name it once\n"
-
-
-@pytest.mark.parametrize(
-    ("command", "names"),
-    [
-        (["check", PLAIN, "-v"], ["check", "value", "must be", "limit"]),
-        (
-            ["synth", "--motion-deg", "120", "--z", "6", "--check", "0"],
-            ["no", "rollers", "machine", "acceleration"],
-        ),
-    ],
-)
-def test_a_narrow_table_keeps_the_column_that_decides(command: list[str], names: list[str]) -> None:
-    """In 60 columns a limit stands beside its value, and the number by which rows are sorted."""
-    master, slave = pty.openpty()
-    fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 50, 60, 0, 0))
-    env = {key: value for key, value in os.environ.items() if key not in ("COLUMNS", "LINES")}
-    with subprocess.Popen(
-        [repo.GENEVA, *command],
-        stdout=slave,
-        stderr=subprocess.DEVNULL,
-        env=env | {"NO_COLOR": "1"},
-    ):
-        os.close(slave)
-        shown = repo.read_terminal(master).decode().splitlines()
-    (heading,) = (line for line in shown if line.startswith(names[0]))
-    assert re.split(r"\s{2,}", heading.strip()) == names
-    assert all(len(line.rstrip()) <= 60 for line in shown)

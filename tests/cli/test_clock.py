@@ -1,21 +1,14 @@
 """Results do not depend on the speed of the computer."""
 
 import itertools
-import os
-import re
 import time
 from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
 
-import geneva_cli
 from geneva_cli.cli.app import app
 
-ROOT = Path(geneva_cli.__file__).parent
-# Which file may read a clock: the progress bar's.
-TIMED = {"output/terminal/bar.py"}
-CLOCK = re.compile(r"^\s*(import|from) (time|timeit|datetime|resource|sched)\b|os\.times", re.M)
 CLOCKS = ("time", "monotonic", "perf_counter", "process_time", "thread_time")
 HOUR = 3600
 LOAD = "load = {inertia_kgm2 = 0.1, torque_Nm = 2}\n"
@@ -63,13 +56,3 @@ def test_a_slow_computer_prints_the_same_bytes(
     slow, fast = printed(line, HOUR), printed(line, 0)
     assert slow == fast
     assert shown in slow
-
-
-def test_only_the_progress_bar_reads_a_clock() -> None:
-    files = [Path(folder, name) for folder, _, names in os.walk(ROOT) for name in names]
-    texts = {
-        file.relative_to(ROOT).as_posix(): file.read_text(encoding="utf-8")
-        for file in files
-        if file.suffix == ".py"
-    }
-    assert {name for name, text in texts.items() if CLOCK.search(text)} == TIMED

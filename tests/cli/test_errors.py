@@ -28,12 +28,6 @@ CURVED = '[motion]\nlaw = "cycloidal"\n'
 TABLE = '[motion]\nlaw = "table"\nfile = "law.csv"\n'
 
 
-UNEVEN = (
-    '[wheel]\nz = 5\n[drive]\nkind = "gear-sector"\nsector_deg = 77.7\n[drive.before]\n'
-    'kind = "side-crank"\nA = 0.999999999\n[load]\ninertia_kgm2 = 0.01\n'
-)
-
-
 class Case(NamedTuple):
     """A wrong spec, the line that is wrong (0: none) and what the message must hold."""
 
@@ -57,31 +51,21 @@ def wheel(name, text, *wants):
 
 NOT_TOML = [
     case("not-toml", "[wheel]\nz = six\n", 2, "not TOML"),
-    case("prose", "Dear geneva,\nsix slots please\n", 1, "not TOML"),
     case("open-string", '[wheel]\nz = 6\ntitle = "six\n', 3, "without its quotation mark"),
-    case("key-twice", "[wheel]\nz = 6\nz = 7\n", 3, "set above already; keep one of the two"),
     case("table-twice", "[wheel]\nz = 6\n[wheel]\n", 3, "set above already; keep one"),
     case("yaml", "wheel:\n  z: 6\n", 1, "not TOML", "write [table], or KEY = VALUE as in z = 6"),
     case("no-value", "[wheel]\nz =\n", 2, "the value is missing; write one behind the sign"),
-    case("nul-byte", "[wheel]\nz = 6\0\n", 2, "not TOML"),
-    case("lone-carriage-return", "[wheel]\nz = 6\r[drive]\n", 2, "not TOML"),
     case("not-utf-8", b"[wheel]\nz = 6\n# gr\xfc\xdfe\n", 3, "not UTF-8", "save"),
     case("utf-16", "[wheel]\nz = 6\n".encode("utf-16"), 1, "not UTF-8"),
     case("deep-lists", "a = " + "[" * 50_000, 0, "nested too deep"),
-    case("deep-inline-tables", "a = " + "{a = " * 50_000, 0, "nested too deep"),
-    case("deep-tables", "[" + "a." * 50_000 + "a]\n", 0, "nested too deep"),
-    case("deep-keys", "a." * 50_000 + "a = 1\n", 0, "nested too deep"),
     case("5000-digits", "[wheel]\nz = " + "1" * 5000 + "\n", 0),
     case("two-megabytes", "# " + "x" * (1 << 21) + "\n" + WHEEL, 0, "larger than", "bytes"),
 ]
 
 MISSING = [
     case("empty", "", 0, "[wheel]", "z = 6"),
-    case("comment-only", "# a wheel, some day\n", 0, "[wheel]"),
-    case("no-wheel", "[drive]\nn_rpm = 60\n", 0, "[wheel]"),
     case("no-z", 'title = "x"\n[wheel]\ngearing = "internal"\n', 2, "needs z", "at least 3"),
     key("no-A", "\n" + SIDE, 2, "needs A", "above -1", "below 1"),
-    case("no-A-inline", 'drive = {kind = "side-crank"}\nwheel.z = 6\n', 1, "needs A"),
     key("no-law-file", '[motion]\nlaw = "table"\n', 1, "needs file", ".csv"),
 ]
 
@@ -89,20 +73,12 @@ HEX = "0x" + "f" * 5000  # Python writes no decimal number of so many digits
 LONG = "very " * 20_000
 HUGE = [
     case("hex", f"[wheel]\nz = {HEX}\n", 2, "z = 0xff", "at most 1000000"),
-    case("million-hex", "[wheel]\nz = 0x" + "f" * 1_000_000 + "\n", 2, "z = 0xff", "at most"),
-    case("hex-title", f"title = {HEX}\n" + WHEEL, 1, "title must be text, not 0xff"),
     case("hex-key", f"{HEX} = 1\n" + WHEEL, 1, "unknown key 0xff", "known: "),
-    key("hex-float", f"[drive]\nn_rpm = {HEX}\n", 2, "n_rpm = 0xff", "above 0"),
-    key("hex-kind", f"[drive]\nkind = {HEX}\n", 2, "kind must be one of", "not 0xff"),
     wheel("hex-list", f"steps_deg = [{HEX}]\nz = 6", "steps_deg = 0xff", "below 360"),
     key("long-key", f'[drive]\n"{LONG}" = 1\n', 2, "unknown key very", "known: "),
     key("long-table", f'["{LONG}"]\n', 1, "unknown table", "known: "),
-    wheel("long-word", f'gearing = "{LONG}"\nz = 6', "must be one of", '"external"'),
-    key("long-kind", f'[drive]\nkind = "{LONG}"\n', 2, "kind must be one of"),
     key("long-law", f'[motion]\nlaw = "{LONG}"\n', 2, "law must be one of", "and 7 more"),
-    key("long-ratio", CURVED + f'ratio = "{LONG}"\n', 3, "must be a number or"),
     key("long-file", TABLE.replace("law.csv", LONG), 3, "cannot read", "too long"),
-    case("long-key-twice", f'a = {{"{LONG}" = 1, "{LONG}" = 2}}\n', 1, "not TOML"),
     key("nul-in-a-file", TABLE.replace("law.csv", r"a\u0000b"), 3, "cannot read", "null byte"),
     key(
         "nul-in-a-ratio-file",
@@ -115,104 +91,48 @@ HUGE = [
 
 UNKNOWN = [
     key("table", "[whel]\n", 1, "unknown table", "whel", '"wheel"'),
-    key("table-no-neighbour", "[gizmo]\n", 1, "unknown table", "gizmo", "known: title, ["),
     case("key-at-the-top", "z = 6\n", 1, "z belongs to [wheel]; write it below that line"),
-    case("key-of-no-table", "zz = 6\n", 1, "unknown key zz", "known: title, ["),
     key("key-of-another-table", "n_rpm = 40\n", 1, "n_rpm in [wheel]; it belongs to [drive]"),
-    key("key-of-a-list", "[load]\ncount = 4\n", 2, "in [load]; it belongs to [[mass]]"),
     key("key-of-two-tables", "friction = 1\n", 1, "belongs to [load] or [support] or [product]"),
     case("key", "[wheel]\nz = 6\nzz = 7\n", 3, "unknown key zz", '"z"'),
-    key("key-in-drive", "[drive]\nn_rmp = 50\n", 2, "unknown key n_rmp", '"n_rpm"'),
     key("key-of-the-kind", SIDE + "a = 0.5\n", 3, "unknown key a", "A"),
     key("capital", "[size]\nCenter_distance_mm = 5\n", 2, '"center_distance_mm"'),
     key("unit", "[load]\ntorque_Nmm = 5\n", 2, 'with the value: torque_Nm = "5 N mm")'),
-    key("unit-in-pounds", "[load]\ntorque_inlb = 5\n", 2, 'torque_Nm = "5 in lbf")'),
     key("unit-per-degree", "[shaft]\nstiffness_Nm_deg = 5\n", 2, 'rad = "5 N m/deg")'),
-    key("unit-of-a-text", '[load]\ntorque_Ncm = "5"\n', 2, 'did you mean "torque_Nm"?'),
-    key("no-unit", "[load]\ntorque_max = 5\n", 2, 'did you mean "torque_Nm"?'),
     key("word-of-a-meaning", "[drive]\nspeed = 5\n", 2, '"n_rpm", constant speed of the input'),
-    key("letter-of-a-meaning", "[size]\nL = 80\n", 2, '"center_distance_mm", centre distance L?'),
     key("large-clearance", "[size]\nslot_clearance_mm = 60\n", 2, "below 50, the smaller of the"),
     key("size-or-deviation", "[size]\nroller_diameter_mm = 8\n", 2, "twice roller_radius_mm)"),
-    key("crank-radius", "[size]\ncrank_radius_mm = 50\n", 2, "follows from center_distance_mm"),
     key("gearing-as-a-key", "internal = true\n", 1, 'did you mean gearing = "internal"?'),
-    key("law-as-a-key", "[motion]\ncycloidal = true\n", 2, 'law = "cycloidal"?'),
-    key("pin-radius", "[size]\npin_radius_mm = 4\n", 2, 'did you mean "roller_radius_mm"?'),
-    key("diameter", "[size]\nlock_diameter_mm = 4\n", 2, "lock_radius_mm in [size] is half"),
-    key("rim", "[size]\nwheel_diameter_mm = 4\n", 2, "[shaft] (d", "wheel_radius_mm in [size] is"),
     key("inches", '[size]\ncenter_distance_mm = 8"\n', 2, 'write "8 in"'),
-    key("pins", "[drive]\npins = 2\n", 2, 'did you mean "rollers"'),
     key("reverse", "[drive]\nreverse = true\n", 2, 'did you mean "both_ways"'),
-    key("type-of-drive", '[drive]\ntype = "cam"\n', 2, 'did you mean "kind"'),
-    key("dwell", "[motion]\ndwell_deg = 200\n", 2, 'did you mean "alpha0_deg", extra dwell'),
-    key("speed-in-rpm", "[drive]\nspeed_rpm = 90\n", 2, 'did you mean "n_rpm"'),
-    wheel("type-of-wheel", 'type = "internal"', 'did you mean "gearing"'),
     wheel("inner", 'gearing = "inner"', 'did you mean "internal"?'),
-    wheel("outer", 'gearing = "outer"', 'did you mean "external"?'),
-    key("direction", '[drive]\ndirection = "ccw"\n', 2, 'did you mean "both_ways"'),
-    key("limits", "[limits]\nvelocty_max = 1\n", 2, '"velocity_max"'),
-    wheel("gearing", 'gearing = "extrenal"\nz = 6', '"external"'),
-    key("kind", '[drive]\nkind = "sidecrank"\n', 2, "kind", '"side-crank"'),
     key("law", '[motion]\nlaw = "cycloid"\n', 2, "law must be one of", 'did you mean "cycloidal"?'),
-    key("ratio-word", CURVED + 'ratio = "mached"\n', 3, "ratio", '"matched"'),
     key("key-of-another-kind", "[drive]\nA = 0.5\n", 2, "A belongs", '"side-crank"'),
 ]
 
 TYPES = [
     wheel("text", 'z = "6"', "z must be a whole number", '"6"'),
-    wheel("bool", "z = true", "z must be a whole number", "true"),
     wheel("list", "z = [6]", "z must be a whole number", "list"),
-    wheel("long-list", "z = [\n" + "6,\n" * 60 + "]", "z must be a whole number", "list"),
-    wheel("inline-table", "z = {of = 6}", "z must be a whole number", "table"),
-    wheel("date", "z = 2001-02-03", "z must be a whole number"),
     wheel("float", "z = 6.5", "whole number", "6 or 7"),
-    wheel("float-that-is-whole", "z = 6.0", "whole number: write 6 ("),
-    wheel("float-past-exactness", "z = 1e300", "1e+300 must be a whole number ("),
-    wheel("float-infinite", "z = inf", "whole number"),
     wheel("float-nan", "z = nan", "whole number"),
-    wheel("gearing-number", "gearing = 1\nz = 6", "gearing must be one of", "not 1"),
     case("title", "title = 5\n" + WHEEL, 1, "title must be text"),
     case("wheel-number", "\nwheel = 6\n", 2, "wheel must be a table", "[wheel]"),
-    case("wheel-list", "[[wheel]]\nz = 6\n", 1, "wheel must be a table"),
     key("kind-number", "[drive]\nkind = 5\n", 2, "kind must be one of"),
-    key("kind-list", '[drive]\nkind = ["crank"]\n', 2, "kind must be one of"),
-    key("kind-table", '[drive]\nkind = {a = "crank"}\n', 2, "kind must be one of"),
-    key("speed-text", '[drive]\nn_rpm = "fast"\n', 2, "n_rpm must be a number"),
-    key("rollers-float", "[drive]\nrollers = 1.5\n", 2, "rollers", "whole number"),
-    key("law-number", "[motion]\nlaw = 3\n", 2, "law must be one of", "not 3"),
     key("ratio-list", CURVED + "ratio = [0.5]\n", 3, "ratio must be"),
-    key("file-number", '[motion]\nlaw = "table"\nfile = 3\n', 3, "file must be text"),
 ]
 
 VALUES = [
     wheel("z-2", "z = 2", "z = 2", "at least 3"),
-    wheel("z-negative", "z = -6", "z = -6", "at least 3"),
     wheel("z-billion", "z = 1_000_000_000", "at most 1000000"),
-    wheel("z-400-digits", "z = 1" + "0" * 400, "at most 1000000"),
     key("speed-negative", "[drive]\nn_rpm = -60\n", 2, "n_rpm = -60", "above 0", "both_ways"),
-    key("speed-0", "[drive]\nn_rpm = 0\n", 2, "above 0"),
     key("speed-nan", "[drive]\nn_rpm = nan\n", 2, "n_rpm = nan", "above 0"),
-    key("speed-inf", "[drive]\nn_rpm = inf\n", 2, "n_rpm = inf"),
-    key("speed-400-digits", "[drive]\nn_rpm = 1" + "0" * 400 + "\n", 2, "n_rpm"),
     key("A-1", SIDE + "A = 1\n", 3, "A = 1", "below 1"),
-    key("A-minus-1", SIDE + "A = -1.0\n", 3, "A = -1", "above -1"),
-    key("A-nan", SIDE + "A = nan\n", 3, "A = nan"),
     key("A-400-digits", SIDE + "A = 1" + "0" * 400 + "\n", 3, "A = 1", "below 1"),
     key("alpha0-high", CURVED + "alpha0_deg = 120\n", 3, "alpha0_deg = 120", "below 120"),
-    key("alpha0-low", CURVED + "alpha0_deg = -240\n", 3, "alpha0_deg = -240", "above -240"),
-    key("alpha0-inf", CURVED + "alpha0_deg = -inf\n", 3, "alpha0_deg"),
     key("alpha0-no-law", "[motion]\nalpha0_deg = 5\n", 2, "alpha0_deg needs a law"),
-    key("ratio-no-law", "[motion]\nratio = 0.4\n", 2, "ratio needs a law"),
     key("ratio-1", CURVED + "ratio = 1\n", 3, "ratio = 1", "below 1"),
-    key("ratio-0", CURVED + "ratio = 0\n", 3, "ratio = 0", "above 0"),
-    key("ratio-nan", CURVED + "ratio = nan\n", 3, "ratio = nan"),
-    key("lambda-no-law", "[motion]\nlambda = 0.1\n", 2, "lambda needs a law"),
     key("lambda-other-law", CURVED + "lambda = 0.1\n", 3, "lambda", '"sine-group"'),
-    key("lambda-huge", '[motion]\nlaw = "sine-group"\nlambda = 1e300\n', 3, "lambda = 1e+300"),
-    key("file-other-law", CURVED + 'file = "law.csv"\n', 3, "file", '"table"'),
-    key("rollers-0", "[drive]\nrollers = 0\n", 2, "rollers = 0", "at least 1"),
     key("rollers-3", "[drive]\nrollers = 3\n", 2, "rollers = 3", "at most 2"),
-    key("rollers-side-crank", SIDE + "A = 0.5\nrollers = 3\n", 4, "rollers = 3", "at most 2"),
     key("rollers-curved", SIDE + "A = 0.5\nrollers = 2\n" + CURVED, 4, "rollers", "slot"),
     case(
         "rollers-internal",
@@ -222,22 +142,15 @@ VALUES = [
         "one roller",
     ),
     key("size-0", "[size]\ncenter_distance_mm = 0\n", 2, "above 0"),
-    key("size-inf", "[size]\ncenter_distance_mm = inf\n", 2, "center_distance_mm = inf"),
-    key("clearance", "[size]\nslot_clearance_mm = -0.1\n", 2, "at least 0"),
-    key("inertia", "[load]\ninertia_kgm2 = -1\n", 2, "at least 0"),
-    key("efficiency-0", "[load]\nefficiency = 0\n", 2, "above 0"),
     key("efficiency-high", "[load]\nefficiency = 1.01\n", 2, "at most 1"),
-    key("limit-0", "[limits]\njerk_max = 0\n", 2, "above 0"),
     key("limit-angle", "[limits]\npressure_angle_max_deg = 91\n", 2, "at most 90"),
 ]
 
 # The same mistakes where the line is hard to find.
 PLACES = [
     case("dotted-key", "\nwheel.z = 2\n", 2, "at least 3"),
-    case("dotted-key-after", "wheel.z = 6\ndrive.n_rpm = 0\n", 2, "above 0"),
     case("inline", "\nwheel = {z = 2}\n", 2, "at least 3"),
     case("quoted-key", '[wheel]\n\n"z" = 2\n', 3, "at least 3"),
-    case("spaced-header", "\n[ wheel ]\nz = 2\n", 3, "at least 3"),
     case("key-in-a-comment", "# z = 2\n[wheel] # z\n# z = 2\nz = 2\n", 4, "at least 3"),
     case(
         "key-in-the-title",
@@ -246,9 +159,7 @@ PLACES = [
         "at least 3",
     ),
     case("windows-lines", "# one\r\n[wheel]\r\nz = 2\r\n", 3, "at least 3"),
-    case("windows-lines-not-toml", "# one\r\n[wheel]\r\nz = six\r\n", 3, "not TOML"),
     case("byte-order-mark", "\ufeff[wheel]\nz = 2\n", 2, "at least 3"),
-    case("table-before", "[drive]\nrollers = 3\n[wheel]\nz = 6\n", 2, "rollers = 3"),
     case("no-last-newline", "[wheel]\nz = 2", 2, "at least 3"),
 ]
 
@@ -324,35 +235,9 @@ def test_no_file():
     refused(run("peaks", ""), "No such file", place="'': ")
 
 
-def test_folder():
-    os.mkdir("machines")
-    refused(run("peaks", "machines"), "folder, not a file", place="machines: ")
-
-
 @pytest.mark.skipif(not os.path.exists("/dev/zero"), reason="no /dev/zero here")
 def test_endless_file():
     refused(run("peaks", "/dev/zero"), "larger than", place="/dev/zero: ")
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("options", [(), ("-o", "cycle.csv")], ids=["printed", "written"])
-def test_no_rows_of_a_cycle_whose_loads_are_refused(options):
-    """Every row has finite loads. The means are refused, as the cranks' ratio is nearly endless."""
-    write(
-        "spec.toml",
-        "[wheel]\nz = 4\n[load]\ninertia_kgm2 = 0.1\n"
-        '[drive]\nkind = "gear-sector"\nsector_deg = 60\ngear_ratio = "shockless"\n'
-        '[drive.before]\nkind = "side-crank"\nA = 0.9999999973\n',
-    )
-    result = run("loads", "spec.toml", "--samples", "5", "--format", "csv", *options)
-    refused(result, "make the drive more even", place="spec.toml:")
-    assert not os.path.exists("cycle.csv")
-
-
-def test_nul_in_a_name():
-    refused(run("peaks", "a\0b.toml"))
-    write("spec.toml", WHEEL)
-    refused(run("peaks", "spec.toml", "-o", "a\0b.csv"))
 
 
 @pytest.mark.parametrize(
@@ -372,46 +257,20 @@ def test_messages_carry_no_terminal_escapes(text):
     refused(run("peaks", "spec.toml"), place="spec.toml:")
 
 
-def test_a_long_spec_is_refused_quickly():
-    # Each line could hold the key; looking at every one of them must not take the square of that.
-    write("spec.toml", "# z\n" * 200_000 + "[wheel]\nz = 2\n")
-    found = subprocess.run(
-        [GENEVA, "peaks", "spec.toml"], capture_output=True, text=True, timeout=10
-    )
-    assert found.returncode == 2
-    assert found.stderr.startswith("spec.toml:200002: ")
-
-
 # The law's points: they have their own file, and their own lines.
 ROWS = "u,s\n0,0\n0.2,0.1\n0.4,0.3\n0.6,0.7\n0.8,0.9\n1,1\n"
 POINTS = [
     ("text", ROWS.replace("0.4,0.3", "0.4,much"), 4, "two numbers u,s"),
     ("three-columns", ROWS.replace("0.4,0.3", "0.4,0.3,0"), 4, "two numbers u,s"),
     ("semicolons", ROWS.replace(",", ";"), 1, "two numbers u,s; write a comma between them"),
-    ("tabs", ROWS.replace(",", "\t"), 1, "two numbers u,s; write a comma between them"),
     ("nan", ROWS.replace("0.4,0.3", "0.4,nan"), 4, "finite"),
-    ("infinite", ROWS.replace("0.4,0.3", "0.4,inf"), 4, "finite"),
     ("huge", ROWS.replace("0.4,0.3", "0.4,1e308"), 4, "s"),
     ("backwards", ROWS.replace("0.4,0.3", "0.1,0.3"), 4, "exceed the one before"),
-    ("twice", ROWS.replace("0.4,0.3", "0.2,0.3"), 4, "exceed the one before"),
-    (
-        "ninety-thousand",
-        "".join(f"{k / 90_000},{(k / 90_000) ** 3}\n" for k in range(90_001)),
-        2,
-        "at least 9e-05",
-        "of closer ones are rounding",
-    ),
-    ("crowded", ROWS.replace("0.2,0.1", "1e-320,0.1"), 3, "u"),
-    ("short", "u,s\n0,0\n0.5,0.5\n1,1\n", 0, "3 points", "at least"),
     ("empty", "", 0, "0 points", "at least"),
-    ("header-only", "u,s\n", 0, "0 points", "at least"),
     ("from-elsewhere", ROWS.replace("0,0\n", "0,0.1\n", 1), 0, "from 0,0 to 1,1"),
-    ("to-elsewhere", ROWS.replace("1,1\n", "0.9,1\n"), 0, "from 0,0 to 1,1"),
     ("not-utf-8", ROWS.encode() + b"\xff\n", 0, "not UTF-8"),
-    ("nul-byte", ROWS + "\0\n", 8, "two numbers u,s"),
     ("long-field", "u,s\n" + "1" * 200_000 + ",0\n", 2),
     ("open-quote", ROWS.replace("0.4,0.3", '"0.4,0.3'), 4, "two numbers u,s"),
-    ("quoted-header", ROWS.replace("u,s", '"u","s"').replace("0.4,0.3", "0.4,x"), 4),
 ]
 
 
@@ -433,12 +292,6 @@ def test_wrong_law_points(text, line, wants):
 def test_no_law_points(name):
     write("spec.toml", WHEEL + TABLE.replace("law.csv", name))
     refused(run("peaks", "spec.toml"), place="spec.toml:5: ")
-
-
-@pytest.mark.skipif(not os.path.exists("/dev/zero"), reason="no /dev/zero here")
-def test_endless_law_points():
-    write("spec.toml", WHEEL + TABLE.replace("law.csv", "/dev/zero"))
-    refused(run("peaks", "spec.toml"), "larger than")
 
 
 # Options: the message names the one that is wrong, the first of its line.
@@ -464,51 +317,27 @@ OPTIONS = [
     (f"synth --write {ZEROS} --tau 1/3 --z 6 --external --space 0.1", "rows 1 to"),
     ("table --z 2", "at least 3"),
     ("table --z 6.5", "whole number", "3..12"),
-    ("table --z six", "whole number", "3..12"),
-    ("table --z 3..", "whole number"),
-    ("table --z ..", "whole number"),
     ("table --z 3,,5", "whole number"),
-    ("table --z -6", "whole number"),
     ("table --z ٦", "whole number"),
     ("table --z 12..3", "backwards", "3..12"),
     ("table --z 3..1000000000", "at most"),
-    ("table --z 3..1000000", "more than", "fewer"),
     ("table --z " + "9" * 5000, "at most"),
     ("table --n 0", "above 0"),
-    ("table --n -60", "above 0"),
     ("table --n nan", "above 0"),
-    ("table --n inf", "speed"),
     ("table --n fast", "not a number"),
     ("table --n", "requires an argument"),
     ("table --A 1", "below 1"),
-    ("table --A -1", "above -1"),
-    ("table --A nan", "above -1"),
     ("table --rollers 0", "at least 1"),
-    ("table --rollers -1", "at least 1"),
-    ("table --rollers 1.5", "not a whole number"),
     ("table --z 6 --rollers 3", "rollers = 3", "at most 2"),
     ("table --z 6 --internal --rollers 2", "rollers = 2", "one roller"),
     ("table --rollers 3 --A 0.5", "spec", "geneva report"),
-    ("table --format xml", "csv", "json", "md"),
     ("table --zz 6", "--z"),
     ("motion --samples 1 spec.toml", "at least 2"),
-    ("motion --samples -5 spec.toml", "at least 2"),
-    ("motion --samples 1000000000000 spec.toml", "at most"),
     ("motion --samples " + "9" * 5000 + " spec.toml",),
-    ("motion --samples many spec.toml", "not a whole number"),
-    ("motion --format dwg spec.toml", "csv"),
     ("peaks --format xml spec.toml", "csv"),
     ("profile --tolerance 0 spec.toml", "above 0"),
-    ("profile --tolerance -1 spec.toml", "above 0"),
-    ("profile --tolerance nan spec.toml", "above 0"),
     ("profile --tolerance 1e-300 curved.toml", "mm"),
-    ("profile --samples 1 spec.toml", "at least 2"),
-    ("profile --samples 1000000000000 spec.toml", "at most"),
-    ("report --format xml spec.toml", "csv"),
-    ("check --format xml spec.toml", "csv"),
     ("laws --lambda nan",),
-    ("laws --lambda inf",),
-    ("laws --lambda 1e300",),
 ]
 
 
@@ -519,13 +348,6 @@ def test_wrong_option(line, wants):
     words = shlex.split(line)
     said = refused(run(*words), words[1], *wants)
     assert len(said) <= 1001
-
-
-def test_a_wrong_tolerance_comes_before_a_machine_that_fails():
-    """It is wrong usage, which needs no parts; the disc of this machine does not fit."""
-    write("spec.toml", "[wheel]\nz = 200\n")
-    line = ("profile", "spec.toml", "--part", "wheel", "--tolerance", "0", "-o", "wheel.dxf")
-    refused(run(*line), "--tolerance 0")
 
 
 @pytest.mark.parametrize(
@@ -587,17 +409,6 @@ def test_an_option_of_one_value_is_given_once(arguments, option):
     assert os.listdir() == ["spec.toml"]
 
 
-def test_an_option_of_several_values_may_be_given_several_times():
-    write("spec.toml", SIDE + "A = 0.3\n" + WHEEL)
-    several = "sweep spec.toml --vary wheel.z=4,5 --vary drive.A=0,0.25 --set drive.n_rpm=9"
-    assert run(*several.split()).exit_code == 0
-    assert run(*["table", "--z", "6", "--internal", "--internal"]).exit_code == 0
-
-
-def test_some_options_are_texts():
-    assert len([*texts()]) > 80
-
-
 @pytest.mark.parametrize(
     ("arguments", "place"),
     [
@@ -615,10 +426,3 @@ def test_the_installed_command(arguments, place):
     assert (found.returncode, found.stdout) == (2, "")
     assert found.stderr.startswith(place)
     assert "Traceback" not in found.stderr
-
-
-@pytest.mark.parametrize("more", [(), ("--reverse",)])
-def test_an_error_of_a_machine_turning_backwards_has_its_place(more):
-    """A side-crank of A nearly 1 turns the sector so unevenly that its loads are rounding."""
-    write("spec.toml", UNEVEN)
-    refused(run("loads", "spec.toml", *more), "the wheel moves", place="spec.toml:4: ")

@@ -26,15 +26,14 @@ from geneva_cli.loads.sizing import SHOWN_SIZING
 from geneva_cli.loads.vibration import vibration_answers
 from geneva_cli.loads.vibration.vibration import SpeedToAvoid
 from geneva_cli.manual import TOPICS
-from geneva_cli.manual.explained import GROUPS, Entry, entries
+from geneva_cli.manual.explained import Entry, entries
 from geneva_cli.motion import law_values, registry
 from geneva_cli.motion import motion_table as motion
 from geneva_cli.motion.cam_factors import CamFactors
 from geneva_cli.motion.pitch_curve import WALLED
-from geneva_cli.names import unit_of
 from geneva_cli.parts.gears import gear_curves
 from geneva_cli.parts.slots import groove
-from geneva_cli.specfile.meanings import listed, meanings, names
+from geneva_cli.specfile.meanings import meanings
 from geneva_cli.specfile.template import EXAMPLES
 from geneva_cli.study import survey
 from geneva_cli.study.sweep.run import ERROR
@@ -44,7 +43,6 @@ from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, STANDING, TURNING
 from geneva_cli.verdict.checks.all_checks import PROOFS as PROVED
 from geneva_cli.verdict.quantities import groups
-from geneva_cli.verdict.quantities.quantity_names import group_of
 from geneva_cli.verdict.tolerance.tolerance_tables import ANGLES
 
 WORDLESS = {"word", "yes or no", "list", "table", "text", "number"}  # not worked out by a formula
@@ -202,14 +200,6 @@ def test_an_entry_is_whole():
             assert path.startswith("tests/") and f"\ndef {test}(" in text, proof
 
 
-@pytest.mark.parametrize("name", ["strength.pin", "strength.horn", "strength.lock", "shock.entry"])
-def test_a_group_of_values_has_no_unit_of_its_own(name):
-    """Stresses, lengths and margins: no one unit is that of all."""
-    units = {unit_of(value) for value in group_of() if value.startswith(f"{name}.")}
-    assert len(units) > 1
-    assert [one.unit for one in meanings(name)] == ["that of each value"]
-
-
 def test_no_proof_is_of_nothing():
     named = {(e.group, e.names[0]) for e in entries()}
     assert {(group, name) for group, some in PROOFS.items() for name in some} == named
@@ -266,21 +256,6 @@ def warned(example: str) -> set[str]:
     return set(re.findall(r"(?:explain |\[)([a-z-]+)", result.output))
 
 
-def test_no_name_is_explained_twice():
-    for group in GROUPS.values():
-        every = [name for e in entries() if e.group == group for name in e.names]
-        assert len(every) == len(set(every))
-
-
-def test_every_label_is_a_field_of_an_entry():
-    """A label that is misspelt would be an item without a meaning."""
-    labels = {name.replace("_", " ").capitalize() for name in Entry._fields[3:]}
-    for page in GROUPS:
-        text = (PACKAGE / "manual" / "reference" / f"{page}.md").read_text(encoding="utf-8")
-        _, _, own = text.partition("\n## ")
-        assert set(re.findall(r"^- ([^:]*)", own, re.MULTILINE)) <= labels
-
-
 @pytest.mark.parametrize(
     ("word", "groups"),
     [
@@ -303,48 +278,3 @@ def test_every_label_is_a_field_of_an_entry():
 )
 def test_what_a_word_means(word: str, groups: list[str]):
     assert [m.group for m in meanings(word)] == groups
-
-
-@pytest.mark.parametrize(
-    ("word", "meant"),
-    [("hrn_mm", "horn_mm"), ("side-krank", "side-crank"), ("checks.gap_m", "checks.gap_mm")],
-)
-def test_a_misspelt_word(word: str, meant: str):
-    with pytest.raises(GenevaError, match=f'did you mean "{meant}"'):
-        meanings(word)
-
-
-def test_the_list_has_everything_and_each_can_be_asked_for():
-    rows = listed()
-    assert {name for _, name, _ in rows} == {name for e in entries() for name in e.names}
-    assert all(about.endswith(".") and len(about) > 8 for _, _, about in rows)
-    assert {name for _, name, _ in rows} <= set(names())
-
-
-def test_formats(tmp_path):
-    def run(*words: str) -> str:
-        result = CliRunner().invoke(app, ["explain", *words])
-        assert result.exit_code == 0, result.output
-        return result.stdout
-
-    (row,) = json.loads(run("horn_mm", "--format", "json"))["rows"]
-    assert (row["group"], row["name"], row["unit"]) == ("check", "horn_mm", "mm")
-    page = run("horn_mm")
-    assert page.startswith("## horn_mm (check)\n\n") and row["formula"] in " ".join(page.split())
-    run("horn_mm", "-o", str(tmp_path / "horn.md"))
-    assert (tmp_path / "horn.md").read_text(encoding="utf-8") == page
-    assert "check,horn_mm," in run("--format", "csv")
-
-
-@pytest.mark.parametrize(
-    ("words", "name"),
-    [
-        (["pin stress"], "pin_stress_MPa"),
-        (["pin", "stress"], "pin_stress_MPa"),
-        (["Wall", "between", "slots"], "wall_between_slots_mm"),
-        (["drives", "the", "motor"], "drives-the-motor"),
-    ],
-)
-def test_the_words_that_check_prints_are_explained(words, name):
-    result = CliRunner().invoke(app, ["explain", *words])
-    assert (result.exit_code, result.output.partition(" (")[0]) == (0, f"## {name}")

@@ -11,7 +11,6 @@ from repo import GENEVA
 from typer.testing import CliRunner
 
 from geneva_cli.cli.app import COMMANDS, GROUPS, app
-from geneva_cli.manual import TOPICS, search
 
 EXAMPLES = [
     (name, example)
@@ -73,20 +72,11 @@ def offered(line):
 @pytest.mark.parametrize(
     ("line", "words"),
     [
-        ("geneva to", ["tolerance"]),
         ("geneva peaks spec.toml --set drive.ec", ["drive.eccentricity="]),
-        ("geneva peaks spec.toml --set load.friction_at=", None),
         ("geneva profile spec.toml --part whe", ["wheel"]),
-        ("geneva profile spec.toml --format d", ["dxf"]),
-        ("geneva peaks spec.toml --format j", ["json"]),
         ("geneva synth --law cyc", ["cycloidal"]),
-        ("geneva new slider", ["slider-crank"]),
-        ("geneva new --from-design tur", ["turret"]),
         ("geneva keys drive.ph", ["drive.phase"]),
-        ("geneva help square", ["square-root"]),
-        ("geneva explain branches_a", ["branches_apart_mm"]),
         ("geneva plot spec.toml --pick jerk,veloc", ["jerk,velocity"]),
-        ("geneva compare spec.toml --pick acceleration.en", None),
         ("geneva loads sp", []),  # files: the shell's own
     ],
 )
@@ -96,37 +86,3 @@ def test_a_shell_completes_words(line, words):
         assert found == words
     else:
         assert len(found) >= 2
-
-
-def test_every_topic_is_offered():
-    assert offered("geneva help ") == list(TOPICS)
-
-
-@pytest.mark.parametrize("name", COMMANDS)
-def test_the_help_of_a_command_fits_a_screen(name, monkeypatch):
-    """80 columns, some 45 lines, three examples: what is longer is in the manual."""
-    monkeypatch.setenv("COLUMNS", "80")
-    lines = geneva(name, "-h").splitlines()
-    assert len(lines) <= 45
-    assert max(map(len, lines)) <= 80
-    assert 1 <= len([e for n, e in EXAMPLES if n == name]) <= 4
-
-
-def test_help_names_the_pages_of_the_manual():
-    block = geneva("--help").partition("\nManual, ")[2]
-    assert all(topic in block.replace(",", "").split() for topic in TOPICS)
-
-
-def test_words_that_stand_nowhere_together_are_found_in_one_section():
-    both = [{hit[:2] for hit in search(word)} for word in ("start", "stop")]
-    assert {hit[:2] for hit in search("start stop")} == both[0] & both[1] != set()
-    assert "topic" in geneva("help", "start", "stop")
-
-
-@pytest.mark.parametrize(
-    ("command", "right"), [("table", "--n"), ("peaks", "--set drive.n_rpm=RPM")]
-)
-def test_a_speed_is_named_with_its_own_option(command, right):
-    result = CliRunner().invoke(app, [command, "--rpm", "30"])
-    assert result.exit_code == 2
-    assert f"no such option: --rpm (did you mean {right}?)" in result.output

@@ -1,7 +1,6 @@
 """A run imports only what it shows; a new command adds one row to ``ROWS``."""
 
 import os
-import pty
 import select
 import subprocess
 import sys
@@ -213,14 +212,6 @@ def test_heavy_modules(forks, row):
     assert loaded_in(forks["numpy" in may], row.words) & HEAVY <= may
 
 
-def test_a_fork_has_imported_what_a_process_has(forks):
-    """In each of both; and the probe sees what was there before the run, as NumPy in one."""
-    words = ["peaks", os.path.join(DESIGNS, "press-curved.toml")]
-    assert loaded_in(forks[0], words) == loaded_in(forks[1], words) == loaded(words)
-    assert "numpy" not in loaded_in(forks[0], ["--version"])
-    assert loaded_in(forks[1], ["--version"]) & HEAVY == {"numpy"}
-
-
 @pytest.mark.parametrize("line", OWN)
 def test_own_modules(line):
     assert own(loaded(line.split())) <= set(OWN[line].split())
@@ -234,13 +225,7 @@ def test_few_own_modules(line):
         assert len(modules) <= most
 
 
-def test_a_drive_before_another_imports_no_third_kind():
-    modules = own(loaded(["peaks", os.path.join(DESIGNS, "behind-gears.toml")]))
-    drives = {name for name in modules if name.startswith(("drives.", "kinds."))}
-    assert drives >= {"drives.epicyclic", "drives.elliptical_gears"}
-    assert not drives & {"drives.cam", "kinds.linkages.four_bar", "kinds.carousel.motion"}
-
-
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("words", ["geneva ", "geneva ta", "geneva table --", "geneva motion --s"])
 def test_completion(words):
     count = len(words.split(" ")) - 1
@@ -253,44 +238,3 @@ def test_completion(words):
     assert not modules & HEAVY
     if count == 1:  # a command's name: no command is imported
         assert own(modules) == {"cli", "cli.app", "errors", "progress", "streams"}
-
-
-@pytest.mark.parametrize(
-    ("words", "wanted"),
-    [("geneva ta", "table"), ("geneva pea", "peaks"), ("geneva table --int", "--internal")],
-)
-def test_completion_completes(words, wanted):
-    settings = {
-        "_GENEVA_COMPLETE": "complete_bash",
-        "COMP_WORDS": words,
-        "COMP_CWORD": str(len(words.split()) - 1),
-    }
-    found = subprocess.run(
-        [sys.executable, "-m", "geneva_cli"],
-        env=os.environ | settings,
-        capture_output=True,
-        text=True,
-    )
-    geneva = os.path.join(os.path.dirname(sys.executable), "geneva")
-    installed = subprocess.run([geneva], env=os.environ | settings, capture_output=True, text=True)
-    assert found.stdout.split() == installed.stdout.split() == [wanted]
-
-
-def test_a_terminal_costs_no_more_than_a_pipe():
-    """A table is laid out by the program's own few lines."""
-    master, slave = pty.openpty()
-    modules = loaded(["table", "--z", "6"], stdout=slave)
-    os.close(slave)
-    os.close(master)
-    assert "terminal" in {name.rpartition(".")[2] for name in own(modules)}
-    assert not modules & HEAVY
-
-
-@pytest.mark.parametrize("sort", ["", "--from turret.toml --sort min:loads.pin_force_N.rms"])
-def test_loads_are_imported_where_they_are_asked_for(forks, sort):
-    """No report is; nor is numpy.ma, of which some functions of NumPy take a moment."""
-    target = "synth --motion-deg 120 --z 6 --external --rollers 2 --check 0 " + sort
-    found = loaded_in(forks[1], Row(target).words)
-    assert any(name == "loads.load_peaks" for name in own(found)) == bool(sort)
-    assert not any(name.startswith("verdict.report") for name in own(found))
-    assert bool(sort) or "numpy.ma" not in found

@@ -6,13 +6,11 @@ import io
 import json
 import math
 import os
-import pty
 import resource
 import signal
 import subprocess
 import sys
 import time
-import warnings
 
 import numpy as np
 import pytest
@@ -20,14 +18,10 @@ import repo
 from repo import GENEVA, put
 from words import load
 
-from geneva_cli import Cycloidal, Design, External, Motion, progress
-from geneva_cli.errors import GenevaError
+from geneva_cli import progress
 from geneva_cli.motion.motion_table import SAMPLES_MAX, motion_table
-from geneva_cli.motion.peaks import peaks
 from geneva_cli.output import show
 from geneva_cli.output.terminal.bar import TextBar
-from geneva_cli.parts.slots.slot_sampling import profile_table
-from geneva_cli.study.survey import survey
 from geneva_cli.table import WHOLE_ROWS, Table, record_table, rows_table
 
 
@@ -56,28 +50,6 @@ def test_a_long_table_is_the_same_as_a_held_one(text, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    "rows",
-    [
-        lambda design, samples: design.slot(samples=samples),
-        lambda design, samples: design.spectrum(samples, 5.0, 0.1),
-        lambda design, samples: design.spectrum(samples, 5.0),
-    ],
-    ids=["slot", "damped", "undamped"],
-)
-def test_long_tables_of_other_numbers_are_the_same(rows, monkeypatch):
-    """Slot and spectrum, in pieces and whole; the last digits depend on where a piece ends."""
-    samples = 2300
-    design = Design(External(6), motion=Motion(Cycloidal()))
-    whole = rows(design, samples)
-    monkeypatch.setattr("geneva_cli.table.WHOLE_ROWS", 1000)
-    monkeypatch.setattr("geneva_cli.table.PIECE", 512)  # no divisor of them
-    for name, column in rows(design, samples).to_dict().items():
-        expected = np.array(whole[name], dtype=float)
-        assert len(column) == samples
-        assert np.allclose(np.array(column, dtype=float), expected, rtol=1e-12, equal_nan=True)
-
-
-@pytest.mark.parametrize(
     ("command", "text"),
     [
         ("motion", "[wheel]\nz = 6\n"),
@@ -103,22 +75,6 @@ def test_memory_does_not_grow(command, text):
         assert sum(1 for _ in file) == SAMPLES_MAX // 2 + 1
 
 
-def test_progress_on_a_terminal():
-    master, slave = pty.openpty()
-    # at once, where it is after a second of work that a bar is shown
-    now = "from geneva_cli.output.terminal.bar import TextBar as T; T.after_s = T.every_s = 0.0"
-    main = "from geneva_cli.__main__ import main; main()"
-    arguments = ["motion", "spec.toml", "--samples", "200000", "-o", "out.csv"]
-    command = [sys.executable, "-c", f"{now}; {main}", *arguments]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=slave)
-    os.close(slave)
-    said = repo.read_terminal(master)
-    process.stdout.close()
-    assert process.wait(timeout=60) == 0
-    assert b" of 200,000 rows, 0:" in said
-    assert said.endswith(b" \r")  # and nothing is left of it
-
-
 def test_a_bar_shows_what_is_left_and_goes(capsys, monkeypatch):
     """After a second, at most ten times a second, in one line that is overwritten."""
     clock = iter([0.0, 0.5, 2.0, 2.05, 3.0])
@@ -135,39 +91,6 @@ def test_a_bar_shows_what_is_left_and_goes(capsys, monkeypatch):
     assert first == f"[{'#' * 15}{'-' * 15}] 2 of 4 outer, 0:02 left"
     assert second == f"[{'#' * 30}] 4 of 4 outer, 0:00 left"
     assert all(not part.strip() for part in end)
-
-
-def test_one_item_shows_the_progress_within_it(capsys, monkeypatch):
-    """A bar of one item would stand still until the end."""
-    clock = iter([0.0, 2.0, 3.0])
-    monkeypatch.setattr("geneva_cli.output.terminal.bar.time.monotonic", lambda: next(clock))
-    monkeypatch.setattr("geneva_cli.output.terminal.bar.columns", lambda: 60)
-    progress.show_with(TextBar)
-    try:
-        outer = (len([*progress.tracked("ab", "steps", 2)]) for _ in range(1))
-        assert [*progress.tracked(outer, "specs", 1)] == [2]
-    finally:
-        progress.show_with(None)
-    shown = capsys.readouterr().err
-    assert "1 of 2 steps, 0:02 left" in shown and "specs" not in shown
-
-
-@pytest.mark.parametrize("gearing", ["spherical", "external"])
-def test_too_many_rows_that_are_solved(gearing):
-    with pytest.raises(GenevaError, match=r"--z 3\.\.10002: that is more than 1000 rows"):
-        survey("3..10002", gearing, 60.0, 1, 0.0 if gearing == "spherical" else 0.3)
-
-
-def test_the_closest_points_that_are_read():
-    """Their rounding moves the jerk by no more than law_table.py says, in a second or two."""
-    n = 10_000
-    rows = [(k / n, k / n - math.sin(math.tau * k / n) / math.tau) for k in range(n)] + [(1.0, 1.0)]
-    put("law.csv", "".join(f"{u!r},{s!r}\n" for u, s in rows))
-    put("table.toml", '[wheel]\nz = 6\n[motion]\nlaw = "table"\nfile = "law.csv"\n')
-    put("named.toml", '[wheel]\nz = 6\n[motion]\nlaw = "cycloidal"\n')
-    found, wanted = (peaks(load(name).engagements[0]) for name in ("table.toml", "named.toml"))
-    assert found.jerk.max == pytest.approx(wanted.jerk.max, rel=3e-4)
-    assert found.acceleration.max == pytest.approx(wanted.acceleration.max, rel=1e-6)
 
 
 # Numbers that are none
@@ -199,52 +122,6 @@ def test_infinity_where_it_is_an_answer(capsys):
     assert list(csv.reader(io.StringIO(capsys.readouterr().out)))[2] == ["0.0", "inf"]
     show(table, format="json")
     assert json.loads(capsys.readouterr().out)["rows"][1]["curvature_radius_mm"] is None
-
-
-def ratios(points):
-    """i = 1 + 0.2 cos(input): mirrored, so that half-way of the samples is mid-motion."""
-    rows = []
-    for k in range(points):
-        x = 360.0 * k / (points - 1)
-        i = 1.0 + 0.2 * math.cos(math.radians(x))
-        rows.append(f"{x!r},{i if k < points - 1 else 1.2!r}\n")
-    return "input_deg,ratio\n" + "".join(rows)
-
-
-@pytest.mark.parametrize("points", [25, 73])
-def test_a_sample_beside_the_middle(points):
-    """Mid-motion falls at 2e-14 deg and not at 0: the pin's direction was rounding or NaN."""
-    put("ratio.csv", ratios(points))
-    middles = 0
-    for z in range(3, 47):
-        text = f'[wheel]\nz = {z}\n[drive]\nkind = "noncircular-gears"\nratio_file = "ratio.csv"\n'
-        put("spec.toml", text)
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
-            mechanism = load("spec.toml")
-            table = profile_table(mechanism, 0.001, 51)
-        columns = dict(zip(table.names, table.columns, strict=True))
-        for name, column in columns.items():
-            assert name == "curvature_radius_mm" or np.isfinite(column).all(), (z, name)
-        # the flanks stay where they are beside: straight, at a roller's radius from the x axis
-        for side, sign in (("left", 1.0), ("right", -1.0)):
-            off = columns[f"{side}_y_mm"] * sign
-            assert np.ptp(off) < 1e-9 and abs(abs(off[0]) - 5.0) < 1e-9, (z, side)
-        middles += int((np.abs(columns["input_deg"]) < 1e-9).any())
-    assert middles > 10, "the case is no longer met"
-
-
-def test_a_point_that_rests():
-    """The rod's end runs on a straight line and stops at both ends: there it has no direction."""
-    put(
-        "spec.toml",
-        '[wheel]\nz = 6\n[drive]\nkind = "slider-crank"\ncrank_mm = 25\nrod_mm = 100\n'
-        "point_mm = 100\npoint_deg = 0\n",
-    )
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        with pytest.raises(GenevaError, match="no wheel of z = 6 slots fits this path"):
-            load("spec.toml")
 
 
 @pytest.mark.skipif(os.name != "posix", reason="signals")

@@ -60,21 +60,3 @@ def test_bad_input(options, words):
     assert found.exit_code == 2
     assert words in found.stderr
     assert found.stdout == ""
-
-
-def test_a_spec_without_tolerances_is_told_which_keys():
-    found = run(str(repo.DESIGNS / "three-slots.toml"))
-    assert found.exit_code == 2
-    assert "three-slots.toml: the spec gives no tolerances: set one or more of" in found.stderr
-    assert "recess_radius_mm in [tolerance]" in found.stderr
-
-
-def test_the_report_begins_with_the_same_numbers():
-    told = json.loads(run(DESIGN, "--format", "json").stdout)
-    page = CliRunner().invoke(app, ["report", DESIGN, "--format", "json"])
-    shown = json.loads(page.stdout)["tolerance"]
-    assert shown["dwell_position"]["p997_deg"] == told["dwell_position"]["p997_deg"]
-    assert shown["clearances"]["turns"] is True
-    sphere = str(repo.DESIGNS / "spherical-z6.toml")
-    bare = json.loads(CliRunner().invoke(app, ["report", sphere, "--format", "json"]).stdout)
-    assert bare["tolerance"]["dwell_position"]["p997_deg"] is None

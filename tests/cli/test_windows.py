@@ -20,10 +20,9 @@ from windows import COLUMNS, bare, look_at_page, look_at_table, require_width
 from geneva_cli import output
 from geneva_cli.cli.app import COMMANDS, app
 from geneva_cli.manual import TOPICS, page
-from geneva_cli.output.terminal.shown_values import value
+from geneva_cli.output.terminal.layout import Window, value
 from geneva_cli.output.terminal.terminal_tables import chunks
-from geneva_cli.output.terminal.window import Window
-from geneva_cli.table import Reading, record_table, rows_table
+from geneva_cli.table import record_table, rows_table
 
 LOOKS = ({"TERM": "xterm-256color"}, {"TERM": "dumb"}, {"TERM": "xterm", "NO_COLOR": "1"})
 
@@ -49,12 +48,6 @@ def on_a_terminal(columns, environment, *words):
         return repo.read_terminal(master).decode().splitlines()
 
 
-def test_a_page_is_not_for_a_terminal():
-    """It would fill the screen with half a megabyte of HTML."""
-    (line,) = on_a_terminal(80, {}, "animate", str(repo.DESIGNS / "turret.toml"))
-    assert line == "a page is not for a terminal: give -o FILE.html, or --open to show it"
-
-
 @pytest.mark.parametrize("columns", COLUMNS)
 def test_help_fits(monkeypatch, columns):
     for name in COMMANDS:
@@ -67,30 +60,6 @@ def test_pages_fit(topic):
     look_at_page(page(topic))
 
 
-@pytest.mark.sampled(6)
-@pytest.mark.parametrize("columns", COLUMNS)
-@pytest.mark.parametrize(
-    "line",
-    [
-        "--help",
-        "help",
-        "help cycle",
-        "explain",
-        "explain horn_mm",
-        "keys",
-        "new --list",
-        "table",
-        "table --spherical --z 3..5",
-        "synth --motion-deg 180 --z 6 --check 0 --external",
-        "peaks two-rollers-side-crank.toml",
-        "plot turret.toml",
-    ],
-)
-def test_screens_fit(monkeypatch, line, columns):
-    monkeypatch.chdir(repo.DESIGNS)
-    require_width(seen(monkeypatch, columns, *line.split()), columns)
-
-
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("environment", LOOKS, ids=str)
 def test_a_terminal_itself_says_how_wide_it_is(environment):
@@ -100,47 +69,6 @@ def test_a_terminal_itself_says_how_wide_it_is(environment):
     require_width(lines, 72)
     assert any("\x1b[1m" in line for line in lines) == (environment == LOOKS[0])
     assert max(map(len, map(bare, lines))) > 60
-
-
-def test_an_error_on_a_terminal_is_broken_between_words():
-    lines = on_a_terminal(60, LOOKS[1], "peaks", "no-such-design.toml")
-    require_width(lines, 60)
-    assert len(lines) > 1
-    said = CliRunner().invoke(app, ["peaks", "no-such-design.toml"]).stderr
-    assert " ".join(line.strip() for line in lines) == said.strip()
-
-
-def test_the_first_screen(monkeypatch):
-    """The README's first command: what is alike once, units below headings, the rest by name."""
-    lines = seen(monkeypatch, 80, "table", "--z", "4..6")
-    assert lines[0] == "External wheels, one roller, 60 rpm: one index a turn, cycle 1 s."
-    assert [line.split()[:3] for line in lines[-5:-2]] == [
-        ["4", "90", "270"],
-        ["5", "108", "252"],
-        ["6", "120", "240"],
-    ]
-    assert lines[-1].startswith("8 more columns: --wide, or --columns rollers_max,")
-
-
-def test_wide_has_every_column_and_columns_those_that_are_named(monkeypatch):
-    wide = seen(monkeypatch, 60, "table", "--z", "4..6", "--wide")
-    assert len(wide[-1].split()) == 20
-    some = seen(monkeypatch, 60, "table", "--z", "4..6", "--columns", "cycle_s,z")
-    assert [line.split() for line in some[-3:]] == [["1", "4"], ["1", "5"], ["1", "6"]]
-
-
-@pytest.mark.parametrize("format", ["csv", "md", "table"])
-def test_columns_are_chosen_in_every_format(format):
-    words = ["table", "--z", "4", "--columns", "z,tau", "--format", format]
-    shown = CliRunner().invoke(app, words).stdout
-    assert "tau" in shown and "0.25" in shown and "gearing" not in shown
-
-
-def test_columns_of_a_record_are_those_of_its_tables_too(monkeypatch):
-    monkeypatch.chdir(repo.DESIGNS)
-    lines = seen(monkeypatch, 80, "loads", "turret.toml", "--columns", "quantity,max,rms")
-    assert any(line.split()[:3] == ["wheel", "torque,", "N"] for line in lines)
-    assert not any("inertia" in line for line in lines)
 
 
 def test_a_wrong_column_is_refused_with_the_nearest():
@@ -160,29 +88,6 @@ def test_columns_where_no_table_is_printed_are_refused(tmp_path):
 
 def lines_of(table, columns):
     return "".join(chunks(table, Window(columns))).splitlines()
-
-
-def test_the_least_important_column_goes_first():
-    names = tuple(f"number_{i}" for i in range(12))
-    table = rows_table(names, [[i * 1.23456 + j for i in range(12)] for j in range(5)])
-    look_at_table(table)
-    assert lines_of(table, 60)[-1].startswith("5 more columns: --wide, or --columns number_7,")
-    reverse = table.replaced(reading=Reading(first=names[::-1]))
-    assert lines_of(reverse, 60)[-1].startswith("5 more columns: --wide, or --columns number_4,")
-
-
-def test_one_row_that_does_not_fit_is_turned_on_its_side():
-    names = tuple(f"number_{i}_mm" for i in range(12))
-    lines = lines_of(rows_table(names, [[1000.0 + i for i in range(12)]]), 60)
-    assert len(lines) == 12
-    assert lines[3].split() == ["number", "3,", "mm", "1003"]
-
-
-def test_prose_is_broken_between_words_and_wide_letters_take_two_columns():
-    prose = "輪の縁から内側へ " * 9 + "end"
-    table = rows_table(("name", "about"), [("a", prose), ("b", "short")])
-    look_at_table(table)
-    assert "".join(lines_of(table, 60)).count("内側へ") == 9
 
 
 def test_what_is_alike_in_every_row_is_said_once():
@@ -221,22 +126,13 @@ def test_any_table_fits(seed):
     look_at_table(record_table({"x": 1.0, "t": table, "g.y_mm": 2.0}, "Title " * 20, "Prose " * 50))
 
 
-def test_rows_that_are_all_alike_keep_a_column():
-    table = rows_table(("z", "tau"), [(6, 0.25), (6, 0.25)])
-    assert lines_of(table, 80)[0] == "In every row: slots 6; tau 0.25."
-    assert [line.strip() for line in lines_of(table, 80)[2:]] == ["slots", "6", "6"]
-
-
 @pytest.mark.parametrize(
     ("number", "unit", "text"),
     [
         (0.123456789, "", "0.12346"),
         (-1.23456e-10, "mm", "-1.2346e-10 mm"),
-        (123456.0, "N", "1.2346e5 N"),
         (-0.0, "deg", "0 deg"),
-        (12, "", "12"),
         (1234567, "", "1234567"),
-        (8760.0, "h", "8760 h"),
         (2.8e8, "h", "practically unlimited"),
         (float("inf"), "mm", "no bound"),
         (None, "mm", "-"),
@@ -246,11 +142,6 @@ def test_rows_that_are_all_alike_keep_a_column():
 )
 def test_values_for_people(number, unit, text):
     assert value(number, unit) == text
-
-
-def test_a_record_has_units_beside_its_values():
-    lines = lines_of(record_table({"wheel_bore_mm": 41.0, "pin_force_N.max": 202.53962}), 80)
-    assert lines == ["wheel bore  41 mm", "pin force, N", "  max       202.54"]
 
 
 def test_a_table_longer_than_is_held_fits_too():

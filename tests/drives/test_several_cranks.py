@@ -289,6 +289,7 @@ def eased(z, places):
     return Design.of(Spec(External(z), drive, drive_before=gears, load=LOAD))
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(("z", "places"), [(8, (0, 3)), (5, (0, 4, 3))])
 def test_gears_before_the_cranks_turn_all_of_them(z, places):

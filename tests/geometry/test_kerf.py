@@ -20,7 +20,7 @@ from geneva_cli.geometry.moments import area
 from geneva_cli.geometry.plates import Plate, plates
 from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, about, backwards, closed
 from geneva_cli.motion.mechanism import build
-from geneva_cli.parts.outlines.outline_sizes import outlines
+from geneva_cli.parts.machine_sizes import outlines
 from geneva_cli.spec.tables import Size
 
 SAGITTA = 1e-4  # mm, of the chords that shapely is given

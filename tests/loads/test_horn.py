@@ -15,7 +15,7 @@ from geneva_cli import load as read
 from geneva_cli.loads.strength.horn import horns, product
 from geneva_cli.loads.strength.horn_search import greatest_stress, single_stress
 from geneva_cli.motion.mechanism import build
-from geneva_cli.parts.outlines.outline_sizes import sized
+from geneva_cli.parts.machine_sizes import sized
 from geneva_cli.spec.tables import Load, Size
 
 LOAD = Load(torque_Nm=10.0)

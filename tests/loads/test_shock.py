@@ -25,7 +25,7 @@ from geneva_cli.loads.impacts.impacts import entry_impacts
 from geneva_cli.loads.impacts.shock_force import impulse_Nms
 from geneva_cli.motion.laws.standard import Cycloidal
 from geneva_cli.motion.motion import Motion
-from geneva_cli.parts.outlines.outline_sizes import built
+from geneva_cli.parts.machine_sizes import built
 from geneva_cli.spec.tables import RollerMaterial, WheelMaterial
 
 # A contact is where a square root of the error says: half of a double's digits would be lost of

@@ -5,7 +5,6 @@ array of designs at both kinds of array.
 """
 
 import pickle
-from contextlib import suppress
 
 import numpy as np
 import pytest
@@ -21,7 +20,6 @@ from geneva_cli.motion.many import many, may_vary
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.jet import turning
-from geneva_cli.numerics.latest import Latest
 
 # The formulas are the same, but NumPy's sine and the C library's differ in the last place, and so
 # do the places of entry, middle and exit, about which all is written. A motion passes that on as
@@ -103,40 +101,6 @@ def test_the_same_motion_path_and_slot(case):
                             near(full(at_one, (n, 1))[:, row], jet[:, row, here], level[here])
 
 
-@pytest.mark.sampled(3)
-def test_who_writes_to_an_answer_changes_no_later_one(case):
-    """The kept jets were handed out, and what was done to them was the next answer."""
-    _, _, found, singles = case
-    for m in (found.machine, next(one for one in singles if one is not None)):
-        for engagement in m.engagements:
-            x = engagement.entry_deg + engagement.motion_deg * np.linspace(0.1, 0.9, 7)
-            for function in (engagement.motion, engagement.path, engagement.slot):
-                before = [c.copy() for c in arrays_of(function(x, 2))]
-                for c in arrays_of(function(x, 2)):
-                    with suppress(ValueError):  # read-only
-                        c *= 57.3
-                for old, new in zip(before, arrays_of(function(x, 2)), strict=True):
-                    assert np.array_equal(old, new, equal_nan=True)
-
-
-def arrays_of(found):
-    """The coefficients of one jet, or of a tuple of them, that are arrays."""
-    jets = found if isinstance(found, tuple) else (found,)
-    return [c for jet in jets for c in jet.c if isinstance(c, np.ndarray)]
-
-
-def test_the_rate_is_the_derivative_of_the_angle(case):
-    found = case[2]
-    for engagement in found.machine.engagements:
-        motion = engagement.motion
-        x = motion.entry_deg + engagement.motion_deg * np.linspace(0.01, 0.99, 8)
-        x = np.ascontiguousarray(np.broadcast_to(x, (len(found.which), 8)))
-        rate, angle = motion.rate(x, 4), motion(x, 5).derivative()
-        for one, row in enumerate(x):
-            each = [full(jet, x.shape)[:, one] for jet in (rate, angle)]
-            near(*each, row)
-
-
 def test_parts_of_the_designs_asked_at_the_same_angles_answer_for_themselves(case):
     """What is kept of the latest angles was worked out of other designs."""
     found = case[2]
@@ -159,31 +123,6 @@ def test_it_pickles_and_can_be_taken_apart(case):
     assert np.array_equal(
         np.broadcast_to(part.engagements[0].motion(x).c[1], (some.sum(), 1)), whole[some]
     )
-
-
-def design_arrays_in(thing, seen):
-    """Every array (n, 1) that an object holds, whatever its class."""
-    if id(thing) in seen or isinstance(thing, Latest):
-        return
-    seen[id(thing)] = thing
-    if isinstance(thing, np.ndarray):
-        if thing.shape[1:] == (1,):
-            yield thing
-    elif isinstance(thing, (tuple, list)):
-        for part in thing:
-            yield from design_arrays_in(part, seen)
-    else:
-        for part in getattr(thing, "__dict__", {}).values():
-            yield from design_arrays_in(part, seen)
-
-
-def test_every_object_with_numbers_of_designs_is_reduced(case):
-    """An object of a class that lacks the base ``Batchable`` would keep those of all designs."""
-    whole = case[2].machine
-    for engagement in whole.engagements:  # fills what is computed once
-        _ = engagement.entry_reach, engagement.motion(0.0), engagement.slot(0.0, 1)
-    assert {len(one) for one in design_arrays_in(whole, {})} == {len(case[2].which)}
-    assert {len(one) for one in design_arrays_in(taken(whole, slice(0, 3)), {})} == {3}
 
 
 @pytest.mark.parametrize("name", ["side-crank", "offset", "spherical", "epicyclic", "cycloidal"])
@@ -218,23 +157,11 @@ def test_refused_together_as_alone(name, seed):
     assert found.refused.tolist() == [alone(spec, varied, i) is None for i in range(5)]
 
 
-def test_a_design_refused_is_nan_in_the_results():
-    found = many(machine(6, "side-crank", A=0.5), {"drive.A": np.array([0.6, 2.0, 0.0])})
-    motion = found.spread(found.machine.engagements[0].motion_deg)
-    assert motion[2] == 120.0
-    assert np.isnan(motion).tolist() == [False, True, False]
-
-
 def test_none_of_them_can_be_built():
     found = many(machine(6), {"wheel.z": np.array([1, 2])})
     assert found.machine is None
     assert found.refused.all()
     assert many(machine(6), {"wheel.z": np.array([], dtype=int)}).machine is None
-
-
-def test_what_is_wrong_with_all_of_them_refuses_all():
-    spec = machine(6, "side-crank", A=0.5, rollers=4)
-    assert many(spec, {"drive.A": np.array([0.1, 0.2])}).refused.all()
 
 
 def test_keys_that_cannot_vary():

@@ -11,29 +11,11 @@ from geneva_cli import Cam, Design, External, Motion, NoncircularGears, SineGrou
 from geneva_cli.design import Size
 from geneva_cli.drawings.sheet.points import tables
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion import registry
 from geneva_cli.motion.many import many, worst_peaks
 from geneva_cli.motion.peaks import worst
 from geneva_cli.parts.slots.slot_sampling import chord_errors, nodes
 
 SWING = 0.3  # of the ratio 1 + SWING sin 6 phi
-
-
-@pytest.mark.parametrize("name", registry.STANDARD_LAWS)
-def test_a_symmetric_law_is_half_way_in_half_the_time(name):
-    assert registry.law(name)().half_way == 0.5
-
-
-@pytest.mark.parametrize("of", ["4-5-6-7", "sine-group"])
-@pytest.mark.parametrize("ratio", [0.3, 0.5, 0.7, 0.9, 1.0, 3.7])
-def test_a_tuned_law_too(of, ratio):
-    """Its value there is rounded: y'' is 0 there only but for rounding."""
-    assert Tuned(period_ratio=ratio, of=of).half_way == 0.5
-    # of a batch each design by its own damping
-    spec = Design(External(6), motion=Motion(Tuned(period_ratio=ratio, of=of))).mechanism.spec
-    law = many(spec, {"motion.damping_ratio": np.array([0.0, 0.3])}).machine.law
-    alone = Tuned(period_ratio=ratio, of=of, damping_ratio=0.3).half_way
-    assert np.ravel(law.half_way).tolist() == [0.5, pytest.approx(alone, abs=1e-15)]
 
 
 def test_a_tilted_law_is_not():

@@ -86,12 +86,3 @@ def test_the_closed_forms_of_arrays_agree_with_the_jets(z: int, gearing: str) ->
                 condition = max(1.0, half * 3.0)
                 limit = 8.0 * condition * np.spacing(peak.max() * (1, 1, 2, 6)[order])
                 assert np.abs(a - b).max() <= limit
-
-
-def test_what_is_not_asked_for_is_not_computed() -> None:
-    engagement = build(Spec(Wheel(6))).engagements[0]
-    x = np.linspace(-60.0, 60.0, 101)
-    velocity, acceleration = engagement.motion.derivatives(x, (1, 2))
-    both = engagement.motion.derivatives(x)
-    assert (velocity == both[1]).all()
-    assert (acceleration == both[2]).all()

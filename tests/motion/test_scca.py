@@ -11,7 +11,6 @@ from witness import LAWS, SineLaw, mp
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.law_values import characteristic
-from geneva_cli.motion.laws import standard
 from geneva_cli.motion.laws.scca import SineConstantCosine
 
 pi = math.pi
@@ -90,31 +89,6 @@ def test_peaks_are_the_closed_forms(shares):
     assert found.velocity == pytest.approx(a * ((b + d) / pi + c / 2), rel=1e-14)
     jerk = a * pi / min((x for x in (b, d) if x), default=math.inf)
     assert found.jerk == pytest.approx(jerk, rel=1e-14, abs=0.0)
-
-
-@pytest.mark.parametrize("shares", [*NAMED.values(), *OTHERS])
-def test_rest_at_both_ends_and_half_way_in_half_the_time(shares):
-    law = scca(*shares)
-    assert law(0.0, 1).derivatives() == (0.0, 0.0)
-    assert law(1.0, 1).derivatives() == (1.0, 0.0)
-    # two units: the sum of three pieces
-    assert law(0.5, 0).c[0] == pytest.approx(0.5, abs=1.2e-16)
-
-
-def test_breaks_are_where_the_pieces_meet():
-    assert scca(0.2, 0.6, 0.2).breaks == pytest.approx((0.1, 0.4, 0.6, 0.9), rel=1e-15)
-    assert scca(0.5, 0.0, 0.5).breaks == ()
-    assert scca(0.0, 1.0, 0.0).breaks == (0.5,)
-    assert scca(0.1, 0.0, 0.9).breaks == pytest.approx((0.05, 0.95), rel=1e-15)
-
-
-def test_no_member_runs_at_constant_velocity():
-    """MCV50 is no SCCA(b, c, d): Cv/Ca = (b + d)/pi + c/2 is 1/pi or more, and half that there."""
-    each = [characteristic(scca(*s)) for s in (*NAMED.values(), *OTHERS)]
-    # 1e-14: both are roots or ends, rounded
-    assert min(c.velocity / c.acceleration for c in each) >= (1 - 1e-14) / pi
-    fifty = characteristic(standard.ModifiedConstantVelocity())
-    assert fifty.velocity / fifty.acceleration == pytest.approx(1 / (2 * pi), rel=1e-14)
 
 
 @pytest.mark.parametrize(

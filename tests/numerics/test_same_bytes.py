@@ -28,7 +28,7 @@ from geneva_cli.geometry import fit
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.slots.groove import groove_curve
 from geneva_cli.parts.outlines.wheel_outline import slot_walls
-from geneva_cli.parts.outlines.outline_sizes import sizes
+from geneva_cli.parts.machine_sizes import sizes
 def load(path):
     return design.load(path).mechanism
 def tell(what):

@@ -1,7 +1,6 @@
 """Every version of DXF, read back by two readers: ezdxf, and dxfgrabber's parser of its own."""
 
 import io
-import math
 
 import dxfgrabber
 import pytest
@@ -9,7 +8,7 @@ from drawing_witness import apart, drawn_shapes, dxf_document, dxf_shapes
 from test_dxf import MANY, SAME, bow, of, smooth
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.shapes import Arc, Circle, Line, closed
+from geneva_cli.geometry.shapes import Arc, Circle
 from geneva_cli.output.dxf import chunks
 from geneva_cli.output.formats import DXF_VERSIONS
 
@@ -52,23 +51,6 @@ def test_another_reader_finds_closed_contours_with_bulges(version):
         assert points == [s.start for s in shape.segments]
         wanted = [s.bulge if isinstance(s, Arc) else 0.0 for s in shape.segments]
         assert list(read.bulge) == pytest.approx(wanted, abs=1e-15)
-
-
-def test_r12_has_polylines_alone_and_says_no_unit():
-    written = text(ROUND, "R12")
-    assert "LWPOLYLINE" not in written
-    assert "$INSUNITS" not in written
-    found = dxf_document(written).modelspace()
-    assert [e.dxftype() for e in found] == ["POLYLINE", "CIRCLE", "POLYLINE"]
-
-
-def test_an_arc_of_r12_is_where_it_was():
-    arc = Arc((3.0, 4.0), (28.0, 4.0), 1.7)
-    written = text(of(closed("WHEEL", [arc, Line(arc.end, arc.start)])), "R12")
-    (polyline,) = dxf_document(written).modelspace()
-    (found, _) = polyline.virtual_entities()
-    assert math.dist(found.dxf.center.vec2, arc.centre) < 1e-9
-    assert found.dxf.radius == pytest.approx(arc.radius, abs=1e-9)
 
 
 def test_refusals():

@@ -7,13 +7,12 @@ import math
 
 import numpy as np
 import pytest
-import repo
 import trimesh
 from drawing_witness import polygon
 from sampling import some
 from step_witness import File
 
-from geneva_cli import Design, External, Internal, Size, load
+from geneva_cli import Design, External, Internal, Size
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.edges import Edge
@@ -21,7 +20,7 @@ from geneva_cli.geometry.inset import inset, lines_and_arcs
 from geneva_cli.geometry.mass import mass_properties
 from geneva_cli.geometry.moments import with_material_left
 from geneva_cli.geometry.plates import Plate, plates
-from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, as_contour, closed
+from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, closed
 from geneva_cli.output.mesh.solids import bodies
 from geneva_cli.output.step import chunks
 
@@ -117,32 +116,6 @@ def test_faces_of_a_step_file():
     assert radii == pytest.approx(sorted(arc.radius for arc in arcs for _ in "12"), rel=1e-9)
 
 
-def test_roundings_of_a_step_file():
-    """A cylinder over each line and a torus over each arc; the material is inside of their tube."""
-    (wheel,) = plates(design_of(External(6), KINDS[1]).drawing("wheel").solid)
-    file = File("".join(chunks(drawing(wheel), "mm")))
-    pieces = [piece for shape in (wheel.outline, *wheel.holes) for piece in lines_and_arcs(shape)]
-    arcs = [piece for piece in pieces if isinstance(piece, Arc)]
-    assert len(file.all("ADVANCED_FACE")) == 3 * len(pieces) + 2
-    tori = [file.values(n) for n in file.all("TOROIDAL_SURFACE")]
-    tori += [file.values(n) for n in file.all("DEGENERATE_TOROIDAL_SURFACE")]
-    assert len(tori) == 2 * len(arcs)
-    assert {minor for _, _, _, minor, *_ in tori} == {CUT}
-    outer = plates(design_of(External(6)).drawing("wheel").solid)[0]
-    sides = [
-        with_material_left(as_contour(s), i == 0)
-        for i, s in enumerate((outer.outline, *outer.holes))
-    ]
-    wanted = [
-        arc.radius - math.copysign(CUT, arc.bulge)
-        for side in sides
-        for arc in lines_and_arcs(side)
-        if isinstance(arc, Arc)
-    ]
-    majors = sorted(major for _, _, major, *_ in tori)
-    assert majors == pytest.approx(sorted(one for one in wanted for _ in "12"), rel=1e-9)
-
-
 def test_chamfers_that_do_not_fit():
     """A rounding of 0.3 mm is narrower than 0.5, and a spline has no parallel spline."""
     half = [Arc((1.0, 0.3), (0.0, 0.0), 0.3), Line((0.0, 0.0), (1.0, -9.0))]
@@ -180,11 +153,3 @@ def test_a_chamfer_wider_than_half_a_wall_fails():
     assert failed.name == "parts" and "edge_chamfer_mm = 1.5: the arm has a wall" in failed.why
     with pytest.raises(GenevaError, match="the arm has a wall of"):
         list(chunks(wide.drawing("arm"), "mm"))
-
-
-@pytest.mark.parametrize("key", ["edge_chamfer_mm", "edge_fillet_mm"])
-def test_an_edge_wider_than_everything_is_refused(key, no_advice):
-    """At 10 km both pieces of a corner have one direction: the sine of their angle is 0."""
-    design = load(str(repo.DESIGNS / "turret.toml"), [f"size.{key}=1e7", "size.face_width_mm=10"])
-    (parts,) = [check for check in design.checks if check.name == "parts"]
-    assert not parts.passes and "it is wider than a rounding" in parts.why

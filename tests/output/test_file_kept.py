@@ -36,12 +36,6 @@ def test_stale_ones_go(name):
     assert os.listdir() == [name]
 
 
-def test_of_the_same_number_in_an_earlier_life():
-    put(temporary("a.csv", os.getpid()))
-    write("a.csv", ["whole"])
-    assert os.listdir() == ["a.csv"]
-
-
 def test_others_stay():
     """Another file's, a running process's, one that is held open elsewhere, and no file at all."""
     names = [temporary("b.csv", GONE), temporary("a.csv", os.getppid()), temporary("a.csv", "x")]
@@ -88,31 +82,6 @@ def test_owner_is_kept():
     write("a.csv", ["new"])
     now = os.stat("a.csv")
     assert (now.st_uid, now.st_gid, stat.S_IMODE(now.st_mode)) == (1234, 2345, 0o640)
-
-
-def test_symlink_loop_is_refused():
-    os.symlink("b.csv", "a.csv")
-    os.symlink("a.csv", "b.csv")
-    with pytest.raises(GenevaError, match=r"^a\.csv: cannot write: Too many levels"):
-        write("a.csv", ["new"])
-    assert os.readlink("a.csv") == "b.csv"
-
-
-def test_link_to_nowhere_yet():
-    os.symlink("new.csv", "a.csv")
-    write("a.csv", ["new"])
-    assert os.path.islink("a.csv")
-    assert get("new.csv") == "new"
-
-
-def test_deleted_folder(tmp_path):
-    os.mkdir("sub")
-    script = 'cd sub && rmdir ../sub && exec "$0" table -o a.csv'
-    found = subprocess.run(["sh", "-c", script, GENEVA], capture_output=True, text=True)
-    assert found.returncode == 2
-    # The shell may complain of the folder too.
-    said = found.stderr.splitlines()[-1]
-    assert said.startswith('-o "a.csv": the current folder is gone')
 
 
 @pytest.mark.parametrize("spec", ["-", "/dev/stdin"])

@@ -5,13 +5,11 @@ import functools
 import importlib
 import json
 import os
-import pty
 import re
 import resource
 import signal
 import stat
 import subprocess
-import sys
 import time
 
 import pytest
@@ -45,29 +43,6 @@ def geneva(*arguments, **settings):
     return subprocess.run([GENEVA, *arguments], text=True, timeout=60, **settings)
 
 
-# Several runs by forks of one process, which has imported before what takes long.
-FORKS = """
-import os, shlex, sys
-import numpy, rich.console
-import geneva_cli.design
-from geneva_cli.cli.app import main
-for line in sys.argv[1:]:
-    child = os.fork()
-    if not child:
-        sys.argv = ["geneva", *shlex.split(line)]
-        main()
-    status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
-    assert status in (0, 1), (line, status)
-"""
-
-
-def of_titled():
-    """A run of many: commands that print a title, on spec.toml."""
-    commands = some(titled(), titled()[::3])
-    lines = [" ".join((command, "spec.toml", *more(command))) for command in commands]
-    return [sys.executable, "-c", FORKS, *lines]
-
-
 def clean_failure(found, *wants):
     assert found.returncode == 2, found.stderr
     assert "Traceback" not in found.stderr
@@ -90,14 +65,6 @@ def test_new_file_honours_the_umask():
     assert leftovers() == []
 
 
-def test_old_file_keeps_its_permissions():
-    put("peaks.json", OLD)
-    os.chmod("peaks.json", 0o604)
-    assert geneva(*SHORT, "-o", "peaks.json").returncode == 0
-    assert stat.S_IMODE(os.stat("peaks.json").st_mode) == 0o604
-    assert "velocity" in json.loads(get("peaks.json"))
-
-
 def test_symlink_stays_a_link():
     os.mkdir("store")
     put("store/real.csv", OLD)
@@ -115,24 +82,9 @@ def test_same_text_on_a_stream_and_in_a_file():
         assert get(f"peaks.{extension}") == geneva(*SHORT, "--format", name, "-o", "-").stdout
 
 
-def test_format_overrides_the_extension():
-    assert geneva(*SHORT, "-o", "peaks.csv", "--format", "json").returncode == 0
-    assert json.loads(get("peaks.csv"))
-
-
 def test_folder_missing():
     clean_failure(geneva(*SHORT, "-o", "gone/peaks.csv"), "gone", "No such file", "make the folder")
     clean_failure(geneva(*SHORT, "-o", "/proc/peaks.csv"), "the folder /proc takes no files")
-
-
-def test_output_is_a_folder():
-    os.mkdir("peaks.csv")
-    clean_failure(geneva(*SHORT, "-o", "peaks.csv"), "peaks.csv", "directory")
-    assert os.listdir("peaks.csv") == []
-
-
-def test_name_too_long():
-    clean_failure(geneva(*SHORT, "-o", "x" * 300 + ".csv"), "too long")
 
 
 @pytest.mark.sampled(2)
@@ -144,14 +96,6 @@ def test_output_over_the_spec(name):
     before = get("spec.toml")
     clean_failure(geneva(*SHORT, "-o", name, "--format", "csv"), "input", "another name")
     assert get("spec.toml") == before
-
-
-def test_output_over_the_laws_points():
-    rows = "".join(f"{i / 10},{i / 10}\n" for i in range(11))
-    put("law.csv", rows)
-    put("spec.toml", '[wheel]\nz = 6\n[motion]\nlaw = "table"\nfile = "law.csv"\n')
-    clean_failure(geneva("motion", "spec.toml", "-o", "law.csv"), "law.csv", "input")
-    assert get("law.csv") == rows
 
 
 # Runs that fail or are stopped
@@ -167,13 +111,6 @@ def test_failure_half_way_keeps_the_old_file():
     clean_failure(geneva(*arguments, preexec_fn=small_files), "motion.csv", "cannot write")
     assert get("motion.csv") == OLD
     assert leftovers() == []
-
-
-def test_wrong_spec_keeps_the_old_file():
-    put("motion.csv", OLD)
-    put("spec.toml", "[wheel]\nz = 2\n")
-    clean_failure(geneva("motion", "spec.toml", "-o", "motion.csv"), "spec.toml:2: ")
-    assert get("motion.csv") == OLD
 
 
 def stopped(number):
@@ -217,20 +154,6 @@ def test_killed():
     assert leftovers() == []
 
 
-def test_ctrl_c_while_printing():
-    process = subprocess.Popen(
-        [GENEVA, *LONG, "--format", "csv"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        preexec_fn=repo.heed_signals,
-    )
-    assert process.stdout.readline().startswith("time_s,")
-    process.send_signal(signal.SIGINT)
-    _, err = process.communicate(timeout=30)
-    assert (process.returncode, err) == (130, "")
-
-
 # Standard output that does not take what we write
 
 
@@ -241,12 +164,6 @@ def test_full_disk_on_a_file(arguments):
     found = geneva(*arguments, "-o", "/dev/full", "--format", "csv")
     clean_failure(found, "/dev/full", "No space left")
     assert found.stdout == ""
-
-
-def test_stdout_file_too_large():
-    with open("out.csv", "w") as out:
-        arguments = ["motion", "spec.toml", "--samples", "20000", "--format", "csv"]
-        clean_failure(geneva(*arguments, stdout=out, preexec_fn=small_files), "cannot write")
 
 
 @pytest.mark.sampled(2)
@@ -298,11 +215,6 @@ def strict(text):
     return json.loads(text, parse_constant=refuse)
 
 
-def test_motion_columns():
-    head = get_lines("motion", "spec.toml", "--format", "csv")[0]
-    assert head.startswith("time_s,input_deg,wheel_deg,velocity,acceleration,jerk")
-
-
 def get_lines(*arguments):
     found = CliRunner().invoke(app, list(arguments))
     assert found.exit_code == 0, found.output
@@ -328,30 +240,6 @@ def test_json_and_csv_hold_the_same(arguments):
         assert [{k: str(v) for k, v in row.items()} for row in tree["rows"]] == rows
     else:
         assert ["" if x is None else str(x) for x in numbers(tree)] == list(rows[0].values())
-
-
-def test_csv_has_unix_lines():
-    found = subprocess.run([GENEVA, "table", "--format", "csv"], capture_output=True)
-    assert b"\r" not in found.stdout
-    assert found.stdout.endswith(b"\n")
-
-
-@pytest.mark.parametrize("n_rpm", ["1e-310", "1e-300", "1e300", "1e308"])
-@pytest.mark.parametrize("command", ["motion", "peaks"])
-def test_extreme_speeds_stay_finite(n_rpm, command):
-    """Refused, or computed: but nothing that is not a number reaches a file."""
-    put("spec.toml", f"[wheel]\nz = 6\n[drive]\nn_rpm = {n_rpm}\n")
-    found = CliRunner().invoke(app, [command, "spec.toml", "--format", "json"])
-    assert found.exit_code in (0, 2), repr(found.exception)
-    if found.exit_code == 0:
-        assert None not in numbers(strict(found.stdout))
-
-
-def test_extreme_speed_of_a_table():
-    found = CliRunner().invoke(app, ["table", "--n", "1e-310", "--format", "json"])
-    assert found.exit_code in (0, 2), repr(found.exception)
-    if found.exit_code == 0:
-        assert None not in numbers(strict(found.stdout))
 
 
 # What a title may not do
@@ -434,30 +322,3 @@ def clean_title(text, format, title):
         strict(text)
     if format == "md":
         assert "<script>" not in text, title
-
-
-def on_a_terminal(*command):
-    """What a person sees: the output of a run whose standard output is a terminal."""
-    master, slave = pty.openpty()
-    process = subprocess.Popen(command, stdout=slave, stderr=subprocess.PIPE)
-    os.close(slave)
-    seen = repo.read_terminal(master)
-    err = process.stderr.read()
-    process.stderr.close()
-    assert process.wait(timeout=60) == 0, err
-    return seen.decode()
-
-
-def test_hostile_title_on_a_terminal(monkeypatch):
-    """One that knows only ASCII, too."""
-    monkeypatch.setenv("PYTHONIOENCODING", "ascii")
-    monkeypatch.setenv("PYTHONUTF8", "0")
-    put("spec.toml", 'title = "Größe a\\u001b]0;x\\u0007b [red]c[/red]"\n' + ANSWERED)
-    seen = on_a_terminal(*of_titled())
-    assert "\x1b]" not in seen
-    assert "[red]c[/red]" in seen  # nor is what Rich would read
-
-
-def test_a_terminal_gets_spoken_names_and_a_pipe_those_of_csv():
-    assert "most rollers" in on_a_terminal(GENEVA, "table", "--z", "6")
-    assert "most" not in geneva("table", "--z", "6").stdout

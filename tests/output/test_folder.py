@@ -63,14 +63,6 @@ def test_a_killed_run_is_made_good_by_the_next(folder, n):
     assert sorted(os.listdir(folder)) == ["a", "b", LIST]
 
 
-def test_a_second_interrupt_leaves_nothing(folder):
-    """The first one comes while a file is written, the second while the folder is cleaned up."""
-    interrupt = "lambda: os.kill(me, signal.SIGINT)"
-    stop = f"at(0, 'fsync', {interrupt}); at(0, 'rmdir', {interrupt})"
-    assert run("new", stop) == 128 + signal.SIGINT
-    assert not folder.exists()
-
-
 @pytest.mark.parametrize(("n", "whole"), [(1, "old"), (2, "new"), (4, "new")])
 def test_an_interrupt_leaves_all_old_or_all_new_files(folder, n, whole):
     """It waits while files are moved to their places."""
@@ -114,11 +106,3 @@ def test_a_list_leads_to_no_other_place(folder, tmp_path, name):
         assert filling.kept == ["link"]
     assert kept.read_text() == "old"
     assert sorted(os.listdir(folder)) == before
-
-
-def test_a_folder_has_the_name_of_a_file(folder):
-    (folder / "a").mkdir(parents=True)
-    refused = pytest.raises(GenevaError, match="out/a: cannot write: Is a directory")
-    with refused, filling_folder("out", [Entry("a", "")], force=True):
-        pass
-    assert os.listdir(folder) == ["a"]

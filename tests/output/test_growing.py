@@ -1,7 +1,6 @@
 """A file that grows: whole at the end, kept when stopped, gone on from only for the same."""
 
 import os
-import signal
 import subprocess
 import sys
 from contextlib import closing
@@ -68,15 +67,6 @@ def test_a_stopped_run_is_gone_on_from_its_last_whole_block(path):
     assert message == (
         "--resume: rows.csv.geneva is incomplete or damaged after row 2; continues there"
     )
-
-
-@pytest.mark.parametrize("blocks", [["1,2\n3,4\n"], ["1,2\n", "3,4\n"], []])
-def test_a_later_share_has_no_header_to_be_counted(path, blocks):
-    """The row that was taken for one came twice."""
-    begun(path, *blocks, header="")
-    done, _, rows = resumed(path, "5,6\n", header="")
-    assert done == 2 * bool(blocks)
-    assert rows == "".join(blocks) + "5,6\n"
 
 
 THREE = ["1,2\n3,4\n", "5,6\n", "7,8\n"]  # blocks of rows
@@ -155,22 +145,6 @@ def test_what_is_not_its_own_is_refused_and_stays(path, kind, resume, monkeypatc
     assert standing() == before
 
 
-def test_names_of_other_files_are_left_alone(path):
-    names = [path + end for end in (".key", ".partial", ".partial.key", ".partial.parquet")]
-    for name in names:
-        put(name, "the user's\n")
-    begun(path, "1,2\n")
-    resumed(path, "3,4\n")
-    assert [read(name) for name in names] == ["the user's\n"] * 4
-
-
-def test_an_input_of_the_name_of_the_state_is_refused(path):
-    """An empty spec, for --set, is not told from a state that was just created."""
-    put(path + ".geneva", "")
-    with pytest.raises(GenevaError, match="is an input"):
-        GrowingFile(path, HEADER, KEY, False, [path + ".geneva"])
-
-
 HOLD = """
 import sys
 from contextlib import closing
@@ -205,20 +179,6 @@ def test_two_runs_do_not_write_one_file(path, other_run, resume):
     assert os.listdir(os.path.dirname(path)) == ["rows.csv"]
 
 
-def test_a_killed_run_holds_nothing(path, other_run):
-    other_run.send_signal(signal.SIGKILL)
-    other_run.wait()
-    assert resumed(path, "3,4\n")[2] == "a,b\n1,2\n3,4\n"
-
-
-def test_without_resume_it_begins_again(path):
-    begun(path, "1,2\n")
-    with closing(GrowingFile(path, HEADER, KEY, False)) as file:
-        assert file.done == 0
-        file.finish()
-    assert read(path) == HEADER
-
-
 def test_it_does_not_go_on_for_another_request(path):
     begun(path, "1,2\n")
     with pytest.raises(GenevaError, match="has the rows of another run"):
@@ -234,15 +194,6 @@ def whole(path, *lines):
         file.finish()
 
 
-def test_where_there_is_nothing_to_go_on_from_it_begins(path):
-    with closing(GrowingFile(path, HEADER, KEY, True)) as file:
-        assert "nothing to continue for rows.csv; from the first row" in file.message
-        assert (file.done, file.is_whole) == (0, False)
-        file.append("1,2\n")
-        file.finish()
-    assert read(path) == "a,b\n1,2\n"
-
-
 def test_of_a_whole_file_there_is_nothing_to_do(path):
     whole(path, "1,2\n")
     with closing(GrowingFile(path, HEADER, KEY, True)) as file:
@@ -252,44 +203,7 @@ def test_of_a_whole_file_there_is_nothing_to_do(path):
     assert sorted(os.listdir(os.path.dirname(path))) == ["rows.csv", "rows.csv.geneva"]
 
 
-@pytest.mark.parametrize("key", [KEY, "another"])
-def test_a_file_of_something_else_or_changed_since_is_not_taken_for_whole(path, key):
-    whole(path, "1,2\n")
-    if key == KEY:
-        with open(path, "a") as file:
-            file.write("3,4\n")
-    with closing(GrowingFile(path, HEADER, key, True)) as file:
-        assert not file.is_whole
-        file.append("5,6\n")
-        file.finish()
-    assert read(path) == "a,b\n5,6\n"
-
-
-def test_a_lost_file_is_made_again(path):
-    whole(path, "1,2\n")
-    os.unlink(path)
-    whole(path, "1,2\n")
-    assert read(path) == "a,b\n1,2\n"
-
-
-def test_without_resume_nothing_is_left_beside_the_file(path):
-    whole(path, "1,2\n")
-    with closing(GrowingFile(path, HEADER, KEY, False)) as file:
-        file.finish()
-    assert os.listdir(os.path.dirname(path)) == ["rows.csv"]
-
-
 def test_an_input_is_not_written_over(path):
     put(path, "")
     with pytest.raises(GenevaError, match="is an input"):
         GrowingFile(path, HEADER, KEY, False, [path])
-
-
-def test_no_folder(tmp_path):
-    with pytest.raises(GenevaError, match="make the folder"):
-        GrowingFile(str(tmp_path / "none" / "rows.csv"), HEADER, KEY, False)
-
-
-def test_no_device():
-    with pytest.raises(GenevaError, match="not a file that can grow"):
-        GrowingFile("/dev/null", HEADER, KEY, False)

@@ -1,8 +1,5 @@
 """Numbers for people in inches and pounds: each is the SI number by the constants of SciPy."""
 
-import json
-import math
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -11,19 +8,15 @@ from repo import DESIGNS
 from scipy import constants as si
 from typer.testing import CliRunner
 
-from geneva_cli import GenevaError, load
+from geneva_cli import load
 from geneva_cli.cli.app import app
 from geneva_cli.names import UNITS, unit_of
-from geneva_cli.output import Choice, choosing
 from geneva_cli.output.inches import (
-    document_in_inches,
     figure_in_inches,
     table_in_inches,
     text_in_inches,
     value_in_inches,
 )
-from geneva_cli.study.document import document
-from geneva_cli.study.figures import of_table
 from geneva_cli.table import Table, pieces
 
 # What one of a unit is in SI units.
@@ -113,13 +106,6 @@ def test_a_record_in_inches(answer):
             assert (instead, number) == (unit, value)
 
 
-def test_rows_with_a_unit_each():
-    table = Table(
-        ("name", "value", "unit", "size_x_mm"), (["a", "b"], [25.4, 3], ["mm", ""], [5.08, None])
-    )
-    assert list(table_in_inches(table).rows()) == [("a", 1.0, "in", 0.2), ("b", 3, "", None)]
-
-
 def test_a_long_table_is_converted_in_pieces():
     columns = pieces(70_000, 2, lambda a, b: [np.arange(a, b) * 25.4, np.arange(a, b) * 1.0])
     table = Table(("x_mm", "input_deg"), columns)
@@ -127,27 +113,6 @@ def test_a_long_table_is_converted_in_pieces():
     assert other.names == ("x_in", "input_deg")
     *_, last = other.rows()
     assert last == (pytest.approx(69_999.0, rel=1e-15), 69_999.0)
-
-
-def test_a_document_keeps_the_keys_of_the_spec():
-    page = document(load(TURRET))
-    other = document_in_inches(page)
-    texts = repr(other.blocks)
-    assert "'size.center_distance_mm', 250.0, 'mm'" in texts  # the spec's own key and value
-    assert "Fact(name='Centre distance', value=9.8425196" in texts
-    for block, before in zip(other.blocks, page.blocks, strict=True):
-        assert type(block) is type(before)
-
-
-def test_a_figure_of_columns_has_its_units_in_its_names(tmp_path):
-    path = tmp_path / "sweep.csv"
-    path.write_text("size.center_distance_mm,loads.pin_force_N.max\n254,4.4482216152605\n508,0\n")
-    words = "--x", "size.center_distance_mm", "--y", "loads.pin_force_N.max"
-    text = run("plot", str(path), *words, "--format", "svg", "--units", "inch").stdout
-    assert ">loads.pin_force_lbf.max by size.center_distance_in<" in text
-    other = figure_in_inches(of_table(str(path), words[1], [words[3]]))
-    assert other.panels[0].curves[0].pieces == (([10.0, 20.0], [1.0, 0.0]),)
-    assert other.window == pytest.approx((9.8, 20.2), rel=1e-15)  # two hundredths beside the points
 
 
 def test_a_figure_is_scaled():
@@ -175,13 +140,6 @@ def test_commands_show_them(words, wants):
     assert run(*words).stdout == run(*words, "--units", "mm").stdout
 
 
-def test_digits_of_a_table_are_those_of_si():
-    """7 digits of 250 mm in inches, by hand: 250/25.4 = 9.842519685."""
-    assert f"{250 / 25.4:.7g}" in run("report", TURRET, "--units", "inch").stdout
-    value = json.loads(run("report", TURRET, "--format", "json").stdout)["sizes"]
-    assert math.isclose(value["center_distance_mm"], 250.0)
-
-
 @pytest.mark.parametrize(
     ("words", "wants"),
     [
@@ -194,24 +152,6 @@ def test_digits_of_a_table_are_those_of_si():
 def test_what_stays_in_si_units_is_refused(words, wants):
     result = run(*words, "--units", "inch")
     assert result.exit_code == 2 and wants in result.stderr
-
-
-def test_another_unit_is_refused():
-    assert "--units feet: it must be mm or inch" in run("check", TURRET, "--units", "feet").stderr
-    with pytest.raises(GenevaError), choosing(Choice(units="feet")):
-        pass
-
-
-def test_only_commands_with_lengths_have_the_option():
-    """A key's unit is that of its name: `geneva keys` shows no other."""
-    assert "no such option: --units" in run("keys", "size", "--units", "inch").stderr.lower()
-
-
-@pytest.mark.parametrize("ending", ["html", "md"])
-def test_pictures_of_a_report_have_their_distances_in_inches(tmp_path, ending):
-    path = tmp_path / f"report.{ending}"
-    run("report", TURRET, "--units", "inch", "-o", str(path))
-    assert "L = 9.8425 in" in path.read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(
@@ -227,11 +167,3 @@ def test_pictures_of_a_report_have_their_distances_in_inches(tmp_path, ending):
 )
 def test_a_sentence_is_in_inches(text, shown):
     assert text_in_inches(text) == shown
-
-
-def test_warnings_are_in_inches():
-    """The wheel's inertia: 0.3024 kg m² are 1033 lb in²."""
-    words = ["check", str(DESIGNS / "turret.toml"), "--units", "inch"]
-    result = CliRunner().invoke(app, words)
-    assert f"is {0.3024 / ONE['lb in²']:.4g} lb in²" in result.output
-    assert "kg m²" not in result.output and "kg m²" in CliRunner().invoke(app, words[:2]).output

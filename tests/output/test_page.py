@@ -3,7 +3,6 @@
 import json
 import math
 import re
-import tempfile
 from functools import cache
 from html.parser import HTMLParser
 from xml.etree import ElementTree
@@ -15,17 +14,13 @@ from drawing_witness import polygon
 from py_mini_racer import MiniRacer
 from sampling import some
 from shapely import LineString, affinity
-from typer.testing import CliRunner
-from words import law
 
-from geneva_cli import Design, External, Load, Motion, load
-from geneva_cli.cli.app import app
+from geneva_cli import load
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.output import animate, page
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.scene import body_pose, value_at
-from geneva_cli.output.svg import still_svg
 from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.pairs import Pose
@@ -124,7 +119,7 @@ def test_the_roller_runs_in_the_slot_that_is_drawn(name):
         slot = np.column_stack([c.c[0] + 0.0 * local for c in e.slot(local, 0)])
         c, s = math.cos(e.apart), math.sin(e.apart)  # of a pair of slots the first
         slot = slot @ np.array(((c, s), (-s, c)))
-        first = local < -e.ahead_deg[0] if e.apart else local == local
+        first = local < -e.passages[0][1] if e.apart else local == local
         L = design.mechanism.center_distance_mm
         assert first.any() and np.abs(own - L * slot)[first].max() < 1e-5 * L
 
@@ -208,16 +203,6 @@ def test_the_force_is_the_pin_force_and_pushes_the_wheel_the_way_it_is_driven():
     assert engine.eval("pushAt(scene.pushes[0], 200)") is None
 
 
-def test_a_place_without_a_bound_on_the_force_has_no_arrow():
-    """At mid-motion of an unmatched law the slot stands still on one of the 73 places."""
-    design = Design(
-        External(24), motion=Motion(law("4-5-6-7"), alpha0_deg=-60.0), load=Load(torque_Nm=3.0)
-    )
-    (push,) = scene(design).pushes
-    assert len(push.at) == 72
-    assert all(map(math.isfinite, (*push.force_x, *push.force_y)))
-
-
 @pytest.mark.parametrize("name", ["spherical-z6", "gear-sector", "internal-z6"])
 def test_a_still_picture_is_the_scene_on_its_way(name, tmp_path):
     """Well-formed, and its wheel and rollers where the scene's tracks have them there."""
@@ -239,52 +224,11 @@ def test_a_still_picture_is_the_scene_on_its_way(name, tmp_path):
         assert min(np.hypot(a - place[0], b - place[1]) for a, b in drawn) < 1e-2
 
 
-def test_holes_of_a_still_picture_have_the_colour_of_the_page():
-    """The opening of an internal wheel, and each bore; the page is behind all."""
-    found = scene(design_of("internal-z6"))
-    root = ElementTree.fromstring("".join(still_svg.chunks(found)))
-    pages = [one for one in root if one.get("class") == "page"]
-    assert {one.get("fill") for one in pages} == {"#ffffff"}
-    holes = [s for b in found.bodies for s in b.shapes if s.layer in ("BORE", "HOLLOW")]
-    assert any(s.layer == "HOLLOW" for s in holes)
-    assert not found.bars and len(pages) == 1 + len(holes)
-
-
 def test_the_same_scene_gives_the_same_bytes_and_titles_are_no_markup():
     assert text_of("turret") == "".join(page.chunks(scene(load(str(repo.DESIGNS / "turret.toml")))))
     hostile = load(str(repo.DESIGNS / "three-slots.toml"), ['title="</script><b>x"'])
     text = "".join(page.chunks(scene(hostile)))
     assert "<b>x" not in text and "&lt;b&gt;x" in text
-
-
-def test_a_title_with_the_name_of_a_part_of_the_page_stays_as_it_is():
-    title = "%DATA% %SCRIPT%"
-    design = load(str(repo.DESIGNS / "three-slots.toml"), [f'title="{title}"'])
-    text = "".join(page.chunks(scene(design)))
-    assert f"<title>{title}</title>" in text and f"<h1>{title}</h1>" in text
-    assert text.count('<script id="scene"') == text.count("// Where things are") == 1
-
-
-def test_an_opened_page_leaves_one_page_that_nobody_else_can_place(tmp_path, monkeypatch):
-    """Two runs leave the last one's page; where a link has the folder's name, another is made."""
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
-        monkeypatch.delenv(name, raising=False)
-    for design in ("turret", "three-slots"):
-        shown = CliRunner().invoke(app, ["animate", str(repo.DESIGNS / f"{design}.toml"), "--open"])
-        assert shown.exit_code == 0
-    (folder,) = tmp_path.iterdir()
-    assert folder.stat().st_mode & 0o777 == 0o700
-    (place,) = folder.iterdir()
-    assert place.read_text(encoding="utf-8") == text_of("three-slots")
-    assert shown.stdout.splitlines()[0] == str(place)
-    place.unlink()
-    folder.rmdir()
-    theirs = tmp_path / "theirs"
-    theirs.mkdir()
-    folder.symlink_to(theirs)
-    shown = CliRunner().invoke(app, ["animate", str(repo.DESIGNS / "turret.toml"), "--open"])
-    assert shown.exit_code == 0 and not list(theirs.iterdir())
 
 
 @pytest.mark.sampled(2)
@@ -311,20 +255,6 @@ def test_links_turn_as_they_are_cut(name):
                     assert min(abs(z - d) for d in drawn) < 2e-5 * L
 
 
-def test_curves_have_scales():
-    """Each curve has round numbers within its span, and all have the angles of the window."""
-    data = page._data(scene(load(str(repo.DESIGNS / "turret.toml"))))
-    low, high = data["window"]
-    assert [text for _, text in data["angles"]][:3] == ["-60°", "0°", "60°"]
-    assert all(low <= x <= high for x, _ in data["angles"])
-    for panel in data["panels"]:
-        assert len(panel["ticks"]) >= 2
-        for value, text in panel["ticks"]:
-            assert panel["low"] <= value <= panel["high"]
-            assert float(text) == value
-    assert data["panels"][0]["name"] == "Speed of the wheel, relative to the input"
-
-
 def test_a_machine_with_stops_goes_back_and_forth_between_them():
     """Steps of 100 degrees turn back at both ends, where wheel and disc are as they are cut."""
     engine, data = script("geneva-stop")
@@ -344,11 +274,6 @@ def test_a_machine_with_stops_goes_back_and_forth_between_them():
         wheel, crank, *_ = json.loads(engine.eval(f"JSON.stringify({ask})"))
         pose = Pose(np.array([wheel]), np.array([crank]), np.empty((1, 0, 2)))
         assert abs(gaps.locking(pose)[0]) < PLACE * data["size"]
-
-
-def test_a_machine_without_stops_runs_on():
-    engine, _ = script("turret")
-    assert json.loads(engine.eval("JSON.stringify(between(scene.stops, 1e6, 1))")) == [1e6, 1]
 
 
 @pytest.mark.sampled(3)
@@ -385,30 +310,3 @@ def test_teeth_of_gears_mesh_on_a_page(name, module):
         else:  # curves within 0.01 mm overlap by no more along a pair of flanks of 8 mm
             assert apart == 0.0
             assert common < 0.08
-
-
-def test_teeth_that_do_not_fit_leave_the_pitch_curves():
-    bare, wrong = (
-        scene(load(str(repo.DESIGNS / "elliptical-gears.toml"), keys)).bodies
-        for keys in ([], ["size.gear_module_mm=3"])
-    )
-    assert [one.shapes for one in bare[-2:]] == [one.shapes for one in wrong[-2:]]
-
-
-@pytest.mark.parametrize("name", ["elliptical-gears", "noncircular-gears"])
-def test_curves_are_0_where_nobody_sees_more(name):
-    """Their loads change sides at 0 and start a little beyond it, where 1e-302 N m is left."""
-    _, data = script(name)
-    pieces = [column for panel in data["panels"] for piece in panel["pieces"] for column in piece]
-    for column in pieces:
-        sizes = np.abs(column)
-        # far below a pixel of any screen
-        assert sizes[sizes > 0.0].min(initial=math.inf) > 1e-10 * sizes.max()
-
-
-def test_zeros_of_the_still_picture_have_no_sign():
-    """Both gears of a pair are on the line of centres."""
-    text = "".join(still_svg.chunks(scene(design_of("noncircular-gears"))))
-    places = re.findall(r"translate\((\S+) (\S+)\) rotate\((\S+)\)", text)
-    assert any(place[1] == "0" for place in places)
-    assert not any(number == "-0" for place in places for number in place)

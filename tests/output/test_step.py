@@ -5,7 +5,6 @@
 
 import math
 import re
-import time
 
 import pytest
 import repo
@@ -15,7 +14,7 @@ from hypothesis import strategies as st
 from step_witness import File, Solid
 from witness import mp
 
-from geneva_cli import Design, External, Size
+from geneva_cli import Design, External
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.drawing import Drawing
@@ -25,7 +24,7 @@ from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, about,
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.splines import pieces
 from geneva_cli.output.step import chunks
-from geneva_cli.output.step.entities import real, words
+from geneva_cli.output.step.entities import words
 
 # Relative. Coordinates have 12 decimals: of parts of 100 mm, 14 digits, and sums of areas lose one.
 VOLUME = 1e-12
@@ -185,57 +184,6 @@ def flat(values):
             yield value
 
 
-def test_thickness():
-    """Of the wheel: its key, the line of contact, or a tenth of L; of the disc, its key or that."""
-    for size, wheel, lock in (
-        (Size(), 10.0, 10.0),
-        (Size(face_width_mm=12.0, pin_gap_mm=1.0), 12.0, 13.0),
-        (Size(face_width_mm=12.0, wheel_thickness_mm=15.0, lock_thickness_mm=8.0), 15.0, 8.0),
-    ):
-        solid = Design(External(6), size=size).drawing("assembly").solid
-        tall = {plate.name: plate.high - plate.low for plate in plates(solid)}
-        gap = size.allowances.pin_gap_mm
-        below = {"arm": wheel, "frame": wheel, "pin": 2.0 * wheel + gap}  # through the arm
-        shafts = {"wheel's shaft": 3.0 * wheel + gap, "crank's shaft": 2.0 * wheel + lock}
-        above = {"wheel": wheel, "locking disc": lock, "roller": wheel}
-        assert tall == above | below | shafts
-        (arm,) = (plate for plate in plates(solid) if plate.name == "arm")
-        assert arm.high == -gap
-
-
-@pytest.mark.parametrize("name", ["three-rollers-z4", "internal-z6"])
-def test_bolts_and_keyway_are_holes(name):
-    design = load(str(repo.DESIGNS / f"{name}.toml"), ["size.lock_bolts=2"])
-    if name != "internal-z6":  # no shaft passes through its disc
-        design = design.with_("size.crank_keyway", "DIN 6885-1")
-    file = File("".join(chunks(design.drawing("assembly"), "mm")))
-    wanted = plates(design.drawing("assembly").solid)
-    for body, plate in zip(file.all("MANIFOLD_SOLID_BREP"), wanted, strict=True):
-        require_solid(file, body, plate)
-    (disc,) = (plate for plate in wanted if plate.layer == "CRANK")
-    assert len(disc.holes) == (2 if name == "internal-z6" else 7)  # of three sectors, and the bore
-
-
-def test_a_wheel_thinner_than_its_line_of_contact_is_refused():
-    size = Size(face_width_mm=12.0, wheel_thickness_mm=10.0)
-    with pytest.raises(GenevaError, match="use at least face_width_mm = 12"):
-        Design(External(6), size=size).mechanism  # noqa: B018
-
-
-@pytest.mark.parametrize("name", ["", "press-curved"])
-def test_small_and_quick(name):
-    """A wheel: at most 60 kB, 30 ms (the least of some runs, of the processor)."""
-    design = load(str(repo.DESIGNS / f"{name}.toml")) if name else Design(External(6))
-    drawing = design.drawing("wheel", curves="spline")
-    took = []
-    for _ in range(5):
-        start = time.process_time()
-        written = "".join(chunks(drawing, "mm"))
-        took.append(time.process_time() - start)
-    assert len(written) < 60_000
-    assert min(took) < 0.03
-
-
 def test_a_short_arc_is_part_of_the_spline_beside_it():
     """No farther from its circle than 1e-12 of the radius, in 50 digits; a longer one stays."""
 
@@ -278,14 +226,6 @@ def test_titles_in_any_script():
     assert written.isascii()
     assert "'T\\X2\\00FC\\X0\\r ''a'' \\\\ \\X2\\03A9\\X0\\ \\X4\\0001F600\\X0\\'" in written
     assert words("a") == "'a'"
-
-
-@pytest.mark.parametrize(
-    ("value", "said"),
-    [(0.0, "0."), (-1e-17, "0."), (1.0, "1."), (-0.5, "-0.5"), (1e-7, "0.0000001")],
-)
-def test_numbers_have_a_point_and_no_exponent(value, said):
-    assert real(value) == said
 
 
 @pytest.mark.parametrize(

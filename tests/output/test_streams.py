@@ -1,11 +1,8 @@
 """Standard streams that fail, and Ctrl-C at any moment: the exit status says what happened."""
 
 import os
-import pty
-import signal
 import subprocess
 import sys
-import termios
 
 import pytest
 from repo import GENEVA, put
@@ -52,23 +49,6 @@ def test_full_disk(arguments, environment):
     assert found.stderr.count("\n") == 1
 
 
-@pytest.mark.sampled(2)
-@some
-def test_pipe_without_a_reader(arguments, environment):
-    read, write = os.pipe()
-    os.close(read)
-    with open(write, "w") as out:
-        found = run(arguments, environment, stdout=out)
-    assert (found.returncode, found.stderr) == (141, "")
-
-
-def test_output_that_is_not_open_for_writing(environment):
-    with open("spec.toml") as out:
-        found = run(["table"], environment, stdout=out)
-    assert found.returncode == 2
-    assert found.stderr.startswith("<stdout>: cannot write: ")
-
-
 STATUS = {"peaks spec.toml": 0, "peaks warns.toml": 0, "check fails.toml": 1, "peaks gone.toml": 2}
 STATUS |= {"peaks --zz": 2, "tabel": 2, "--zz": 2}
 
@@ -95,7 +75,6 @@ def test_messages_that_cannot_be_written(arguments, kind, environment):
     assert found.stdout == plain.stdout
 
 
-ROWS = ["sweep", "spec.toml", "--vary", "wheel.z=5,6", "--jobs", "1", "--resume"]
 CLOSED = ["<&-", ">&-", "2>&-", "<&- >&-", "<&- 2>&-", ">&- 2>&-", "<&- >&- 2>&-"]
 
 
@@ -143,40 +122,6 @@ def test_nothing_else_gets_into_a_file(streams):
     subprocess.run(command, stdin=subprocess.DEVNULL, check=True, timeout=60)
     with open("rows.csv") as file:
         assert file.read() == "data\n"
-
-
-@pytest.mark.sampled(7)
-@pytest.mark.parametrize("streams", CLOSED)
-def test_a_sweep_without_streams_writes_the_same_file(streams):
-    assert run([*ROWS, "-o", "plain.csv"]).returncode == 0
-    assert closed([*ROWS, "-o", "closed.csv"], streams).returncode == 0
-    with open("plain.csv") as plain, open("closed.csv") as found:
-        assert found.read() == plain.read()
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize(
-    "arguments", ["--{}", "{}", "table --z {}", "table --n {}", "peaks x --{}", "peaks {}.toml"]
-)
-def test_messages_are_short(arguments):
-    found = run([x.format("9" * 100_000) for x in arguments.split()])
-    assert found.returncode == 2
-    assert 0 < len(found.stderr) < 5000
-    assert "Traceback" not in found.stderr
-
-
-@pytest.mark.parametrize(("columns", "width"), [("²", 70), ("0", 70), ("-5", 70), ("65", 65)])
-def test_columns_that_are_no_number(columns, width):
-    """Then a message is as wide as the terminal, here 70 letters."""
-    terminal, seen = pty.openpty()
-    termios.tcsetwinsize(seen, (24, 70))
-    environment = os.environ | {"COLUMNS": columns}
-    found = run(["peaks", f"{'long ' * 40}.toml"], environment, stderr=seen)
-    assert found.returncode == 2
-    lines = os.read(terminal, 10_000).decode().splitlines()
-    assert width - 5 < max(map(len, lines)) <= width  # no word here is longer
-    os.close(terminal)
-    os.close(seen)
 
 
 FAULTY = """
@@ -231,23 +176,3 @@ def test_ctrl_c_while_importing(module):
     command = [sys.executable, "-c", INTERRUPTED, module]
     found = subprocess.run([*command, "on"], capture_output=True, text=True, timeout=60)
     assert (found.returncode, found.stdout, found.stderr) == (130, "", "")
-
-
-def test_ignored_ctrl_c_stays_ignored():
-    command = [sys.executable, "-c", INTERRUPTED, "numpy", "off"]
-    found = subprocess.run(command, capture_output=True, text=True, timeout=60)
-    assert (found.returncode, found.stderr) == (0, "")
-    assert found.stdout.startswith("time_s,")
-
-
-def test_ignored_hangup_stays_ignored():
-    """``nohup geneva ... -o FILE`` outlives its terminal."""
-    process = subprocess.Popen(
-        [GENEVA, "motion", "spec.toml", "--samples", "200000", "-o", "motion.csv"],
-        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN),
-    )
-    while process.poll() is None and not any(x.endswith(".tmp") for x in os.listdir()):
-        pass
-    process.send_signal(signal.SIGHUP)
-    assert process.wait(timeout=60) == 0
-    assert os.listdir().count("motion.csv") == 1

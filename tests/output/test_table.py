@@ -39,9 +39,3 @@ def test_a_notebook_shows_the_first_rows_and_no_markup():
     assert "1000 rows" in page
     assert "<th>&lt;x&gt;</th>" in page
     assert "<caption>a &amp; b</caption>" in page
-
-
-def test_a_notebook_shows_a_record_line_by_line():
-    page = record_table({"z": 6, "dwell_deg": None})._repr_html_()
-    assert "<tr><td>z</td><td>6</td></tr>" in page
-    assert "<tr><td>dwell_deg</td><td></td></tr>" in page

@@ -76,6 +76,7 @@ def face(shape):
     return polygon(shape, 1e-6)
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("shafts", ["plain", "turned"])
 @pytest.mark.parametrize("bore", ["D", "hex", "DIN 6885-1"])
 @pytest.mark.parametrize(
@@ -313,6 +314,7 @@ def test_set_screws_that_no_hub_holds(size, said):
 FIX = "fix on the shaft: pin, key or adhesive"
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("design", "keys", "names"),
     [

@@ -14,7 +14,7 @@ from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.mass import mass_properties
 from geneva_cli.geometry.plates import plates
 from geneva_cli.output.mesh.solids import bodies
-from geneva_cli.parts.shafts.clamps import Clamp
+from geneva_cli.parts.shafts.held_hubs import Clamp
 from geneva_cli.parts.shafts.screws import SCREWS, screw
 
 SIZE = {"wheel_hub_mm": 44.0, "wheel_bore_mm": 16.0, "wheel_clamp_mm": 5.0}
@@ -113,6 +113,7 @@ def test_check_compares_it_with_the_load(gearing, size):
     assert "wheel_clamp_Nm" not in {c.name for c in Design(gearing, size=keys).checks}
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("gearing", "size"), [(Internal(6), {}), (External(6), {"wheel_bore_mm": 0.0})]
 )

@@ -11,7 +11,7 @@ from words import Spec, Wheel
 
 from geneva_cli import Design
 from geneva_cli.parts.arm import crank_arm
-from geneva_cli.parts.outlines.outline_sizes import machine_sizes
+from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.wheel_circles import dial_bolts
 from geneva_cli.spec.tables import Load, Size
 

@@ -19,8 +19,8 @@ from geneva_cli.geometry.placed import in_place
 from geneva_cli.geometry.plates import plates
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.parts.links.link_positions import links_at
-from geneva_cli.parts.outlines.outline_sizes import machine_sizes
-from geneva_cli.parts.sizes.stressed import stressed
+from geneva_cli.parts.machine_sizes import machine_sizes
+from geneva_cli.parts.stressed import stressed
 from geneva_cli.spec.least_wall import wall_min
 
 # The pivots of the parts list whose shafts reach the frame, of each kind of drive. The crank of a
@@ -231,6 +231,7 @@ def test_a_bridge_bears_the_crank_of_a_side_crank(A):
     assert lever == pytest.approx(middle, rel=1e-12)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("name", "keys", "said"),
     [

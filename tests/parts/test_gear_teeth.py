@@ -309,6 +309,7 @@ def test_tangents_of_pitch_curves_are_those_of_their_points(curve):
     assert np.abs(step - tangent).max() < 1e-7
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("kind", ["elliptical", "side-crank"])
 def test_noncircular_gears_mesh(kind):

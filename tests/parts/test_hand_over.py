@@ -106,6 +106,7 @@ KINDS = [
 ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("name", "short"), KINDS)
 def test_every_kind_is_asked(name, short, no_advice):
     bare = ["wheel.held_by=detent", "size.lock_radius_mm=0"]

@@ -11,9 +11,9 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.internal import Internal
+from geneva_cli.parts.machine_sizes import outlines
 from geneva_cli.parts.outlines import locking_rings
 from geneva_cli.parts.outlines.locking_rings import polar_points, towards
-from geneva_cli.parts.outlines.outline_sizes import outlines
 
 
 @pytest.mark.parametrize(("z", "alpha0"), [(12, -30.0), (8, -30.0), (6, 0.0)])

@@ -26,8 +26,8 @@ from geneva_cli.geometry.shapes import Arc, Contour
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion as Given
 from geneva_cli.parts.assembly import assembly
+from geneva_cli.parts.machine_sizes import sizes
 from geneva_cli.parts.outlines.cut_outlines import CURVED
-from geneva_cli.parts.outlines.outline_sizes import sizes
 from geneva_cli.parts.outlines.walls.path_walls import _free
 from geneva_cli.parts.outlines.walls.straight import straight_walls
 from geneva_cli.parts.outlines.wheel_outline import wheel_contour

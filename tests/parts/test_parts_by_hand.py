@@ -27,18 +27,18 @@ from geneva_cli.geometry.shapes import Arc, Circle
 from geneva_cli.geometry.sheet import CENTRE, OUTLINE
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.first_pair import first_pair
+from geneva_cli.parts.frame import passing_arm
 from geneva_cli.parts.gears.gear_pair import gear_shafts
 from geneva_cli.parts.links.link_planes import planes
 from geneva_cli.parts.links.links import drawn_links
+from geneva_cli.parts.machine_sizes import machine_sizes, outlines
 from geneva_cli.parts.outlines.cut_outlines import cut_arcs
-from geneva_cli.parts.outlines.outline_sizes import machine_sizes, outlines
 from geneva_cli.parts.outlines.reliefs import arc_floor, reliefs, widened
-from geneva_cli.parts.shafts.all_shafts import passing_arm
-from geneva_cli.parts.shafts.bores import RoundBore, bore_of
+from geneva_cli.parts.shafts.bores import Bore, bore_of
 from geneva_cli.parts.shafts.hub_and_shafts import crank_hub
 from geneva_cli.parts.shafts.shaft import Ends, Shaft
-from geneva_cli.parts.sizes.stressed import lock_of, stressed
 from geneva_cli.parts.slots.roller_paths import mouth_corners
+from geneva_cli.parts.stressed import lock_of, stressed
 from geneva_cli.spec.tables import Size
 
 L = 100.0
@@ -403,7 +403,7 @@ def test_an_eye_about_a_rollers_pin_passes_the_wheels_hub():
 
 def test_the_end_of_an_arm_passes_a_shoulder():
     """Its end is R + eye from the crank's axis; a shoulder is 1.25 bores wide."""
-    shaft = Shaft("wheel's shaft", "wheel", RoundBore(8.0), (), -20.0, 10.0, (0.0, 0.0))
+    shaft = Shaft("wheel's shaft", "wheel", Bore(8.0), (), -20.0, 10.0, (0.0, 0.0))
     for eye, near in ((40.1, [("arm", -10.0, 0.0)]), (39.9, [])):
         parts = of(arm_eye_mm=2.0 * eye).parts.outlines
         assert [seat[:3] for seat in passing_arm(parts, [shaft])] == near
@@ -451,6 +451,7 @@ def test_a_low_mouth_is_raised_by_a_fifth():
     ]
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize(
     ("wheel", "passed"),
     [

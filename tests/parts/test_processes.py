@@ -20,7 +20,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.outlines.outline_sizes import sizes
+from geneva_cli.parts.machine_sizes import sizes
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.shafts.fits import limits
 from geneva_cli.spec.processes import PROCESSES

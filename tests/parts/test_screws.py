@@ -6,8 +6,7 @@ from repo import DESIGNS
 from geneva_cli import Design, External, Size, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Circle
-from geneva_cli.parts.shafts.bolt_holes import bolt_radius, screw_through, tapped
-from geneva_cli.parts.shafts.screws import SCREWS
+from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius, screw_through, tapped
 
 # Coarse threads of ISO 262, their clearance holes of the medium series of ISO 273, and the drills
 # before the threads are cut by ISO 2306.

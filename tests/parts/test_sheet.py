@@ -65,7 +65,7 @@ def sheets():
     return made
 
 
-@pytest.mark.sampled(32)
+@pytest.mark.sampled(64)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_no_text_of_a_design_stands_on_anything(path, sheets):
     design, found = sheets(path.stem)
@@ -442,7 +442,7 @@ def test_the_comparison_can_fail():
     assert ("again", m.label.text) in crossings(found._replace(measures=twice))
 
 
-@pytest.mark.sampled(32)
+@pytest.mark.sampled(64)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_sheets_in_inches(path, sheets):
     """At a scale of the same series; texts stand free, and each is its millimetres over 25.4."""
@@ -460,6 +460,7 @@ def test_sheets_in_inches(path, sheets):
     assert not [text for text in texts if re.search(r"\d mm", text) and "m = " not in text]
 
 
+@pytest.mark.long
 def test_fits_and_masses_in_inches():
     """H7 of 24 mm is +21 µm, 0.00083 in; ±0.02 mm is 0.0008 in; a pound is 0.45359237 kg."""
     spec = load(str(repo.DESIGNS / "turret.toml")).spec
@@ -515,6 +516,7 @@ def test_a_plain_shaft_says_what_its_section_is(key, across, note):
     assert note in texts[texts.index("6 wheel's shaft") :][:3]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("fit_mm", "bore"), [(0.0, "Ø 20 F7"), (0.1, "Ø 20.1 H7")])
 def test_both_rollers_of_a_cam_have_bores_of_one_fit(fit_mm, bore):
     """Those in slot and groove are on pins of 20 mm; a bore that is wider already takes no F7."""

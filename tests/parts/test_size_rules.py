@@ -12,7 +12,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Arc
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import peaks_table
-from geneva_cli.parts.outlines.outline_sizes import outlines
+from geneva_cli.parts.machine_sizes import outlines
 from geneva_cli.spec.tables import Size
 
 HUGE = [

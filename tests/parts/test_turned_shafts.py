@@ -17,10 +17,10 @@ from geneva_cli.motion import registry
 from geneva_cli.output.mesh.solids import bodies
 from geneva_cli.output.step import chunks
 from geneva_cli.parts.links.links import placed_holes
-from geneva_cli.parts.outlines.outline_sizes import machine_sizes
+from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.shafts.bearings import DIN_471, SERIES_60, bearing_up_to, circlip_up_to
-from geneva_cli.parts.sizes.stressed import stressed
+from geneva_cli.parts.stressed import stressed
 from geneva_cli.specfile.template import template
 
 TURNED = Size(shafts="turned", wheel_bore_mm=16.0, crank_bore_mm=10.0)

@@ -5,17 +5,10 @@ from typer.testing import CliRunner
 
 from geneva_cli.cli.app import app
 from geneva_cli.specfile.designs import titles
-from geneva_cli.specfile.json_schema import FILE
 
 
 def new(*words):
     return CliRunner().invoke(app, ["new", *map(str, words)])
-
-
-def test_all_of_them_are_listed():
-    listed = new("--list").stdout
-    assert set(titles()) == {file.stem for file in repo.DESIGNS.glob("*.toml")}
-    assert all(f"{name} " in listed and title in listed for name, title in titles().items())
 
 
 def test_a_copy_is_the_design_and_what_it_names(tmp_path):
@@ -62,17 +55,6 @@ def test_a_file_that_exists_is_replaced_by_force_alone(tmp_path):
     assert (tmp_path / "table-law.csv").read_bytes() == (
         repo.DESIGNS / "table-law.csv"
     ).read_bytes()
-
-
-def test_a_new_spec_names_the_schema_that_stands_beside_it_alone(tmp_path):
-    first = f"#:schema ./{FILE}"
-    assert first not in new("external").stdout
-    assert new("external", "-o", tmp_path / "alone.toml").exit_code == 0
-    assert first not in (tmp_path / "alone.toml").read_text(encoding="utf-8")
-    written = CliRunner().invoke(app, ["schema", "-o", str(tmp_path / FILE)])
-    assert written.exit_code == 0
-    assert new("external", "-o", tmp_path / "spec.toml").exit_code == 0
-    assert (tmp_path / "spec.toml").read_text(encoding="utf-8").splitlines()[0] == first
 
 
 def test_a_design_in_place_of_a_kind_is_answered_with_its_option():

@@ -57,18 +57,9 @@ def test_a_key_is_set_over_the_files_and_beside_it(spec):
     assert load(spec).spec.drive.n_rpm == 30.0
 
 
-def test_a_kind_is_set_with_its_keys(spec):
-    spec_ = load(spec, ["drive.kind=side-crank", "drive.A=0.5", "wheel.gearing=internal"]).spec
-    assert (spec_.drive.NAME, spec_.wheel.NAME) == ("side-crank", "internal")
-
-
 def test_a_key_of_one_table_needs_no_table(spec):
     spec_ = load(spec, ["z=8", "n_rpm = 104", "law=cycloidal"]).spec
     assert (spec_.wheel.z, spec_.drive.n_rpm, spec_.motion.law.NAME) == (8, 104.0, "cycloidal")
-
-
-def test_the_last_of_two_counts(spec):
-    assert load(spec, ["wheel.z=8", "wheel.z=5"]).spec.wheel.z == 5
 
 
 @pytest.mark.parametrize(
@@ -97,11 +88,6 @@ def test_an_error_names_the_option(spec, given, said):
         load(spec, [given])
     assert said in str(error.value)
     assert "spec.toml" not in str(error.value)
-
-
-def test_what_does_not_go_together_names_the_option_that_did_it(spec):
-    with pytest.raises(GenevaError, match=r"^--set drive.rollers=6: "):
-        _ = load(spec, ["drive.rollers=6"]).mechanism
 
 
 def test_an_error_of_the_file_still_names_its_line(spec, tmp_path):

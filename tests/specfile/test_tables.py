@@ -77,13 +77,6 @@ def test_errors_name_the_line(turret, old, new, line, said):
     assert said in str(error.value)
 
 
-def test_a_mass_that_is_no_list(tmp_path):
-    path = tmp_path / "one.toml"
-    path.write_text('[wheel]\nz = 6\n[mass]\nshape = "point"\n')
-    with pytest.raises(GenevaError, match=r"one.toml:3: mass must be a list.*\[\[mass\]\]"):
-        design.load(str(path))
-
-
 def test_one_of_a_list_is_changed(turret):
     changed = turret("", "").with_("mass.1.count", 4).with_("material.wheel.density_kgm3", 1190.0)
     assert [one.count for one in changed.spec.mass] == [1, 4]

@@ -1,17 +1,13 @@
 """Compare JSON Schema with the reader on mutated specs.
 
-    python tests/stress/schema_agrees.py [TOOL ...]
-
 The schema must accept all that the reader accepts. A spec that only the reader refuses must be
-wrong in several keys together, never in one value alone. Each TOOL, a command that is given the
-schema's file and a folder of specs, is compared with the schema: `make editors`.
+wrong in several keys together, never in one value alone.
 """
 
 import json
 import os
 import random
 import re
-import subprocess
 import sys
 import tempfile
 import tomllib
@@ -26,16 +22,11 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion import registry
 from geneva_cli.spec.schema import Points, checked, fields
 from geneva_cli.spec.tables import PLAIN
-from geneva_cli.specfile.json_schema import FILE, schema
+from geneva_cli.specfile.json_schema import schema
 from geneva_cli.specfile.template import KINDS, template
 from geneva_cli.specfile.tree import spec_of
 
 SPECS = 2000
-# editors' checkers; each accepts a spec with exit status 0
-TOOLS = {
-    "taplo": lambda schema, spec: ["taplo", "check", "--schema", f"file://{schema}", spec],
-    "tombi": lambda schema, spec: ["tombi", "lint", "--offline", spec],
-}
 
 
 @cache
@@ -134,24 +125,7 @@ def disagreement(text):
     return ""
 
 
-def compare(tools, folder, texts):
-    """Count the disagreements of each tool with the schema, and print those specs."""
-    Path(folder, FILE).write_text(json.dumps(schema()))
-    wrong = dict.fromkeys(tools, 0)
-    for i, text in enumerate(texts):
-        path = Path(folder, f"{i}.toml")
-        path.write_text(f"#:schema ./{FILE}\n{text}")
-        fine = validator().is_valid(tomllib.loads(text))
-        for tool in tools:
-            command = TOOLS[tool](Path(folder, FILE), path)
-            run = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-            if (run.returncode == 0) != fine:
-                wrong[tool] += 1
-                print(f"--- {tool}, schema says {fine}\n{text}\n{run.stdout}{run.stderr}")
-    return wrong
-
-
-def main(tools):
+def main():
     rng = random.Random(14)
     texts = [spec(rng) for _ in range(SPECS)]
     with tempfile.TemporaryDirectory() as folder:
@@ -159,17 +133,12 @@ def main(tools):
         for name, content in FILES.items():
             Path(folder, name).write_text(content)
         results = [(text, disagreement(text)) for text in texts]
-        wrong = compare(tools, folder, texts)
     for text, what in results:
         if what:
             print(f"--- {what}\n{text}")
-    fine = sum(validator().is_valid(tomllib.loads(text)) for text in texts)
-    print(f"{SPECS} specs, {fine} of them sound to the schema")
-    print(f"reader against schema: {sum(bool(what) for _, what in results)} disagree")
-    for tool, count in wrong.items():
-        print(f"{tool} against schema: {count} disagree")
-    sys.exit(any(what for _, what in results) or any(wrong.values()))
+    print(f"{SPECS} specs: {sum(bool(what) for _, what in results)} disagree")
+    sys.exit(any(what for _, what in results))
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

@@ -2,9 +2,8 @@
 
 Each solid must be valid and closed, with the name, colour, volume, centroid and inertia of its
 closed form. An assembly's parts must be at the places of the drawing, and share no space but that
-of press fits, with plain and with turned shafts. `--set KEY=VALUE` changes all designs,
-and `--pictures DIR` also draws each file from three sides. `make cad` runs it, some minutes, and
-installs the kernel (0.5 GB).
+of press fits, with plain and with turned shafts. `--set KEY=VALUE` changes all designs. `make cad`
+runs it, some minutes, and installs the kernel (0.5 GB).
 """
 
 import argparse
@@ -15,17 +14,13 @@ import tempfile
 from itertools import combinations
 from pathlib import Path
 
-import matplotlib.pyplot as plt
 import numpy as np
 import repo
-from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from OCP.Bnd import Bnd_Box
-from OCP.BRep import BRep_Tool
 from OCP.BRepAlgoAPI import BRepAlgoAPI_Common
 from OCP.BRepBndLib import BRepBndLib
 from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepGProp import BRepGProp
-from OCP.BRepMesh import BRepMesh_IncrementalMesh
 from OCP.collections import Sequence_TDF_Label
 from OCP.gp import gp_Ax1, gp_Dir, gp_Pnt
 from OCP.GProp import GProp_GProps
@@ -35,10 +30,9 @@ from OCP.TCollection import TCollection_ExtendedString
 from OCP.TDataStd import TDataStd_Name
 from OCP.TDF import TDF_Label
 from OCP.TDocStd import TDocStd_Document
-from OCP.TopAbs import TopAbs_FACE, TopAbs_Orientation, TopAbs_SOLID
+from OCP.TopAbs import TopAbs_SOLID
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopLoc import TopLoc_Location
-from OCP.TopoDS import TopoDS
 from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
 
 from geneva_cli.design import load
@@ -170,42 +164,6 @@ def _srgb(linear):
     return 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1 / 2.4) - 0.055
 
 
-def picture(path, found, reach):
-    """The solids from three sides, as triangles within a hundredth of their size."""
-    figure = plt.figure(figsize=(15, 5))
-    for number, (up, round_) in enumerate(((90, -90), (30, -60), (-30, 120)), 1):
-        axes = figure.add_subplot(1, 3, number, projection="3d", proj_type="ortho")
-        corners = []
-        for _, colour, body in found:
-            mesh = np.array(list(triangles(body, reach)))
-            rgb = [_srgb(c) for c in (colour.Red(), colour.Green(), colour.Blue())]
-            axes.add_collection3d(Poly3DCollection(mesh, facecolors=rgb, shade=True))
-            corners.append(mesh.reshape(-1, 3))
-        axes.auto_scale_xyz(*np.concatenate(corners).T)
-        axes.set_aspect("equal")
-        axes.view_init(up, round_)
-        axes.set_axis_off()
-    figure.tight_layout()
-    figure.savefig(path, dpi=60)
-    plt.close(figure)
-
-
-def triangles(body, reach):
-    BRepMesh_IncrementalMesh(body, 2e-3 * reach, False, 0.2)
-    faces = TopExp_Explorer(body, TopAbs_FACE)
-    while faces.More():
-        face, location = TopoDS.Face(faces.Current()), TopLoc_Location()
-        mesh = BRep_Tool.Triangulation_s(face, location)
-        move = location.Transformation()
-        points = [mesh.Node(i).Transformed(move) for i in range(1, mesh.NbNodes() + 1)]
-        for i in range(1, mesh.NbTriangles() + 1):
-            corners = [points[k - 1] for k in mesh.Triangle(i).Get()]
-            if face.Orientation() == TopAbs_Orientation.TopAbs_REVERSED:
-                corners.reverse()
-            yield [(p.X(), p.Y(), p.Z()) for p in corners]
-        faces.Next()
-
-
 def overlaps(found, pressed):
     """Pairs of solids that share more than 0.01 mm³; ``pressed`` pins may share it with any."""
     boxes = []
@@ -232,7 +190,6 @@ def carries(built):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("--pictures", metavar="DIR")
     parser.add_argument("--designs", nargs="*")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
     options = parser.parse_args()
@@ -250,16 +207,16 @@ def main():
             if part == "arm" and not carries(parts):
                 continue
             for curves in ("arcs", "spline"):
-                bad += not one(design, name, part, curves, options.pictures)
+                bad += not one(design, name, part, curves)
         try:
             turned = load(path, [*options.set, "size.shafts=turned"])
-            bad += not one(turned, f"{name}, turned", "assembly", "arcs", options.pictures)
+            bad += not one(turned, f"{name}, turned", "assembly", "arcs")
         except GenevaError as error:
             print(f"{name:24} {str(error).partition(': ')[2][:70]}")
     return 1 if bad else 0
 
 
-def one(design, name, part, curves, pictures):
+def one(design, name, part, curves):
     drawing = design.drawing(part, 0.001, curves)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "part.step"
@@ -292,19 +249,6 @@ def one(design, name, part, curves, pictures):
         f"{'' if good else '  BAD'}",
         flush=True,
     )
-    if pictures and curves == "arcs":
-        reach = max(
-            abs(v)
-            for one, *_ in wanted
-            for v in (
-                (properties(one)[3],)
-                if isinstance(one, Stack)
-                else bounds(one.outline)
-                if isinstance(one, Plate)
-                else (one.outer,)
-            )
-        )
-        picture(Path(pictures) / f"{name}-{part}.png", found, reach)
     return good
 
 

@@ -9,17 +9,20 @@ The page may load nothing but its own files, and works when the server is gone.
 import base64
 import functools
 import http.server
+import itertools
 import json
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 import threading
 import time
+import urllib.request
 from pathlib import Path
 from typing import ClassVar
 
-from page_in_browser import Browser
+import websocket
 
 GENEVA = Path(sys.executable).with_name("geneva")
 DESIGNS = ("turret", "internal-z6", "four-bar-z4", "table-law", "spherical-z6")
@@ -47,6 +50,80 @@ CHOOSE = """
 (name => { const list = document.getElementById("start"); list.value = name;
   list.dispatchEvent(new Event("change")); document.body.classList.add("busy"); })
 """
+
+
+class Browser:
+    """A Chromium without a window, and its one page."""
+
+    def __init__(self, folder):
+        program = shutil.which("chromium") or shutil.which("google-chrome")
+        if program is None:
+            raise SystemExit("no Chromium here: install it, as with `apt-get install chromium`")
+        options = ("--headless", "--no-sandbox", "--disable-gpu", "--remote-debugging-port=0")
+        origins = "--remote-allow-origins=*"
+        self.process = subprocess.Popen(
+            [program, *options, origins, f"--user-data-dir={folder}", "about:blank"],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        port = self._port(Path(folder, "DevToolsActivePort"))
+        with urllib.request.urlopen(f"http://127.0.0.1:{port}/json") as answer:
+            tab = next(one for one in json.load(answer) if one["type"] == "page")
+        self.socket = websocket.create_connection(tab["webSocketDebuggerUrl"], timeout=60)
+        self.numbers, self.said = itertools.count(1), []
+        for name in ("Page", "Runtime", "Log"):
+            self.ask(f"{name}.enable")
+
+    def _port(self, file):
+        for _ in range(300):
+            if file.exists() and file.read_text().strip():
+                return int(file.read_text().split()[0])
+            time.sleep(0.1)
+        raise SystemExit("Chromium did not start")
+
+    def ask(self, method, **given):
+        number = next(self.numbers)
+        self.socket.send(json.dumps({"id": number, "method": method, "params": given}))
+        while True:
+            heard = json.loads(self.socket.recv())
+            if heard.get("method") in ("Runtime.consoleAPICalled", "Runtime.exceptionThrown"):
+                self.said.append(heard["params"])
+            if heard.get("method") == "Log.entryAdded":
+                self.said.append(heard["params"]["entry"])
+            if heard.get("id") == number:
+                assert "error" not in heard, heard["error"]
+                return heard["result"]
+
+    def run(self, script, wait=False):
+        found = self.ask(
+            "Runtime.evaluate", expression=script, returnByValue=True, awaitPromise=wait
+        )
+        assert "exceptionDetails" not in found, found
+        return found["result"].get("value")
+
+    def look(self, wide, high, scheme):
+        phone = wide < 600
+        self.ask(
+            "Emulation.setDeviceMetricsOverride",
+            width=wide, height=high, deviceScaleFactor=1, mobile=phone,
+        )  # fmt: skip
+        features = [
+            {"name": "prefers-color-scheme", "value": scheme},
+            {"name": "prefers-reduced-motion", "value": "no-preference"},
+        ]
+        self.ask("Emulation.setEmulatedMedia", features=features)
+
+    def go(self, url):
+        self.ask("Page.navigate", url=url)
+        for _ in range(100):
+            if self.run("document.readyState") == "complete" and self.run("!!window.document.body"):
+                return
+            time.sleep(0.05)
+        raise SystemExit(f"{url}: not loaded")
+
+    def picture(self, file):
+        shot = self.ask("Page.captureScreenshot", format="png", captureBeyondViewport=True)
+        file.write_bytes(base64.b64decode(shot["data"]))
 
 
 class Quiet(http.server.SimpleHTTPRequestHandler):

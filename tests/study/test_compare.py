@@ -162,7 +162,7 @@ def test_what_makes_parts_is_shown_only_where_it_is_picked(monkeypatch):
     def made(*inputs):
         raise AssertionError("parts are made")
 
-    monkeypatch.setattr("geneva_cli.parts.outlines.outline_sizes.drawn", made)
+    monkeypatch.setattr("geneva_cli.parts.machine_sizes.drawn", made)
     found = by_quantity(compare([path("tolerances.toml")]))
     assert "acceleration.max" in found
     assert not [q for q in found if q.startswith(("parts", "tolerance", "checks"))]
@@ -223,7 +223,7 @@ def test_file_names_are_escaped_in_headings_as_in_cells(tmp_path, capsys):
     """A name with a comma is one column, one with = no formula; none reaches the terminal raw."""
     from geneva_cli.output import show, text
     from geneva_cli.output.terminal import terminal_tables as terminal
-    from geneva_cli.output.terminal.window import Window
+    from geneva_cli.output.terminal.layout import Window
 
     with open(path("limits.toml"), encoding="utf-8") as file:
         spec = file.read()

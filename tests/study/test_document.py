@@ -22,9 +22,16 @@ from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.shapes import Line, closed
 from geneva_cli.output import jsonfile
 from geneva_cli.output.document import document_markdown, document_pdf, html, pdf_table
-from geneva_cli.output.document.blocks import Document, Fact, Facts, Grid, Picture, TextList
+from geneva_cli.output.document.blocks import (
+    Document,
+    Fact,
+    Facts,
+    Grid,
+    Picture,
+    TextList,
+    value_text,
+)
 from geneva_cli.output.document.html import inline
-from geneva_cli.output.document.printed_values import value_text
 from geneva_cli.output.letters import western
 from geneva_cli.output.pdf import pdf_drawing, pdf_file
 from geneva_cli.output.pdf.pdf_pages import SOFT, lines, wide

@@ -53,6 +53,7 @@ def test_the_files_of_a_laser(spec, tmp_path):
         }
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("design", "trade", "keys", "warned"),
     [

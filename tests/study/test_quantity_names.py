@@ -90,6 +90,7 @@ def test_sizes_and_walls_need_no_turn(name, monkeypatch):
     assert pick([name]).of(machine) == beside[:1]
 
 
+@pytest.mark.long
 def test_a_column_of_table_and_synth_is_named_alike_everywhere():
     """But for the columns that are keys of a spec, which --vary names."""
     known = {}

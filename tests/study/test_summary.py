@@ -17,8 +17,8 @@ from geneva_cli.cli.app import app
 from geneva_cli.design import Design, load
 from geneva_cli.loads.indexer_formula import RATED_kW, RecommendedMotor
 from geneva_cli.output.terminal import terminal_tables as terminal
+from geneva_cli.output.terminal.layout import Window
 from geneva_cli.output.terminal.summary import chunks
-from geneva_cli.output.terminal.window import Window
 from geneva_cli.study.summary.load_lines import of_loads
 from geneva_cli.study.summary.report_summary import of_report
 from geneva_cli.study.summary.tolerance_summary import of_tolerance

@@ -160,6 +160,7 @@ def test_a_row_is_the_same_alone_and_among_thousands(tmp_path, monkeypatch):
     assert last("0..0.8:0.0001") == last("0..0.8:0.002")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("table", "picked"),
     [

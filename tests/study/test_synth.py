@@ -20,8 +20,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import peak, worst
 from geneva_cli.motion.timing import timings
+from geneva_cli.output.terminal.layout import Window
 from geneva_cli.output.terminal.terminal_tables import chunks
-from geneva_cli.output.terminal.window import Window
 from geneva_cli.study.synth import synth_table as rows_shown
 from geneva_cli.study.synth.built import Built
 from geneva_cli.study.synth.families import closed
@@ -130,6 +130,7 @@ def test_elliptical_gears_make_both_gearings_alike():
 # The sources' tables
 
 
+@pytest.mark.long
 def test_tau_of_one_roller_outside():
     """From 1/6 to 11/24 for z = 3 to 24, one plain crank for each."""
     for z in some((3, 4, 5, 6, 7, 9, 12, 24), (3, 24)):
@@ -208,6 +209,7 @@ def test_the_side_crank_paper_s_half_turn():
 # A greatest acceleration
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(("limit", "laws"), [("0.3", "modified-sine"), ("0.7", "all")])
 def test_every_machine_stays_below_the_limit_and_none_by_more_than_needed(limit, laws):
@@ -244,6 +246,7 @@ def test_every_machine_stays_below_the_limit_and_none_by_more_than_needed(limit,
     }
 
 
+@pytest.mark.long
 @pytest.mark.sampled(18)
 @pytest.mark.parametrize("gearing", GEARINGS)
 @pytest.mark.parametrize("z", [3, 6, 11])
@@ -726,6 +729,7 @@ def test_a_groove_is_as_steep_as_its_check_says():
     assert [not _slot_failure(machine) for machine in machines] == passes
 
 
+@pytest.mark.long
 def test_where_a_cycle_is_asked_for_rows_are_ranked_by_time():
     """Issue: 2.7121 at 1440 rpm is 61,672 rad/s2, and came before 5,103 of several rollers.
 

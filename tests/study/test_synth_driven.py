@@ -1,5 +1,6 @@
 """A machine that its slots do not drive during half of the motion, in the rows of a search."""
 
+import pytest
 from typer.testing import CliRunner
 
 from geneva_cli.cli.app import app
@@ -25,6 +26,7 @@ def rows(tmp_path, *options):
     return [tuple(line[i] for i in places) for line in lines]
 
 
+@pytest.mark.long
 def test_a_search_marks_a_machine_that_is_not_driven(tmp_path):
     """The curved slots of a modified sine over 72 degrees drive during 15.7 % of the motion."""
     found = rows(tmp_path, "--check", "0")

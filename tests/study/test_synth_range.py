@@ -106,6 +106,7 @@ def test_where_none_is_buildable_that_is_said(format):
         assert json.loads(found.stdout) == {"rows": []}
 
 
+@pytest.mark.long
 def test_a_load_that_a_spec_leaves_unknown_is_no_refusal():
     """Of a wheel without a face width no stress is known; its inertia resists all the same."""
     frame = Design.of(Spec(Wheel(6), load=Load(inertia_kgm2=0.1))).spec
@@ -275,6 +276,7 @@ def test_a_drive_that_does_nothing_is_no_row():
     assert [(candidate.drive, candidate.axes_deg) for candidate in ones] == [("crank", 90.0)]
 
 
+@pytest.mark.long
 def test_bounds_are_kept_where_the_gentlest_of_a_kind_breaks_them():
     """In a range the machine of a kind is the gentlest of those that keep the bound."""
     target = {"motion_deg": "80..140", "z": "6", "external": True, "rollers": 1}
@@ -315,6 +317,7 @@ def test_without_a_wish_for_a_motion_the_nearest_to_the_plain_crank_keeps_the_bo
     assert pytest.approx(0.25, rel=1e-7) == ours["side-crank"].candidate.A
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("limit", [12.0, 1.2, 0.3])
 @pytest.mark.parametrize("gearing", ["external", "internal"])

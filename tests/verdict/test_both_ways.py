@@ -31,7 +31,7 @@ from geneva_cli import (
 from geneva_cli.loads.impacts.impacts import entry_impacts
 from geneva_cli.motion.both_ways import backwards, every_way
 from geneva_cli.motion.many import many
-from geneva_cli.parts.outlines.outline_sizes import built
+from geneva_cli.parts.machine_sizes import built
 from geneva_cli.study.summary.load_lines import of_loads
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.both_directions import worse_of, worst_checks

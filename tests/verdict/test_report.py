@@ -51,7 +51,7 @@ def test_failed_checks_stand_on_top_and_end_as_check_does(
     assert tree["passes"] is False
     (failed,) = tree["checks_failed"]
     assert re.match(r"gap_mm = -9\.17\d* at -?[\d.]+°, must be at least 0; nearest", failed)
-    monkeypatch.setattr(advice, "WORK", 0)  # it is in the text above
+    monkeypatch.setattr(advice, "TRIALS", 0)  # it is in the text above
     text = " ".join(run("report", spec).stdout.split())  # not as its lines are broken
     places = [text.index(part) for part in ("overlap by 9.17", "geneva explain gap_mm", "timing")]
     assert places == sorted(places)

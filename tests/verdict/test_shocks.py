@@ -27,7 +27,7 @@ from geneva_cli.loads.impacts.impacts import entry_impacts, reversal_impacts
 from geneva_cli.loads.impacts.mouth import mouth_contacts
 from geneva_cli.loads.strength.pin import pin_diameter_mm
 from geneva_cli.motion.many import many
-from geneva_cli.parts.outlines.outline_sizes import built
+from geneva_cli.parts.machine_sizes import built
 from geneva_cli.study.summary.load_lines import load_lines
 from geneva_cli.verdict.checks import single_check
 from geneva_cli.verdict.quantities.batch_designs import Designs

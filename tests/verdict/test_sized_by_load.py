@@ -26,11 +26,11 @@ from geneva_cli.loads.strength.key_strength import KeyDimensions, key_stress, sh
 from geneva_cli.loads.strength.part_loads import part_loads
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
+from geneva_cli.parts.machine_sizes import sized
 from geneva_cli.parts.outlines.crank_outline import crank_contours
 from geneva_cli.parts.outlines.cut_outlines import SWEPT_DEG, cut_arcs, cut_lock, drawn
-from geneva_cli.parts.outlines.outline_sizes import sized
 from geneva_cli.parts.outlines.wheel_outline import turned_walls, wheel_contour
-from geneva_cli.parts.sizes.stressed import lock_of, stressed
+from geneva_cli.parts.stressed import lock_of, stressed
 from geneva_cli.spec.keyways import DIN_6885_1
 from geneva_cli.spec.materials import wheel_material
 from geneva_cli.spec.tables import Load, Shaft, Size, WheelMaterial

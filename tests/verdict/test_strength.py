@@ -19,7 +19,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import build
-from geneva_cli.parts.outlines.outline_sizes import sized
+from geneva_cli.parts.machine_sizes import sized
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, Size, WheelMaterial
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.checks import checks

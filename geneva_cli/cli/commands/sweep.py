@@ -130,7 +130,7 @@ def run(
 def _write_rows(plan: "SweepRequest", outcome: "Outcome", output: str, resume: bool) -> None:
     """Write all rows or the chosen ones as they come; show a person some rows of the file."""
     from geneva_cli.output import is_seen
-    from geneva_cli.output.growing_rows import GrowingTable
+    from geneva_cli.output.growing import GrowingTable
     from geneva_cli.study.sweep.digest import Digest
     from geneva_cli.study.sweep.run import TEXTS
 

@@ -13,7 +13,7 @@ from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Point, Shape
 from geneva_cli.geometry.sheet import CENTRE
 from geneva_cli.parts.outlines.wheel_hub import about_axis
-from geneva_cli.parts.shafts.bores import Bore, RoundBore, bore_in, radius_of
+from geneva_cli.parts.shafts.bores import Bore, bore_in, radius_of
 from geneva_cli.spec.tables import Size
 from geneva_cli.spec.written import length, number
 
@@ -39,7 +39,7 @@ def bored(view: View, bores: Sequence[Shape], size: Size, part: str, axis: Point
     The bores are about the part's own origin, which is drawn at ``axis``.
     """
     for shape in bores[:1]:
-        form: Bore = RoundBore(radius_of(shape))
+        form: Bore = Bore(radius_of(shape))
         if isinstance(shape, Contour):
             form = bore_in(size, part, shape).cut
         if form.is_round:

@@ -7,9 +7,8 @@ from collections.abc import Iterable
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
-from geneva_cli.parts.shafts.bolt_holes import screw_through
 from geneva_cli.parts.shafts.fits import Fits, toleranced
-from geneva_cli.parts.shafts.screws import SCREWS
+from geneva_cli.parts.shafts.screws import SCREWS, screw_through
 from geneva_cli.spec.tables import Size
 from geneva_cli.spec.workshops import workshop
 from geneva_cli.spec.written import deviation, length

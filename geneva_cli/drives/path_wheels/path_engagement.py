@@ -24,9 +24,8 @@ from geneva_cli.drives.roller_path import (
     exactly,
     rounded,
 )
-from geneva_cli.motion import path_and_slot
-from geneva_cli.motion.engagement import Anchor, Carrier, Engagement, RoughMotion
-from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
+from geneva_cli.motion.engagement import Anchor, Engagement, RoughMotion
+from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.wheels.poses import HalfStep
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import radians
@@ -98,8 +97,8 @@ class PlacedWheel(NamedTuple):
         body = LinkRate(path, self.middle, self.sense)
         motion = LinkageMotion(anchored, b, RoughLinkageMotion(body, self.x, self.y))
         reactions = LinkReactions(*body, self.L, -self.x / self.L, -self.y / self.L)
-        carrier = Carrier(-self.sense, body, reactions)
-        return path_and_slot.engagement(0.0, anchored, motion, carrier), self.L
+        slot, sense = RadialSlot(anchored), -self.sense
+        return Engagement(0.0, anchored, slot, motion, body, reactions, sense), self.L
 
 
 def engagement_of(path: RollerPath, fit: Fit, step: HalfStep) -> tuple[Engagement, float]:

@@ -79,7 +79,7 @@ class GearSector(PinPath, kw_only=True):
         """Dimensions of slot, gears and handover, and angles between rollers and between slots."""
         L, (engagement, *_) = plan.center_distance_mm, plan.engagements
         b, u, handover, _ = self._solved(engagement.half_step)
-        first, last = engagement.ahead_deg
+        (_, first), (_, last) = engagement.passages
         return (
             Dimension("crank radius", L * plan.ratio, "mm"),
             Dimension("slot's half angle b", math.degrees(b), "deg"),
@@ -278,15 +278,10 @@ class SectorEngagement(Engagement):
         return self._inner.carrier(self._sector.slot_deg(input_deg), order)
 
     @property
-    def through(self) -> Engagement:
-        """The engagement of the plain wheel that has this slot."""
-        return self._inner
-
-    @property
-    def ahead_deg(self) -> tuple[float, ...]:
-        """Lead of the starting roller, and of the stopping one: D - 2 a_t apart."""
+    def passages(self) -> tuple[tuple[Engagement, float], ...]:
+        """The plain wheel's, of the starting roller and of the stopping one: D - 2 a_t apart."""
         half = self._sector.half_sector - self._sector.handover_deg
-        return (half, -half)
+        return (self._inner, half), (self._inner, -half)
 
     @property
     def overtaking(self) -> float:

@@ -17,10 +17,17 @@ from geneva_cli.kinds.linear.rack import locking_sector, rack_sizes
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.crank_solids import roller_plates
-from geneva_cli.parts.shafts.bolt_holes import bolt_radius, refuse_no_screw, tapped
 from geneva_cli.parts.shafts.bores import bore_of
-from geneva_cli.parts.sizes.arm_sizes import arm_bore, hub_and_eye, lock_bolt_directions, pin_hole
-from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses, half_or, pin_radius
+from geneva_cli.parts.shafts.screws import bolt_radius, refuse_no_screw, tapped
+from geneva_cli.parts.sizes import (
+    arm_bore,
+    drawn_thicknesses,
+    hub_and_eye,
+    lock_bolt_directions,
+    pin_hole,
+    pin_radius,
+)
+from geneva_cli.spec.default_sizes import half_or
 from geneva_cli.spec.least_wall import wall_min
 
 

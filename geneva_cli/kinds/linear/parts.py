@@ -33,8 +33,8 @@ from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.gears.gear_pair import gear_pair
 from geneva_cli.parts.missing import NamedParts
 from geneva_cli.parts.parts import NamedBuilds
-from geneva_cli.parts.shafts.bolt_holes import Screws
-from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses
+from geneva_cli.parts.shafts.screws import Screws
+from geneva_cli.parts.sizes import drawn_thicknesses
 from geneva_cli.parts.turn.bounds import FlatPairs
 
 if TYPE_CHECKING:

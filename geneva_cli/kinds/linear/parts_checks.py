@@ -12,7 +12,7 @@ from geneva_cli.geometry.plates import plates
 from geneva_cli.geometry.shapes import as_contour
 from geneva_cli.kinds.linear.parts import RackParts
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses
+from geneva_cli.parts.sizes import drawn_thicknesses
 from geneva_cli.verdict.checks.check import Check, gap
 from geneva_cli.verdict.checks.process import cut_width, plate_thickness
 from geneva_cli.verdict.shaft_gap import Ring, ShaftGap, gear_rings, least_gap, rings_of

@@ -24,7 +24,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Contour, Line, Segment, about, closed
 from geneva_cli.kinds.linear.guide_place import GuidePlace, guide_place
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.parts.sizes.sizes import lock_between, require_lock_between
+from geneva_cli.parts.machine_sizes import lock_between, require_lock_between
 from geneva_cli.spec.default_sizes import value_or
 
 

@@ -28,7 +28,7 @@ from geneva_cli.kinds.linear.arm import crank_arm
 from geneva_cli.kinds.linear.drawings import assembly
 from geneva_cli.kinds.linear.parts import RackParts
 from geneva_cli.kinds.linear.rack import slot_places
-from geneva_cli.parts.shafts.bolt_holes import NO_SCREW
+from geneva_cli.parts.shafts.screws import NO_SCREW
 from geneva_cli.spec.written import length
 
 

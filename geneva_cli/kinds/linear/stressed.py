@@ -18,8 +18,8 @@ from geneva_cli.loads.strength.arm_strength import ArmDimensions
 from geneva_cli.loads.strength.key_strength import KeyDimensions
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.shafts.bores import reach_or_bore
-from geneva_cli.parts.sizes.plain_sizes import pin_radius
-from geneva_cli.parts.sizes.stressed import ShaftEnd, ShaftSize, Stressed, key_of, shaft_of
+from geneva_cli.parts.sizes import pin_radius
+from geneva_cli.parts.stressed import ShaftEnd, ShaftSize, Stressed, key_of, shaft_of
 from geneva_cli.spec.default_sizes import value_or
 
 

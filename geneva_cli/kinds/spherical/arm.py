@@ -19,9 +19,9 @@ from geneva_cli.geometry.sphere_hull import Cap, convex_hull
 from geneva_cli.kinds.spherical.axles import refuse_wide
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.crank import locked
-from geneva_cli.parts.shafts.bolt_holes import bolt_radius, refuse_no_screw
 from geneva_cli.parts.shafts.bores import Bore, bore_of
-from geneva_cli.parts.sizes.arm_sizes import (
+from geneva_cli.parts.shafts.screws import bolt_radius, refuse_no_screw
+from geneva_cli.parts.sizes import (
     hub_and_eye,
     lock_bolt_directions,
     pin_hole,

@@ -11,7 +11,7 @@ import math
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.parts.sizes.arm_sizes import crank_reach_and_hub, wheel_bore, wheel_reach_and_hub
+from geneva_cli.parts.sizes import crank_reach_and_hub, wheel_bore, wheel_reach_and_hub
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.tables import Size
 

@@ -10,7 +10,7 @@ from geneva_cli.kinds.spherical.dial import dial_wall
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.shaft_gap import shaft_gap
 from geneva_cli.parts.shafts.bores import reach_or_bore
-from geneva_cli.parts.sizes.arm_sizes import refuse_thin_hub
+from geneva_cli.parts.sizes import refuse_thin_hub
 from geneva_cli.verdict.checks.check import Check, at_least, compared, gap
 from geneva_cli.verdict.checks.process import built, cut_width, plate_thickness
 

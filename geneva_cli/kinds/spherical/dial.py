@@ -10,7 +10,7 @@ from geneva_cli.geometry.sphere import POLE, place
 from geneva_cli.geometry.sphere_hull import Cap
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.wheel import web_angle
-from geneva_cli.parts.shafts.bolt_holes import bolt_circle
+from geneva_cli.parts.shafts.screws import bolt_circle
 from geneva_cli.spec.tables import Size
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache, partial
+from itertools import takewhile
 from typing import TYPE_CHECKING
 
 from geneva_cli.kinds.spherical.axles import hub_about
@@ -19,26 +20,23 @@ from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.part_loads import PartLoads, greatest, single_loads
 from geneva_cli.loads.strength.shaft_stress import (
     LoadedShaft,
-    ShaftDimensions,
     crank_forces,
     shafts_under_load,
     wheel_forces,
 )
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.preferred import bores_from, rounded_from
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.shafts.bores import reach_or_bore
-from geneva_cli.parts.sizes.arm_sizes import arm_hub, hole_radius, largest_hub, within_hub
-from geneva_cli.parts.sizes.holds import (
-    PinSpace,
-    arm_holds,
-    arm_trials,
+from geneva_cli.parts.sized_by_load import (
+    arm_that_holds,
+    first_that,
     key_holds,
     pin_that_holds,
     shaft_holds,
 )
+from geneva_cli.parts.sizes import arm_hub, hole_radius, largest_hub, within_hub
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.materials import wheel_material
 
@@ -59,15 +57,15 @@ def horn_thickness_mm(mechanism: Mechanism, usual: Ball) -> float | None:
     angles = usual.half_width, usual.recess, usual.axes
     least = usual.span_mm[1] - usual.span_mm[0]
 
-    def bent_MPa(way: Mechanism, thick: float) -> float:
-        horn = single_stress(sphere_horns, way, angles, thick).single
-        return horn.stress_MPa if horn else 0.0
+    def holds(thick: float) -> bool:
+        def bent_MPa(way: Mechanism) -> float:
+            horn = single_stress(sphere_horns, way, angles, thick).single
+            return horn.stress_MPa if horn else 0.0
+
+        return keeps(greatest(bent_MPa, mechanism), "at most", allowed)
 
     # a thicker wheel bends its pins more than its horns
-    for thick in rounded_from(least, 2.0 * least):
-        if keeps(greatest(partial(bent_MPa, thick=thick), mechanism), "at most", allowed):
-            break
-    return thick
+    return first_that(rounded_from(least, 2.0 * least), holds)
 
 
 def sphere_load_sizes(mechanism: Mechanism, usual: Ball) -> Ball:
@@ -75,45 +73,39 @@ def sphere_load_sizes(mechanism: Mechanism, usual: Ball) -> Ball:
 
     A load without a bound leaves all sizes.
     """
-    loads, size = single_loads(mechanism), mechanism.spec.size
+    loads, spec, L = single_loads(mechanism), mechanism.spec, usual.radius_mm
     if not all(map(math.isfinite, loads)):
         return usual
-    ball = usual._replace(pin_mm=_pin(mechanism, usual, loads))
-    if not ball.arm_bore_mm or size.arm_thickness_mm is not None:
-        return _bored(mechanism, ball, loads)
+    inside, outside = usual.span_mm
+    thick = outside - inside
+    # the arm's eye about the pin passes the largest hub, and covers less than half of the sphere
+    hub = max(usual.opening_mm, largest_hub(inside * math.sin(min(usual.slot_end, 0.5 * math.pi))))
+    eye = min(usual.passing_mm(hub), 0.99 * L * (0.5 * math.pi - usual.arm))
+    pin = pin_that_holds(
+        mechanism,
+        usual.pin_mm,
+        thick,
+        inside * math.sin(usual.roller),
+        eye - wall_min(spec.size, L),
+        loads,
+    )
+    ball = usual._replace(pin_mm=pin)
+
+    def bored(ball: Ball, keyed: bool = True) -> Ball:
+        return _crank_bored(mechanism, _wheel_bored(mechanism, ball, loads), loads, keyed)
+
+    if not ball.arm_bore_mm or spec.size.arm_thickness_mm is not None:
+        return bored(ball)
     under, _ = ball.arm_span_mm
-    for keyed, thick in arm_trials(size, ball.span_mm[1] - ball.span_mm[0]):
-        thicker = ball._replace(arm_span_mm=(under, under + thick))
-        trial = _bored(mechanism, thicker, loads, keyed)
-        if arm_holds(mechanism.spec, sphere_stressed(mechanism.spec, trial), loads):
-            break
-    return trial
 
+    def trial(keyed: bool, arm: float) -> Ball:
+        return bored(ball._replace(arm_span_mm=(under, under + arm)), keyed)
 
-def _pin(mechanism: Mechanism, ball: Ball, loads: PartLoads) -> float:
-    """Return the radius of a pin that holds; the arm's eye about it passes the largest hub.
-
-    The arm covers less than half of the sphere.
-    """
-    spec, L = mechanism.spec, ball.radius_mm
-    inside, outside = ball.span_mm
-    end = inside * math.sin(min(ball.slot_end, 0.5 * math.pi))
-    hub = max(ball.opening_mm, largest_hub(end))
-    eye = min(ball.passing_mm(hub), 0.99 * L * (0.5 * math.pi - ball.arm))
-    thinnest = inside * math.sin(ball.roller)
-    space = PinSpace(outside - inside, thinnest, eye - wall_min(spec.size, L))
-    return pin_that_holds(mechanism, ball.pin_mm, space, loads)
-
-
-def _bored(mechanism: Mechanism, ball: Ball, loads: PartLoads, keyed: bool = True) -> Ball:
-    """Return the sizes with bores of wheel and crank whose shafts and keys hold.
-
-    Unless ``keyed``, the crank's bore is not sized by its key.
-    """
-    return _crank_bored(mechanism, _wheel_bored(mechanism, ball, loads), loads, keyed)
+    return arm_that_holds(spec, thick, trial, partial(sphere_stressed, spec), loads)
 
 
 def _wheel_bored(mechanism: Mechanism, ball: Ball, loads: PartLoads) -> Ball:
+    """Return the sizes with a bore of the wheel whose shaft and key hold."""
     spec, L = mechanism.spec, ball.radius_mm
     size = spec.size
     fixed = size.wheel_bore_mm is not None or spec.shaft.wheel_diameter_mm is not None
@@ -121,46 +113,51 @@ def _wheel_bored(mechanism: Mechanism, ball: Ball, loads: PartLoads) -> Ball:
         return ball
     inside, outside = ball.span_mm
     end = inside * math.sin(min(ball.slot_end, 0.5 * math.pi))
-    wall = wall_min(size, L)
-    # a hub with flat faces stays in its shell, a hundredth short of the outer sphere
-    widest = min(end - wall, 0.99 * math.sqrt((outside - inside) * (outside + inside)))
-    most = min(end * 2.0 / 3.0, within_hub(size, "wheel"))
     held = spec.shaft.torsion_factor * dwell_torque_Nm(mechanism).item()
-    trial = ball
-    for d in bores_from(2.0 * ball.bore_mm, 2.0 * most):
+
+    def bored(d: float) -> Ball:
         hub = hub_about(size, L, 0.5 * d, end)
-        if hub > widest:
-            break
-        hole = math.asin(max(0.5 * d, hub) / inside)
+        hole = math.asin(min(1.0, max(0.5 * d, hub) / inside))
         inner = inner_edge(ball.slot_end, ball.roller, hole)
-        trial = ball._replace(bore_mm=0.5 * d, hub_mm=hub, inner=inner)
+        return ball._replace(bore_mm=0.5 * d, hub_mm=hub, inner=inner)
+
+    def holds(trial: Ball) -> bool:
         parts = sphere_stressed(spec, trial)
         moment = _moment_Nm(mechanism, wheel_forces(mechanism), parts.wheel_shaft.overhang)
-        holds = shaft_holds(spec, "wheel", parts.wheel_shaft.diameter, max(moment, held))
-        if holds and key_holds(spec, parts.wheel_key, loads.wheel_Nm):
-            break
-    return trial
+        shaft = shaft_holds(spec, "wheel", parts.wheel_shaft.diameter, max(moment, held))
+        return shaft and key_holds(spec, parts.wheel_key, loads.wheel_Nm)
+
+    # a hub with flat faces stays in its shell, a hundredth short of the outer sphere
+    flat = 0.99 * math.sqrt((outside - inside) * (outside + inside))
+    widest = min(end - wall_min(size, L), flat)
+    most = min(end * 2.0 / 3.0, within_hub(size, "wheel"))
+    each = map(bored, bores_from(2.0 * ball.bore_mm, 2.0 * most))
+    return first_that(takewhile(lambda one: one.hub_mm <= widest, each), holds, ball)
 
 
 def _crank_bored(mechanism: Mechanism, ball: Ball, loads: PartLoads, keyed: bool) -> Ball:
+    """Return the sizes with a bore of the arm whose shaft holds, and if ``keyed`` its key."""
     spec, size = mechanism.spec, mechanism.spec.size
     own = (size.crank_bore_mm, size.arm_bore_mm, spec.shaft.crank_diameter_mm)
     if not ball.arm_bore_mm or any(key is not None for key in own):
         return ball
-    trial = ball
-    for d in bores_from(2.0 * ball.arm_bore_mm, ball.arm_span_mm[1]):
-        other = ball._replace(arm_bore_mm=0.5 * d)
-        parts = sphere_stressed(spec, other)
+
+    def fits(trial: Ball) -> bool:
         # the standard has no keys for the largest shafts
-        keyless = size.crank_keyway is not None and math.isnan(float(parts.crank_key.shaft))
-        if d > ball.arm_bore_mm * 2.0 and (keyless or not _hub_fits(spec, other)):
-            break
-        trial = other
+        key = sphere_stressed(spec, trial).crank_key
+        keyless = size.crank_keyway is not None and math.isnan(float(key.shaft))
+        wider = trial.arm_bore_mm > ball.arm_bore_mm
+        return not wider or (not keyless and _hub_fits(spec, trial))
+
+    def holds(trial: Ball) -> bool:
+        parts = sphere_stressed(spec, trial)
         moment = _moment_Nm(mechanism, crank_forces(spec), parts.crank_shaft.overhang)
-        holds = shaft_holds(spec, "crank", parts.crank_shaft.diameter, moment)
-        if holds and (not keyed or key_holds(spec, parts.crank_key, loads.crank_Nm)):
-            break
-    return trial
+        shaft = shaft_holds(spec, "crank", parts.crank_shaft.diameter, moment)
+        return shaft and (not keyed or key_holds(spec, parts.crank_key, loads.crank_Nm))
+
+    bores = bores_from(2.0 * ball.arm_bore_mm, ball.arm_span_mm[1])
+    each = (ball._replace(arm_bore_mm=0.5 * d) for d in bores)
+    return first_that(takewhile(fits, each), holds)
 
 
 def _hub_fits(spec: Spec, ball: Ball) -> bool:
@@ -179,10 +176,10 @@ def _hub_fits(spec: Spec, ball: Ball) -> bool:
 @lru_cache(maxsize=64)
 def _moment_Nm(mechanism: Mechanism, forces: ShaftForces, overhang_mm: float) -> float:
     """Return the greatest equivalent torque of a shaft; it needs a search of the whole cycle."""
-    shaft = LoadedShaft(ShaftDimensions(None, overhang_mm, None, None), forces)
+    shaft = LoadedShaft(forces, overhang_mm)
 
     def moment_Nm(way: Mechanism) -> float:
         (one,) = shafts_under_load(way, [shaft])
-        return array(one.moment_Nm).item() if one else 0.0
+        return one["moment_Nm"].item() if one else 0.0
 
     return greatest(moment_Nm, mechanism)

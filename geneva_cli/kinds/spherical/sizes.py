@@ -17,20 +17,21 @@ from geneva_cli.kinds.spherical.ball import PartDoesNotFit
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.rollers import places
-from geneva_cli.parts.sizes.arm_sizes import (
+from geneva_cli.parts.machine_sizes import lock_between, refuse_edges, require_lock_between
+from geneva_cli.parts.sizes import (
     arm_bore,
+    drawn_thicknesses,
     hole_radius,
+    pin_radius,
     refuse_stepped_shaft,
     refuse_wide_pin,
 )
-from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses, pin_radius
-from geneva_cli.parts.sizes.sizes import lock_between, refuse_edges, require_lock_between
 from geneva_cli.spec.default_sizes import Thicknesses
 from geneva_cli.spec.tables import Z_DRAWN, Size
 
 if TYPE_CHECKING:
     from geneva_cli.kinds.spherical.ball import Ball
-    from geneva_cli.parts.sizes.stressed import Stressed
+    from geneva_cli.parts.stressed import Stressed
 
 
 def ball(mechanism: Mechanism) -> Ball:

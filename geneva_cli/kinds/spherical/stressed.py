@@ -20,10 +20,9 @@ from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.loads.strength.arm_strength import ArmDimensions
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.parts.shafts.bores import reach_or_bore
-from geneva_cli.parts.sizes.arm_sizes import arm_hub, hole_radius
-from geneva_cli.parts.sizes.plain_sizes import half_or
-from geneva_cli.parts.sizes.stressed import ShaftEnd, Stressed, key_of, shaft_of
-from geneva_cli.spec.default_sizes import value_or
+from geneva_cli.parts.sizes import arm_hub, hole_radius
+from geneva_cli.parts.stressed import ShaftEnd, Stressed, key_of, shaft_of
+from geneva_cli.spec.default_sizes import half_or, value_or
 from geneva_cli.spec.least_wall import eye_about, wall_min
 
 

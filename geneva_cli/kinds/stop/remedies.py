@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from geneva_cli.verdict.changes import Change
-from geneva_cli.verdict.remedies import BLUNTER, OTHER_LOCK, SMALLER
+from geneva_cli.verdict.remedies import BLUNTER, OTHER_LOCK
 
-REMEDIES: dict[str, tuple[Change, ...]] = {
-    **dict.fromkeys(("stop_turns", "stop_overlap_mm"), (*OTHER_LOCK, SMALLER)),
+REMEDIES = {
+    "stop_turns": f"{OTHER_LOCK} roller_radius_mm*0.2",
+    "stop_overlap_mm": f"{OTHER_LOCK} roller_radius_mm*0.2",
     "stop_stress_max_MPa": BLUNTER,
 }

@@ -172,7 +172,7 @@ def rollers(mechanism: Mechanism) -> int:
     """Number of rollers on the crank."""
     spec = mechanism.spec
     count = len(spec.wheel.steps or spec.drive.roller_angles_deg or ()) or spec.drive.rollers
-    return count * len(mechanism.engagements[0].ahead_deg)
+    return count * len(mechanism.engagements[0].passages)
 
 
 def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:

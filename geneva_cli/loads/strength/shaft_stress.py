@@ -29,8 +29,8 @@ The roller is taken to be thin: its cone presses on the wall beside u.
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Sequence
-from typing import NamedTuple, Protocol
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -43,47 +43,25 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray, greater
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.arrays import N, library, parameter
+from geneva_cli.numerics.arrays import N, library
 from geneva_cli.numerics.jet import Array, Jet, Number, sqrt
 from geneva_cli.spec.tables import Shaft
 
-
-class ShaftForces(Hashable, Protocol):
-    """The loads of a shaft at an instant: a function, or a tuple that is called as one."""
-
-    def __call__(self, i: Instant[Jet], overhang: Number, /) -> tuple[Jet, Jet]:
-        """Squared bending moment, (N m)², for an overhang in metres; and torque."""
+# The loads of a shaft at an instant, for an overhang in metres: squared bending moment, (N m)², and
+# torque.
+ShaftForces: TypeAlias = Callable[[Instant[Jet], Number], tuple[Jet, Jet]]
 
 
-class ShaftStress(NamedTuple):
-    """Results for the shafts of m designs over their cycles, (m,) each; None for unknown values."""
+class LoadedShaft(NamedTuple):
+    """The loads on a shaft and its dimensions, floats or (m, 1); None for unknown ones."""
 
-    moment_Nm: float  # greatest sqrt((Kb M)² + (Kt T)²)
-    at_deg: float
-    stress_MPa: float | None
-    least_diameter_mm: float | None
-    twist_deg: float | None  # greatest, over overhang and span
-
-
-class ShaftDimensions(NamedTuple):
-    """Dimensions of one shaft, from ``[shaft]`` or its parts, and its allowable stress."""
-
-    diameter_mm: float | None
+    forces: ShaftForces
     overhang_mm: float | None
-    span_mm: float | None
-    allowed_MPa: float | None
-
-
-def wheel_shaft(table: Shaft) -> ShaftDimensions:
-    """Dimensions of the wheel's shaft."""
-    own = table.wheel_diameter_mm, table.wheel_overhang_mm, table.wheel_span_mm
-    return ShaftDimensions(*own, table.shear_stress_max_MPa)
-
-
-def crank_shaft(table: Shaft) -> ShaftDimensions:
-    """Dimensions of the crank's shaft."""
-    own = table.crank_diameter_mm, table.crank_overhang_mm, table.crank_span_mm
-    return ShaftDimensions(*own, table.shear_stress_max_MPa)
+    diameter_mm: float | None = None
+    span_mm: float | None = None
+    allowed_MPa: float | None = None
+    held_N: Array | float = 0.0  # by the lock in the dwell, (m,)
+    held_Nm: Array | float = 0.0
 
 
 def shear_MPa(moment_Nm: N, diameter_mm: N) -> N:
@@ -224,90 +202,60 @@ class Torque(NamedTuple):
         return QuantityValue(torque * torque, i.grip)
 
 
-class Held(NamedTuple):
-    """What the lock holds during the dwell, for m designs, (m,) each."""
-
-    force_N: Array
-    torque_Nm: Array
-
-    @property
-    def without_torque(self) -> Held:
-        """The same force on a shaft through which it passes."""
-        return self._replace(torque_Nm=0.0 * self.torque_Nm)
-
-
-class LoadedShaft(NamedTuple):
-    """A shaft, the loads on it in motion, and what the lock holds in the dwell."""
-
-    dimensions: ShaftDimensions
-    forces: ShaftForces
-    held: Held | None = None
-
-    def moment(self, table: Shaft) -> Moment:
-        """The equivalent torque in motion, for the factors of the spec's ``[shaft]``."""
-        assert self.dimensions.overhang_mm is not None
-        overhang = self.dimensions.overhang_mm / 1000.0
-        return Moment(self.forces, overhang, table.bending_factor, table.torsion_factor)
-
-
 def shafts_under_load(
     mechanism: Mechanism, shafts: Sequence[LoadedShaft]
-) -> list[ShaftStress | None]:
-    """Shafts of m designs under the forces and torques of a cycle; infinite without a bound.
+) -> list[dict[str, Array]]:
+    """Shafts of m designs under the forces and torques of a cycle: columns (m,) by their names.
 
-    They are searched together, as most of the work is common to them. What is held loads a shaft
-    in the dwell, from the first motion's end on. A shaft of which no design has an overhang or a
-    load has None.
+    ``moment_Nm`` is the greatest sqrt((Kb M)² + (Kt T)²), at ``at_deg``; ``twist_deg`` the greatest
+    over overhang and span. What has no bound is infinite, and what needs unknown dimensions is left
+    out. Shafts are searched together, as most of the work is common to them. What is held loads a
+    shaft in the dwell, from the first motion's end on. A shaft of which no design has an overhang
+    or a load has no columns.
     """
-    if not mechanism.spec.is_loaded:
-        return [None] * len(shafts)
-    known = [i for i, one in enumerate(shafts) if one.dimensions.overhang_mm is not None]
+    known = [i for i, one in enumerate(shafts) if one.overhang_mm is not None]
+    if not (mechanism.spec.is_loaded and known):
+        return [{} for _ in shafts]
     own = dict[str, LoadQuantity]()
     for i in known:
-        own[f"moment {i}"] = shafts[i].moment(mechanism.spec.shaft)
+        own[f"moment {i}"] = _moment(mechanism.spec.shaft, shafts[i])
         own[f"torque {i}"] = Torque(shafts[i].forces)
-    peaks = load_peaks(mechanism, tuple(own), own) if own else {}
-    out: list[ShaftStress | None] = [None] * len(shafts)
-    for i in known:
-        both, turned = peaks[f"moment {i}"], peaks[f"torque {i}"]
-        out[i] = _shaft_under_load(mechanism, shafts[i], both, turned)
-    return out
+    peaks = load_peaks(mechanism, tuple(own), own)
+    return [
+        _columns(mechanism, one, peaks[f"moment {i}"], peaks[f"torque {i}"]) if i in known else {}
+        for i, one in enumerate(shafts)
+    ]
 
 
-def _shaft_under_load(
+def _moment(table: Shaft, shaft: LoadedShaft) -> Moment:
+    """The equivalent torque in motion, for the factors of the spec's ``[shaft]``."""
+    assert shaft.overhang_mm is not None
+    overhang = shaft.overhang_mm / 1000.0
+    return Moment(shaft.forces, overhang, table.bending_factor, table.torsion_factor)
+
+
+def _columns(
     mechanism: Mechanism, shaft: LoadedShaft, both: PeakArray, turned: PeakArray
-) -> ShaftStress:
+) -> dict[str, Array]:
     """Results from the greatest squares of moment and torque in motion."""
-    ends, _, held = shaft
-    if held:
-        moment = shaft.moment(mechanism.spec.shaft)
-        bent = np.ravel(moment.bending) * held.force_N * np.ravel(moment.overhang)
-        square = bent**2 + (np.ravel(moment.torsion) * held.torque_Nm) ** 2
+    table, d, span = mechanism.spec.shaft, shaft.diameter_mm, shaft.span_mm
+    if np.any(np.asarray(shaft.held_N) > 0.0) or np.any(np.asarray(shaft.held_Nm) != 0.0):
+        moment = _moment(table, shaft)
+        bent = np.ravel(moment.bending) * shaft.held_N * np.ravel(moment.overhang)
+        square = bent**2 + (np.ravel(moment.torsion) * shaft.held_Nm) ** 2
         first = mechanism.under_load.engagements[0]
         exit_deg = np.ravel(mechanism.shown_deg(first.mid_deg + first.exit_deg))
         both = greater(both, PeakArray(square, np.broadcast_to(exit_deg, square.shape)))
-        turned = turned._replace(max=np.maximum(turned.max, held.torque_Nm**2))
-    return _stress_of(mechanism, ends, both.max, both.at_deg, turned.max)
-
-
-def _stress_of(
-    mechanism: Mechanism,
-    ends: ShaftDimensions,
-    square: Array,
-    at_deg: Number,
-    torque_squared: Number,
-) -> ShaftStress:
-    """Results from the greatest squares of moment and torque, (m,)."""
-    table, d, span = mechanism.spec.shaft, ends.diameter_mm, ends.span_mm
-    moment, allowed = np.sqrt(square), ends.allowed_MPa
-    stress = least = twist = None
+        turned = turned._replace(max=np.maximum(turned.max, np.square(shaft.held_Nm)))
+    most = np.sqrt(both.max)
+    out = {"moment_Nm": most, "at_deg": both.at_deg}
     if d is not None:
-        stress = parameter(shear_MPa(moment, np.ravel(d)))
-    if allowed is not None:
-        least = parameter(least_diameter_mm(moment, np.ravel(allowed)))
-    if d is not None and span is not None and ends.overhang_mm is not None:
+        out["stress_MPa"] = shear_MPa(most, np.ravel(d))
+    if shaft.allowed_MPa is not None:
+        out["least_diameter_mm"] = least_diameter_mm(most, np.ravel(shaft.allowed_MPa))
+    if d is not None and span is not None and shaft.overhang_mm is not None:
         polar = math.pi * d**4 / 32.0  # N m mm / (GPa mm^4) is 1
-        rate = np.ravel((ends.overhang_mm + span) / (table.shear_modulus_GPa * polar))
-        most = np.where(np.isfinite(torque_squared), np.sqrt(torque_squared), np.nan)
-        twist = parameter(np.degrees(most * rate))
-    return ShaftStress(parameter(moment), parameter(at_deg), stress, least, twist)
+        rate = np.ravel((shaft.overhang_mm + span) / (table.shear_modulus_GPa * polar))
+        torque = np.where(np.isfinite(turned.max), np.sqrt(turned.max), np.nan)
+        out["twist_deg"] = np.degrees(torque * rate)
+    return out

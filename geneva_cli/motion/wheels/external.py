@@ -8,10 +8,8 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.engagement import Displacement, Slot, WheelMotion
 from geneva_cli.motion.path_and_slot import AnchoredPath
 from geneva_cli.motion.pivots import Dimension, Layout
-from geneva_cli.motion.wheels import classic, poses
 from geneva_cli.motion.wheels.gearing import FollowedRate, Gearing, RollerPlace
 from geneva_cli.motion.wheels.poses import HalfStep
-from geneva_cli.numerics.arrays import choose
 from geneva_cli.spec.rules import LENGTH, Range
 from geneva_cli.spec.schema import Example
 
@@ -95,10 +93,6 @@ class External(Gearing):
         steps = (self.steps[0], *self.steps[:0:-1]) if self.steps else None
         return self.replace(offset_mm=0.0 - self.offset_mm, steps_deg=steps)
 
-    def half_motion_deg(self, step: HalfStep) -> float:
-        """Crank angle in degrees from entry to the line of centres: 90° - b."""
-        return classic.half_motion_deg(self.SIGN, *step)
-
     @property
     def layout(self) -> Layout:
         """Distance by which the slots' axes miss the wheel's axis."""
@@ -106,10 +100,9 @@ class External(Gearing):
 
     def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
         """Place of a roller; GenevaError if an offset slot cannot be entered without shock."""
-        half = self.half_motion_deg(step)
         e = self.offset_mm / center_distance_mm
         if isinstance(e, float) and not e:
-            return RollerPlace(step, half, poses.radial(self.SIGN, step), step.sin_cos[0])
+            return super().place(step, center_distance_mm)
 
         from geneva_cli.motion.wheels.skew import margin, skew
 
@@ -125,7 +118,9 @@ class External(Gearing):
         spare = margin(step, e)
         refuse(spare <= 0.0, error)
         slot = skew(step, e, spare)
-        return RollerPlace(step, half, slot.poses, slot.poses[2].slope[0], slot)
+        return RollerPlace(
+            step, self.half_motion_deg(step), slot.poses, slot.poses[2].slope[0], slot
+        )
 
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement
@@ -147,18 +142,6 @@ class External(Gearing):
         from geneva_cli.motion.wheels.offset_slot import exact_rate
 
         return exact_rate(exact(self.offset_mm) / exact(L), *step)
-
-    def closed_form(self, place: RollerPlace) -> tuple[float, float, float] | None:
-        """Sign, l = sin b and 1 - l for the closed forms of radial slots; None for others."""
-        if place.skew is not None:
-            return None
-        return self.SIGN, place.step.sin_cos[0], classic.gap(1.0, *place.step)
-
-    def matched_ratio(self, v: float) -> float:
-        """R/L of the mid condition psi1(0) = l/(1-l) f1(0), with the transmission's ratio f1."""
-        able = v > 0.0
-        ratio: float = choose(able, v, math.nan) / (1.0 + choose(able, v, 0.0))
-        return ratio
 
 
 def _multiples(z: int, n: int) -> str:

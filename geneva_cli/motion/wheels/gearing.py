@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import field
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self, TypeAlias
 
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Layout, Pivot
-from geneva_cli.motion.wheels.poses import HalfStep, PinPose, Skew
-from geneva_cli.numerics.arrays import larger
+from geneva_cli.motion.wheels import classic
+from geneva_cli.motion.wheels.poses import HalfStep, PinPose, Skew, radial
+from geneva_cli.numerics.arrays import choose, larger
 from geneva_cli.numerics.jet import Jet, turning
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
 from geneva_cli.spec.schema import Example, SpecTable
@@ -61,7 +61,9 @@ class RollerPlace(NamedTuple):
     the centre distance. ``skew`` describes an offset slot.
 
     On a sphere ``height`` is the pin's position along the wheel's axis: (top, fall) for top - fall
-    (1 - cos a). ``cone`` is the cosine of the pin's cone.
+    (1 - cos a). ``cone`` is the cosine of the pin's cone. ``hub`` is the distance over L from the
+    wheel's axis to the point about which the crank's arm turns. ``closed`` has sign, l and 1 - l
+    for the closed forms of a plain crank; None if there are none.
     """
 
     step: HalfStep
@@ -72,6 +74,8 @@ class RollerPlace(NamedTuple):
     crank_deg: float = 0.0
     height: tuple[float, float] | None = None
     cone: float = 1.0
+    hub: float = 1.0
+    closed: tuple[float, float, float] | None = None
 
     @property
     def reach_deg(self) -> float:
@@ -184,13 +188,21 @@ class Gearing(SpecTable):
         """The wheel's step at its i-th engagement, degrees."""
         return self.steps[i] if self.steps else 360.0 / self.z
 
-    @abstractmethod
     def half_motion_deg(self, step: HalfStep) -> float:
-        """Crank angle in degrees from entry to the line of centres, for an entry without shock."""
+        """Crank angle in degrees from entry to the line of centres, for an entry without shock.
 
-    @abstractmethod
+        It is 90° - b outside, 90° + b inside.
+        """
+        return classic.half_motion_deg(self.SIGN, *step)
+
     def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
-        """Place of a roller in a straight slot. Raises GenevaError if it is impossible."""
+        """Place of a roller in a straight slot, which is radial in a flat wheel.
+
+        Raises GenevaError if it is impossible.
+        """
+        three, l = radial(self.SIGN, step), step.sin_cos[0]
+        closed = self.SIGN, l, classic.gap(1.0, *step)
+        return RollerPlace(step, three[2].crank_deg, three, l, closed=closed)
 
     def rest(self, ratio: float) -> float:
         """Least distance of a pin on any circle from the wheel's axis: 1 - l, inside 1 + l."""
@@ -208,20 +220,12 @@ class Gearing(SpecTable):
     def plane_motion(self, center_distance_mm: float) -> PlaneMotion:
         """How the wheel moves in its plane, for lengths in millimetres."""
         # imported here, as `table` starts without NumPy
-        from geneva_cli.motion.plane_motion import Turning
+        from geneva_cli.motion.plane_motion import PlaneMotion
 
-        return Turning()
+        return PlaneMotion()
 
     def body(self, place: RollerPlace, turn: Displacement) -> CarrierVelocity | None:
         """Angular velocity of the roller's carrier; None for a crank arm in the plane."""
-        return None
-
-    def hub(self, place: RollerPlace) -> float:
-        """Distance over L from the wheel's axis to the point about which the crank's arm turns."""
-        return 1.0
-
-    def closed_form(self, place: RollerPlace) -> tuple[float, float, float] | None:
-        """Sign, l and 1 - l for the closed forms of a plain crank; None if there are none."""
         return None
 
     def exact_rate(
@@ -242,6 +246,9 @@ class Gearing(SpecTable):
     def matched_ratio(self, v: float) -> float:
         """R/L at which the pin crosses the line of centres as fast as the wheel's slot does there.
 
-        ``v`` is the wheel's speed over the crank's. NaN if no R/L below 1 has this property.
+        ``v`` is the wheel's speed over the crank's there: l/(1 - l), inside l/(1 + l). NaN if no
+        R/L below 1 has this property.
         """
-        return math.nan
+        able = (v > 0.0) & ((1.0 - self.SIGN) * v < 1.0)
+        ratio: float = choose(able, v, math.nan) / (1.0 + self.SIGN * choose(able, v, 0.0))
+        return ratio

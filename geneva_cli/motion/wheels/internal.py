@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from typing import ClassVar
 
-from geneva_cli.motion.wheels import classic, poses
-from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
-from geneva_cli.motion.wheels.poses import HalfStep
-from geneva_cli.numerics.arrays import choose
+from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec.schema import Example
 
 
@@ -26,22 +22,3 @@ class Internal(Gearing):
         "an internal wheel: more motion than dwell", {"wheel": {"z": 6}}
     )
     SIGN: ClassVar[float] = -1.0
-
-    def half_motion_deg(self, step: HalfStep) -> float:
-        """Crank angle in degrees from entry to the line of centres: 90° + b."""
-        return classic.half_motion_deg(self.SIGN, *step)
-
-    def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
-        """Place and arm of a roller that passes through a radial slot."""
-        all_three = poses.radial(self.SIGN, step)
-        return RollerPlace(step, self.half_motion_deg(step), all_three, step.sin_cos[0])
-
-    def closed_form(self, place: RollerPlace) -> tuple[float, float, float] | None:
-        """Sign, l = sin b and 1 - l for the closed forms of radial slots."""
-        return self.SIGN, place.step.sin_cos[0], classic.gap(1.0, *place.step)
-
-    def matched_ratio(self, v: float) -> float:
-        """R/L of the mid condition psi1(0) = l/(1+l) f1(0), with the transmission's ratio f1."""
-        able = (v > 0.0) & (v < 0.5)
-        ratio: float = choose(able, v, math.nan) / (1.0 - choose(able, v, 0.0))
-        return ratio

@@ -82,6 +82,8 @@ class Spherical(Gearing):
             ball.sin_th,
             height=(top, fall),
             cone=ball.cos_th,
+            # the arm's plane is perpendicular to the crank's axis, cos th from the sphere's centre
+            hub=ball.sin_S * ball.cos_th,
         )
 
     def follow(
@@ -111,13 +113,6 @@ class Spherical(Gearing):
     def body(self, place: RollerPlace, turn: Displacement) -> CrankCone:
         """Angular velocity of the crank, whose axis differs from the roller's."""
         return CrankCone(turn, place.cone)
-
-    def hub(self, place: RollerPlace) -> float:
-        """Distance from the wheel's axis to the crank's axis in the arm's plane, over L.
-
-        That plane is perpendicular to the crank's axis, cos th from the sphere's centre.
-        """
-        return sin_cos_deg(self.axes_deg)[0] * place.cone
 
 
 class CrankCone(NamedTuple):

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+from geneva_cli.errors import clean
+from geneva_cli.table import NO_BOUND, in_digits
 
 if TYPE_CHECKING:
     from geneva_cli.figure import Figure
     from geneva_cli.geometry.drawing import Drawing
+
 
 Value: TypeAlias = float | int | str | bool | None
 Row: TypeAlias = tuple[Value, ...]
@@ -80,3 +86,46 @@ class Document(NamedTuple):
     verdict: str
     reasons: tuple[str, ...]
     blocks: tuple[Block, ...]
+
+
+SHORT = 12  # letters that are not broken into lines
+NO_BREAK = "\u00a0"  # a space at which no line is broken
+TIMES = f"{NO_BREAK}×{NO_BREAK}"
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def value_text(value: Value | Row, unit: str = "", digits: int = 6) -> str:
+    """A value with its unit. Raises ArithmeticError for NaN, a fault of this program.
+
+    >>> value_text(182.612895, "°"), value_text(53.17, "W/m²"), value_text(None), value_text(True)
+    ('182.613°', '53.17 W/m²', '–', 'yes')
+    """
+    if isinstance(value, tuple):
+        return ", ".join(value_text(one, unit, digits) for one in value) or "none"
+    text = _bare(value, digits)
+    if not unit or value is None or not is_number(value) or text == NO_BOUND:
+        return text
+    return f"{text}°" if unit == "°" else f"{text} {unit}"
+
+
+def is_number(value: object) -> bool:
+    """Return True for a value that is right-aligned in its column."""
+    return value is None or (isinstance(value, (int, float)) and not isinstance(value, bool))
+
+
+def is_short(column: Iterable[Value]) -> bool:
+    """Return True for a column whose cells are not broken into lines, such as units."""
+    return all(len(value_text(value)) <= SHORT for value in column)
+
+
+def _bare(value: Value, digits: int) -> str:
+    if value is None:
+        return "–"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if not isinstance(value, float):
+        return clean(str(value))
+    if math.isnan(value):
+        raise ArithmeticError("a value of the report is not a number")
+    number, _, power = in_digits(value, digits).partition("e")
+    return f"{number}{TIMES}10{str(int(power)).translate(RAISED)}" if power else number

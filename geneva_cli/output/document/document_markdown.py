@@ -15,8 +15,9 @@ from geneva_cli.output.document.blocks import (
     Picture,
     Prose,
     TextList,
+    is_number,
+    value_text,
 )
-from geneva_cli.output.document.printed_values import is_number, value_text
 from geneva_cli.output.markdown import escaped
 from geneva_cli.output.notes import span_text
 from geneva_cli.output.plot.ticks import mark_text, named

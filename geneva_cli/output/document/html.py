@@ -11,6 +11,7 @@ from geneva_cli import output
 from geneva_cli.errors import clean
 from geneva_cli.output.document.blocks import (
     BAD,
+    SHORT,
     Block,
     Curves,
     Document,
@@ -21,8 +22,10 @@ from geneva_cli.output.document.blocks import (
     Prose,
     Row,
     TextList,
+    is_number,
+    is_short,
+    value_text,
 )
-from geneva_cli.output.document.printed_values import SHORT, is_number, is_short, value_text
 from geneva_cli.output.plot import plot_svg
 from geneva_cli.output.svg import drawing_svg as svg
 from geneva_cli.output.terminal.summary import SIGNS

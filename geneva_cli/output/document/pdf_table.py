@@ -4,8 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from geneva_cli.output.document.blocks import BAD, Facts, Grid
-from geneva_cli.output.document.printed_values import NO_BREAK, is_number, is_short, value_text
+from geneva_cli.output.document.blocks import (
+    BAD,
+    NO_BREAK,
+    Facts,
+    Grid,
+    is_number,
+    is_short,
+    value_text,
+)
 from geneva_cli.output.pdf.pdf_pages import (
     BAND,
     INK,

@@ -20,13 +20,14 @@ from geneva_cli.geometry.moments import oriented
 from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment
 from geneva_cli.output.mesh.polygons import (
+    Fans,
+    Surface,
     arc_chords,
     between,
     require_few,
     rounded_point,
     triangles,
 )
-from geneva_cli.output.mesh.surface import Fans, Surface
 from geneva_cli.output.solid_part import plate_contours
 
 

@@ -5,17 +5,26 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import STRAIGHT, at
 from geneva_cli.geometry.shapes import Arc, Cubic, Point, Segment
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.ezdxf_alone import earcut
 
 Triangle: TypeAlias = tuple[int, int, int]
 
 DECIMALS = 6  # of coordinates in mm, so that rounding of another processor is not seen
 CORNERS_MAX = 200_000  # of a polygon: a file of about 40 MB
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from geneva_cli.geometry.sphere import Vector
 
 
 @dataclass(slots=True)
@@ -135,3 +144,41 @@ def edges(loops: Sequence[Sequence[Point]]) -> list[tuple[int, int]]:
         pairs += [(i, i + 1 if i + 1 < after else first) for i in range(first, after)]
         first = after
     return pairs
+
+
+class Surface(NamedTuple):
+    """Corners in mm (n, 3), and triangles by their numbers (m, 3), counterclockwise from outside.
+
+    Every side of a triangle is a side of one other, in the opposite sense.
+    """
+
+    corners: Array
+    triangles: npt.NDArray[np.int64]
+
+
+def surface(corners: Sequence[Vector], triangles: Sequence[Triangle]) -> Surface:
+    """Return the surface of corners, which are rounded, and triangles."""
+    return Surface(rounded(np.array(corners)), np.array(triangles, dtype=np.int64))
+
+
+class Fans:
+    """A surface while it is built: its corners, each once, and its triangles."""
+
+    def __init__(self) -> None:
+        self.corners: dict[Vector, int] = {}
+        self.triangles: list[Triangle] = []
+
+    def add(self, points: Sequence[Vector]) -> None:
+        """Add a fan of triangles from the first of some points, without those of no area."""
+        first, *rest = (self.corners.setdefault(point, len(self.corners)) for point in points)
+        fan = [(first, a, b) for a, b in pairwise(rest)]
+        self.triangles += [one for one in fan if len(set(one)) == 3]
+
+    def surface(self) -> Surface:
+        """Return the surface."""
+        return surface(list(self.corners), self.triangles)
+
+
+def rounded(corners: Array) -> Array:
+    """Return corners with DECIMALS, and without negative zeros."""
+    return np.round(corners, DECIMALS) + 0.0

@@ -15,8 +15,7 @@ from geneva_cli.geometry.plates import Shell
 from geneva_cli.geometry.round_holes import RoundHole
 from geneva_cli.geometry.sphere import Region, SphereArc, Vector, cross, dot, square_to, unit
 from geneva_cli.output.mesh.face_mesh import SphereFace
-from geneva_cli.output.mesh.polygons import Triangle, arc_chords, triangles
-from geneva_cli.output.mesh.surface import Surface, surface
+from geneva_cli.output.mesh.polygons import Surface, Triangle, arc_chords, surface, triangles
 from geneva_cli.output.solid_part import require_thick
 
 DIGITS = 12  # decimals of unit vectors, so that rounding of another processor is not seen

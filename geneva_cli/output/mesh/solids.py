@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from functools import cache, lru_cache
 from itertools import pairwise
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -17,10 +17,18 @@ from geneva_cli.geometry.shapes import Layer, Point
 from geneva_cli.geometry.stacks import Run, Side, levels, outline_of, sides
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.mesh.plate_meshes import plate_mesh
-from geneva_cli.output.mesh.polygons import chord_points, triangles
+from geneva_cli.output.mesh.polygons import (
+    Fans,
+    Surface,
+    chord_points,
+    rounded,
+    triangles,
+)
 from geneva_cli.output.mesh.shells import shell_mesh
-from geneva_cli.output.mesh.surface import Fans, Surface, rounded
 from geneva_cli.output.solid_part import plate_contours, solid_part
+
+if TYPE_CHECKING:
+    pass
 
 
 class Place(NamedTuple):

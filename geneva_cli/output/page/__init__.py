@@ -13,7 +13,7 @@ from geneva_cli.errors import clean
 from geneva_cli.figure import Curve, Panel
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.plot.ticks import labels, ticks
-from geneva_cli.output.svg.svg_paths import element
+from geneva_cli.output.svg.drawing_svg import element
 
 if TYPE_CHECKING:
     from geneva_cli.output.scene import Bar, Body, Scene, Track

@@ -15,7 +15,7 @@ from geneva_cli.output.inks import CENTRE_LINES, inks
 from geneva_cli.output.notes import LETTERS, Notes, notes
 from geneva_cli.output.pdf.pdf_file import outline, point, tint
 from geneva_cli.output.pdf.pdf_pages import LEFT, SMALL, SOFT, WIDE, Item, words
-from geneva_cli.output.svg.svg_fill import opacity, rings
+from geneva_cli.output.svg.drawing_svg import opacity, rings
 
 STROKE, THIN = 0.3, 0.16
 MARGIN = 3.0

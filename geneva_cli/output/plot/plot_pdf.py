@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from functools import partial
 
 from geneva_cli.figure import Figure
+from geneva_cli.output.inks import LIGHT, colour, dashes
 from geneva_cli.output.letters import western
 from geneva_cli.output.pdf import pdf_file
 from geneva_cli.output.pdf.pdf_file import POINT, number, tint
@@ -22,7 +23,6 @@ from geneva_cli.output.plot.plot_layout import (
     Point,
     blocks,
 )
-from geneva_cli.output.plot.strokes import LIGHT, colour, dashes
 
 
 def chunks(figure: Figure) -> Iterator[str]:

@@ -8,8 +8,8 @@ from typing import Any
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.figure import Figure
+from geneva_cli.output.inks import LIGHT, colour, dashes
 from geneva_cli.output.plot.plot_layout import INCH, PAGE, START, TEXT, Path, Pen, Point, blocks
-from geneva_cli.output.plot.strokes import LIGHT, colour, dashes
 
 PT = 72.0 / INCH  # points per px
 

@@ -10,6 +10,7 @@ from html import escape
 
 from geneva_cli.errors import clean
 from geneva_cli.figure import Figure
+from geneva_cli.output.inks import DARK, LIGHT, Paper, colour, dashes
 from geneva_cli.output.plot.plot_layout import (
     LEFT,
     PAGE,
@@ -21,7 +22,6 @@ from geneva_cli.output.plot.plot_layout import (
     Point,
     blocks,
 )
-from geneva_cli.output.plot.strokes import DARK, LIGHT, Paper, colour, dashes
 from geneva_cli.output.plot.ticks import named
 from geneva_cli.table import in_decimals
 

@@ -13,8 +13,7 @@ from collections.abc import Iterator
 from geneva_cli.errors import clean
 from geneva_cli.geometry.shapes import Contour, Layer
 from geneva_cli.geometry.sheet import DASHED, DIMENSION, TEXT, WIDTHS, Arrow, Label, Measure, Sheet
-from geneva_cli.output.dxf_contours import draw
-from geneva_cli.output.dxf_file import USUAL, dxf_text, extents, linetype
+from geneva_cli.output.dxf import USUAL, draw, dxf_text, extents, linetype
 from geneva_cli.output.ezdxf_alone import BaseLayout, Document, Modelspace
 
 # group code 70 of a DIMENSION, and the attributes that hold its points

@@ -9,7 +9,7 @@ from html import escape
 from geneva_cli.errors import clean
 from geneva_cli.geometry.helvetica import CAPITALS
 from geneva_cli.geometry.sheet import DASHED, WIDTHS, Arrow, Label, Sheet
-from geneva_cli.output.svg.svg_paths import element, number, place, point
+from geneva_cli.output.svg.drawing_svg import element, number, place, point
 
 STYLE = """<style>
 .paper { fill: #ffffff; stroke: none }

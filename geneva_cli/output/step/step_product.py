@@ -9,8 +9,7 @@ from geneva_cli.geometry.plates import Group, Member, Part, Plate, Shell, Solid,
 from geneva_cli.output.inks import Ink, inks
 from geneva_cli.output.step.entities import Entities, listed, real, words
 from geneva_cli.output.step.shell import shell_solid
-from geneva_cli.output.step.solid import solid
-from geneva_cli.output.step.stack import stack_solid
+from geneva_cli.output.step.solid import solid, stack_solid
 
 
 class Product(NamedTuple):

@@ -12,10 +12,9 @@ from typing import NamedTuple
 
 from geneva_cli.errors import clean
 from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape
-from geneva_cli.output.inks import INKS
-from geneva_cli.output.plot.strokes import DARK
+from geneva_cli.output.inks import DARK, INKS
 from geneva_cli.output.scene import Bar, Scene, body_pose, place_at, pose, value_at
-from geneva_cli.output.svg.svg_paths import element
+from geneva_cli.output.svg.drawing_svg import element
 
 GREY, BROWN = "#757575", "#a56752"
 PAGE = "#ffffff"

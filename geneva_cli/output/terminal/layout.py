@@ -5,10 +5,16 @@ Nothing is cut: a number keeps its width, and text is broken between words only.
 
 from __future__ import annotations
 
+import os
 import re
+import shutil
 import unicodedata
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+from geneva_cli.errors import clean
+from geneva_cli.output.text import WIDTH, cell
+from geneva_cli.table import in_digits
 
 GAP = "  "  # between two columns
 BOLD, DIM, PLAIN = "\x1b[1m", "\x1b[2m", "\x1b[0m"
@@ -170,3 +176,72 @@ def _line(texts: Sequence[str], sizes: Sequence[int], is_text: Sequence[bool]) -
 def styled(text: str, style: str, is_styled: bool) -> str:
     """A text in a style such as bold, if the terminal supports it; an empty one stays empty."""
     return f"{style}{text}{PLAIN}" if is_styled and style and text else text
+
+
+NUMBER = 11  # letters of the widest number with five digits, -1.2345e-10
+
+
+def value(number: Any, unit: str = "") -> str:
+    """A value for people at a terminal, with its unit.
+
+    >>> value(34.733492, "N m"), value(53173000.0), value(2.8e8, "h")
+    ('34.733 N m', '5.3173e7', 'practically unlimited')
+    """
+    return with_unit(bare(number, unit), unit)
+
+
+def with_unit(text: str, unit: str) -> str:
+    """A number with its unit; words stand alone."""
+    return f"{text} {unit}" if unit and text[-1:].isdigit() else text
+
+
+def bare(number: Any, unit: str) -> str:
+    """A value without its unit, which identifies times too long to be meaningful."""
+    if not isinstance(number, float):
+        return cell(number)
+    # A life of more than 114 years of running day and night is meaningless.
+    if unit == "h" and number > 1e6:
+        return "practically unlimited"
+    digits, e, power = in_digits(number, 5).partition("e")
+    return f"{digits}e{int(power)}" if e else digits
+
+
+def aligned(texts: Sequence[str]) -> Sequence[str]:
+    """Numbers with aligned decimal points, if that takes little more width."""
+    numeric = re.compile(r"-?[\d.]+|-")  # without a power of ten; or no value
+    if not all(numeric.fullmatch(text) for text in texts):
+        return texts
+    tails = [len(text) - text.find(".") if "." in text else 0 for text in texts]
+    most = max(tails)
+    padded = [text + " " * (most - tail) for text, tail in zip(texts, tails, strict=True)]
+    # A column may become three letters wider.
+    return padded if max(map(len, padded)) <= max(map(len, texts)) + 3 else texts
+
+
+class Window(NamedTuple):
+    """The width of lines in letters, the look of letters, and the options for all columns.
+
+    A ``whole`` table has every column, constant ones too; a ``wide`` one exceeds the window.
+    Letters may be ``styled``, as bold ones, and without ``unicode`` they are ASCII.
+    """
+
+    columns: int
+    styled: bool = False
+    whole: bool = False
+    wide: bool = False
+    unicode: bool = True
+
+
+def window(whole: bool, is_wide: bool) -> Window:
+    """The window of standard output; COLUMNS has precedence over the terminal's own width."""
+    styled = os.environ.get("TERM", "dumb") != "dumb" and not os.environ.get("NO_COLOR")
+    # A window of fewer than 60 columns breaks lines itself.
+    columns = max(shutil.get_terminal_size().columns, 60)
+    return Window(columns, styled, whole or is_wide, is_wide)
+
+
+def paragraphs(text: str, window: Window, style: str = "") -> Iterator[str]:
+    """The lines of a text of one or more paragraphs."""
+    for paragraph in text.split("\n") if text else ():
+        for line in wrapped(clean(paragraph), min(window.columns, WIDTH)):
+            yield styled(line, style, window.styled)

@@ -9,9 +9,8 @@ from collections.abc import Iterable, Iterator
 
 from geneva_cli.answer import FAILS, PASSES, WARNS, Summary, SummaryLine
 from geneva_cli.errors import clean
-from geneva_cli.output.document.printed_values import NO_BREAK, RAISED, TIMES
-from geneva_cli.output.terminal.layout import DIM, styled
-from geneva_cli.output.terminal.window import Window, window
+from geneva_cli.output.document.blocks import NO_BREAK, RAISED, TIMES
+from geneva_cli.output.terminal.layout import DIM, Window, styled, window
 from geneva_cli.output.text import WIDTH
 
 SIGNS = {PASSES: "✓", WARNS: "!", FAILS: "✗"}

@@ -2,16 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import chain
 from typing import Any
 
+from geneva_cli.errors import clean
 from geneva_cli.names import heading, spoken
-from geneva_cli.output.terminal.fitted import rows_of
-from geneva_cli.output.terminal.layout import BOLD, GAP, styled, width_of, wrapped
-from geneva_cli.output.terminal.shown_values import bare, value
-from geneva_cli.output.terminal.window import Window, paragraphs
-from geneva_cli.output.text import WIDTH, apart
+from geneva_cli.output.terminal.layout import (
+    BOLD,
+    DIM,
+    GAP,
+    NUMBER,
+    ShownColumn,
+    Window,
+    aligned,
+    bare,
+    fitting,
+    heads,
+    paragraphs,
+    row,
+    stacked,
+    styled,
+    transposed,
+    value,
+    width_of,
+    widths,
+    with_unit,
+    wrapped,
+)
+from geneva_cli.output.text import WIDTH, apart, without_noise
 from geneva_cli.table import Table
 
 
@@ -82,3 +101,110 @@ def _value(label: str, width: int, texts: list[str], window: Window) -> Iterator
         yield f"{indent}- {first}"
         for line in more:
             yield f"{indent}  {line}"
+
+
+def rows_of(table: Table, window: Window, is_inner: bool = False) -> Iterator[str]:
+    """Rows under their headings: as many columns as fit, and a note on the others.
+
+    A short table is transposed if that shows more: of one row, or of few rows in a record.
+    """
+    layout_rows = 8192  # rows that determine the layout; later rows of a longer table follow it
+    blocks = table.blocks(layout_rows)
+    first = next(blocks, [])
+    if not first:
+        yield from ["no rows"] if table.names else []
+        return
+    all_columns = _columns(table, first)
+    columns, once = (all_columns, []) if window.whole else _sorted_out(all_columns, table)
+    if once:
+        yield from paragraphs(f"In every row: {'; '.join(once)}.", window)
+        yield ""
+    is_long = len(table) > layout_rows
+    if is_long:
+        columns = [c if c.is_text else c._replace(cells=[*c.cells, "0" * NUMBER]) for c in columns]
+    order = [*table.reading.first, *(n for n in table.names if n not in table.reading.first)]
+    width = 1_000_000 if window.wide else window.columns  # a million letters: without a limit
+    kept, sizes = fitting(columns, order, width)
+    lost = [
+        column
+        for column in sorted(columns, key=lambda c: order.index(c.name))
+        if column not in kept
+    ]
+    other = [] if is_long or not lost else _other_layout(columns, kept, lost, window, is_inner)
+    if other:
+        yield from other
+        return
+    if not is_long and not table.mixed:
+        pointed = [column._replace(cells=aligned(column.cells)) for column in kept]
+        sizes, kept = (wider, pointed) if (wider := widths(pointed, width)) else (sizes, kept)
+    yield from heads(kept, sizes, window.styled)
+    is_text, names = [column.is_text for column in kept], {column.name for column in kept}
+    for texts in zip(*(column.cells[: len(first)] for column in kept), strict=True):
+        yield from row(texts, sizes, is_text)
+    for block in blocks:
+        cells = [column.cells for column in _columns(table, block) if column.name in names]
+        for texts in zip(*cells, strict=True):
+            yield from row(texts, sizes, is_text)
+    yield from _left_out(lost, window)
+
+
+def _other_layout(
+    columns: list[ShownColumn],
+    kept: list[ShownColumn],
+    lost: list[ShownColumn],
+    window: Window,
+    is_inner: bool,
+) -> list[str]:
+    """The lines of columns that do not all fit, transposed or stacked; empty where rows are better.
+
+    ``kept`` would be shown, and ``lost`` would not.
+    """
+    few = 3 if is_inner or 3 * len(kept) < len(columns) else 1  # rows that may be transposed
+    if len(kept[0].cells) <= few and (lines := transposed(columns, window.columns)):
+        return lines
+    if len(kept) > 1:
+        return []
+    return [*stacked(kept[0], lost[0], window.columns), *_left_out(lost[1:], window)]
+
+
+def _left_out(columns: Sequence[ShownColumn], window: Window) -> Iterator[str]:
+    """The line that names the omitted columns, and how to see them."""
+    if not columns:
+        return
+    one = "1 more column" if len(columns) == 1 else f"{len(columns)} more columns"
+    start, names, rest = f"{one}: --wide, or --columns ", "", [column.name for column in columns]
+    while rest and width_of(start + names + rest[0]) + len(",...") <= window.columns:
+        names += rest.pop(0) + ","
+    line = f"{start}{names}..." if rest else start + names[:-1]
+    yield ""
+    yield styled(line if names else f"{one}: --wide", DIM, window.styled)
+
+
+def _columns(table: Table, block: list[tuple[Any, ...]]) -> list[ShownColumn]:
+    """All columns of some rows."""
+    rows = block if table.mixed else without_noise(block)
+    columns = []
+    naming = ("quantity", "dimension", "check")  # columns whose cells are names with units
+    for name, values in zip(table.names, zip(*rows, strict=True), strict=True):
+        literal = table.reading.designs and name not in naming
+        words, unit = (name, "") if literal else spoken(name)
+        is_text = any(isinstance(v, (str, bool)) for v in values)
+        texts = [bare(v, unit) for v in values]
+        if name in naming:
+            texts = [clean(heading(text)) for text in texts]
+        columns.append(ShownColumn(name, clean(words), unit, texts, is_text))
+    return columns
+
+
+def _sorted_out(columns: list[ShownColumn], table: Table) -> tuple[list[ShownColumn], list[str]]:
+    """The columns that differ between rows, and descriptions of the constant ones."""
+    kept, once = [], []
+    for column in columns:
+        cells = set(column.cells)
+        if cells == {""}:
+            continue
+        if len(cells) > 1 or len(column.cells) == 1 or table.reading.designs:
+            kept.append(column)
+        elif column.name not in table.reading.in_title:
+            once.append(f"{column.words} {with_unit(cells.pop(), column.unit)}")
+    return kept or columns[:1], once

@@ -25,7 +25,7 @@ from geneva_cli.parts.links.link_positions import gear_plane, same
 from geneva_cli.parts.links.link_sizes import link_sizes
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.shafts.bores import RoundBore, round_bore
+from geneva_cli.parts.shafts.bores import Bore, round_bore
 from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, shaft_ends
 from geneva_cli.parts.shafts.shaft_bores import ShaftBore, bore_at
 
@@ -133,7 +133,7 @@ def gear_shafts(
         on = bore_at(mechanism, first, wide)
         shaft = Shaft("crank's shaft", "crank", on.bore, (driven,), *reach, first)
         yield shaft._replace(direction=on.direction)
-    name, bore, bored = driver.part, RoundBore(radius), _driver_bore(mechanism, parts) > 0.0
+    name, bore, bored = driver.part, Bore(radius), _driver_bore(mechanism, parts) > 0.0
     seats, top = ((driver,), driver.high) if bored else ((), driver.low)  # or one piece with it
     yield Shaft(f"{name}'s shaft", name, bore, seats, ends.lowest, top, at)
 

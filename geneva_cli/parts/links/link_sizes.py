@@ -21,8 +21,8 @@ from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import Bore
-from geneva_cli.parts.sizes.arm_sizes import HUB, pin_hole
-from geneva_cli.parts.sizes.plain_sizes import drawn_thicknesses, half_or, pin_radius, plane_span
+from geneva_cli.parts.sizes import HUB, drawn_thicknesses, pin_hole, pin_radius, plane_span
+from geneva_cli.spec.default_sizes import half_or
 from geneva_cli.spec.least_wall import eye_about, wall_min
 from geneva_cli.spec.tables import Size
 

@@ -33,8 +33,8 @@ from geneva_cli.parts.links.link_sizes import (
     point_at_zero,
 )
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.shafts.bolt_holes import screw_through
 from geneva_cli.parts.shafts.bores import round_bore
+from geneva_cli.parts.shafts.screws import screw_through
 from geneva_cli.parts.shafts.shaft_bores import ShaftBore, bore_at
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from geneva_cli.geometry.shapes import Circle, Shape
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.outlines.reliefs import keyway_direction
 from geneva_cli.parts.shafts.bores import bore_of
-from geneva_cli.parts.sizes.plain_sizes import Sizes
+from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.slots.roller_paths import roller_centres
 
 

@@ -21,8 +21,7 @@ from geneva_cli.parts.outlines.reliefs import (
     reliefs,
     widened,
 )
-from geneva_cli.parts.sizes.arm_sizes import crank_reach_and_hub
-from geneva_cli.parts.sizes.plain_sizes import Sizes
+from geneva_cli.parts.sizes import Sizes, crank_reach_and_hub
 from geneva_cli.parts.slots.roller_paths import mouth_corners
 
 

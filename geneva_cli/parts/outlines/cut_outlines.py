@@ -18,8 +18,8 @@ from geneva_cli.parts.outlines.crank_outline import arc_leaves_hub, crank_contou
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.reliefs import has_arcs, is_whole, without_lock
 from geneva_cli.parts.outlines.wheel_outline import CURVED, turned_walls, wheel_contour
-from geneva_cli.parts.sizes.plain_sizes import Sizes
-from geneva_cli.parts.sizes.stressed import lock_of
+from geneva_cli.parts.sizes import Sizes
+from geneva_cli.parts.stressed import lock_of
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.pairs import Pose
 

@@ -20,7 +20,7 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.outlines.reliefs import reliefs, sectors
-from geneva_cli.parts.sizes.plain_sizes import Sizes
+from geneva_cli.parts.sizes import Sizes
 
 # points of the wheel inside the disc in one motion: x and y in the crank's frame
 Swept: TypeAlias = Callable[[int], tuple[Array, Array]]

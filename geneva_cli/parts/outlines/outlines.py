@@ -10,7 +10,7 @@ from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.sizes.plain_sizes import Sizes
+from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.pairs import Clearances
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from geneva_cli.geometry.shapes import Circle, Shape
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
-from geneva_cli.parts.sizes.plain_sizes import Sizes
+from geneva_cli.parts.sizes import Sizes
 
 
 def wheel_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
@@ -26,7 +26,7 @@ def dial_bolts(assembly: Assembly, sizes: Sizes) -> list[Circle]:
 
     By default their circle is in the middle between the bore and the slots and recesses.
     """
-    from geneva_cli.parts.shafts.bolt_holes import bolt_circle
+    from geneva_cli.parts.shafts.screws import bolt_circle
 
     size = assembly.mechanism.spec.size
     ring = sizes.wheel_reach, sizes.slot_end

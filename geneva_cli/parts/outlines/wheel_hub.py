@@ -13,7 +13,7 @@ from geneva_cli.geometry.shapes import ORIGIN, Circle, Shape
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.outlines.wheel_circles import wheel_circles
 from geneva_cli.parts.shafts.held_hubs import held_hub
-from geneva_cli.parts.sizes.plain_sizes import Sizes
+from geneva_cli.parts.sizes import Sizes
 from geneva_cli.spec.tables import Size
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import NoReturn
 
@@ -13,23 +14,40 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.outlines.walls.straight import straight_walls
-from geneva_cli.parts.sizes.plain_sizes import Sizes
+from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.slots.roller_paths import least_mouth
 from geneva_cli.parts.turn.machine_parts import CONTACT
 
 CURVED = CONTACT  # of the centre distance: accuracy of curved walls for the full turn
 
 
-@lru_cache(maxsize=16)  # drawings, sheet and solids of one machine have the same walls
+@dataclass(frozen=True)
+class _CurvedSlot:
+    """A curved slot; two are equal if what their walls depend on is equal."""
+
+    engagement: Engagement
+    lengths: tuple[float, ...]
+    form: tuple[float, str]
+    assembly: Assembly = field(compare=False)
+    sizes: Sizes = field(compare=False)
+
+
+# drawings, sheet and solids of one machine have the same walls, and so do machines of other locks
+@lru_cache(maxsize=16)
+def _curved(slot: _CurvedSlot) -> Contour:
+    from geneva_cli.parts.outlines.walls.curved import curved_walls
+
+    return curved_walls(slot.assembly, slot.sizes, slot.engagement, *slot.form)
+
+
 def slot_walls(
     assembly: Assembly, sizes: Sizes, engagement: Engagement, tolerance: float, curves: str = "arcs"
 ) -> Contour:
-    """Return the cached walls of a slot, straight or curved; ``curves`` is "arcs" or "cubics"."""
-    if engagement.slot.curved:
-        from geneva_cli.parts.outlines.walls.curved import curved_walls
-
-        return curved_walls(assembly, sizes, engagement, tolerance, curves)
-    return straight_walls(assembly, sizes, engagement)
+    """Return the walls of a slot, straight or curved; ``curves`` is "arcs" or "cubics"."""
+    if not engagement.slot.curved:
+        return straight_walls(assembly, sizes, engagement)
+    lengths = assembly.L, assembly.sign, sizes.roller, sizes.half_width, sizes.rim
+    return _curved(_CurvedSlot(engagement, lengths, (tolerance, curves), assembly, sizes))
 
 
 def turned_walls(assembly: Assembly, sizes: Sizes) -> dict[Engagement, Contour]:

@@ -1,16 +1,182 @@
-"""Hubs with what holds them on their shafts: radial set screws, or a slit with a clamp screw."""
+"""Hubs with what holds them on their shafts: a slit with a clamp screw, or radial set screws.
+
+A clamp screw pulls the jaws of a slit hub together, and friction holds the shaft. The hub stays
+within its circle. Screw and head are in a notch whose face is as far from the slit as the thread is
+wide. The other jaw has the thread.
+"""
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.cross_holes import CrossHole, drilled
+from geneva_cli.geometry.measure import turned
 from geneva_cli.geometry.plates import Plate
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Line, about, closed
 from geneva_cli.parts.shafts.bores import around
-from geneva_cli.parts.shafts.clamps import clamp_note, with_clamp
-from geneva_cli.parts.shafts.screws import SCREWS, change_for_hub, screw
+from geneva_cli.parts.shafts.screws import SCREWS, Screw, change_for_hub, screw
 from geneva_cli.spec.tables import Size
+from geneva_cli.spec.written import length
+
+
+class Clamp(NamedTuple):
+    """A screw in a slit hub with a round bore; radii in mm."""
+
+    screw: Screw
+    bore: float
+    hub: float
+
+    @property
+    def slit(self) -> float:
+        """Width of the slit: a quarter of the thread, as wide as a saw."""
+        return 0.25 * self.screw.thread
+
+    @property
+    def face(self) -> float:
+        """Distance of the notch's face, under the screw's head, from the slit's middle."""
+        return 0.5 * self.slit + self.screw.thread
+
+    @property
+    def axis(self) -> float:
+        """Distance of the screw's axis from the shaft's; the head ends in the hub's circle."""
+        top = self.face + self.screw.thread  # a head is as high as its thread is wide (ISO 4762)
+        return math.sqrt(max(self.hub**2 - top * top, 0.0)) - 0.5 * self.screw.head
+
+    @property
+    def shoulder(self) -> float:
+        """Distance of the notch's shoulder from the shaft's axis, along the slit."""
+        return self.axis - 0.5 * self.screw.head
+
+    @property
+    def wall(self) -> float:
+        """Least wall: from the bore to the screw's hole and the notch's corner, or around both."""
+        return min(
+            self.axis - 0.5 * self.screw.through - self.bore,
+            math.hypot(max(self.shoulder, 0.0), self.face) - self.bore,
+        )
+
+    @property
+    def is_narrow(self) -> bool:
+        """True if the slit is narrower than the bore."""
+        return self.slit < 2.0 * self.bore
+
+    @property
+    def fits(self) -> bool:
+        """True if the slit is narrow, half of the thread a wall, and its whole width screwed in."""
+        far = self.axis + 0.5 * self.screw.core
+        screwed_in = math.sqrt(max(self.hub**2 - far * far, 0.0)) - 0.5 * self.slit
+        walled = self.wall >= 0.5 * self.screw.thread
+        return self.is_narrow and walled and screwed_in >= self.screw.thread
+
+    @property
+    def force_N(self) -> float:
+        """Tension of the tightened screw: 0.7 of the yield strength of class 8.8 (ISO 898-1)."""
+        return 0.7 * 640.0 * self.screw.stressed_mm2
+
+    @property
+    def torque_Nm(self) -> float:
+        """Torque that friction holds, of steel on steel without oil: 0.12.
+
+        Each half of the hub turns about its middle opposite the slit, at a distance p from the
+        axis. Screw and shaft keep it in balance: F (axis + p) = N p. The shaft rubs at both halves.
+        """
+        p = 0.5 * (self.bore + self.hub)
+        normal = self.force_N * (self.axis + p) / p
+        return 2.0 * 0.12 * normal * self.bore * 1e-3
+
+    @property
+    def outline(self) -> Contour:
+        """The hub's contour with its bore, slit along x and the notch above it."""
+        h, f, at = 0.5 * self.slit, self.face, self.shoulder
+        inner, outer = (math.sqrt(r * r - h * h) for r in (self.bore, self.hub))
+        edge, top = (math.sqrt(self.hub**2 - v * v) for v in (f, at))
+        first, notch = (math.asin(v / self.hub) for v in (h, f))
+        start = math.atan2(top, at)
+        narrow = math.asin(h / self.bore)
+        around = about(ORIGIN, self.hub, start, math.pi - start)
+        back = about(ORIGIN, self.bore, -narrow, narrow - math.pi)
+        return closed(
+            "HUB",
+            [
+                Line((inner, h), (outer, h)),
+                about(ORIGIN, self.hub, first, notch - first),
+                Line((edge, f), (at, f)),
+                Line((at, f), (at, top)),
+                around,
+                about(ORIGIN, self.hub, math.pi, math.pi - first),
+                Line((outer, -h), (inner, -h)),
+                back,
+                about(ORIGIN, self.bore, -math.pi, narrow - math.pi),
+            ],
+        )
+
+
+def clamp_of(size: Size, part: str, bore: float, hub: float) -> Clamp | None:
+    """Return the clamp of a part, "wheel" or "crank", with radii of bore and hub; None for none."""
+    thread: float | None = vars(size)[f"{part}_clamp_mm"]
+    return None if thread is None else Clamp(screw(f"{part}_clamp_mm", thread), bore, hub)
+
+
+def with_clamp(size: Size, part: str, hub: Plate | None, direction: float) -> Plate | None:
+    """Return the hub of a part with slit, notch and screw holes, if the spec clamps it.
+
+    The slit is in a direction, radians. Raises GenevaError, naming the key, for a hub that does not
+    hold the screw, and for a shaft that is held in another way.
+    """
+    key = f"{part}_clamp_mm"
+    values = vars(size)
+    if values[key] is None:
+        return hub
+    bore = hub.holes[0] if hub and hub.holes else None
+    if hub is None or not isinstance(bore, Circle) or not isinstance(hub.outline, Circle):
+        shape = f"{part}_keyway" if values[f"{part}_keyway"] else f"{part}_bore"
+        change = f"remove {shape}" if bore else change_for_hub(size, part)
+        raise GenevaError(
+            f"{key}: a clamp needs a hub with a round bore; {change}, or leave out {key}",
+            ("size", key),
+        )
+    if values[f"{part}_screw_mm"] is not None:
+        raise GenevaError(
+            f"{part}_screw_mm: the clamp holds the shaft; remove one of {key} and {part}_screw_mm",
+            ("size", f"{part}_screw_mm"),
+        )
+    from geneva_cli.geometry.cross_holes import CrossHole
+
+    clamp = Clamp(screw(key, values[key]), bore.radius, hub.outline.radius)
+    if not clamp.fits or hub.thickness < clamp.screw.head:
+        fitting = [s.thread for s in SCREWS if clamp._replace(screw=s).fits]
+        fitting = [one for one in fitting if hub.thickness >= screw(key, one).head]
+        small = "hub" if clamp._replace(screw=SCREWS[0]).is_narrow else "bore"
+        most = f"up to {fitting[-1]:g}" if fitting else f"of no size: the {small} must be larger"
+        raise GenevaError(
+            f"{key} = {values[key]:g}: the hub, {2.0 * hub.outline.radius:.6g} mm in diameter and "
+            f"{hub.thickness:.6g} mm long, holds a clamp screw {most}",
+            ("size", key),
+        )
+    middle, across = 0.5 * (hub.low + hub.high), direction + 0.5 * math.pi
+    c, s = math.cos(direction), math.sin(direction)
+    holes = []
+    for y, diameter in ((clamp.screw.thread, clamp.screw.through), (-clamp.slit, clamp.screw.core)):
+        at = c * clamp.axis - s * y, s * clamp.axis + c * y
+        holes.append(CrossHole(at, across, middle, 0.5 * diameter))
+    outline = turned(clamp.outline, direction)
+    return hub._replace(outline=outline, holes=(), cross=tuple(holes))
+
+
+def clamp_note(size: Size, part: str) -> str:
+    """Return the sheet's note on a clamp; "" without one.
+
+    >>> clamp_note(Size(wheel_clamp_mm=5.0), "wheel")
+    'slit 1.25, clamp screw M5-8.8 (ISO 4762); fixed opposite the slit only'
+    """
+    thread: float | None = vars(size)[f"{part}_clamp_mm"]
+    if thread is None:
+        return ""
+    slit = Clamp(screw(f"{part}_clamp_mm", thread), 0.0, 0.0).slit
+    wide = length(slit)
+    return f"slit {wide}, clamp screw M{thread:g}-8.8 (ISO 4762); fixed opposite the slit only"
 
 
 def held_hub(size: Size, part: str, hub: Plate | None, direction: float) -> Plate | None:

@@ -1,4 +1,8 @@
-"""Screws with metric threads: the holes that they need, and the force that they hold with."""
+"""Metric screws: their holes, where these lie on a circle, and the force that they hold with.
+
+A screw passes the part that it fixes, and its thread is in the part below. Default holes are
+clearance holes of ISO 273 for screws of ISO 262.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +10,9 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.shapes import Circle
+from geneva_cli.numerics.tolerances import ROUNDED
+from geneva_cli.spec.default_sizes import half_or
 from geneva_cli.spec.tables import Size
 
 
@@ -88,3 +95,112 @@ def change_for_hub(size: Size, part: str) -> str:
     if values[hub] is not None and values[hub] <= values[bore]:
         return f"set {hub} above {bore}"
     return f"set a greater {length}"  # the hub does not reach past what it stands on
+
+
+class BoltCircle(NamedTuple):
+    """Holes evenly on a circle about an axis: both radii, mm, and the holes' directions."""
+
+    radius: float
+    hole: float
+    turns: tuple[float, ...]
+
+    @property
+    def holes(self) -> list[Circle]:
+        """The holes in a plate about the axis."""
+        return [
+            Circle("BORE", (self.radius * math.cos(turn), self.radius * math.sin(turn)), self.hole)
+            for turn in self.turns
+        ]
+
+
+# what a sheet says of parts that are too small for screws
+NO_SCREW = "too thin for screws: weld, or fix with adhesive"
+
+
+class Screws(NamedTuple):
+    """Equal screws: the part that they fix, their clearance hole, and the part with the thread."""
+
+    fixed: str
+    number: int
+    hole_mm: float  # diameter
+    tapped: str
+
+    @property
+    def name(self) -> str:
+        """What a list calls them."""
+        return f"screws of the {self.fixed}, tapped in {self.tapped}"
+
+    @property
+    def text(self) -> str:
+        """Their number and thread; the hole where no screw is so thin.
+
+        >>> Screws("dial", 4, 5.5, "the dial").text, Screws("dial", 4, 1.0, "the dial").text
+        ('4 × M5', '4 holes of 1 mm')
+        """
+        one = screw_through(self.hole_mm)
+        what = f"× M{one.thread:g}" if one else f"holes of {self.hole_mm:g} mm"
+        return f"{self.number} {what}"
+
+
+def screw_through(hole_mm: float) -> Screw | None:
+    """Return the largest screw that passes a hole of a diameter with clearance; None below M1.6.
+
+    >>> screw_through(6.25).thread, screw_through(1.7)
+    (5, None)
+    """
+    fitting = [one for one in SCREWS if one.through <= hole_mm * (1.0 + ROUNDED)]
+    return fitting[-1] if fitting else None
+
+
+def tapped(hole: Circle) -> Circle:
+    """Return the hole before the thread is cut for the screw that passes another hole.
+
+    It is as wide as that one where no screw is so thin.
+    """
+    one = screw_through(2.0 * hole.radius)
+    return hole._replace(radius=0.5 * one.core) if one else hole
+
+
+def bolt_radius(diameter_mm: float | None, L: float, half_width: float) -> float:
+    """Return the radius of a screw's hole in the middle of a ring, twice ``half_width`` wide; or 0.
+
+    By default the hole takes at most half of the ring, and its diameter is at most L/40. It is 0
+    where that leaves no screw.
+
+    >>> bolt_radius(None, 100.0, 10.0), bolt_radius(None, 60.0, 10.0)
+    (1.2, 0.0)
+    """
+    one = screw_through(min(L / 40.0, half_width))
+    return half_or(diameter_mm, 0.5 * one.through if one else 0.0)
+
+
+def refuse_no_screw(key: str, count: int, radius: float) -> None:
+    """Raise GenevaError, naming the key, for holes that the spec asks for and no screw passes."""
+    if count and not radius:
+        raise GenevaError(
+            f"{key}s = {count}: the parts are too small for a screw of M{SCREWS[0].thread:g}; set "
+            f"{key}_mm for other holes, or remove {key}s",
+            ("size", f"{key}s"),
+        )
+
+
+def bolt_circle(
+    size: Size, part: str, L: float, ring: tuple[float, float], start: float
+) -> BoltCircle:
+    """Return the bolts of a part, "dial" or "gear"; by default in the middle of a ring.
+
+    ``ring`` has its inner and outer radius, and ``start`` is the first hole's direction.
+
+    There are none where no screw is thin enough. Raises GenevaError, naming the key, for a dial's.
+
+    >>> bolt_circle(Size(dial_bolts=4), "dial", 100.0, (20.0, 40.0), 0.0)[:2]
+    (30.0, 1.2)
+    """
+    values, (low, high) = vars(size), ring
+    count: int = values[f"{part}_bolts"]
+    radius = half_or(values[f"{part}_bolt_circle_mm"], 0.5 * (low + high))
+    hole = bolt_radius(values[f"{part}_bolt_mm"], L, 0.5 * (high - low))
+    if part == "dial":
+        refuse_no_screw("dial_bolt", count, hole)
+    count = count if hole else 0
+    return BoltCircle(radius, hole, tuple(start + math.tau * k / count for k in range(count)))

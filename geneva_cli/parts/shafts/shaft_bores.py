@@ -11,13 +11,13 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.assembly import assembled
 from geneva_cli.parts.links.link_positions import same
 from geneva_cli.parts.outlines.reliefs import keyway_direction
-from geneva_cli.parts.shafts.bores import Bore, RoundBore, bore_of, has_shape, round_bore
+from geneva_cli.parts.shafts.bores import Bore, bore_of, has_shape, round_bore
 
 
 class ShaftBore(NamedTuple):
     """A bore, and the direction of its keyway, flat or side at input angle 0, radians."""
 
-    bore: Bore = RoundBore(0.0)
+    bore: Bore = Bore(0.0)
     direction: float = 0.0
     part: str = ""  # "wheel" or "crank", whose keys of [size] give its shape; "" for neither
 

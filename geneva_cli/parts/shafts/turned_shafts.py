@@ -9,7 +9,7 @@ space.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -87,7 +87,7 @@ def _above(shaft: Shaft, own: Bore, free: float | None) -> Iterator[Step]:
         if seat.held:
             yield from _on_part(own, seat, section, ends_here=True)
             # a flat or a hexagon does not pass a round step; what is keyed does
-            below = below if own.keyed else section
+            below = below if own.key else section
         else:
             yield Step(f"seat of {seat.part}", below, seat.high)
         if after.low - seat.high > SHORTEST_MM:  # faces that touch may differ by rounding
@@ -99,7 +99,7 @@ def _above(shaft: Shaft, own: Bore, free: float | None) -> Iterator[Step]:
 def _on_part(own: Bore, seat: Seat, section: Shape, ends_here: bool) -> Iterator[Step]:
     """Yield the steps of a part's seat, and a circlip where there is space above it."""
     name, long = f"seat of {seat.part}", seat.high - seat.low
-    if own.keyed:
+    if own.key:
         # a keyway that ends before both faces leaves a round seat on each side
         yield Step(name, rounded(section), seat.low + 0.1 * long)
         yield Step(f"{name}, {own.shaft_note}", section, seat.high - 0.1 * long)
@@ -125,3 +125,34 @@ def _end(key: str, own: float | None, needed: float, outwards: float) -> float:
 
 def _circle(diameter: float) -> Circle:
     return Circle("SHAFT", ORIGIN, 0.5 * diameter)
+
+
+def built_shafts(
+    size: Size, own: list[Shaft], adjacent: list[Seat], heights: tuple[float, float, float]
+) -> tuple[list[Member], float]:
+    """Return the shafts, plain or turned, and the frame's lower face.
+
+    Shafts that turn in the frame and reach its lower face are turned. ``adjacent`` are the faces of
+    parts that pass them. ``heights`` are the lower face of a frame of plain shafts, the upper face,
+    and the lowest height at which parts pass.
+    """
+    usual, top, free = heights
+    turned = [size.shafts == "turned" and one.turns and one.low <= usual for one in own]
+    bottom = usual
+    if any(turned):
+        widths = (bearing_of(one).width for one, steps in zip(own, turned, strict=True) if steps)
+        bottom = min([usual, *(top - width for width in widths)])
+    axles = []
+    for one, steps in zip(own, turned, strict=True):
+        if steps:
+            axles.append(turned_shaft(size, one, top, free if _is_passed(one, adjacent) else None))
+        else:
+            axles.append(one._replace(low=bottom if one.low == usual else one.low).plain())
+    return axles, bottom
+
+
+def _is_passed(shaft: Shaft, adjacent: Iterable[Seat]) -> bool:
+    """Return True if parts on other axes are lower than what a shaft carries."""
+    low = shaft.seats[0].low if shaft.seats else shaft.high
+    own = {seat.part for seat in shaft.seats}
+    return any(one.low < low and one.part not in own for one in adjacent)

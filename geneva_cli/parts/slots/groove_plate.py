@@ -19,9 +19,9 @@ from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.links.links import Links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_hub import about_axis
-from geneva_cli.parts.shafts.bolt_holes import screw_through
+from geneva_cli.parts.shafts.screws import screw_through
 from geneva_cli.parts.shafts.shaft_bores import bore_at
-from geneva_cli.parts.sizes.plain_sizes import Sizes
+from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.slots.groove import groove_curve
 
 BELOW = 2  # planes below the wheel: that of the groove, below the crank

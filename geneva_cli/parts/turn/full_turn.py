@@ -69,21 +69,22 @@ class FullTurn(NamedTuple):
         return self.dwell.deg < self.free_deg * (1.0 - SAME)
 
 
-def full_turn(parts: MachineParts) -> FullTurn:
+def full_turn(parts: MachineParts, refined: bool = True) -> FullTurn:
     """Return the results of turning the parts through a whole turn of the crank.
 
-    Raises WorkLimit where that takes more work than ``gaps.WORK``.
+    Without ``refined`` those of a first grid of positions: gaps are not smaller there, and plays
+    not larger. Raises WorkLimit where that takes more work than ``gaps.WORK``.
     """
     parts.gaps.begin()
     earlier = _earlier(parts)
-    gaps = smallest_gaps(parts, earlier)
+    gaps = smallest_gaps(parts, earlier, refined)
     fits = gaps.least >= -parts.close
     middles = np.array([0.5 * (w.start + w.end) for w in windows(parts) if w.rests])
     dwell = Most(0.0, 0.0)
     if len(middles):
         free = np.degrees(np.maximum(*free_angles(parts, middles, fits)))
         dwell = _most(free, middles, earlier)
-    play = play_of(parts, fits)
+    play = play_of(parts, fits, refined)
 
     def most_of(values: Array, where: Mask) -> Most:
         return _shown(parts, _most(values[where], play.input_deg[where], earlier))

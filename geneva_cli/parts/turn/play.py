@@ -69,14 +69,14 @@ def windows(parts: MachineParts) -> Iterator[Window]:
             yield Window(exit_, following, i, True)
 
 
-def play_of(parts: MachineParts, fits: bool) -> Play:
+def play_of(parts: MachineParts, fits: bool, refined: bool = True) -> Play:
     """Return the play at a grid of positions, refined where it is greatest or closes fastest.
 
     ``fits`` says that no parts overlap in the positions of the ideal motion.
     """
     play = _play_at(parts, _places(parts), fits)
     # 9 rounds: 5**-9 of some degrees is a millionth
-    for _ in range(9):
+    for _ in range(9 if refined else 0):
         near = (_peaks(parts, play), _changes(parts, play), _closing(parts, play))
         more = _cut(play, rising(np.concatenate(near)))
         if not len(more):

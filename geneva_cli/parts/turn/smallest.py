@@ -42,8 +42,8 @@ class SmallestGaps(NamedTuple):
         return min(gap.mm for gap in self if gap)
 
 
-def smallest_gaps(parts: MachineParts, earlier: Earlier) -> SmallestGaps:
-    """Return the smallest gaps of a whole turn."""
+def smallest_gaps(parts: MachineParts, earlier: Earlier, refined: bool = True) -> SmallestGaps:
+    """Return the smallest gaps of a whole turn, or of its first positions if not ``refined``."""
     gaps, at = parts.gaps, positions(parts)
     pose = gaps.pose(at)
     each = gaps.rollers(pose)
@@ -58,7 +58,7 @@ def smallest_gaps(parts: MachineParts, earlier: Earlier) -> SmallestGaps:
         return gaps.locking(pose if x is at else gaps.pose(x))
 
     def search(gap: Callable[[Array], Array], names: str) -> Gap:
-        return _least(gap, at, parts.close, earlier, names)
+        return _least(gap, at, parts.close, earlier, names, refined)
 
     several = len(parts.assembly.rollers) > 1
     return SmallestGaps(
@@ -112,7 +112,12 @@ def _drives(parts: MachineParts, x: Array) -> Mask:
 
 
 def _least(
-    gap: Callable[[Array], Array], at: Array, close: float, earlier: Earlier, parts: str
+    gap: Callable[[Array], Array],
+    at: Array,
+    close: float,
+    earlier: Earlier,
+    parts: str,
+    refined: bool,
 ) -> Gap:
     """Return the smallest gap over the whole turn.
 
@@ -126,7 +131,7 @@ def _least(
     ]
     # A smaller gap can only lie between positions whose gaps are already near to the smallest.
     # the 12 smallest gaps are refined
-    dips = dips[np.argsort(values[dips])][:12]
+    dips = dips[np.argsort(values[dips])][: 12 if refined else 0]
     about = dips[:, None] + (-1, 0, 1)  # each minimum and its two neighbours
     known_at, known = at[about], values[about]
     closer: list[tuple[Array, Array]] = []

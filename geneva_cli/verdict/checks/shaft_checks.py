@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.reliefs import is_whole
-from geneva_cli.parts.shafts.clamps import clamp_of
+from geneva_cli.parts.shafts.held_hubs import clamp_of
 from geneva_cli.verdict.checks.check import Check, compared, gap
 
 if TYPE_CHECKING:

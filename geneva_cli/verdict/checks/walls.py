@@ -18,7 +18,7 @@ from geneva_cli.parts.outlines.reliefs import is_whole
 from geneva_cli.parts.outlines.wheel_circles import wheel_circles
 from geneva_cli.parts.outlines.wheel_hub import wheel_hub
 from geneva_cli.parts.shafts.bores import has_shape
-from geneva_cli.parts.sizes.plain_sizes import Sizes
+from geneva_cli.parts.sizes import Sizes
 from geneva_cli.verdict.checks.check import Check, compared
 
 NO_WALL = {  # the meaning of a negative wall

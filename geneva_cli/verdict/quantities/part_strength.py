@@ -11,7 +11,7 @@ from geneva_cli.loads.strength import arm_strength as arms
 from geneva_cli.loads.strength import pin as pins
 from geneva_cli.loads.strength import shaft_stress
 from geneva_cli.loads.strength.key_strength import KeyDimensions, key_stress, shear_allowed_MPa
-from geneva_cli.loads.strength.shaft_stress import ShaftDimensions, ShaftStress
+from geneva_cli.loads.strength.shaft_stress import LoadedShaft, ShaftForces
 from geneva_cli.loads.unbalance import centrifugal_N
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import Array, Number, array, parameter
@@ -19,7 +19,9 @@ from geneva_cli.spec.materials import roller_material, wheel_material
 from geneva_cli.spec.tables import Material
 from geneva_cli.spec.workshops import Stock
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
-from geneva_cli.verdict.quantities.under_load import under_load
+from geneva_cli.verdict.quantities.under_load import as_numbers, under_load
+
+SHEAR = "shear_stress_max_MPa"
 
 
 def margin(stress: Number, allowed: Number | None) -> Array | None:
@@ -113,73 +115,62 @@ def _known(row: Number | None) -> Array:
 
 def wheel_shaft(of: Designs) -> Columns:
     """The wheel's shaft."""
-    return _shaft(of, *of.once(_shafts)[0])
+    return of.once(_shafts)[0]
 
 
 def crank_shaft(of: Designs) -> Columns:
     """The crank's shaft."""
-    return _shaft(of, *of.once(_shafts)[1])
+    return of.once(_shafts)[1]
 
 
-def _shafts(
-    of: Designs,
-) -> list[tuple[ShaftDimensions, ShaftStress | None]]:
-    """The dimensions of the shafts of wheel and crank, and their stresses under load."""
-    wheel_held = crank_held = under_load(of).held
-    if wheel_held and of.machine.frame:
-        force = wheel_held.force_N + np.ravel(centrifugal_N(of.machine))
-        wheel_held = wheel_held._replace(force_N=force)
-    if crank_held:  # the force passes through the crank's axis
-        crank_held = crank_held.without_torque
-    wheel = _drawn(of, shaft_stress.wheel_shaft(of.spec.shaft), "wheel")
-    crank = _drawn(of, shaft_stress.crank_shaft(of.spec.shaft), "crank")
-    both = (
-        shaft_stress.LoadedShaft(wheel, shaft_stress.wheel_forces(of.machine), wheel_held),
-        shaft_stress.LoadedShaft(crank, shaft_stress.crank_forces(of.spec), crank_held),
-    )
-    return list(zip((wheel, crank), shaft_stress.shafts_under_load(of.machine, both), strict=True))
+def _shafts(of: Designs) -> list[Columns]:
+    """The columns of the shafts of wheel and crank, which are searched together."""
+    wheel = _drawn(of, "wheel", shaft_stress.wheel_forces(of.machine))
+    crank = _drawn(of, "crank", shaft_stress.crank_forces(of.spec))
+    if held := under_load(of).held:
+        carried = np.ravel(centrifugal_N(of.machine)) if of.machine.frame else 0.0
+        wheel = wheel._replace(held_N=held[0] + carried, held_Nm=held[1])
+        crank = crank._replace(held_N=held[0])  # the force passes through the crank's axis
+    each = shaft_stress.shafts_under_load(of.machine, (wheel, crank))
+    return [_shaft(of, one, rows) for one, rows in zip((wheel, crank), each, strict=True)]
 
 
-def _drawn(of: Designs, ends: ShaftDimensions, part: str) -> ShaftDimensions:
-    """The dimensions of a loaded shaft, with those of its parts where the spec has none."""
+def _drawn(of: Designs, part: str, forces: ShaftForces) -> LoadedShaft:
+    """The shaft of wheel or crank, with the dimensions of its parts where the spec has none."""
+    table = vars(of.spec.shaft)
+    names = ("overhang_mm", "diameter_mm", "span_mm")
+    own = LoadedShaft(forces, *(table[f"{part}_{name}"] for name in names), table[SHEAR])
     if not of.spec.is_loaded:
-        return ends
+        return own
     keyway = vars(of.spec.size)[f"{part}_keyway"] is not None
-    ends = ends._replace(allowed_MPa=parameter(shear_allowed_MPa(of.spec.shaft, keyway)))
-    complete = ends.diameter_mm is not None and ends.overhang_mm is not None
+    own = own._replace(allowed_MPa=parameter(shear_allowed_MPa(of.spec.shaft, keyway)))
+    complete = own.diameter_mm is not None and own.overhang_mm is not None
     parts = None if complete else under_load(of).parts
     if parts is None:
-        return ends
+        return own
     diameter, overhang = parts.wheel_shaft if part == "wheel" else parts.crank_shaft
-    if ends.diameter_mm is None and not np.isnan(diameter).all():
-        ends = ends._replace(diameter_mm=_number(of, diameter))
-    if ends.overhang_mm is None and not np.isnan(overhang).all():
+    if own.diameter_mm is None and not np.isnan(diameter).all():
+        own = own._replace(diameter_mm=as_numbers(np.asarray(diameter)))
+    if own.overhang_mm is None and not np.isnan(overhang).all():
         # a design without parts has no diameter either, and so no stress
-        ends = ends._replace(overhang_mm=_number(of, np.nan_to_num(overhang)))
-    return ends
+        own = own._replace(overhang_mm=as_numbers(np.nan_to_num(overhang)))
+    return own
 
 
-def _number(of: Designs, values: Number) -> float:
-    """Values (m,) as a machine has its numbers: a float, or (m, 1) in a batch."""
-    every = np.asarray(values)
-    return every.item() if of.single else parameter(every[:, None])
-
-
-def _shaft(of: Designs, ends: ShaftDimensions, turned: ShaftStress | None) -> Columns:
+def _shaft(of: Designs, shaft: LoadedShaft, rows: dict[str, Array]) -> Columns:
     """The columns of a shaft under its load."""
-    out: dict[str, Number | None] = {"diameter_mm": ends.diameter_mm}
-    if turned is None:
+    out: dict[str, Number | None] = {"diameter_mm": shaft.diameter_mm}
+    if not rows:
         return out
-    moment = np.asarray(turned.moment_Nm) * of.loaded
-    rows = {name: value for name, value in turned._asdict().items() if value is not None}
-    allowed = ends.allowed_MPa
-    if allowed is not None:
-        rows["allowed_MPa"] = np.ravel(allowed)
-    if allowed is not None and turned.least_diameter_mm is not None:
-        known = np.isfinite(np.ravel(allowed))
-        rows["least_diameter_mm"] = np.where(known, np.ravel(turned.least_diameter_mm), np.inf)
-    if turned.stress_MPa is not None and allowed is not None:
-        rows["margin"] = margin(turned.stress_MPa, allowed)
+    moment = rows["moment_Nm"] * of.loaded
+    if shaft.allowed_MPa is not None:
+        allowed = np.ravel(shaft.allowed_MPa)
+        rows |= {
+            "allowed_MPa": allowed,
+            "least_diameter_mm": np.where(np.isfinite(allowed), rows["least_diameter_mm"], np.inf),
+        }
+        if "stress_MPa" in rows and (relative := margin(rows["stress_MPa"], allowed)) is not None:
+            rows["margin"] = relative
     return out | {name: np.where(np.isfinite(moment), row, moment) for name, row in rows.items()}
 
 

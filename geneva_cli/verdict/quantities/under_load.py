@@ -20,16 +20,15 @@ from geneva_cli.loads.strength import pin as pins
 from geneva_cli.loads.strength.horn import horns
 from geneva_cli.loads.strength.horn_search import greatest_stress, single_stress
 from geneva_cli.loads.strength.pin import PinSize
-from geneva_cli.loads.strength.shaft_stress import Held
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.batch import designs_in, taken
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Array, Number, Record, library, parameter, record_of
+from geneva_cli.parts.machine_sizes import Layout, sized
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
-from geneva_cli.parts.outlines.outline_sizes import Layout, sized
-from geneva_cli.parts.sizes.stressed import Stressed, stressed
+from geneva_cli.parts.stressed import Stressed, stressed
 from geneva_cli.spec.materials import roller_material
 
 if TYPE_CHECKING:
@@ -219,14 +218,14 @@ class UnderLoad:
         return (own_loads if self.designs.single else part_loads)(self.machine)
 
     @cached_property
-    def held(self) -> Held | None:
-        """What the lock holds in the dwell; None without a torque there."""
+    def held(self) -> tuple[Array, Array] | None:
+        """Force and torque that the lock holds in the dwell, (m,) both; None without a torque."""
         torque = lock.dwell_torque_Nm(self.machine)
         if not torque.any():
             return None
         sizes = self.lock_sizes  # without a disc something else holds the wheel, by a couple
         force = lock.held_force_N(torque[:, None], sizes.lock) if sizes else 0.0 * torque
-        return Held(np.nan_to_num(np.ravel(force)), torque)
+        return np.nan_to_num(np.ravel(force)), torque
 
 
 def _stressed(machine: Mechanism, layout: Layout | None) -> Stressed | None:

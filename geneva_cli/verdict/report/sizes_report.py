@@ -52,7 +52,7 @@ def _cut_radii(parts: Parts) -> Values:
     inside = spec.wheel.SIGN < 0.0
     if spec.is_flat:
         from geneva_cli.parts.assembly import assembly
-        from geneva_cli.parts.outlines.outline_sizes import machine_sizes
+        from geneva_cli.parts.machine_sizes import machine_sizes
         from geneva_cli.parts.slots.roller_paths import roller_paths
 
         where = assembly(parts.mechanism)

@@ -11,7 +11,7 @@ def words(mechanism: Mechanism) -> str:
     spec = mechanism.spec
     wheel, drive = spec.wheel, spec.drive
     slot = mechanism.engagements[0].slot
-    each_step = len(mechanism.engagements[0].ahead_deg)  # rollers, each with its slot
+    each_step = len(mechanism.engagements[0].passages)  # rollers, each with its slot
     slots = "curved" if slot.curved else "straight offset" if slot.offset else "straight radial"
     count = len(wheel.steps or drive.roller_angles_deg or ()) or drive.rollers
     count *= each_step

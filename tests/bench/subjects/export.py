@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import importlib.util
 import io
-import tracemalloc
 from collections.abc import Callable
 from typing import Any
 
@@ -23,15 +22,13 @@ COUNTS = (1_000, 100_000, 1_000_000)  # rows
 
 
 class Sink(io.TextIOBase):
-    """Text stream that counts its text, and keeps it only on request, so memory is the writer's."""
+    """Text stream that keeps its text on request."""
 
     def __init__(self, keep: bool = False) -> None:
         self.parts: list[str] | None = [] if keep else None
-        self.size = 0
 
     def write(self, text: str) -> int:
         """Write a text; return its length."""
-        self.size += len(text)
         if self.parts is not None:
             self.parts.append(text)
         return len(text)
@@ -103,7 +100,7 @@ def subject(quick: bool) -> Subject:
         columns = motion_table(mechanism, count).to_dict()
         table = Table(tuple(columns), list(columns.values()))
         methods = [
-            Method(name, count, _call(run, table), is_ours, memory=_memory(run, table, count))
+            Method(name, count, _call(run, table), is_ours)
             for name, run, is_ours in (*libraries, *writers)
         ]
         base = _call(savetxt, table)
@@ -121,41 +118,12 @@ def _call(run: Callable[[Table, Sink], None], table: Table) -> Callable[[], Any]
     return call
 
 
-def _memory(
-    run: Callable[[Table, Sink], None], table: Table, count: int
-) -> Callable[[], float] | None:
-    """Peak of a writer's allocations in addition to the table; tracing makes it slow.
-
-    It is Python's memory: for a library with its own allocator, only its result counts.
-    """
-    if count > 100_000:  # it would take minutes
-        return None
-
-    def peak() -> float:
-        tracemalloc.start()
-        try:
-            run(table, Sink())
-            return tracemalloc.get_traced_memory()[1] / 1e6  # MB
-        finally:
-            tracemalloc.stop()
-
-    return peak
-
-
 def _error(table: Table) -> Callable[[Any], float]:
     def mismatches(run: Any) -> float:
         sink = Sink(keep=True)
         run(table, sink)
-        text = "".join(sink.parts or ())
-        del sink
-        lines = text.split("\n")
-        wrong = 0
-        for start in range(0, len(table), 8192):
-            part = ",".join(lines[1 + start : 1 + min(start + 8192, len(table))])
-            expected = np.column_stack([c[start : start + 8192] for c in table.columns]).ravel()
-            values = np.array([float(v) for v in part.split(",")])
-            alike = len(values) == len(expected)
-            wrong += int((values != expected).sum()) if alike else len(expected)
-        return float(wrong)
+        _, *rows = csv.reader(io.StringIO("".join(sink.parts or ())))
+        values = np.array(rows, dtype=float)
+        return float((values != np.column_stack(table.columns)).sum())
 
     return mismatches

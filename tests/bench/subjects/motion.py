@@ -11,8 +11,7 @@ import numpy as np
 
 from bench.formulas import textbook
 from bench.kinds import KINDS, VariedMachine, values_of
-from bench.method import Method, Subject, Task, missing
-from bench.scalar_loop import by_numba, motion_loop
+from bench.method import Method, Subject, Task
 from bench.truth import digits
 from bench.truth import motion as exact_motion
 from geneva_cli.motion.engagement import WheelMotion
@@ -62,35 +61,6 @@ def blocks(l: float, x: Array, orders: Sequence[int], size: int = 8192) -> list[
     return out
 
 
-def stable_texts() -> list[str]:
-    """The stable formula of each order as text, for numexpr."""
-    versine = "2 * sin(x / 2)**2"
-    distance = f"((1 - l)**2 + 2 * l * {versine})"
-    return [
-        f"arctan2(l * sin(x), (1 - l) + l * {versine})",
-        f"l * ((1 - l) - {versine}) / {distance}",
-        f"-l * (1 - l) * (1 + l) * sin(x) / {distance}**2",
-        f"l * (1 - l) * (1 + l) * ({versine} * (1 + 4 * l + l * l - 2 * l * {versine})"
-        f" - (1 - l)**2) / {distance}**3",
-    ]
-
-
-def expressions(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
-    """The stable formula compiled by numexpr, on one core as for all methods."""
-    import numexpr
-
-    numexpr.set_num_threads(1)
-    texts = stable_texts()
-    return [numexpr.evaluate(texts[k], {"l": l, "x": x}) for k in orders]
-
-
-def compiled(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
-    """Velocity and acceleration by the stable formula in a loop that Numba has compiled."""
-    out = [np.empty(len(x)) for _ in orders]
-    by_numba(motion_loop)(l, x, *out)
-    return out
-
-
 def subject(quick: bool) -> Subject:
     """Every formula for velocity and acceleration, and for position to jerk."""
     wanted = {"velocity and acceleration": (1, 2), "position to jerk": (0, 1, 2, 3)}
@@ -103,7 +73,6 @@ def subject(quick: bool) -> Subject:
         f"Motion of a wheel of {Z} slots, and of every machine, at N angles",
         "greatest error, in units of each quantity's peak; of every machine against single angles",
         [*tasks, *(_kind_task(kind, 1_000 if quick else 1_000_000) for kind in KINDS)],
-        absent=missing("numexpr", "numba"),
     )
 
 
@@ -122,10 +91,6 @@ def _task(count: int, what: str, orders: tuple[int, ...]) -> Task:
         ("stable formula, in blocks", blocks),
         ("numerical differentiation of the position", differences),
     ]
-    if not missing("numexpr"):
-        formulas.append(("stable formula, numexpr", expressions))
-    if not missing("numba") and orders == (1, 2):
-        formulas.append(("stable formula, numba", compiled))
     methods = [Method(name, count, partial(formula, l, x, orders)) for name, formula in formulas]
     methods += [
         Method(

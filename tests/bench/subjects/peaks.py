@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from functools import partial
 
-from bench.formulas import Proportions, acceleration
-from bench.method import Method, Subject, Task, missing
-from bench.numeric import NUMERIC, by_chebpy, closed
+import numpy as np
+
+from bench.formulas import Proportions, acceleration, jerk
+from bench.method import Method, Subject, Task
 from bench.truth import acceleration_peak, relative
 from geneva_cli.drives.crank import Crank
 from geneva_cli.drives.side_crank import SideCrank
@@ -17,7 +18,36 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import peak as program
 from geneva_cli.motion.wheels import classic
 
-CHEBPY = "chebfun"  # the package name of chebpy in pip, as another package has that name
+
+def brentq(d: Proportions, tolerance: float, scan: int = 17) -> float:
+    """Peak by SciPy's brentq on the slope between the points of a scan, or the value at the end."""
+    from scipy.optimize import brentq as solve
+
+    x = [d.half * i / (scan - 1) for i in range(scan)]
+    slopes = [jerk(math, d, t) for t in x]
+    best = abs(acceleration(math, d, d.half))
+    for i in range(scan - 1):
+        if slopes[i] * slopes[i + 1] < 0.0:
+            root = solve(partial(jerk, math, d), x[i], x[i + 1], xtol=tolerance)
+            best = max(best, abs(acceleration(math, d, root)))
+    return best
+
+
+def grid(d: Proportions, n: int) -> float:
+    """Greatest of n even points."""
+    return float(np.abs(acceleration(np, d, np.linspace(0.0, d.half, n))).max())
+
+
+def closed(d: Proportions) -> float:
+    """Peak for A = 0 outside, in the textbook form.
+
+    cos a* = sqrt(q² + 2) - q, q = (1 + l²)/(4 l).
+    """
+    l = d.l
+    q = (1.0 + l * l) / (4.0 * l)
+    cosine = math.sqrt(q * q + 2.0) - q
+    D = 1.0 - 2.0 * l * cosine + l * l
+    return l * (1.0 - l * l) * math.sqrt(1.0 - cosine * cosine) / (D * D)
 
 
 def subject(quick: bool) -> Subject:
@@ -28,7 +58,6 @@ def subject(quick: bool) -> Subject:
         "Peak acceleration of one design",
         "relative error of the peak",
         tasks,
-        absent=missing(CHEBPY),
     )
 
 
@@ -36,19 +65,16 @@ def _task(z: int, gearing: str, A: float, quick: bool) -> Task:
     wheel = registry.gearing(gearing)(z)
     d = Proportions.of(wheel.SIGN, z, A)
     methods = [
-        Method(numeric.name, size, partial(numeric.run, d, size))
-        for numeric in NUMERIC
-        for size in (numeric.sizes[:2] if quick else numeric.sizes)
+        Method("grid", 101, partial(grid, d, 101)),
+        Method("scan of 17 + SciPy brentq", 1e-12, partial(brentq, d, 1e-12)),
     ]
-    if not missing(CHEBPY):
-        methods.append(Method("chebpy, roots of the slope", None, partial(by_chebpy, d)))
     mechanism = build(Spec(wheel, SideCrank(A=A) if A else Crank()))
     engagement = mechanism.engagements[0]
     outside = wheel.SIGN > 0.0
     if not A and outside:
         l, gap = mechanism.ratio, classic.gap(wheel.SIGN, 1, z)
         methods += [
-            Method("closed form of the textbook", None, lambda: closed(d)[0]),
+            Method("closed form of the textbook", None, partial(closed, d)),
             Method("ours", None, lambda: classic.acceleration_peak(l, gap)[0], True),
         ]
     methods.append(

@@ -9,7 +9,7 @@ import repo
 from sampling import some
 from typer.testing import CliRunner
 
-from geneva_cli import Design, External, GenevaError, Load, Size
+from geneva_cli import Design, External, Load, Size
 from geneva_cli.cli.app import app
 from geneva_cli.design import load
 from geneva_cli.extras.certify.certified_loads import LOADS
@@ -120,26 +120,6 @@ def test_the_bounds_hold_friction_of_fifty_digits(name, share):
             assert here <= found.high
 
 
-@pytest.mark.sampled(9)
-@pytest.mark.parametrize(
-    "design", [*STRAIGHT[:-1], pytest.param(STRAIGHT[-1], marks=pytest.mark.long)]
-)
-@pytest.mark.parametrize("carried", [
-    Load(0.4, 15, friction=0.1), Load(0.0, 15, friction=0.2, efficiency=0.8),
-    Load(0.05, 0, friction=0.2, friction_at="pin"),
-])  # fmt: skip
-def test_the_search_with_friction_is_confirmed(design, carried):
-    """Of a torque alone the force is greatest where the sliding, and so the friction, turns."""
-    machine = Design.of(load(str(repo.DESIGNS / f"{design}.toml")).spec.replace(load=carried))
-    for name in LOADS[1:]:
-        found, peak = machine.certificate(name), greatest(machine.mechanism, name)
-        assert found.proved
-        assert found.confirms(*peak), f"{peak} against {found.text}"
-        assert found.high - found.low < 1e-8 * found.high
-        for share in (1e-7, -1e-7):
-            assert not found.confirms(peak.max * (1.0 + share), peak.at_deg)
-
-
 def test_friction_that_holds_the_wheel_is_not_proved():
     """A coefficient of 3: where the grip vanishes the force has no bound."""
     machine = Design(External(3), load=Load(0.0, 15, friction=3.0), size=Size(100.0, 12.0))
@@ -147,35 +127,6 @@ def test_friction_that_holds_the_wheel_is_not_proved():
     found = machine.certificate("pin_force_N", 250)
     assert not found.proved
     assert math.isinf(greatest(machine.mechanism, "pin_force_N").max)
-
-
-def test_the_pin_force_of_a_cam_is_proved_across_the_seams_of_its_path():
-    """Within a thirtieth of the motion the path is a series: 4 of 120 degrees to either side."""
-    machine = loaded("cam-geneva")
-    (engagement,) = machine.mechanism.engagements
-    assert engagement.slot.seams_deg == pytest.approx((-4.0, 4.0), abs=1e-12)
-    found = machine.certificate("pin_force_N")
-    assert found.proved
-    assert found.confirms(*greatest(machine.mechanism, "pin_force_N"))
-
-
-REFUSED = {
-    "curved": (Load(0.4, 15), "sine-group", "pin_force_N"),
-    "gears drive": (Load(0.4, 15), "gear-sector", "pin_force_N"),
-    "no load": (Load(), "side-crank-z6", "wheel_torque_Nm"),
-}
-
-
-@pytest.mark.parametrize("reason", REFUSED)
-def test_a_load_that_is_not_proved_says_why(reason):
-    carried, name, quantity = REFUSED[reason]
-    machine = Design.of(load(str(repo.DESIGNS / f"{name}.toml")).spec.replace(load=carried))
-    with pytest.raises(GenevaError, match=f"{quantity}.max is not proved: .*{reason}"):
-        machine.certificate(quantity)
-
-
-def test_the_torque_of_a_wheel_needs_no_straight_slot():
-    assert loaded("sine-group").certificate("wheel_torque_Nm").proved
 
 
 def test_the_command(tmp_path):

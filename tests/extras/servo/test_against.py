@@ -62,19 +62,6 @@ def test_s_curve(cruise, ramp):
                 assert float(jet[2]) == pytest.approx(float(acceleration(u)), abs=1e-13)
 
 
-@pytest.mark.parametrize(
-    ("design", "holder", "impact"),
-    [
-        ("turret", "locking disc", "if R/L is off"),
-        ("four-bar-z4", "detent", "if R/L is off"),
-    ],
-)
-def test_what_holds_the_dwell(design, holder, impact):
-    """A disc on the crank; a four-bar needs a device."""
-    own = columns(f"designs/{design}.toml")["geneva"]
-    assert (own["holds_the_dwell_by"], own["impact_at_entry"]) == (holder, impact)
-
-
 def test_same_step_and_time():
     """All three have the motion's time, the dwell and the step of the design."""
     own = columns()
@@ -142,18 +129,3 @@ def test_refused(path, names, message):
     """What has no alternative is refused, with the reason."""
     with pytest.raises(GenevaError, match=message):
         against(path, (), names)
-
-
-@pytest.mark.parametrize("at_deg", [90, 140])
-def test_rollers_with_unequal_dwells_are_refused(at_deg):
-    """Four slots move for 90 degrees; a pin at 140 leaves dwells of 50 and 130, one at 90 of 0."""
-    angles = (f"drive.roller_angles_deg=[0,{at_deg}]",)
-    with pytest.raises(GenevaError, match="engagements differ"):
-        against("designs/two-pins-z4.toml", angles, ["cam"])
-
-
-def test_rollers_with_equal_dwells_have_alternatives():
-    """Two pins half a turn apart index twice a turn: 90 degrees of motion, and 90 of dwell."""
-    half = ("drive.roller_angles_deg=[0,180]",)
-    own = columns("designs/two-pins-z4.toml", half)
-    assert own["cam"]["dwell_s"] == own["cam"]["motion_s"] == pytest.approx(0.5, rel=1e-9)

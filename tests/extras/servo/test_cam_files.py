@@ -1,17 +1,13 @@
 """Electronic cams: each file read back, and drawn as its controller draws it."""
 
-import math
 import re
-from decimal import Decimal
 
 import numpy as np
 import pytest
 import repo
 from scipy.interpolate import BPoly, PPoly
-from typer.testing import CliRunner
 
 from geneva_cli import GenevaError, load
-from geneva_cli.cli.app import app
 from geneva_cli.extras.servo.cam_files import cam, rounded_up
 from geneva_cli.manual import page
 from geneva_cli.output.formats import CONTROLLERS
@@ -64,75 +60,6 @@ def test_polynomials_keep_the_tolerance(file):
     assert off.max() <= error_deg + 1e-12  # rounding is some 1e-13 degrees
 
 
-@pytest.mark.parametrize("name", ["turret", "three-rollers-z4", "four-bar-z4", "unequal-steps"])
-def test_pieces_follow_each_other(name):
-    """Each begins at the very double at which the one before it ends; the last one at the end."""
-    design = load(f"designs/{name}.toml")
-    for turns in (1, 2, 7):
-        columns = cam(design, "polynomial", 12 * turns, TOLERANCE)[0].to_dict()
-        assert columns["begin_deg"][0] == 0.0
-        assert (columns["begin_deg"][1:] == columns["end_deg"][:-1]).all()
-        assert columns["end_deg"][-1] == 360.0 * 12 * turns
-
-
-@pytest.mark.parametrize(
-    ("arguments", "status", "said"),
-    [
-        ("--for beckhoff", 0, "degrees of the wheel\n"),
-        ("--for beckhoff --tolerance 1e-9", 1, "more than --tolerance 1e-09: its table has 360"),
-        ("--for codesys --tolerance 1e-9", 1, "more than --tolerance 1e-09: a jump becomes a ramp"),
-        ("--for codesys --tolerance 1e-7", 0, "degrees of the wheel\n"),
-        ("--tolerance 1e-12", 0, "degrees of the wheel\n"),
-    ],
-)
-def test_a_tolerance_that_is_not_met_is_said(arguments, status, said, tmp_path):
-    """The cam is written all the same; without --tolerance nothing is demanded of it."""
-    words = f"motion designs/turret.toml --format cam {arguments} -o {tmp_path / 'cam'}".split()
-    result = CliRunner().invoke(app, words)
-    assert (result.exit_code, said in result.stderr) == (status, True)
-    assert (tmp_path / "cam").stat().st_size > 0
-
-
-@pytest.mark.parametrize("error", [1.131e-3, 1e-4, 9.91e-6, 9.9e-13, 0.0, 123.4])
-def test_an_error_is_rounded_up(error):
-    """By the decimals of the doubles; by less than a tenth, as it has two digits."""
-    shown = Decimal(rounded_up(error))
-    assert Decimal(repr(error)) <= shown <= Decimal(repr(error)) * Decimal("1.1")
-
-
-def test_no_error_between_the_places_exceeds_the_tolerance():
-    """A piece whose error is just within the tolerance where it is evaluated keeps it elsewhere."""
-    design = load(str(repo.DESIGNS / "slider-crank.toml"))
-    table, _, _ = cam(design, "polynomial", None, TOLERANCE)
-    master, slave = true_motion(design)
-    assert abs(polynomial(table)(master) - slave).max() <= TOLERANCE
-
-
-# a handover of gears and slot, and the points of two drives: seams that rounding moves apart
-SEAMS = {
-    "sector": '[wheel]\nz = 4\n[drive]\nkind = "gear-sector"\nsector_deg = 22.70475094719316\n',
-    "points": '[wheel]\nz = 24\ngearing = "internal"\n[drive]\nkind = "noncircular-gears"\n'
-    'ratio_file = "ratio.csv"\n[drive.before]\nkind = "elliptical-gears"\n'
-    'eccentricity = 0.1548863424315996\nphase = "quick"\n',
-}
-
-
-@pytest.mark.parametrize("text", SEAMS.values(), ids=SEAMS)
-def test_seams_apart_by_rounding_are_one(text, tmp_path):
-    """No piece is as short as rounding, where its powers are not numbers."""
-    degrees = range(0, 361, 15)
-    rows = [f"{x},{1.0 - 0.3 * math.cos(math.radians(x)):.9f}\n" for x in degrees]
-    (tmp_path / "ratio.csv").write_text("".join(rows))
-    (tmp_path / "spec.toml").write_text(text)
-    design = load(str(tmp_path / "spec.toml"))
-    table, _, error_deg = cam(design, "polynomial", None, TOLERANCE)
-    master, slave = true_motion(design)
-    off = abs(polynomial(table)(master) - slave)
-    assert off.max() <= error_deg + 1e-12 <= TOLERANCE
-    columns = table.to_dict()
-    assert min(columns["end_deg"] - columns["begin_deg"]) > 1e-3
-
-
 @pytest.mark.parametrize("name", SOME)
 def test_codesys_points_keep_the_tolerance(name):
     """Between the points, polynomials of degree five by SciPy are as near as the file says."""
@@ -144,13 +71,6 @@ def test_codesys_points_keep_the_tolerance(name):
     assert rows == len(x)
     assert (np.diff(x) > 0.0).all()
     assert 0.9 * error_deg <= off <= error_deg <= TOLERANCE
-
-
-def test_a_title_ends_no_comment():
-    """Stars and line ends of a title are left out of a declaration's comment."""
-    design = load("designs/turret.toml", ["title=a **)) b\r\nc"])
-    text, _, _ = cam(design, "codesys", None, TOLERANCE)
-    assert text.startswith("(* a )) b c *)\n")
 
 
 @pytest.mark.sampled(3)
@@ -165,28 +85,6 @@ def test_beckhoff_pairs(name):
     assert rows == pairs.shape[1] <= 360
     assert (np.diff(pairs[0]) >= 1000).all()
     assert 0.94 * error_deg <= off <= error_deg
-
-
-def test_a_short_dwell_ends_with_one_pair():
-    """A dwell of 0.05 degrees has no pair at its beginning, only the one at its end."""
-    settings = ["motion.law=cycloidal", "motion.alpha0_deg=-239.95", "motion.ratio=matched"]
-    design = load("designs/press-straight.toml", settings)
-    assert design.mechanism.dwell_deg(0) == pytest.approx(0.05)
-    text, _, error_deg = cam(design, "beckhoff", None, TOLERANCE)
-    pairs = beckhoff(text)
-    assert np.diff(pairs[0]).min() >= 1000
-    assert (pairs[:, -1] == (3_600_000, 600_000)).all()
-    master, slave = true_motion(design)
-    assert abs(np.interp(master, *(1e-4 * pairs)) - slave).max() <= error_deg
-
-
-def test_fewer_errors_with_more_points():
-    """The error of degree five falls with the sixth power of the width: 64 times for halves."""
-    design = load("designs/turret.toml")
-    coarse = cam(design, "polynomial", None, 1e-3)
-    fine = cam(design, "polynomial", None, 1e-9)
-    assert fine[1] > 4 * coarse[1]
-    assert fine[2] <= 1e-9
 
 
 def test_a_whole_revolution():
@@ -229,12 +127,6 @@ def test_refused(arguments, message):
     """What a controller cannot read is refused, with what it can."""
     with pytest.raises(GenevaError, match=re.escape(message)):
         cam(load("designs/turret.toml"), *arguments)
-
-
-def test_turns_are_whole_periods():
-    """A machine that repeats after four turns has no cam of one."""
-    with pytest.raises(GenevaError, match="repeats after 4 turns of its input"):
-        load("designs/geneva-pair.toml").motion(9, turns=1)
 
 
 @pytest.mark.parametrize("controller", CONTROLLERS)

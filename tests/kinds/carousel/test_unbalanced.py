@@ -222,6 +222,7 @@ def test_a_balanced_pair_has_the_loads_of_its_inertia():
         assert one[name].rms == pytest.approx(other[name].rms, rel=1e-10)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("wheels", [2, 3])
 def test_several_wheels_have_the_sum_of_their_torques(wheels):
     """Every wheel has the torques of one, a part of a turn later."""

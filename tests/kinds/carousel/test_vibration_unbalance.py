@@ -78,6 +78,7 @@ def test_the_force_alone_is_exact(damping):
     assert own.share[:, 0] == pytest.approx(residuals(design, follows=False), rel=1e-8)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(("stiffness", "damping"), [(200.0, 0.0), (200.0, 0.05), (20.0, 0.0)])
 def test_the_stiffness_of_the_force_counts_by_its_mean(stiffness, damping):

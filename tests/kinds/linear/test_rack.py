@@ -498,6 +498,7 @@ def test_a_guide_locks_where_its_friction_takes_all_of_the_push():
     assert not {one.name: one for one in dry.checks}["guide_locks"].passes
 
 
+@pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("mu", (0.0, 0.3, 0.63))
 def test_a_guide_locks_where_the_loads_lose_their_bound(mu):
     """A percent below that friction the pin's force has a bound, a percent above it has none."""

@@ -42,7 +42,7 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.parts.links.link_planes import planes
 from geneva_cli.parts.links.link_positions import links_at
-from geneva_cli.parts.outlines.outline_sizes import outlines
+from geneva_cli.parts.machine_sizes import outlines
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.specfile.tree import spec_of
 from geneva_cli.specfile.writer import spec_lines

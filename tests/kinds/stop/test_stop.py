@@ -178,6 +178,7 @@ def test_the_wheel_as_cut_has_one_convex_face():
             assert (far > rim - 1e-3) == (k == z // 2)
 
 
+@pytest.mark.long
 def test_synth_grants_turns():
     frame = Design(External(5, stop=True)).spec
     rows = search(read_target(z="5..8", frame=frame, subject_to=["stop.turns >= 6"])).rows

@@ -20,7 +20,7 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.outlines.walls.joint import Wall, WallPlace, joint, points_at, runs
-from geneva_cli.parts.sizes.plain_sizes import Sizes
+from geneva_cli.parts.sizes import Sizes
 
 
 class WallPiece(NamedTuple):

@@ -15,7 +15,7 @@ from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.outlines.walls.chain import WallPiece, chain
 from geneva_cli.parts.outlines.walls.joint import points_at
 from geneva_cli.parts.outlines.walls.path_walls import walls
-from geneva_cli.parts.sizes.plain_sizes import Sizes
+from geneva_cli.parts.sizes import Sizes
 
 # A wall ends at an intersection, whose last bits differ between processors, and many bits where two
 # walls nearly touch. Ends are rounded: of curves in degrees of input, of arcs in radians. That is

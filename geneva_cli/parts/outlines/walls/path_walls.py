@@ -16,7 +16,7 @@ from geneva_cli.numerics.arrays import Array, Mask, array
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.outlines.walls.joint import Curve, Wall
-from geneva_cli.parts.sizes.plain_sizes import Sizes
+from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.slots.roller_paths import rest
 from geneva_cli.parts.slots.slot_profile import heading_at, pitch_at
 from geneva_cli.parts.slots.slot_sampling import nodes

@@ -20,7 +20,7 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import array, scalar
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.sizes.plain_sizes import Sizes
+from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.slots.roller_paths import corner, mouth, rest
 
 

@@ -23,10 +23,15 @@ from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.links.link_positions import gear_plane, is_bridged, links_at
 from geneva_cli.parts.outlines.reliefs import Mouths, Relief, is_whole, reliefs, sectors, widened
 from geneva_cli.parts.shafts.bores import reach_or_bore
-from geneva_cli.parts.sizes.arm_sizes import arm_hub, arm_passing, hole_radius
-from geneva_cli.parts.sizes.plain_sizes import Sizes, bridge_low, half_or, plane_span
+from geneva_cli.parts.sizes import (
+    Sizes,
+    arm_hub,
+    bridge_low,
+    hole_radius,
+    plane_span,
+)
 from geneva_cli.parts.slots.roller_paths import mouth_corners, roller_reaches
-from geneva_cli.spec.default_sizes import value_or
+from geneva_cli.spec.default_sizes import half_or, value_or
 from geneva_cli.spec.keyways import key
 from geneva_cli.spec.least_wall import eye_about
 
@@ -134,7 +139,7 @@ def _arm(assembly: Assembly, sizes: Sizes, contact: float) -> ArmDimensions:
     if not (sizes.arm_bore and sizes.pin):
         return ArmDimensions.none()
     length = max(roller_reaches(assembly))
-    passing = arm_passing(assembly, sizes, length)
+    passing = sizes.passing_eye(assembly.L - length)
     standing = 0.0 if is_whole(assembly, sizes) else sizes.lock
     hole = hole_radius(size, sizes.pin)
     bored = reach_or_bore(size, "crank", sizes.arm_bore)

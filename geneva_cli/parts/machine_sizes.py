@@ -8,16 +8,24 @@ the rim. The locking disc reaches past the rim and leaves a horn next to the slo
 from __future__ import annotations
 
 import math
+from functools import lru_cache
+from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bore_radius
-from geneva_cli.parts.assembly import Assembly
+from geneva_cli.parts.assembly import Assembly, assembly
+from geneva_cli.parts.outlines.cut_outlines import drawn
+from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.reliefs import arc_floor, has_arcs
-from geneva_cli.parts.sizes.arm_sizes import (
+from geneva_cli.parts.sizes import (
+    Sizes,
     arm_bore,
     crank_reach_and_hub,
+    drawn_thicknesses,
     hole_radius,
+    pin_radius,
     refuse_stepped_shaft,
     refuse_thin_hub,
     refuse_wide_pin,
@@ -25,11 +33,119 @@ from geneva_cli.parts.sizes.arm_sizes import (
     wheel_reach_and_hub,
     within_hub,
 )
-from geneva_cli.parts.sizes.plain_sizes import Sizes, drawn_thicknesses, pin_radius
-from geneva_cli.parts.slots.roller_paths import RollerPaths, mouth, roller_reaches
+from geneva_cli.parts.slots.roller_paths import RollerPaths, mouth, roller_paths, roller_reaches
 from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.tables import Size
+
+if TYPE_CHECKING:
+    from geneva_cli.loads.strength.part_loads import PartLoads
+
+Layout: TypeAlias = tuple[Assembly, Sizes]  # of one machine
+
+
+def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> Layout | None:
+    """Return a machine's assembly and sizes; None where no flat parts can be cut.
+
+    ``loads`` are those on its parts, if computed already.
+    """
+    if not mechanism.spec.is_flat:
+        return None
+    try:
+        if loads is None:
+            return machine_sizes(mechanism)
+        where = assembly(mechanism)
+        return where, sizes(where, loads=loads)
+    except GenevaError:
+        return None  # the check of the parts reports the error
+
+
+@lru_cache(maxsize=16)
+def machine_sizes(mechanism: Mechanism) -> Layout:
+    """Return a machine's assembly and sizes, cached for its strength, checks and parts.
+
+    Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
+    """
+    where = assembly(mechanism)
+    return where, sizes(where)
+
+
+def sizes(
+    assembly: Assembly, known: RollerPaths | None = None, loads: PartLoads | None = None
+) -> Sizes:
+    """Return the sizes of a machine's parts.
+
+    ``known`` are its roller paths, and ``loads`` those on its parts, if computed already.
+    Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
+    """
+    usual, space = usual_sizes(assembly, known or roller_paths(assembly))
+    out = usual
+    if assembly.full.spec.is_loaded:
+        # without a load none is needed
+        from geneva_cli.parts.outlines.cut_outlines import cut_lock
+        from geneva_cli.parts.sized_by_load import load_sizes
+
+        first = None
+        if assembly.full.first_wheel:
+            from geneva_cli.parts.sized_by_load import first_sizes
+
+            first = first_sizes(assembly.full, sized)
+        by = cut_lock(assembly, usual) if usual.lock else None  # no load changes it
+        out = load_sizes(assembly, usual, space, by, loads, first)._replace(first=first)
+    refuse_sizes(assembly, out)
+    return out
+
+
+def outlines(mechanism: Mechanism) -> Outlines:
+    """Return the outlines in lines and arcs, as accurate as the full turn needs them.
+
+    Raises GenevaError where the machine has no flat parts, or its sizes leave none.
+    """
+    return drawn(*machine_sizes(mechanism))
+
+
+def built(mechanism: Mechanism) -> Size:
+    """Return the spec's sizes with the machine's values for the keys left out, mm and diameters.
+
+    Without flat parts only centre distance, roller and clearances are added.
+    """
+    size = mechanism.spec.size
+    known: dict[str, float] = {
+        "center_distance_mm": mechanism.center_distance_mm,
+        "roller_radius_mm": mechanism.roller_radius_mm,
+        "slot_clearance_mm": size.allowances.slot_clearance_mm,
+        "lock_clearance_mm": size.allowances.lock_clearance_mm,
+        "press_fit_mm": size.allowances.press_fit_mm,
+        "shaft_fit_mm": size.allowances.shaft_fit_mm,
+        "pin_gap_mm": size.allowances.pin_gap_mm,
+    }
+    if flat := sized(mechanism):
+        _, own = flat
+        known |= {
+            "wheel_radius_mm": own.rim,
+            "slot_bottom_clearance_mm": own.slot_bottom,
+            "lock_radius_mm": own.lock,
+            "relief_clearance_mm": own.relief,
+            "wall_min_mm": own.wall_min,
+            "wheel_bore_mm": 2.0 * own.wheel_bore,
+            "wheel_hub_mm": 2.0 * own.wheel_hub,
+            "crank_bore_mm": 2.0 * own.crank_bore,
+            "crank_hub_mm": 2.0 * own.crank_hub,
+            "pin_mm": 2.0 * own.pin,
+            "wheel_thickness_mm": own.wheel_thickness,
+            "lock_thickness_mm": own.lock_thickness,
+            "arm_thickness_mm": own.arm_thickness,
+        }
+        known |= {"wheel_outer_radius_mm": own.outer} if own.outer else {}
+    values = size.as_dict()
+    return size.replace(**{key: x for key, x in known.items() if values[key] is None})
+
+
+def drawn_pin_radius(mechanism: Mechanism) -> float:
+    """Return the radius of a roller's pin as its machine has it, 0 for none."""
+    flat = sized(mechanism)
+    parts = flat[1] if flat else None
+    return pin_radius(mechanism.spec.size, mechanism.roller_radius_mm, parts)
 
 
 def usual_sizes(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:

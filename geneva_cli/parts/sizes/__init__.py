@@ -1,1 +1,0 @@
-"""Sizes of the parts: of the spec, usual ones, and those that a load needs."""
