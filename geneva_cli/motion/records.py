@@ -131,6 +131,6 @@ def parts_class(wheel: str) -> Any:
 
 
 def families_of_kinds(where: str, wheel: str = "") -> list[Any]:
-    """Functions that return families of synth, of the kinds (of a wheel) that are searched there."""
+    """Functions that return the families of kinds, or of a wheel's kinds, searched there."""
     kinds = of_wheel(wheel) if wheel else KINDS
     return [load_named(kind.families[where]) for kind in kinds if where in kind.families]
