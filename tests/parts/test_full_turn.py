@@ -9,12 +9,12 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
-import repo
 import shapely
 from drawing_witness import polygon
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from other_shape import with_shape
+from sampling import some
 from shapely import affinity
 from shapely.geometry import Point
 from test_outline import CURVED_SLOTS, STRAIGHT, L, disc, made, name, turned
@@ -118,9 +118,6 @@ def test_curved_slots_turn(case: dict) -> None:
     assert not list(overlaps(found))
 
 
-DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
-
-
 def opening(rim: float, radius: float) -> float:
     """Half the angle over which a circle about the crank's axis opens the rim."""
     return math.acos((L * L + rim * rim - radius * radius) / (2.0 * L * rim))
@@ -221,10 +218,10 @@ def turns_as_polygons_do(case: dict) -> bool | None:
     return passes(found, turn)
 
 
-@settings(max_examples=3)
+@settings(max_examples=some(300, 3))
 @given(st.randoms(use_true_random=False))
 def test_random_machines(rng: random.Random) -> None:
-    """A few; `stress_outline.py`, of `make stress`, has hundreds."""
+    """Each is compared with polygons at some positions."""
     turns_as_polygons_do(random_case(rng))
 
 
