@@ -8,14 +8,15 @@ rounding.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from typing import NamedTuple, TypeVar
 
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.turn.machine_parts import MachineParts
-from geneva_cli.parts.turn.pairs import Clearances, Intervals, Pair, Window
+from geneva_cli.parts.turn.pairs import Bounds, Clearances, Intervals, Window
 from geneva_cli.parts.turn.play import windows
 
 MOST = 20_000  # intervals of one pair of parts: ten times what the designs take; under a second
@@ -41,7 +42,12 @@ class Settled(NamedTuple):
     open: Open | None
 
 
-def settled(gaps: Clearances, pair: Pair, ends: tuple[float, float], target: float) -> Settled:
+def settled(
+    gaps: Clearances,
+    pair: Callable[[Intervals], Bounds],
+    ends: tuple[float, float],
+    target: float,
+) -> Settled:
     """Return a lower bound of a pair's gap between two input angles, at least ``target`` mm.
 
     Intervals are halved until the bound on each is at least ``target``. Without success the most
@@ -134,12 +140,14 @@ def _gaps(parts: MachineParts, target: float) -> Iterator[tuple[str, Settled]]:
     for window in windows(parts):
         ends = window.start, window.end
         if parts.locked:
-            yield "locking disc and wheel", settled(parts.gaps, pairs.lock(window), ends, target)
+            lock = partial(pairs.lock, window)
+            yield "locking disc and wheel", settled(parts.gaps, lock, ends, target)
         for span, driver in spans(parts, window):
             for roller in range(len(parts.assembly.rollers)):
-                driving = roller == driver
-                pair = pairs.driving(roller, span) if driving else pairs.free(roller, window)
-                between = "roller and slot" if driving else "roller and wheel"
+                if roller == driver:
+                    between, pair = "roller and slot", partial(pairs.driving, roller, span)
+                else:
+                    between, pair = "roller and wheel", partial(pairs.free, roller, window)
                 yield between, settled(parts.gaps, pair, span, target)
 
 
