@@ -117,9 +117,7 @@ class Shell(NamedTuple):
         """Greatest coordinate of the shell along a direction, mm from the centre."""
         from geneva_cli.geometry.sphere_arcs import SphereArcs
 
-        if any(
-            SphereArcs(r.boundary).signed(np.array([direction]))[0][0] < 0.0 for r in self.regions
-        ):
+        if any(SphereArcs(r.boundary).signed(np.array([direction]))[0] < 0.0 for r in self.regions):
             return self.outer
         most = max(arc.reach(direction) for region in self.regions for arc in region.boundary)
         return most * (self.outer if most > 0.0 else self.inner)

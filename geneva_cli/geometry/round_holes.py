@@ -72,7 +72,7 @@ class RoundHole(NamedTuple):
 def least_wall(within: Region, holes: Sequence[RoundHole], sphere: float) -> float:
     """Return the least wall between holes, and from holes to a boundary, on a sphere, mm."""
     angles = [hole.angle(sphere) for hole in holes]
-    away, _ = SphereArcs(within.boundary).signed(np.array([hole.axis for hole in holes]))
+    away = SphereArcs(within.boundary).signed(np.array([hole.axis for hole in holes]))
     least = float((-away - angles).min())
     for (one, a), (other, b) in combinations(zip(holes, angles, strict=True), 2):
         apart = 2.0 * math.asin(min(1.0, 0.5 * math.dist(one.axis, other.axis)))

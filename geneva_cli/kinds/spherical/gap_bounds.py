@@ -132,8 +132,8 @@ class SpherePairs:
         offset = gaps.in_crank(about(recesses[nearer], wheel), crank)
         far = np.where(self._within_rim(on, crank), farthest(self.pieces, offset), 0.0)
         moved = math.sin(ball.axes) * on.wheel + np.hypot(*offset[:, :2].T) * on.crank
-        free, _ = gaps.to_wheel(recesses)
-        return ball.radius_mm * (free[nearer] - far.max(axis=1) - moved)
+        free = gaps.to_wheel(recesses)[nearer]
+        return ball.radius_mm * (free - far.max(axis=1) - moved)
 
     def _within_rim(self, on: Intervals, crank: Array) -> Mask:
         """Return a mask (n, k) of the pieces of the sectors that may come within the rim."""

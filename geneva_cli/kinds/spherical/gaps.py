@@ -69,7 +69,7 @@ class BallGaps:
         near = self.near if near is None else near
         columns = []
         for i in range(pose.pins.shape[1]):
-            away, _ = self.to_wheel(about(pose.pins[:, i], -(pose.wheel + lead)))
+            away = self.to_wheel(about(pose.pins[:, i], -(pose.wheel + lead)))
             columns.append(self.ball.radius_mm * (away - self.ball.roller))
         return np.minimum(np.column_stack(columns), near)
 
@@ -115,14 +115,14 @@ class BallGaps:
         close = polar(on_crank) < self.ball.lock + least[0]
         which_, on_crank = which_[close], on_crank[close]
         for sector in self.sectors if len(on_crank) else ():
-            np.minimum.at(least, which_, sector.signed(on_crank)[0])
+            np.minimum.at(least, which_, sector.signed(on_crank))
         # ... and the sectors' corners against the wheel.
         owner = np.repeat(np.arange(len(turn)), len(self._corners))
         corner = np.tile(self._corners, (len(turn), 1))
         at = about(self._out(corner, pose.crank[owner]), -turn[owner])
         here = np.flatnonzero(polar(at) - self.ball.rim < least[owner])
         if len(here):
-            np.minimum.at(least, owner[here], self.to_wheel(at[here])[0])
+            np.minimum.at(least, owner[here], self.to_wheel(at[here]))
         return self.ball.radius_mm * least
 
     def in_wheel(self, motion: int, input_deg: Array, lead: Array | float = 0.0) -> Array:
@@ -133,16 +133,14 @@ class BallGaps:
         pose = self.pose(input_deg)
         return about(pose.pins[:, motion], -(pose.wheel + lead))
 
-    def to_wheel(self, points: Array) -> tuple[Array, Array]:
-        """Return distances from the wheel's edge, radians, and the nearest points of the edge.
+    def to_wheel(self, points: Array) -> Array:
+        """Return the distances of points in the wheel's frame from its edge, radians.
 
-        ``points`` are in the wheel's frame. Each is turned to the first slot's sector, whose edge
-        is nearest.
+        Each is turned to the first slot's sector, whose edge is nearest.
         """
         step = 2.0 * self.ball.half_step
         back = step * np.round(np.arctan2(points[:, 1], points[:, 0]) / step)
-        away, foot = self.around.signed(about(points, -back))
-        return away, about(foot, back)
+        return self.around.signed(about(points, -back))
 
     def _out(self, of_crank: Array, turn: Array) -> Array:
         """Return directions (n, 3) of the crank's frame in the wheel's frame, at crank angles.

@@ -283,7 +283,7 @@ def test_the_arm_laid_flat(name):
     away = rolled(outline)
     assert len(made.bolts) == 2 * len(drawn.shells.crank)
     hub = np.arccos(away[:, 2]) - made.holes[0].angle(R)
-    off = np.minimum(np.abs(edge.signed(away)[0]), np.abs(hub))
+    off = np.minimum(np.abs(edge.signed(away)), np.abs(hub))
     # two straight lines of the cut; elsewhere 0.005 mm and the chords' 0.001
     assert (off > 0.0065 / R).sum() <= 4
     for hole, pin in zip(holes, made.holes[1:], strict=True):
