@@ -14,7 +14,6 @@ import numpy as np
 
 from geneva_cli.geometry.measure import directions
 from geneva_cli.geometry.shapes import Arc, Contour, Line
-from geneva_cli.kept import cached_property
 from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 
@@ -101,10 +100,6 @@ class Polyarc:
 
     def _signed(self, points: Array) -> Array:
         x, y = points.T
-        if len(self) < 64:  # with more pieces, selecting those nearby first is faster
-            views = self._upright.distances(x, y)
-            piece = np.argmin(views.distance, axis=0)
-            return self._signs(views.at((piece, np.arange(len(points)))), piece)
         row, pieces = self._nearby(points)
         some = self.subset(pieces)
         views = some.distances(x[row], y[row])
@@ -113,16 +108,6 @@ class Polyarc:
         equal = np.flatnonzero(views.distance == least[row])
         first = equal[_changes(row[equal])]
         return some._signs(views.at(first), first)
-
-    @cached_property
-    def _upright(self) -> Polyarc:
-        """The pieces in a column, so that array rows run along the points.
-
-        There are more points than pieces; rows along the pieces take at least twice as long.
-        """
-        out = object.__new__(Polyarc)
-        out._name(self._columns[:, :, None])
-        return out
 
     def distances(self, x: Array, y: Array) -> PieceDistances:
         """Distances and sides of points relative to pieces; x and y broadcast with the pieces.
