@@ -28,7 +28,6 @@ from geneva_cli.numerics.jet import (
     sqrt,
     turning,
 )
-from geneva_cli.numerics.latest import Latest
 
 END_DEG = 0.05  # nearer than this to entry or exit, angle and velocity keep their relative accuracy
 
@@ -44,7 +43,6 @@ class AnchoredPath(Batchable):
     def __init__(self, anchors: tuple[Anchor, ...], ahead: float = 0.0) -> None:
         self.anchors, self.ahead = anchors, ahead
         self.cuts = cuts([anchor.input_deg for anchor in anchors])
-        self._latest, self._latest_nearest = Latest(), Latest()
 
     @property
     def middle(self) -> Anchor:
@@ -58,15 +56,11 @@ class AnchoredPath(Batchable):
 
     def from_middle(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
         """Pin along the middle anchor's ray and across it."""
-        along, across = self._latest(self.middle.place, input_deg, order)
-        return along, across
+        return self.middle.place(input_deg, order)
 
     def from_nearest(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
         """Pin along the nearest anchor's ray and across it."""
-        along, across = self._latest_nearest(self._from_nearest, input_deg, order)
-        return along, across
 
-    def _from_nearest(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
         def solve(anchor: Anchor, x: Number) -> Jet:
             along, across = anchor.place(x, order)
             return Jet((*along.c, *across.c))
