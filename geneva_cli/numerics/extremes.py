@@ -280,9 +280,13 @@ class _Extremes:
         value, design = pieces.value, pieces.rows.design
         left = chebyshev.remainder(value)
         low, high = value.min(axis=2), value.max(axis=2)
-        # an extreme between samples exceeds them by less than a fraction of their range
-        more = 0.15 * (high - low) + UNFINISHED * left
+        open_ = left > PRECISE * np.maximum(np.abs(low), np.abs(high))
+        # by how much an extreme between samples exceeds them, over their range
+        more = np.where(open_, 1.0, 0.15) * (high - low) + UNFINISHED * left
         may = self._may_be(np.arange(len(value))[:, None], design, low - more, high + more)
+        # a row of lower samples may have the peak whose flank another row's sample was on
+        (a, b), best = pieces.rows.x, self.at_sample[..., design]
+        may |= open_ & ((best >= a) & (best <= b)).any(axis=0)
         may &= (low != np.inf) & (high != -np.inf)  # it has a bound somewhere
         number, piece = np.nonzero(may)
         each = [
@@ -344,7 +348,8 @@ class _Extremes:
             step = np.nan_to_num(some.uphill[live] * slope / np.abs(bend))
             step = np.clip(step, -some.near[live], some.near[live])
             step = np.clip(x[live] + step, *some.ends[:, live]) - x[live]
-            value[live] = v + 0.5 * slope * step
+            short = np.abs(step) <= 1e-3 * some.near[live]
+            value[live] = v + np.where(short, 0.5 * slope * step, 0.0)
             x[live] += step
             # after a step of 1e-6 of the search range, a maximum's place is exact
             live = live[np.abs(step) > 1e-6 * some.near[live]]

@@ -56,7 +56,7 @@ def find_roots(f: Callable[[Array, Whole], tuple[Array, Array]], a: Array, b: Ar
 
     live, out = np.arange(len(a)), 0.5 * (a + b)
     with np.errstate(all="ignore"):
-        x, step, rising = out, b - a, f(a, live)[0] < 0.0
+        x, step, rising = out.copy(), b - a, f(a, live)[0] < 0.0
         for _ in range(MOST_STEPS):
             if not len(live):
                 break

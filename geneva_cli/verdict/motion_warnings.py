@@ -12,7 +12,6 @@ from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import peak
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.latest import counted
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.shafts.fits import closest_mm, loosest_mm
 from geneva_cli.spec.tables import Z_USUAL, Size
@@ -196,8 +195,7 @@ def _law_turns_back(law: Law) -> bool:
     """Return True if a wheel turns back with a law, whatever its step and its motion angle."""
     from geneva_cli.motion.path_and_motion import LawMotion
 
-    with counted():  # the design that comes first is charged no more than the next
-        return _least_velocity(LawMotion(-0.5, 0.5, 0.5, law)) is not None
+    return _least_velocity(LawMotion(-0.5, 0.5, 0.5, law)) is not None
 
 
 def _least_velocity(motion: WheelMotion) -> tuple[float, float] | None:
