@@ -350,7 +350,11 @@ class Spec(SpecTable):
 
     @property
     def moving(self) -> tuple[object, ...]:
-        """The values from which engagements are made."""
+        """The values from which engagements are made.
+
+        >>> Spec(External(6)).moving[-1]
+        100.0
+        """
         return self.wheel, self.drive, self.drive_before, self.motion, self.given_distance_mm
 
     @property
