@@ -21,8 +21,7 @@ from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.machine_sizes import sizes
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.shafts.fits import limits
-from geneva_cli.spec.processes import PROCESSES
-from geneva_cli.spec.workshops import deviation_mm
+from geneva_cli.spec.workshops import PROCESSES, deviation_mm
 from geneva_cli.verdict.checks.check import Check
 
 
