@@ -29,7 +29,7 @@ from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.strength import lock
 from geneva_cli.loads.strength.arm_strength import arm_stress_MPa
 from geneva_cli.loads.strength.horn import horns
-from geneva_cli.loads.strength.horn_search import greatest_stress, single_stress
+from geneva_cli.loads.strength.horn_search import HornStress, greatest_stress, single_stress
 from geneva_cli.loads.strength.key_strength import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.loads.strength.pin import PinSize, pin
@@ -171,13 +171,18 @@ def _thick(
     )
 
 
-def horn_MPa(machine: Mechanism, half_width: float, by: Lock) -> Array:
+def horn_MPa(
+    machine: Mechanism, half_width: float, by: Lock, known: HornStress | None = None
+) -> Array:
     """Return the greatest stress in the horns of wheels 1 mm thick, (m,) for m designs.
 
     Under the roller, in every direction in which they turn, or under the torque in the dwell.
+    ``known`` is that of the first direction, if computed already.
     """
     search = single_stress if isinstance(machine.design, int) else greatest_stress
-    each = [search(horns, way, (half_width, by.recess)).stress_MPa for way in every_way(machine)]
+    sizes, (_, *others) = (half_width, by.recess), every_way(machine)
+    own = known or search(horns, machine, sizes)
+    each = [own.stress_MPa, *(search(horns, way, sizes).stress_MPa for way in others)]
     held = lock.loaded_locks(machine, half_width, by, 1.0)
     rows = np.broadcast_arrays(*each, *([held.horn_stress_MPa] if held else []))
     return np.fmax(0.0, np.fmax.reduce(rows))
