@@ -76,18 +76,17 @@ def first_that(trials: Iterable[T], holds: Callable[[T], bool], usual: T | None 
 
 def load_sizes(
     of: Unloaded,
-    known: PartLoads | None = None,
+    loads: PartLoads,
     bent_MPa: float | None = None,
     first: FirstSizes | None = None,
 ) -> Sizes:
-    """Return the sizes of a machine under its load, from those without it.
+    """Return the sizes of a machine under its loads, from those without them.
 
-    ``known`` are the loads, and ``bent_MPa`` the stress of ``horn_MPa``, if computed already;
-    ``first`` is what they need of a first wheel. A load without a bound leaves all sizes.
+    ``bent_MPa`` is the stress of ``horn_MPa``, if computed already; ``first`` is what the loads
+    need of a first wheel. A load without a bound leaves all sizes.
     """
     assembly, usual, space, by = of
     machine, spec = assembly.full, assembly.full.spec
-    loads = known or single_loads(machine)
     if not all(map(math.isfinite, loads)):
         return usual
     sizes = usual._replace(link_thickness=first.thickness) if first else usual
