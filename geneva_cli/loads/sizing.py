@@ -26,11 +26,11 @@ from geneva_cli.loads.indexer_formula import IndexerFormula, ShaftLoad, indexer_
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_peaks import load_summaries
 from geneva_cli.loads.load_summary import LoadSummary
-from geneva_cli.motion.cam_factors import CamFactors, cam_factors
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import motion_peaks
+from geneva_cli.motion.timing import CamFactors, cam_factors
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, Number, choose_record, parameter
 

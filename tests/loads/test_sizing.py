@@ -12,7 +12,7 @@ from geneva_cli import Design, External, Load, Mass, Motor, Support, load
 from geneva_cli.loads import indexer_formula
 from geneva_cli.loads.fluctuation import flywheel_kgm2
 from geneva_cli.loads.sizing import sizing
-from geneva_cli.motion.cam_factors import CamFactors
+from geneva_cli.motion.timing import CamFactors
 from geneva_cli.numerics.angles import omega
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))

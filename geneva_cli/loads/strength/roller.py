@@ -23,9 +23,9 @@ from geneva_cli.loads.cycle_quantities import FORCE
 from geneva_cli.loads.forces import Contact, LoadCase
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.loads.load_functions import LoadBatch, LoadFunctions, SignFunctions, load_batch
-from geneva_cli.loads.load_groups import of_groups
-from geneva_cli.loads.stretches import refuse_noise, spans_of, to_mid_motion
+from geneva_cli.loads.load_functions import LoadFunctions
+from geneva_cli.loads.load_peaks import search_loads
+from geneva_cli.loads.stretches import refuse_noise, to_mid_motion
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
@@ -33,7 +33,6 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, Mask, Number, Whole, array, parameter
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
-from geneva_cli.numerics.stretch_search import search
 
 LIFE_EXPONENT = 10.0 / 3.0  # p, of line contact
 
@@ -73,33 +72,25 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
     >>> passage(m.engagements[0], load_case(m)).travel_m.round(12)  # 2 L (cos b - (1 - l))
     array([0.14641016])
     """
-    every = load_batch(engagement, case, (FORCE,))
-    (rows,) = of_groups(every, lambda some, n: (_integrals(some, n, half),))
-    return SlotPassage(*map(parameter, rows))
-
-
-def _integrals(every: LoadBatch, n: int, half: float) -> Array:
-    """Integrals of n designs, one row each; infinite if the force has no bound."""
-    engagement = every.engagement
     # the integrals are bounded where the force is
-    load = LoadFunctions(every, ("slides", "along") if turns_back(engagement) else ("slides",))
+    more = ("slides", "along") if turns_back(engagement) else ("slides",)
+    load, n = LoadFunctions(engagement, case, (FORCE,), more=more), case.designs
     # spans end at mid-motion, where a roller on an arm turns back in a straight slot
-    pieces = search(SignFunctions(load), spans_of(engagement, n), n, False, w=load.spread).stretches
+    result = search_loads(load)
+    bounded, pieces = np.isfinite(result.most[0]), result.stretches
     design, _, (a, b), positive = to_mid_motion(engagement, pieces, n)
     own = np.flatnonzero(half * (a + b) >= 0.0)
     design, a, b, positive = design[own], a[own], b[own], positive[:, own]
     signs = dict(zip(load.kinds, np.where(positive, 1.0, -1.0)[..., None], strict=True))
 
     def rows(x: Array, which: Whole) -> Array:
-        some, case, *_ = taken(every, design[which]) if n > 1 else every
+        some, own = taken((engagement, case), design[which])
         drives, slides = (
             signs[kind][which] if kind in signs else 1.0 for kind in ("drives", "slides")
         )
-        integrands = passing(case, contact(some, x, reactions=False), drives, slides)
+        integrands = passing(own, contact(some, x, reactions=False), drives, slides)
         return np.stack(np.broadcast_arrays(*integrands))
 
-    with np.errstate(all="ignore"):
-        (bounded,) = load.bounded(pieces, n)
     every_one = np.full(n, True)
     requested = np.stack((every_one, every_one, bounded, bounded))
     with np.errstate(all="ignore"):
@@ -109,7 +100,8 @@ def _integrals(every: LoadBatch, n: int, half: float) -> Array:
     branch = np.sign(a + b) * engagement.slot.curved
     pressed = greatest_rubbing_N(Rubbing(design, moved, others[1], wall, branch), n)
     total = [np.bincount(design, row, n) for row in (abs(moved), *others)]
-    return np.where((*requested, bounded), (*total, pressed), np.inf)
+    rows_of = np.where((*requested, bounded), (*total, pressed), np.inf)
+    return SlotPassage(*map(parameter, rows_of))
 
 
 def turns_back(engagement: Engagement) -> bool:
