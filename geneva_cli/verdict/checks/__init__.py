@@ -6,6 +6,7 @@ A check is a file, or a function in a file of related ones, and one line in ``al
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
@@ -38,6 +39,12 @@ def checks(
     motion = list(applicable(MOTION, mechanism))
     shown = list(_parts(mechanism, machine, turned)) if parts else []
     return [*motion, *shown, *applicable(LIMITS, mechanism)]
+
+
+def passes(mechanism: Mechanism, machine: Parts | None = None) -> bool:
+    """Return True if no check of one design fails: the quick ones first, up to one that fails."""
+    quick = chain(applicable(MOTION, mechanism), applicable(LIMITS, mechanism))
+    return all_pass(quick) and all_pass(_parts(mechanism, machine, turned=True))
 
 
 def proofs(parts: Parts, to_mm: float | None = None) -> list[Check]:

@@ -384,6 +384,8 @@ STUDY = (
         "verdict.quantities.single:check_values",
         makes_parts=True,
     ),
+    # alone, until the first check that fails
+    QuantityGroup("checks", ("passes",), "verdict.quantities.single:passes", makes_parts=True),
     QuantityGroup("checks", tuple(PROOFS), "verdict.quantities.single:proved", makes_parts=True),
 )
 # All quantities; those that make parts come last.

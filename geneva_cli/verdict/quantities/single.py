@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from geneva_cli.verdict.both_directions import worst_checks
+from geneva_cli.verdict.both_directions import passes_both_ways, worst_checks
 from geneva_cli.verdict.checks import Check, proofs
 from geneva_cli.verdict.checks.all_checks import BEFORE_TURN, OF_TURN
 
@@ -38,6 +38,11 @@ def check_values(parts: Parts) -> Values:
     values = _values(OF_TURN, rows)
     failed = [c.name for c in rows if c.passes is False]
     return values | {"passes": not failed, "failed": " ".join(failed) or None}
+
+
+def passes(parts: Parts) -> Values:
+    """Whether all checks pass, computed until the first that fails."""
+    return {"passes": passes_both_ways(parts)}
 
 
 def _values(names: Sequence[str], rows: Sequence[Check]) -> Values:
