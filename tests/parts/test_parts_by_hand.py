@@ -19,8 +19,8 @@ from geneva_cli.geometry.plates import plates, solids
 from geneva_cli.geometry.shapes import Arc
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.links.links import drawn_links
-from geneva_cli.parts.machine_sizes import outlines
-from geneva_cli.parts.outlines.cut_outlines import cut_arcs
+from geneva_cli.parts.machine_sizes import machine_sizes
+from geneva_cli.parts.outlines.cut_outlines import cut_arcs, drawn
 from geneva_cli.parts.outlines.reliefs import arc_floor, reliefs, widened
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.slots.roller_paths import mouth_corners
@@ -226,7 +226,7 @@ def test_a_relief_is_as_wide_as_the_wheel_reaches(wheel, passed):
     In a step the wheel turns up to 20 times as far, by 0.04 degrees. A horn reaches farthest where
     it leaves the disc, so that its last point inside comes less far by about half of that.
     """
-    parts = outlines(Design(wheel, size=Size(100.0, 4.0)).mechanism)
+    parts = drawn(*machine_sizes(Design(wheel, size=Size(100.0, 4.0)).mechanism))
     assembly, sizes = parts.assembly, parts.sizes
     mouths = mouth_corners(assembly, sizes.roller, sizes.recess, sizes.rim)
     wide = {one.motion: one for one in widened(assembly, sizes, mouths)}

@@ -8,8 +8,7 @@ from mpmath import mp
 from repo import DESIGNS
 
 from geneva_cli import Design, External, Size, load
-from geneva_cli.spec.processes import PROCESSES
-from geneva_cli.spec.workshops import deviation_mm
+from geneva_cli.spec.workshops import PROCESSES, deviation_mm
 from geneva_cli.verdict.checks.check import Check
 
 
