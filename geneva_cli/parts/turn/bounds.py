@@ -78,8 +78,8 @@ class FlatPairs:
 
         def near_chord(which: Whole) -> Array:
             some = on.at(which)
-            ends = (self._centre(roller, pose) for pose in (some.at_start, some.at_end))
-            segments = Segments(*ends, path.aside(*self._own(roller, some)))
+            start, end = (self._centre(roller, pose) for pose in (some.at_start, some.at_end))
+            segments = Segments(start, end, path.aside(*self._own(roller, some)))
             return self._along(segments, centre[which], gap[which])
 
         return Bounds(gap, raised(least, window.rests & (least < self.target), near_chord))
@@ -96,8 +96,8 @@ class FlatPairs:
             if moving not in self._slots:
                 self._slots[moving] = slot_travel(moving, self.L)
             aside = self._slots[moving].aside(on.start - middle, on.end - middle)
-            ends = (self._centre(roller, pose) for pose in (on.at_start, on.at_end))
-            return Bounds(gap, self._along(Segments(*ends, aside), centre, gap))
+            start, end = (self._centre(roller, pose) for pose in (on.at_start, on.at_end))
+            return Bounds(gap, self._along(Segments(start, end, aside), centre, gap))
         places = self.gaps.pose(np.array([span[0], 0.5 * (span[0] + span[1])]))
         first, other = self._centre(roller, places)
         axis = (first - other) / math.dist(first, other)
