@@ -1,11 +1,10 @@
 """A sample of tests/stress/stress_many.py: some designs of every machine."""
 
-import numpy as np
 import pytest
 from design_arrays import MACHINES
 from stress_many import stressed
 
-from geneva_cli.numerics import extrema
+from geneva_cli.numerics import extremes
 
 
 @pytest.mark.sampled(4)
@@ -16,9 +15,9 @@ def test_none_is_missed(name):
 
 
 def test_it_can_tell(monkeypatch):
-    """A scan of two intervals that never looks again steps over peaks, and is found out."""
-    monkeypatch.setattr(extrema, "SCAN_INTERVALS", 2)
-    monkeypatch.setattr(extrema, "unpredicted", lambda left, *_: np.zeros(left[0].shape, bool))
-    row = stressed("spherical, slowed", 200, witnessed=0)
+    """A search that takes no step from its samples falls short of peaks, and is found out."""
+    monkeypatch.setattr(extremes, "_turn", lambda value, point: extremes.POINTS[point])
+    monkeypatch.setattr(extremes, "_REACH", 0.0 * extremes._REACH)
+    row = stressed("elliptical gears", 200, witnessed=0)
     assert row.missed > 0
-    assert row.short > 1e-3
+    assert row.short > 1e-4
