@@ -28,7 +28,6 @@ from geneva_cli.numerics.jet import (
     sqrt,
     turning,
 )
-from geneva_cli.numerics.latest import Latest
 
 END_DEG = 0.05  # nearer than this to entry or exit, angle and velocity keep their relative accuracy
 
@@ -44,7 +43,6 @@ class AnchoredPath(Batchable):
     def __init__(self, anchors: tuple[Anchor, ...], ahead: float = 0.0) -> None:
         self.anchors, self.ahead = anchors, ahead
         self.cuts = cuts([anchor.input_deg for anchor in anchors])
-        self._latest, self._latest_nearest = Latest(), Latest()
 
     @property
     def middle(self) -> Anchor:
@@ -58,19 +56,14 @@ class AnchoredPath(Batchable):
 
     def from_middle(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
         """Pin along the middle anchor's ray and across it."""
-        along, across = self._latest(self.middle.place, input_deg, order)
-        return along, across
+        return self.middle.place(input_deg, order)
 
     def nearest(self, input_deg: Number, order: int) -> tuple[Jet, Jet, Number]:
         """Pin along the nearest anchor's ray and across it; and the ray's direction, radians."""
-        along, across, ray = self._latest_nearest(self._nearest, input_deg, order)
-        return along, across, ray.c[0]
-
-    def _nearest(self, input_deg: Number, order: int) -> tuple[Jet, Jet, Jet]:
         if isinstance(self.cuts[0], float) and isinstance(self.cuts[-1], float):
             places = [partial(anchor.stacked, order=order) for anchor in self.anchors]
             all_three = piecewise(input_deg, self.cuts, places).c
-            return Jet(all_three[: order + 1]), Jet(all_three[order + 1 : -1]), Jet(all_three[-1:])
+            return Jet(all_three[: order + 1]), Jet(all_three[order + 1 : -1]), all_three[-1]
         # the anchors of a batch differ in numbers only, so that one call serves all of them
         x = array(input_deg)
         first, *others = [x > cut for cut in self.cuts]
@@ -81,7 +74,7 @@ class AnchoredPath(Batchable):
         anchor = self.anchors[high]  # any anchor will do for no angles
         if low < high:
             anchor = picked(index - low, self.anchors[low : high + 1])
-        return (*anchor.place(input_deg, order), Jet((anchor.wheel,)))
+        return (*anchor.place(input_deg, order), anchor.wheel)
 
 
 def cuts(degrees: Sequence[float]) -> list[float]:
