@@ -101,7 +101,7 @@ def question(ask: Callable[Concatenate[Any, P], T]) -> Callable[Concatenate[Any,
 
     It refuses an unknown keyword.
     """
-    known = [name for name in ask.__annotations__ if name != "return"]
+    *known, _ = ask.__annotations__  # the last one is what it returns
 
     @wraps(ask)
     def method(design: Any, /, *values: P.args, **named: P.kwargs) -> T:
