@@ -20,8 +20,7 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.shafts.fits import limits
-from geneva_cli.spec.processes import PROCESSES
-from geneva_cli.spec.workshops import deviation_mm
+from geneva_cli.spec.workshops import PROCESSES, deviation_mm
 from geneva_cli.verdict.checks.check import Check
 
 
