@@ -24,13 +24,6 @@ if TYPE_CHECKING:
     from geneva_cli.verdict.quantities.batch_designs import Values
 
 
-def parts_of_ways(mechanism: Mechanism) -> list[Parts]:
-    """The parts of a machine in every direction in which it must serve, for trials."""
-    from geneva_cli.parts.parts import parts_of
-
-    return [parts_of(way, advice=False) for way in every_way(mechanism)]
-
-
 def worst_checks(
     mechanism: Mechanism, machine: Parts | None = None, parts: bool = True, turned: bool = True
 ) -> list[Check]:

@@ -23,6 +23,7 @@ SUBJECTS = (
     "motion",
     "synth",
     "start",
+    "advice",
     "growth",
 )
 
