@@ -322,3 +322,9 @@ def clean_title(text, format, title):
         strict(text)
     if format == "md":
         assert "<script>" not in text, title
+
+
+def test_output_is_a_folder():
+    os.mkdir("peaks.csv")
+    clean_failure(geneva(*SHORT, "-o", "peaks.csv"), "peaks.csv", "directory")
+    assert os.listdir("peaks.csv") == []
