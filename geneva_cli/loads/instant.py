@@ -23,6 +23,7 @@ from geneva_cli.loads.forces import (
     value,
     wheel_grip,
     wheel_torque,
+    without,
 )
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Array, Jet, Number, V, sqrt
@@ -54,7 +55,12 @@ class Instant(Generic[V]):
     at: Contact[V]
 
     def __init__(
-        self, case: LoadCase, at: Contact[V], drives: Number, slides: Number, feeds: Number
+        self,
+        case: LoadCase,
+        at: Contact[V],
+        drives: Number = 1.0,
+        slides: Number = 1.0,
+        feeds: Number = 1.0,
     ) -> None:
         self.case, self.at = case, at
         self.drives = drives  # sign of the wheel's torque
@@ -108,6 +114,12 @@ class Instant(Generic[V]):
         """Pin force on the wall that bears, N, with its sign."""
         return self.force_N * self.drives
 
+    @property
+    def leaning(self) -> V | None:
+        """A value at whose changes of sign the friction in a guide has a corner."""
+        guide = self.case.guide
+        return guide and guide.leaning(self.case, self.at, self.drives, self.slides)
+
     @cached_property
     def edge(self) -> V | None:
         """1 - curvature of the bearing wall's pitch curve times the roller's radius.
@@ -136,10 +148,12 @@ class Instant(Generic[V]):
         """The part of the input's torque that friction takes, in the slot and in a guide, N m."""
         rub = self.at.touches * (self.case.friction * self.slides)
         torque = self.force_N * rub * self.slip * self.case.L
-        if not (self.case.guide and self.case.guided):
-            return torque
-        drag = self.case.guide.drag(self.case, self.at, self.drives, self.slides)
-        return torque + self.force_N * drag * self.at.velocity * self.case.L
+        if self.case.guide and self.case.guided:
+            drag = self.case.guide.drag(self.case, self.at, self.drives, self.slides)
+            torque = torque + self.force_N * drag * self.at.velocity * self.case.L
+        # designs of the batch without friction, whose force may be infinite
+        free = self.case.all_friction == 0.0
+        return without(free, torque) if np.any(free) else torque
 
     @cached_property
     def slot_torque_Nm(self) -> V:
@@ -203,7 +217,10 @@ class Instant(Generic[V]):
     @cached_property
     def friction_margin(self) -> V | None:
         """Margin of quantities that only friction makes unbounded; None without friction."""
-        return self.grip if self.case.rubs or self.case.guided else None
+        if not (self.case.rubs or self.case.guided):
+            return None
+        free = self.case.all_friction == 0.0  # designs of the batch, whose margin is infinite
+        return self.grip + np.where(free, np.inf, 0.0) if np.any(free) else self.grip
 
     @property
     def crank_bearing_N(self) -> V:

@@ -130,11 +130,7 @@ def parts_class(wheel: str) -> Any:
     return thing(wheel, "parts") or load_named(_FRONT)
 
 
-def families_of_kinds(where: str) -> list[Any]:
-    """Functions that return families of synth, of the kinds that are searched there."""
-    return [load_named(kind.families[where]) for kind in KINDS if where in kind.families]
-
-
-def families_of_wheel(name: str) -> list[Any]:
-    """Functions that return the families of synth that only a kind of wheel has."""
-    return [load_named(path) for kind in of_wheel(name) if (path := kind.families.get("wheel"))]
+def families_of_kinds(where: str, wheel: str = "") -> list[Any]:
+    """Functions that return the families of kinds, or of a wheel's kinds, searched there."""
+    kinds = of_wheel(wheel) if wheel else KINDS
+    return [load_named(kind.families[where]) for kind in kinds if where in kind.families]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -141,6 +142,14 @@ class BatchKey(NamedTuple):
     varies: bool
 
 
+# Loads, sizes and all the rest: equal in a batch, as their keys do not vary in it.
+_SHARED = [
+    field.name
+    for field in dataclasses.fields(Spec)
+    if field.name not in ("wheel", "drive", "drive_before", "motion", "path", "title")
+]
+
+
 def split(spec: Spec, keys: dict[Any, list[BatchKey]]) -> tuple[Any, dict[str, float]]:
     """The values that specs of one batch must share, and the spec's own numbers.
 
@@ -151,9 +160,7 @@ def split(spec: Spec, keys: dict[Any, list[BatchKey]]) -> tuple[Any, dict[str, f
     if kinds not in keys:
         keys[kinds] = [*_keys(spec)]
     own, tables = {}, vars(spec)
-    # loads, sizes and all the rest: equal in a batch, as their keys do not vary in it
-    apart = "wheel", "drive", "drive_before", "motion", "path", "title"
-    shape: list[Any] = [kinds, *(value for name, value in tables.items() if name not in apart)]
+    shape: list[Any] = [kinds, *(tables[name] for name in _SHARED)]
     for table, attribute, name, varies in keys[kinds]:
         value = vars(tables[attribute_of(table)])[attribute]
         if varies and isinstance(value, (int, float)) and not isinstance(value, bool):

@@ -6,7 +6,7 @@ A group of quantities is computed only where one of them is requested.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
 from geneva_cli.motion.mechanism import Mechanism
@@ -42,8 +42,11 @@ class Pick(NamedTuple):
 
     @property
     def groups(self) -> tuple[QuantityGroup, ...]:
-        """The groups that contain them."""
-        return tuple(dict.fromkeys(group_of()[name] for name in self.names))
+        """The groups that contain them, those that make parts last."""
+        groups = dict.fromkeys(group_of()[name] for name in self.names)
+        # another group may compute all names of a short one as well
+        own = [one for one in groups if not any(set(one.own) < set(x.own) for x in groups)]
+        return tuple(sorted(own, key=lambda group: group.makes_parts))
 
     @property
     def batched(self) -> tuple[str, ...]:
@@ -59,14 +62,23 @@ class Pick(NamedTuple):
         """The values of the quantities for a machine; None if one does not apply."""
         return self.of_parts(parts_of(mechanism))
 
-    def of_parts(self, parts: Parts, known: Sequence[Cell] | None = None) -> list[Cell]:
+    def of_parts(
+        self,
+        parts: Parts,
+        known: Sequence[Cell] | None = None,
+        keeps: Callable[[Mapping[str, Cell]], bool] = lambda cells: True,
+    ) -> list[Cell]:
         """The values of the quantities for a machine's parts; None if one does not apply.
 
-        ``known`` are those of ``batched``, if a batch has computed them.
+        ``known`` are those of ``batched``, if a batch has computed them. The parts are not made if
+        the other values do not keep ``keeps``: what needs parts is then None.
         """
         groups = self.groups if known is None else self.rest.groups
-        cells = values(parts, groups)
+        cells = values(parts, [group for group in groups if not group.makes_parts])
         cells |= zip(self.batched, known or (), strict=False)
+        slow = [group for group in groups if group.makes_parts]
+        if slow and keeps(cells):
+            cells |= values(parts, slow)
         return [cells.get(name) for name in self.names]
 
 

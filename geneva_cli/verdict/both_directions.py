@@ -41,6 +41,12 @@ def worst_checks(
     return rows
 
 
+def passes_both_ways(parts: Parts) -> bool:
+    """Return True if no check of a machine fails in any direction, up to the first that does."""
+    own = parts.mechanism
+    return checks.passes(own, parts) and all(map(checks.passes, _others(own)))
+
+
 def all_warnings(parts: Parts) -> list[Notice]:
     """Warnings about a machine, and those that appear backwards only."""
     from geneva_cli.parts.parts import parts_of

@@ -7,7 +7,6 @@ from drawing_witness import polygon
 from repo import DESIGNS
 from shapely.affinity import rotate
 from shapely.geometry import Point
-from step_witness import File, Solid
 
 from geneva_cli import Design, External, Size, Spherical, load
 from geneva_cli.errors import GenevaError
@@ -15,11 +14,8 @@ from geneva_cli.geometry.moments import area
 from geneva_cli.geometry.placed import in_place
 from geneva_cli.geometry.plates import plates
 from geneva_cli.geometry.shapes import Contour
-from geneva_cli.output.step import chunks
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.shafts.bores import bore_of, radius_of
-from geneva_cli.spec.tables import Shaft
-from geneva_cli.verdict.checks.all_checks import check_named, standing
 
 
 def of(**size):
@@ -144,33 +140,8 @@ def test_a_bore_in_a_hub_leaves_a_wall(shape):
     assert hub.holes == wheel.holes
 
 
-@pytest.mark.parametrize("shape", ["D", "hex"])
-def test_solids_have_the_bores_of_drawings(shape):
-    design = of(crank_bore=shape, wheel_bore=shape)
-    drawing = design.drawing("assembly")
-    file = File("".join(chunks(drawing, "mm")))
-    bodies = dict(
-        zip(dict.fromkeys(plates(drawing.solid)), file.all("MANIFOLD_SOLID_BREP"), strict=True)
-    )
-    for plate, body in bodies.items():
-        if plate.name not in ("wheel", "arm", "locking disc"):
-            continue
-        part = {"locking disc": "crank"}.get(plate.name, plate.name)
-        cut = [s for s in design.drawing(part).shapes if s.layer != "ROLLER"]
-        face = abs(area(cut[0])) - sum(abs(area(hole)) for hole in cut[1:])
-        for volume in Solid(file, body).volumes():
-            assert volume == pytest.approx(face * 10.0, rel=1e-9)
-        assert bore(design, part) in plate.holes
-
-
 # shafts at 75 degrees: the wheel's rim passes the crank's axis, so that its shaft may go through
 TILTED = Spherical(5, axes_deg=75.0)
-
-
-def standing_check(name, **size):
-    """A check of a spherical machine's parts at rest."""
-    design = Design(TILTED, size=Size(100.0, 5.0, **size))
-    return check_named(standing(design.mechanism), name, parts_of(design.mechanism).built)
 
 
 @pytest.mark.parametrize("wheel", [External(6), TILTED])
@@ -183,28 +154,6 @@ def test_one_shaft_runs_through_arm_and_crank(wheel):
     assert error.value.key == ("size", "arm_bore_mm")
     for bore in (0.0, 10.0):
         assert parts_of(design.with_("size.crank_bore_mm", bore).mechanism).built.members
-
-
-@pytest.mark.parametrize(
-    ("wheel", "most"),
-    # the cone of 5 mm at 100 mm is thinnest inside, at 95 mm
-    [(External(6), 9.5), (TILTED, 2.0 * 95.0 * math.sin(0.05) - 0.5)],
-)
-def test_a_roller_is_left_around_its_pin_and_their_fit(wheel, most):
-    def members(pin):
-        size = Size(100.0, 5.0, pin_mm=pin, shaft_fit_mm=0.5)
-        return parts_of(Design(wheel, size=size).mechanism).built.members
-
-    assert members(most - 1e-6)
-    with pytest.raises(GenevaError, match="it must be below"):
-        members(most + 1e-6)
-
-
-@pytest.mark.parametrize("wheel", [External(6), Spherical(6)])
-def test_a_wheel_is_bored_for_its_shaft(wheel):
-    design = Design(wheel, size=Size(80.0, 5.0), shaft=Shaft(wheel_diameter_mm=9.0))
-    bored, _ = parts_of(design.mechanism).built.hub_radii("wheel")
-    assert bored == 4.5
 
 
 @pytest.mark.parametrize(
@@ -231,75 +180,3 @@ def test_refused(size, key, said):
     with pytest.raises(GenevaError, match=said) as caught:
         of(**size).drawing("wheel")
     assert caught.value.key == ("size", key)
-
-
-def test_edges_are_a_note_and_take_some_of_the_thickness():
-    """8 mm of contact and two edges of 0.5 mm make a wheel of 9 mm."""
-    design = of(edge_chamfer_mm=0.5, face_width_mm=8.0)
-    assert design.parts.sizes.wheel_thickness == 9.0
-    assert "chamfered 0.5 × 45°" in [label.text for label in design.sheet().texts]
-    rows = {row["name"]: row for row in design.part_table("parts").to_rows()}
-    assert rows["chamfer of all edges"]["value"] == 0.5
-    texts = [label.text for label in of(edge_fillet_mm=1.0).sheet().texts]
-    assert "rounded R 1" in texts
-
-
-HUBS = {
-    "wheel_hub_mm": 26.0,
-    "wheel_bore_mm": 16.0,
-    "crank_hub_mm": 20.0,
-    "crank_bore_mm": 10.0,
-    "crank_hub_length_mm": 20.0,
-}
-
-
-@pytest.mark.parametrize(
-    ("size", "said"),
-    [
-        ({"wheel_screw_mm": 4.0}, "wheel_screw_mm: a set screw needs a hub with a bore"),
-        ({**HUBS, "wheel_screw_mm": 6.0}, "its wall 5 mm thick, which holds a set screw up to 5"),
-        ({**HUBS, "wheel_screw_mm": 5.1}, "there is no such metric screw; use 5"),
-        ({**HUBS, "wheel_hub_mm": 25.0, "wheel_screw_mm": 5.0}, "a set screw up to 4"),  # wall 4.5
-        ({**HUBS, "wheel_hub_mm": 18.0, "wheel_screw_mm": 2.0}, "of no size: the hub must be"),
-        ({**HUBS, "wheel_hub_length_mm": 6.0, "wheel_screw_mm": 4.0}, "a set screw up to 3"),
-        ({**HUBS, "crank_screw_mm": 6.0}, "crank_screw_mm = 6: the hub is 10 mm long"),
-        (
-            {**HUBS, "crank_hub_length_mm": 9.0, "crank_screw_mm": 2.0},  # as high as the disc
-            "needs a hub with a bore; set a greater crank_hub_length_mm, or",
-        ),
-    ],
-)
-@pytest.mark.usefixtures("no_advice")
-def test_set_screws_that_no_hub_holds(size, said):
-    design = of(**size)
-    with pytest.raises(GenevaError, match=said) as caught:
-        design.drawing("assembly")
-    assert caught.value.key[1].endswith("_screw_mm")
-    assert any(check.passes is False and said in (check.why or "") for check in design.checks)
-
-
-FIX = "fix on the shaft: pin, key or adhesive"
-
-
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize(
-    ("design", "keys", "names"),
-    [
-        ("turret", (), {"wheel", "arm"}),
-        ("turret", ("lock_bolts=0",), {"wheel", "arm", "locking disc"}),
-        ("turret", ("crank_bore=D",), {"wheel"}),
-        ("turret", ("crank_bore=D", "wheel_hub_mm=60", "wheel_screw_mm=6"), set()),
-        ("side-crank-z6", (), {"wheel", "arm", "coulisse", "input crank"}),
-        ("side-crank-z6", ("crank_bore=D", "wheel_bore=D"), {"input crank"}),
-        ("four-bar-z4", (), {"wheel", "crank"}),
-        ("spherical-z6", (), {"wheel's hub", "arm's hub"}),
-        ("linear", (), {"arm"}),
-    ],
-)
-def test_what_a_round_bore_does_not_hold_is_said(design, keys, names):
-    """In the list of parts, and on the sheet once a view."""
-    made = load(str(DESIGNS / f"{design}.toml"), [f"size.{key}" for key in keys])
-    rows = made.part_table("parts").to_rows()
-    assert {row["value"] for row in rows if row["name"] == FIX} == names
-    texts = [label.text for label in made.sheet(0.05).texts]
-    assert texts.count(FIX) == len(names)

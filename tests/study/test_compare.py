@@ -162,7 +162,7 @@ def test_what_makes_parts_is_shown_only_where_it_is_picked(monkeypatch):
     def made(*inputs):
         raise AssertionError("parts are made")
 
-    monkeypatch.setattr("geneva_cli.parts.machine_sizes.drawn", made)
+    monkeypatch.setattr("geneva_cli.parts.flat_parts.drawn", made)
     found = by_quantity(compare([path("tolerances.toml")]))
     assert "acceleration.max" in found
     assert not [q for q in found if q.startswith(("parts", "tolerance", "checks"))]

@@ -110,8 +110,13 @@ def roller_centres(assembly: Assembly) -> tuple[Point, ...]:
 
 
 def roller_reaches(assembly: Assembly) -> list[float]:
-    """Return the distances of the rollers' centres from the crank's axis, at mid-motion."""
-    return [math.hypot(*centre) for centre in roller_centres(assembly)]
+    """Return the distances of the rollers' centres from the crank's axis, at mid-motion.
+
+    Rollers of one engagement have the same distance, which is returned once.
+    """
+    leaders = {engagement: i for i, (engagement, _) in enumerate(assembly.rollers)}
+    at = [(i, np.array([assembly.rollers[i][1]])) for i in leaders.values()]
+    return [math.hypot(*(assembly.pin(i, mid) - (assembly.L, 0.0))[0]) for i, mid in at]
 
 
 def _pitch(assembly: Assembly, engagement: Engagement) -> Array:

@@ -100,12 +100,17 @@ class Nearness:
                 self.nearest[k] = max(values) if c.sign == ">=" else min(values)
 
     def phrases(self) -> list[str]:
-        """A phrase for each bound: how many designs keep it, or the nearest value."""
+        """A phrase for each bound: how many designs keep it, or the nearest value.
+
+        Where no design keeps one bound, others may not have been computed.
+        """
+        some = None in self.nearest and any(x is not None for x in self.nearest)
         return [
             f"no design has a value of {c.name}"
             if nearest is None
             else f"{c} is kept by {count:,}" + (f" (nearest {nearest:.6g})" if not count else "")
             for (_, c), count, nearest in zip(self.bounds, self.kept, self.nearest, strict=True)
+            if nearest is not None or not some
         ]
 
 

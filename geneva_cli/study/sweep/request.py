@@ -129,6 +129,8 @@ def request(
     names += ["checks.passes", "checks.failed"] if check else []
     of_best, picks = (pick_of(names), needed) if best else (Pick(), [*needed, *names])
     swept = sweep(text, plan(axes, random, seed or 0), picks)._replace(shard=part)
+    if not best:  # which needs all values of designs that break a bound
+        swept = swept._replace(bounds=tuple(bounds))
     refuse_contradictions(bounds)
     refuse_opposites(goals)
     refuse_words(dict.fromkeys(needed, "--subject-to") | by, "--vary or --set picks it")

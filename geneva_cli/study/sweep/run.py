@@ -12,15 +12,16 @@ from typing import NamedTuple
 
 from geneva_cli import __version__
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.kept import KEPT
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.numerics.latest import KEPT
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.specfile.reader import Text
 from geneva_cli.specfile.settings import Setting, setting
 from geneva_cli.study.batches import batch_rows, cells_of, number_rows
 from geneva_cli.study.fields import Cell, Pick, pick
 from geneva_cli.study.pool import cores, mapped
+from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.sweep.plan import BLOCK, WHOLE, Shard, SweepPlan
 from geneva_cli.study.sweep.values import Value, VariedKey
 from geneva_cli.verdict.together import share
@@ -37,6 +38,7 @@ class Sweep(NamedTuple):
     plan: SweepPlan
     pick: Pick
     shard: Shard = WHOLE
+    bounds: tuple[Constraint, ...] = ()  # no parts are made of designs that break one of them
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -66,17 +68,26 @@ class Sweep(NamedTuple):
                 [*values, *known[i], None] if i in known else self.row(values)
                 for i, values in enumerate(designs)
             ]
-        out: list[list[Cell]] = []
-        for start in range(0, len(designs), KEPT):
-            part = designs[start : start + KEPT]
+        out: dict[int, list[Cell]] = {}
+        for i, cells in known.items():
+            if not self._keeps(by_name := dict(zip(self.pick.batched, cells, strict=True))):
+                out[i] = [*designs[i], *map(by_name.get, self.pick.names), None]
+        left = [i for i in range(len(designs)) if i not in out]
+        for start in range(0, len(left), KEPT):
+            part = left[start : start + KEPT]
             last: Parts | None = None
-            for i, machine in enumerate(self._machines(part)):
+            machines = self._machines([designs[i] for i in part])
+            for i, machine in zip(part, machines, strict=True):
                 if isinstance(machine, GenevaError):
-                    out.append(self._row(part[i], machine))
+                    out[i] = self._row(designs[i], machine)
                     continue
                 last = last.following(machine) if last else parts_of(machine)
-                out.append(self._row(part[i], last, known.get(start + i)))
-        return out
+                out[i] = self._row(designs[i], last, known.get(i))
+        return [out[i] for i in range(len(designs))]
+
+    def _keeps(self, cells: Mapping[str, Cell]) -> bool:
+        """Return True unless one of some quantities breaks a bound."""
+        return all(bound.kept(cells[bound.name]) for bound in self.bounds if bound.name in cells)
 
     def _machines(self, designs: Sequence[Sequence[Value]]) -> list[Mechanism | GenevaError]:
         """The machine of each row, or why it cannot be built.
@@ -154,7 +165,7 @@ class Sweep(NamedTuple):
         try:
             if isinstance(parts, GenevaError):
                 raise parts
-            return [*values, *self.pick.of_parts(parts, known), None]
+            return [*values, *self.pick.of_parts(parts, known, self._keeps), None]
         except GenevaError as error:
             return [*values, *[None] * len(self.pick.names), str(error)]
 

@@ -272,11 +272,11 @@ def buildable_rows(
                     known[each[k]] = passing
         return np.array([one in known for one in each], dtype=bool)
 
-    intervals, parts, samplings, ahead = (8, 2, 4, 1) if turn else (16, 4, 4, 4)
+    intervals, parts, samplings = (8, 2, 4) if turn else (16, 4, 4)
     counts = [f.several or intervals + 1 for f in families]
     at = np.concatenate([np.linspace(0.0, 1.0, count) for count in counts])[:, None]
     every = sampled(free, np.repeat(np.arange(len(families)), counts), at)
-    good = accepted(every, accept, ahead)
+    good = accepted(every, accept)
     for number in range(samplings + 1):
         best_rows |= {
             i: known[i, x] for i, (x,) in zip(good.of.tolist(), good.at.tolist(), strict=True)
@@ -288,5 +288,5 @@ def buildable_rows(
         near = np.clip(refined.at + step, 0.0, 1.0).reshape(-1, 1)
         samples = sampled(free, np.repeat(refined.of, len(step)), near)
         better = samples.take(samples.cost < np.repeat(refined.cost, len(step)))
-        good = accepted(better, accept, ahead).joined(good).best(1)
+        good = accepted(better, accept).joined(good).best(1)
     return [best_rows.get(i) for i in range(len(families))]

@@ -16,7 +16,7 @@ from geneva_cli.study.batches import numbers
 from geneva_cli.study.synth.families.family import Family, allows
 from geneva_cli.study.synth.fast_parts import machine_and_parts
 from geneva_cli.study.synth.parts_data import compute_parts_data, parts_data
-from geneva_cli.study.target import Target
+from geneva_cli.study.target import USUAL_RPM, Target
 from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, applicable
 from geneva_cli.verdict.checks.motion_checks import GROOVE_MAX_DEG, driven_fraction, groove_pressure
 
@@ -188,7 +188,11 @@ def _moves_as_required(target: Target, row: MachineRow) -> bool:
 
 
 def _rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[MachineRow | None]:
-    costs = numbers(specs, COSTS)
+    # peaks depend neither on the speed nor on the number of equal rollers
+    alone = [spec.replace(drive=spec.drive.replace(n_rpm=USUAL_RPM, rollers=1)) for spec in specs]
+    different = [*dict.fromkeys(alone)]
+    known = dict(zip(different, numbers(different, COSTS), strict=True))
+    costs = [known[spec] for spec in alone]
     out: list[MachineRow | None] = []
     # ``search`` keeps the required limit itself
     limits = target.frame.limits.as_dict().values() if target.frame else ()

@@ -117,22 +117,21 @@ def zoom(
     return best
 
 
-def accepted(places: Places, accept: Accept, ahead: int) -> Places:
+def accepted(places: Places, accept: Accept) -> Places:
     """For each task the best of its places without a violation that is accepted.
 
-    The best ``ahead`` places of each task are tested at once, until one is accepted.
+    One place of each task is tested at a time, the best first.
     """
     left = places.take(np.isfinite(places.cost) & (places.violation < KEPT))
-    found = [left.take(slice(0))]
+    found = left.take(slice(0))
     while len(left.of):
-        which = _first(left, left.of, ahead)
+        which = _first(left, left.of, 1)
         tested = left.take(which)
-        passed = tested.take(accept(tested)).best(1)
-        found.append(passed)
+        found = found.joined(tested.take(accept(tested)))
         rest = np.full(len(left.of), True)
         rest[which] = False
-        left = left.take(rest & ~np.isin(left.of, passed.of))
-    return found[0].joined(*found[1:]).best(1)
+        left = left.take(rest & ~np.isin(left.of, found.of))
+    return found.best(1)
 
 
 KEPT = 1e-200  # a violation below it is rounding; each bound that is kept by rounding adds 1e-300

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple, TypeVar, cast
 
 import numpy as np
 
@@ -26,9 +26,11 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Array, Number, Record, library, parameter, record_of
-from geneva_cli.parts.machine_sizes import Layout, sized
+from geneva_cli.parts.assembly import assembly
+from geneva_cli.parts.machine_sizes import Layout, loaded, sized, unloaded
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
-from geneva_cli.parts.stressed import Stressed, stressed
+from geneva_cli.parts.sized_by_load import horn_MPa
+from geneva_cli.parts.stressed import Stressed, Unloaded, stressed
 from geneva_cli.spec.materials import roller_material
 
 if TYPE_CHECKING:
@@ -37,6 +39,9 @@ if TYPE_CHECKING:
     from geneva_cli.loads.strength.part_loads import PartLoads
     from geneva_cli.motion.mechanism import Mechanism
     from geneva_cli.verdict.quantities.batch_designs import Designs
+
+
+T = TypeVar("T")
 
 
 class LockSizes(NamedTuple):
@@ -85,21 +90,30 @@ class UnderLoad:
         return load_peaks(self.machine, [name])[name].max * self.loaded
 
     @cached_property
+    def _unloaded(self) -> list[Unloaded | None]:
+        """The parts of the designs without their loads; None for one without flat parts."""
+        of, count = self.machine.spec, self.machine.designs
+        bare = Spec(
+            of.wheel, of.drive, of.motion, of.size, shaft=of.shaft, drive_before=of.drive_before
+        )
+        if designs_in(bare) == 1:  # designs that differ in loads only have the same
+            return [_unloaded(build(taken(bare, 0)))] * count
+        return [_unloaded(one) for one in self.designs.each]
+
+    @cached_property
     def lock_sizes(self) -> LockSizes | None:
         """The sizes of slot and lock, (m, 1); None if no design has a lock."""
         if self.designs.are_built:
-            flat = self.layouts
-        else:  # no load changes them: designs that differ in loads only are sized once
-            spec = self.machine.spec
-            bare = Spec(
-                spec.wheel, spec.drive, spec.motion, spec.size, drive_before=spec.drive_before
-            )
-            flat = [sized(build(taken(bare, i))) for i in range(designs_in(bare))]
-        locks = [
-            LockSizes(one[1].half_width, cut_lock(*one)) if one and one[1].lock else None
-            for one in flat
-        ]
-        return batched(locks, as_numbers)
+            each = [
+                LockSizes(one[1].half_width, cut_lock(*one)) if one and one[1].lock else None
+                for one in self.layouts
+            ]
+        else:
+            each = [
+                LockSizes(one.sizes.half_width, one.lock) if one and one.lock else None
+                for one in self._unloaded
+            ]
+        return batched(each, as_numbers)
 
     @cached_property
     def horn_sizes(self) -> Sizes | None:
@@ -124,14 +138,21 @@ class UnderLoad:
 
     def horn_stress(self, width: float) -> HornStress:
         """The greatest stress in the horns under the roller, for a width of its contact."""
+        if self._sides is horns:
+            bent = self._flat_horns
+            return bent._replace(stress_MPa=parameter(bent.stress_MPa / np.ravel(width)))
+        assert self.horn_sizes
+        if not self.designs.single:
+            return greatest_stress(self._sides, self.machine, self.horn_sizes, width)
+        wide = float(np.ravel(width)[0])  # to be hashed
+        return single_stress(self._sides, self.machine, self.horn_sizes, wide)
+
+    @cached_property
+    def _flat_horns(self) -> HornStress:
+        """The greatest stress in flat horns for 1 mm of contact, as the parts are sized."""
         assert self.horn_sizes
         search = single_stress if self.designs.single else greatest_stress
-        if self._sides is not horns:
-            one = self.designs.single
-            wide = float(np.ravel(width)[0]) if one else width  # to be hashed
-            return search(self._sides, self.machine, self.horn_sizes, wide)
-        bent = search(horns, self.machine, self.horn_sizes)  # for 1 mm, as the parts are sized
-        return bent._replace(stress_MPa=parameter(bent.stress_MPa / np.ravel(width)))
+        return search(horns, self.machine, self.horn_sizes)
 
     def stoutest_horn(self) -> tuple[float, float]:
         """A single design's greatest thickness at the mouth over the recess's radius, and that."""
@@ -142,10 +163,14 @@ class UnderLoad:
     @cached_property
     def layouts(self) -> Sequence[Layout | None]:
         """Assembly and sizes of each design; None for one without flat parts."""
-        each = self.designs.each
         if self.designs.are_built or not self.machine.spec.is_loaded:
-            return [sized(one) for one in each]
-        return [sized(one, self.sizing_loads.of(i)) for i, one in enumerate(each)]
+            return [sized(one) for one in self.designs.each]
+        machines, size = self.designs.each, self.machine.spec.size
+        bent: Sequence[float | None] = [None] * len(machines)
+        if self.lock_sizes and size.wheel_thickness_mm is None and size.face_width_mm is None:
+            bent = horn_MPa(self.machine, *self.lock_sizes, self._flat_horns).tolist()
+        loads = map(self.sizing_loads.of, range(len(machines)))
+        return list(map(_loaded, self._unloaded, machines, loads, bent))
 
     @cached_property
     def sizing_loads(self) -> PartLoads:
@@ -167,8 +192,12 @@ class UnderLoad:
         """The dimensions of stressed parts, (m,); None if no design has parts, or a load."""
         if not self.machine.spec.is_loaded:
             return None
-        each = zip(self.designs.each, self.layouts, strict=True)
-        return batched([_stressed(*one) for one in each])
+        own: Callable[[Mechanism], Stressed | None] | None
+        own = thing(self.machine.spec.wheel.NAME, "stressed")
+        if own:
+            each = (one if one.spec.has_parts else None for one in self.designs.each)
+            return batched([_or_none(own, one) if one else None for one in each])
+        return batched([stressed(*one) if one else None for one in self.layouts])
 
     @property
     def contact_mm(self) -> float | None:
@@ -228,14 +257,27 @@ class UnderLoad:
         return np.nan_to_num(np.ravel(force)), torque
 
 
-def _stressed(machine: Mechanism, layout: Layout | None) -> Stressed | None:
-    """The stressed parts of a design, flat ones by their layout; None if they do not fit."""
-    if layout or machine.spec.is_flat or not machine.spec.has_parts:
-        return stressed(*layout) if layout else None
+def _unloaded(machine: Mechanism) -> Unloaded | None:
+    """The parts of a design without its load; None for one without flat parts."""
+    return _or_none(lambda: unloaded(assembly(machine))) if machine.spec.is_flat else None
+
+
+def _loaded(
+    parts: Unloaded | None, machine: Mechanism, loads: PartLoads, bent_MPa: float | None
+) -> Layout | None:
+    """Assembly and sizes of a design under its load; None for one without flat parts."""
+    if parts is None:
+        return None
+    where = parts.assembly._replace(full=machine)
+    sizes = _or_none(loaded, parts._replace(assembly=where), loads, bent_MPa)
+    return (where, sizes) if sizes else None
+
+
+def _or_none(make: Callable[..., T], *of: object) -> T | None:
+    """The result of a function; None for an error, which the check of the parts reports."""
     try:
-        own = thing(machine.spec.wheel.NAME, "stressed")
-        return own(machine) if own else None
-    except GenevaError:  # the check of the parts reports the error
+        return make(*of)
+    except GenevaError:
         return None
 
 

@@ -21,7 +21,7 @@ from geneva_cli.drives.epicyclic import Epicyclic
 from geneva_cli.drives.side_crank import SideCrank
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.records import families_of_kinds, families_of_wheel
+from geneva_cli.motion.records import families_of_kinds
 from geneva_cli.motion.wheels.classic import half_motion_deg, rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import sin_cos_pi
@@ -56,6 +56,7 @@ class _InFront(NamedTuple):
     motion: Callable[[float, float], float]
     low: float = -MOST
     high: float = MOST
+    distance: str = ""  # the key of its own centre distance
 
     def spec(self, target: Target, wheel: Gearing) -> Spec:
         """A machine with the drive, with one roller.
@@ -63,15 +64,16 @@ class _InFront(NamedTuple):
         The axes of gears are as far apart as the wheel's and the crank's.
         """
         drive = self.example
-        if isinstance(drive, EllipticalGears) and (distance := center_distance_mm(target)):
-            drive = drive.replace(gear_distance_mm=distance)
+        if self.distance and (distance := center_distance_mm(target)):
+            drive = drive.replace(**{self.distance: distance})
         return machine(target, wheel, lambda n: drive.replace(n_rpm=n), 1, natural_deg(wheel))
 
 
 def _gears(phase: str, low: float, high: float) -> _InFront:
     gears = EllipticalGears(eccentricity=0.1, phase=phase)
+    parameter, motion = closed.eccentricity, closed.gears_motion
     return _InFront(
-        gears, "drive.eccentricity", closed.eccentricity, closed.gears_motion, low, high
+        gears, "drive.eccentricity", parameter, motion, low, high, distance="gear_distance_mm"
     )
 
 
@@ -88,7 +90,7 @@ def straight(target: Target, wheel: Gearing) -> Iterator[Family]:
             if m == 1:
                 yield from planets(target, wheel)
     yield from driven(target, wheel)
-    for own in families_of_wheel(wheel.NAME):
+    for own in families_of_kinds("wheel", wheel.NAME):
         yield from own(target, wheel)
     if target.rollers in (None, 1):
         for kind in families_of_kinds("straight"):
