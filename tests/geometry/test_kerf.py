@@ -95,6 +95,7 @@ def test_parts_of_machines(name, layer):
                 require_cut(shape, shape is plate.outline, 0.2, corner=corner)
 
 
+@pytest.mark.long
 @settings(max_examples=6)
 @given(
     st.integers(3, 12),

@@ -135,6 +135,7 @@ def stopped(number):
     return process.returncode
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)]
 )

@@ -349,6 +349,7 @@ def test_refusals():
         Design.of(slots).sheet(1e3)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("key", "across", "note"),
     [

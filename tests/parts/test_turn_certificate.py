@@ -316,6 +316,7 @@ def test_the_check_passes_with_its_proof_and_fails_where_samples_missed_a_collis
     assert check.value == pytest.approx(-0.5)
 
 
+@pytest.mark.long
 def test_the_wheel_lies_within_the_circle_that_gaps_are_counted_from():
     """A roller beyond the rim is as far from the wheel as from the rim, or farther."""
     for name in FLAT:

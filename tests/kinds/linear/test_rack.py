@@ -482,6 +482,7 @@ def test_racks_of_a_batch_have_the_guides_of_each():
     assert length.tolist() == [2.0 * sizes_of().guide.half] * 2
 
 
+@pytest.mark.long
 def test_a_guide_locks_where_its_friction_takes_all_of_the_push():
     """At entry, without friction in the slot: both ends' friction is nu (|N1| + |N2|)."""
     loaded = design(**PARTS).with_("load.force_N", 10.0)

@@ -193,6 +193,7 @@ def test_a_rack_that_jams_is_not_written(tmp_path):
         design.save(str(tmp_path / "wheel.dxf"))
 
 
+@pytest.mark.long
 def test_an_overlap_is_as_deep_at_the_end_of_the_ring():
     """In the middle of a dwell all corners of an overlap lie on both outlines.
 

@@ -125,6 +125,7 @@ def test_no_gap_within_an_interval_is_below_its_bound(name):
     check_bounds(named(name), np.random.default_rng(3))
 
 
+@pytest.mark.long
 def test_no_gap_of_a_random_machine_is_below_its_bound():
     for i, parts in enumerate(random_machines(1000)):
         check_bounds(parts, np.random.default_rng(i))
