@@ -268,7 +268,7 @@ def test_the_machine_assembles(kind, tmp_path):
     assert whole > SAMPLES / 2
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(36)
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("process", PROCESSES)
 @pytest.mark.parametrize("kind", registry.DRIVES)
@@ -280,7 +280,7 @@ def test_a_process_leaves_space_for_all_but_press_fits(kind, process, tmp_path):
     require_space(design)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(12)
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("kind", registry.DRIVES)
 def test_turned_shafts_leave_space(kind, tmp_path):

@@ -50,6 +50,7 @@ def test_their_area(size, inside, direction):
     assert math.remainder(math.atan2(y + v, x + u) - direction, math.tau) == pytest.approx(0.0)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("shape", ["D", "hex"])
 def test_walls_are_those_of_the_shape(shape):
     """In arm, disc and wheel, by shapely's distances of polygons."""

@@ -115,6 +115,7 @@ DRIVEN = [
 ]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("name", "keys", "driven"), DRIVEN)
 def test_half_of_the_motion_must_be_driven(name, keys, driven, no_advice):
     design = load(str(repo.DESIGNS / f"{name}.toml"), keys)

@@ -502,6 +502,7 @@ for spec, part, output in (("curved", "assembly", "a.dxf"), ("plain", "assembly"
 """
 
 
+@pytest.mark.long
 def test_the_same_bytes_everywhere(monkeypatch):
     """Two processes in different folders, with other orders of sets: no date, path or host."""
     found = []
