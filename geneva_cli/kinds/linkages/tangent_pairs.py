@@ -266,8 +266,8 @@ def _starts(samples: PathSamples, b: Array, sense: float) -> tuple[Any, ...]:
         (left & (once | twice), low + ahead),
         (right & (twice | (once & ~left)), high - behind),
         (once & ~left & ~right, low + span * gap / (gap - last_gap)),
-        (~once & (np.abs(gap) < error), low),
-        (~once & (np.abs(last_gap) < error), high),
+        (np.abs(gap) < error, low),
+        (np.abs(last_gap) < error, high),
     )
     cells = np.concatenate([np.flatnonzero(where) for where, _ in starts])
     angles = np.concatenate([at_[where] for where, at_ in starts])
